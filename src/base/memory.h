@@ -1,0 +1,12 @@
+/* Memory: zeroed arrays on cache-line (64 byte) boundaries, so that vector loads are aligned. */
+#ifndef SELAS_MEMORY_H
+#define SELAS_MEMORY_H
+
+#include <stddef.h>
+
+/* Zeroed array of count * size bytes, or NULL if there is no room or the product overflows (count 0 gives one
+ * element). Free with array_free, which takes NULL. */
+void *array_new(size_t count, size_t size);
+void array_free(void *array);
+
+#endif

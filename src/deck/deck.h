@@ -1,0 +1,63 @@
+/* The deck: namelist text checked against the table of words (deck/words.c), kept as typed values with their
+ * place in the file.
+ *
+ * Reading finds all errors of syntax, names, types, counts and ranges in one pass. What the words mean
+ * together (a receiver outside the body, a material that nobody defines) is checked by scene/, with
+ * deck_error(). */
+#ifndef SELAS_DECK_H
+#define SELAS_DECK_H
+
+#include "base/messages.h"
+
+#include <stdio.h>
+
+struct deck;
+struct deck_group; /* one occurrence of a group */
+
+/* Reads a file, then applies overrides ("group%name=value", "load(2)%amplitude=3"); every error becomes a
+ * line "FILE:LINE:COLUMN: error: ..." or "override: error: ...". On failure *deck is NULL. Name a deck's own
+ * name "path". */
+selas_status deck_read_file(const char *path, size_t overrides, const char *const *override,
+                            struct deck **deck, struct messages *messages);
+/* The same from text in memory (length bytes, may hold '\0' bytes: an error); name stands for FILE in
+ * messages. */
+selas_status deck_read_text(const char *name, const char *text, size_t length, size_t overrides,
+                            const char *const *override, struct deck **deck, struct messages *messages);
+void deck_free(struct deck **deck);
+
+/* Number of times a group occurs; groups that are always there once (scene, method, stepping, output) give 1.
+ */
+size_t deck_count(const struct deck *deck, const char *group);
+/* Occurrence `index` (from 0) of a group. */
+const struct deck_group *deck_get(const struct deck *deck, const char *group, size_t index);
+
+/* True if the deck or an override gave the name (its first value), not just its default. */
+bool deck_given(const struct deck_group *group, const char *name);
+/* Number of values: given ones or defaults; 0 if neither. Nulls among given values keep the default there. */
+size_t deck_values(const struct deck_group *group, const char *name);
+/* Value `i` (from 0); the name and type must be right (asserted) and i < deck_values(). */
+double deck_real(const struct deck_group *group, const char *name, size_t i);
+long deck_integer(const struct deck_group *group, const char *name, size_t i);
+bool deck_logical(const struct deck_group *group, const char *name, size_t i);
+const char *deck_text(const struct deck_group *group, const char *name, size_t i); /* trimmed at the right */
+/* Index of a text value in the choices that the table lists for the name (checked at reading). */
+size_t deck_choice(const struct deck_group *group, const char *name, size_t i);
+
+/* Adds "FILE:LINE:COLUMN: error: ..." at the place where name stands in the group (or the group itself if
+ * name is NULL or was not given); "override: error: ..." if an override gave it. Returns SELAS_BAD_DECK. */
+selas_status deck_error(const struct deck *deck, const struct deck_group *group, const char *name,
+                        struct messages *messages, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+void deck_warning(const struct deck *deck, const struct deck_group *group, const char *name,
+                  struct messages *messages, const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+const char *deck_name(const struct deck *deck);      /* file name without folder and ".nml" */
+const char *deck_directory(const struct deck *deck); /* folder of the file, "." if none */
+const char *deck_source(const struct deck *deck);    /* the text as read, without overrides */
+
+/* Writes the echo: every group with every name that has a value, defaults included, reals to the last bit
+ * (%.17g); a file that gfortran's namelist reading takes and that runs to the same bits. Paths are written so
+ * that the echo, which lies in another folder, still finds them. */
+selas_status deck_write(const struct deck *deck, FILE *file, struct messages *messages);
+
+#endif

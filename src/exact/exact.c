@@ -1,0 +1,32 @@
+/* The exact solutions: a table of kinds. A new one is one new file and one line here. */
+#include "exact/exact.h"
+
+#include <string.h>
+
+static const struct exact_class *const kinds[] = {
+    NULL,
+};
+
+const struct exact_class *exact_find(const char *kind)
+{
+    for (size_t i = 0; kinds[i] != NULL; i++)
+        if (strcmp(kinds[i]->kind, kind) == 0) return kinds[i];
+    return NULL;
+}
+
+selas_status exact_create(const struct scene *scene, struct exact **exact, struct messages *messages)
+{
+    *exact = NULL;
+    const struct exact_class *class = exact_find(scene->reference.kind);
+    if (class == NULL)
+        return fail(messages, SELAS_BAD_SCENE,
+                    "the deck asks for no exact solution that is known here ('%s')", scene->reference.kind);
+    return class->create(scene, exact, messages);
+}
+
+void exact_free(struct exact **exact)
+{
+    if (exact == NULL || *exact == NULL) return;
+    (*exact)->class->destroy(*exact);
+    *exact = NULL;
+}

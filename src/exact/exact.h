@@ -1,0 +1,35 @@
+/* Exact solutions: know the scene and nothing of the model. Table of kinds in exact/exact.c, one file each.
+ */
+#ifndef SELAS_EXACT_H
+#define SELAS_EXACT_H
+
+#include "scene/scene.h"
+
+struct exact;
+
+struct exact_class {
+    const char *kind; /* as in &reference */
+    /* Says in messages why a scene has no such solution (SELAS_BAD_SCENE). May compute tables shared by all
+     * positions. */
+    selas_status (*create)(const struct scene *scene, struct exact **exact, struct messages *messages);
+    void (*destroy)(struct exact *exact);
+    /* Displacement and velocity at `position` (deck coordinates) at n ascending times: value[6 * i] = ux uy
+     * uz vx vy vz. Must be safe to call from several threads. */
+    selas_status (*history)(struct exact *exact, const double position[3], size_t n, const double *time,
+                            double *value, struct messages *messages);
+    /* Lines for the report: how accurate, how it was computed. */
+    void (*describe)(const struct exact *exact,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+};
+
+struct exact {
+    const struct exact_class *class;
+    const struct scene *scene;
+};
+
+const struct exact_class *exact_find(const char *kind);
+/* Solution named by scene->reference; SELAS_BAD_SCENE if there is none. */
+selas_status exact_create(const struct scene *scene, struct exact **exact, struct messages *messages);
+void exact_free(struct exact **exact);
+
+#endif

@@ -1,0 +1,33 @@
+/* The methods: a table of names. A new method is one new file and one line here. */
+#include "method/model.h"
+
+#include <string.h>
+
+static const struct model_class *const methods[] = {
+    NULL,
+};
+
+const struct model_class *model_find(const char *method, const char *variant)
+{
+    for (size_t i = 0; methods[i] != NULL; i++)
+        if (strcmp(methods[i]->method, method) == 0 && strcmp(methods[i]->variant, variant) == 0)
+            return methods[i];
+    return NULL;
+}
+
+selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages)
+{
+    *model = NULL;
+    const struct model_class *class = model_find(scene->method.name, scene->method.variant);
+    if (class == NULL)
+        return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,
+                    scene->method.variant);
+    return class->create(scene, model, messages);
+}
+
+void model_free(struct model **model)
+{
+    if (model == NULL || *model == NULL) return;
+    (*model)->class->destroy(*model);
+    *model = NULL;
+}

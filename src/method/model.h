@@ -1,0 +1,106 @@
+/* The model: points, operator and loads of one scene by one method; knows nothing of files.
+ *
+ * State. A linear method has the second-order form M a + C v + K u = F(t) with n = `unknowns` numbers in each
+ * of u, v, a. The state vector of every method is y = [u | v | extra], `state_size` numbers: u are
+ * displacements (control values where the method has them), v their rates, extra what else the method
+ * integrates (stress, density; none for linear methods). Component c of point i stands at y[c *
+ * component_stride + i * point_stride] in u and likewise in v.
+ *
+ * Linear methods fill `accelerate`; methods with state of their own fill `rate`; a method may fill both.
+ * Missing functions are NULL. Nothing here allocates memory after create(). */
+#ifndef SELAS_MODEL_H
+#define SELAS_MODEL_H
+
+#include "base/messages.h"
+#include "scene/scene.h"
+
+/* Amplitudes that drive the model at one instant; the stepping scheme fills them (so it may take differences
+ * of them or warp them). A NULL array means all zero. */
+struct drive {
+    double time;
+    const double *load; /* [scene->loads]: history value times load amplitude is load[k] * amplitude */
+    const double
+        *motion; /* [FACES]: second time derivative of the prescribed displacement history (per amplitude) */
+};
+
+struct energy {
+    double kinetic, strain;
+};
+
+/* Where and how to read a point value: sum over j of weight[j] * (value at point index[j]). */
+struct probe {
+    double position[3]; /* deck coordinates */
+    size_t count;
+    size_t *index;  /* [count] */
+    double *weight; /* [count] */
+    double
+        *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz in the body's frame: gradient[3 * j + axis] */
+    const struct material *material;
+};
+
+struct model;
+
+struct model_class {
+    const char *method, *variant; /* as in the deck */
+    /* Checks the scene for this method and builds the model; says in messages what cannot be. */
+    selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
+    void (*destroy)(struct model *model);
+    /* Solves (M + half_step C) a = F(drive) - K u - C v for a. half_step = 0 is the plain acceleration;
+     * leapfrog passes dt/2. Prescribed components get a from drive->motion. v may be NULL where the model has
+     * no C. */
+    void (*accelerate)(struct model *model, const struct drive *drive, double half_step, const double *u,
+                       const double *v, double *a);
+    /* dy/dt for the Runge-Kutta family. */
+    void (*rate)(struct model *model, const struct drive *drive, const double *y, double *dydt);
+    /* Called once after every full step of length dt with the displacements before and after (filters). */
+    void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
+    /* Initial state from scene->initial; y is zero on entry. */
+    void (*initialise)(struct model *model, double *y);
+    /* Finds weights for a position (deck coordinates). */
+    selas_status (*probe)(struct model *model, const double position[3], struct probe *probe,
+                          struct messages *messages);
+    /* Value of a field at a probe in deck coordinates; `value` has room for 6. NULL: the linear standard in
+     * method/probe.c (from u, v, a, weights and Hooke's law). */
+    void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                    const double *a, double *value);
+    /* Field at all body points, value[components * i + c], deck coordinates. */
+    void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
+    void (*energy)(struct model *model, const double *y, struct energy *energy);
+    /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out).
+     */
+    void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
+                  double *absorbed);
+    /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). */
+    void (*describe)(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+};
+
+struct model {
+    const struct model_class *class;
+    const struct scene *scene; /* borrowed */
+    size_t points;             /* points of the body that users see */
+    const double *position;    /* [3 * points], deck coordinates */
+    size_t grid[3];            /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
+    size_t unknowns;           /* numbers in u */
+    size_t state_size;         /* numbers in y */
+    size_t component_stride, point_stride;
+    size_t bytes; /* memory held by the model */
+    bool damped;  /* C is not zero */
+    const double (
+        *frame)[3]; /* unknowns are in the body's frame: rotate to deck coordinates; NULL: they are not */
+    unsigned long evaluations; /* calls of accelerate or rate so far */
+};
+
+/* The methods: table of names in method/methods.c. */
+const struct model_class *model_find(const char *method, const char *variant);
+selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages);
+void model_free(struct model **model);
+
+/* method/probe.c */
+void probe_free(struct probe *probe);
+void probe_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                   const double *a, double *value);
+int field_components(selas_field field); /* 3, 6 or 1 */
+const char *field_name(selas_field field);
+
+#endif

@@ -1,0 +1,46 @@
+/* Record: what a run leaves. The recorder watches the state step by step; nothing is written in half: each
+ * file goes to a temporary name in the same folder, is flushed and renamed. */
+#ifndef SELAS_RECORD_H
+#define SELAS_RECORD_H
+
+#include "exact/exact.h"
+#include "stepping/stepping.h"
+
+struct recorder;
+
+/* History of one receiver, finished (corrected by the scheme, low-passed, on the rows of history_step). */
+struct history_rows {
+    size_t rows;
+    const double *time;  /* [rows] */
+    const double *value; /* [6 * rows]: ux uy uz vx vy vz, deck coordinates */
+};
+
+/* What has to be known of the run for the report besides what the recorder saw. */
+struct run_figures {
+    double wall_seconds, cpu_seconds;             /* stepping */
+    double setup_wall_seconds, setup_cpu_seconds; /* points, operator, time step */
+    double exact_cpu_seconds;
+    int threads;
+};
+
+/* Prepares probes, buffers and the folder's name; writes nothing yet. */
+selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
+                             struct recorder **recorder, struct messages *messages);
+/* Makes the folder and opens run.h5 (temporary name). Not called for `check` and by hosts that want no files.
+ */
+selas_status recorder_open(struct recorder *recorder, struct messages *messages);
+/* To be called with the initial state and after every step: receivers, due snapshots and profiles, energy
+ * watch. SELAS_UNSTABLE (with place and time) if the state is not finite or energy grows without work done.
+ */
+selas_status recorder_observe(struct recorder *recorder, const struct state *state,
+                              struct messages *messages);
+/* After the last step: corrects and resamples the histories. */
+selas_status recorder_finish(struct recorder *recorder, struct messages *messages);
+struct history_rows recorder_history(const struct recorder *recorder, size_t receiver);
+/* Writes everything: deck.nml, NAME.dat, NAME.exact.dat (exact may be NULL), PROFILE.dat, run.h5, run.xdmf,
+ * report.txt, and with output%plots the PNGs. */
+selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
+                            struct messages *messages);
+void recorder_free(struct recorder **recorder);
+
+#endif

@@ -1,0 +1,52 @@
+/* Histories of loads and prescribed motions: f(t), dimensionless, zero for t < 0 (the Gaussian and the Ricker
+ * wavelet are cut at t = 0: choose the delay so that this does not matter; scene/ warns otherwise).
+ *
+ * With smoothing S > 0 the history is convolved with the unit-area cubic B-spline supported on [0, S]. */
+#ifndef SELAS_HISTORY_H
+#define SELAS_HISTORY_H
+
+#include "base/messages.h"
+
+#include <complex.h>
+
+enum history_kind {
+    HISTORY_TRIANGLE,   /* 0 -> 1 at duration/2 -> 0 at duration (Ding et al. 2006, Eq 43, for duration 2) */
+    HISTORY_STEP,       /* 1 for t >= 0 (1/2 at t = 0 where a value is asked for) */
+    HISTORY_RICKER,     /* (1 - 2 a) exp(-a), a = (pi frequency (t - delay))^2 */
+    HISTORY_GAUSSIAN,   /* exp(-(t - delay)^2 / (2 width^2)) */
+    HISTORY_SINE_BURST, /* sin(2 pi f t) (1 - cos(2 pi f t / cycles)) / 2 for 0 <= t <= cycles / f */
+    HISTORY_TABLE /* straight lines between the rows of a text file `t value`; its last value afterwards */
+};
+
+struct history {
+    enum history_kind kind;
+    double duration, frequency, delay, width, cycles, smoothing;
+    size_t rows; /* table */
+    double *table_time, *table_value;
+};
+
+/* Derivative of order `derivative` = -1 (integral from 0), 0, 1 or 2 at time t; kinks and jumps without
+ * smoothing: the mean of both sides for the value and the first derivative, impulses in derivatives are left
+ * out. */
+double history_value(const struct history *history, double t, int derivative);
+
+/* Laplace transform: integral of f(t) exp(-s t) dt from 0 to infinity (Re s > 0), smoothing included. For the
+ * kinds that are cut at t = 0 the cut is part of the transform. */
+double complex history_laplace(const struct history *history, double complex s);
+
+/* Times >= 0 at which f or a derivative up to the second jumps (kinks, knots of the smoothing); at most
+ * `room` are written, ascending; returns how many there are. */
+size_t history_kinks(const struct history *history, double *times, size_t room);
+
+/* Time after which f stays constant (0, or the table's last value); INFINITY if never (not for kinds of
+ * today). */
+double history_end(const struct history *history);
+
+/* Angular frequency above which the amplitude spectrum of f stays below `fraction` of its largest value. */
+double history_cutoff(const struct history *history, double fraction);
+
+/* Reads a table: text, two columns, '#' or '!' comments; times must ascend from t >= 0. */
+selas_status history_read_table(struct history *history, const char *path, struct messages *messages);
+void history_free(struct history *history);
+
+#endif

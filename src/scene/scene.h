@@ -1,0 +1,225 @@
+/* The scene: what the user said, checked and complete, nothing numerical in it.
+ *
+ * Vectors have three components whatever the dimension (unused ones are 0). Positions, directions and
+ * receivers are in the deck's coordinates; `low`, `high` and the face names belong to the body's own frame,
+ * which `rotation` turns about the centre of the box. */
+#ifndef SELAS_SCENE_H
+#define SELAS_SCENE_H
+
+#include "base/messages.h"
+#include "deck/deck.h"
+#include "scene/history.h"
+
+enum { NAME_SIZE = 64, FACES = 7, BOX_FACES = 6 };
+
+enum face { FACE_X_LOW, FACE_X_HIGH, FACE_Y_LOW, FACE_Y_HIGH, FACE_Z_LOW, FACE_Z_HIGH, FACE_HOLE };
+
+enum plane { PLANE_STRAIN, PLANE_STRESS };
+
+struct material {
+    char name[NAME_SIZE];
+    double density;
+    double lambda, mu; /* of the solid in three dimensions */
+    double young, poisson;
+    double plane_lambda; /* lambda that enters the equations: in plane stress 2 lambda mu / (lambda + 2 mu),
+                            in 1D stress such that plane_lambda + 2 mu = E; otherwise lambda */
+    double p_speed, s_speed; /* with plane_lambda: the fastest waves of the scene's own dimension */
+};
+
+enum body_shape { BODY_BOX, BODY_HALF_SPACE, BODY_PLATE_WITH_HOLE, BODY_POINTS };
+enum arrangement {
+    ARRANGEMENT_LATTICE,
+    ARRANGEMENT_RADIAL,
+    ARRANGEMENT_EQUALLY_RADIAL,
+    ARRANGEMENT_CONFORMAL
+};
+
+struct layer {
+    size_t material; /* index into scene->materials */
+    double top;      /* depth (distance from the z- face) of its upper face */
+};
+
+struct body {
+    char name[NAME_SIZE];
+    enum body_shape shape;
+    enum arrangement arrangement;
+    size_t material;
+    double low[3], high[3];
+    double spacing;
+    double hole_centre[3], hole_radius;
+    double rotation[3]; /* degrees about x, then y, then z (fixed axes) */
+    double frame[3][3]; /* deck direction = frame * body direction (rotation matrix R = Rz Ry Rx) */
+    double pivot[3];    /* centre of the box: position = pivot + frame * (body position - pivot) */
+    bool rotated;
+    double jitter; /* fraction of the spacing */
+    long seed;
+    char *file; /* points from a file: path, already resolved; NULL */
+    size_t layers;
+    struct layer *layer;
+};
+
+enum boundary_kind {
+    BOUNDARY_FREE,
+    BOUNDARY_FIXED,    /* all components 0 */
+    BOUNDARY_ROLLER,   /* normal component 0, no shear traction */
+    BOUNDARY_SYMMETRY, /* mirror plane: as roller, and loads that the plane cuts are whole loads */
+    BOUNDARY_TRANSMITTING,
+    BOUNDARY_VELOCITY,
+    BOUNDARY_DISPLACEMENT
+};
+
+enum absorber { ABSORBER_LYSMER, ABSORBER_PML };
+
+struct boundary {
+    enum boundary_kind kind;
+    enum absorber absorber;
+    long layer_points; /* 0: choose from layer_reflection */
+    double layer_reflection;
+    double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
+    double direction[3];                /* unit vector in the deck's coordinates (VELOCITY, DISPLACEMENT) */
+    double amplitude;
+    bool slip; /* leave components across `direction` free (direction along an axis of the body) */
+    struct history history;
+    bool given;   /* false: nobody named this face, it is free */
+    size_t group; /* occurrence of &boundary that named it */
+};
+
+enum load_kind { LOAD_TRACTION, LOAD_BODY_FORCE, LOAD_MOMENT_TENSOR };
+enum load_shape { LOAD_SQUARE, LOAD_DISC, LOAD_FACE, LOAD_POINT };
+
+struct load {
+    enum load_kind kind;
+    enum load_shape shape;
+    enum face face;
+    double centre[3];
+    double size[3]; /* square: edge lengths along the face's two axes, in the order of the axes; disc: [0] =
+                       diameter */
+    double direction[3]; /* unit vector */
+    double amplitude;    /* traction (force per area; force if POINT); body force: per volume, over the body
+                            (FACE shape),    or a force at `centre` (POINT); moment tensor: scale of `moment` */
+    double moment[6];    /* xx yy zz xy yz zx */
+    double velocity[3];  /* of a moving patch; 0 = at rest */
+    struct history history;
+    size_t group; /* occurrence of &load */
+};
+
+struct receiver {
+    char name[NAME_SIZE];
+    double position[3];
+};
+
+struct profile {
+    char name[NAME_SIZE];
+    double from[3], to[3];
+    size_t points;
+    size_t times;
+    double *time;
+    unsigned fields; /* bit 1 << selas_field */
+};
+
+struct snapshot {
+    double every; /* 0: use `time` */
+    size_t times;
+    double *time;
+    unsigned fields;
+    double region_low[3], region_high[3]; /* points outside are left out; whole body by default */
+    bool whole;                           /* no region was given */
+};
+
+enum initial_kind {
+    INITIAL_REST,
+    INITIAL_UNIFORM_VELOCITY,
+    INITIAL_BEAM_MODE,
+    INITIAL_PLANE_WAVE,
+    INITIAL_GAUSSIAN
+};
+
+struct initial {
+    enum initial_kind kind;
+    double velocity[3];
+    double amplitude;
+    bool shear;             /* plane wave: S instead of P */
+    double direction[3];    /* plane wave: of propagation; gaussian: of displacement; unit */
+    double polarisation[3]; /* plane wave, S: unit and across direction */
+    double wavelength;
+    double centre[3], width;
+};
+
+struct method_choice {
+    char name[NAME_SIZE];           /* 'smoothed-point', 'sph' */
+    char variant[NAME_SIZE];        /* 'consistent', 'paper'; 'total-lagrangian', 'updated-lagrangian' */
+    const struct deck_group *group; /* further options: each method reads its own with deck_*() */
+};
+
+struct stepping_choice {
+    char scheme[NAME_SIZE];
+    double time_step, courant, safety; /* the one that was given is > 0, the others 0 (safety: default) */
+    long stages, max_stages;           /* 0: chosen */
+    bool unwarp, unwarp_given, force;
+};
+
+struct output_choice {
+    char *directory; /* resolved: output/DECKNAME or as given */
+    bool plots;
+    double history_step; /* 0: every step */
+    double low_pass;     /* angular frequency of the zero-phase low-pass, 0: none */
+    long checkpoint_every;
+};
+
+struct reference {
+    char kind[NAME_SIZE]; /* "" if none */
+    char *file;
+    const struct deck_group *group;
+};
+
+struct scene {
+    const struct deck *deck; /* borrowed; must outlive the scene */
+    char title[256];
+    int dimension;
+    enum plane plane;
+    double end_time;
+    size_t materials;
+    struct material *material;
+    struct body body;
+    struct boundary boundary[FACES];
+    size_t loads;
+    struct load *load;
+    size_t receivers;
+    struct receiver *receiver;
+    size_t profiles;
+    struct profile *profile;
+    size_t snapshots;
+    struct snapshot *snapshot;
+    struct initial initial;
+    struct method_choice method;
+    struct stepping_choice stepping;
+    struct output_choice output;
+    struct reference reference;
+};
+
+/* Builds the scene of a deck; all errors in one pass. The deck stays the caller's. On failure *scene is NULL.
+ */
+selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages);
+void scene_free(struct scene **scene);
+
+/* Position and direction between the deck's coordinates and the body's own frame. */
+void body_from_deck(const struct body *body, const double position[3], double body_position[3]);
+void body_to_deck(const struct body *body, const double body_position[3], double position[3]);
+void body_direction_from_deck(const struct body *body, const double direction[3], double body_direction[3]);
+void body_direction_to_deck(const struct body *body, const double body_direction[3], double direction[3]);
+
+/* Outward unit normal of a box face in the body's frame has only this axis (0, 1, 2) and sign (-1, +1). */
+static inline int face_axis(enum face face)
+{
+    return (int)face / 2;
+}
+static inline int face_sign(enum face face)
+{
+    return (int)face % 2 == 0 ? -1 : 1;
+}
+const char *face_name(enum face face); /* "x-" ... "hole" */
+
+/* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
+const struct material *scene_material_at(const struct scene *scene, double depth);
+
+#endif
