@@ -52,7 +52,9 @@ struct model_class {
                        const double *v, double *a);
     /* dy/dt for the Runge-Kutta family. */
     void (*rate)(struct model *model, const struct drive *drive, const double *y, double *dydt);
-    /* Called once after every full step of length dt with the displacements before and after (filters). */
+    /* Filters the increment of one step: u_before and u are the displacements at both ends; changes u and
+     * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
+     * Called right after u has moved, before the acceleration there. NULL where there is no filter. */
     void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
     /* Initial state from scene->initial; y is zero on entry. */
     void (*initialise)(struct model *model, double *y);
