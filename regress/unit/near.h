@@ -1,0 +1,21 @@
+/* cmocka with its headers, and a check of doubles that says what it saw. */
+#ifndef NEAR_H
+#define NEAR_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define assert_near(value, expected, tolerance)                                                              \
+    do {                                                                                                     \
+        const double near_value = (value), near_expected = (expected), near_tolerance = (tolerance);         \
+        if (!(fabs(near_value - near_expected) <= near_tolerance))                                           \
+            fail_msg("%s = %.17g, expected %.17g within %g (off by %g)", #value, near_value, near_expected,  \
+                     near_tolerance, near_value - near_expected);                                            \
+    } while (0)
+
+#endif
