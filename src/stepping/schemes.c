@@ -1,9 +1,11 @@
 /* The schemes: a table of names. A new scheme is one new file and one line here. */
-#include "stepping/stepping.h"
+#include "stepping/schemes.h"
 
 #include <string.h>
 
 static const struct scheme_class *const schemes[] = {
+    &scheme_leapfrog,
+    &scheme_modified_equation,
     NULL,
 };
 

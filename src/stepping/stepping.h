@@ -27,8 +27,9 @@ struct scheme_class {
     void (*start)(struct stepper *stepper, struct state *state);
     void (*step)(struct stepper *stepper, struct state *state);
     /* Corrects a receiver's finished history in place; rows 0..n-1 are steps of dt; u, v, a: [3 * n],
-     * row-major. NULL: nothing. */
-    void (*finish)(const struct stepper *stepper, size_t n, double *u, double *v, double *a);
+     * row-major. NULL: nothing to correct. */
+    selas_status (*finish)(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
+                           struct messages *messages);
 };
 
 struct stepper {
@@ -36,25 +37,45 @@ struct stepper {
     struct model *model;
     double dt;
     long stages;
-    double largest_frequency; /* measured, 0 if not asked for */
+    double largest_frequency; /* of the undamped operator, measured; 0 if not asked for */
+    double frequency_error;   /* bound on its relative error (Lanczos residual); 0 if unknown */
     double viscous_radius;    /* measured, 0 if none */
+    double limit;             /* largest stable dt by the scheme's own limit; 0 if not measured */
     char dt_reason[160];      /* how the step was chosen, for the report */
-    double **work;            /* [scheme->vectors] arrays of state_size */
-    double *load, *motion;    /* amplitudes: [3 * loads], [3 * FACES] (three instants for differences) */
-    void *memory;             /* of the scheme */
+    bool unwarp; /* time-dispersion transform: loads are warped beforehand, histories un-warped at the end */
+    unsigned long steps;   /* steps from t = 0 until end_time is reached or passed */
+    unsigned long extra;   /* steps beyond that the finished histories need */
+    double **work;         /* [scheme->vectors] arrays of state_size */
+    double *load, *motion; /* amplitudes handed to the model: [loads], [FACES] */
+    double *
+        warped_load; /* [rows * loads] and [rows * FACES] if unwarp: amplitudes of the warped histories ... */
+    double *warped_motion; /* ... (motion: of the displacement, not its second derivative) */
+    unsigned long warped_rows;
+    void *memory; /* of the scheme */
 };
 
 const struct scheme_class *scheme_find(const char *name);
 /* Chooses scheme, stages and dt from scene->stepping and the measured spectrum; refuses what cannot be stable
- * unless `force`. */
+ * unless `force` (SELAS_BAD_SCENE). */
 selas_status stepper_create(struct model *model, struct stepper **stepper, struct messages *messages);
 void stepper_free(struct stepper **stepper);
 
-/* stepping/drive.c: fills a drive for time t; `derivative` 0, or 2 = second difference over dt of the load
- * amplitudes. */
+/* stepping/state.c: the state at t = 0 as the scene and the scheme have it. */
+selas_status state_create(struct stepper *stepper, struct state *state, struct messages *messages);
+void state_free(struct state *state);
+
+/* stepping/drive.c: what drives the model at any time (Runge-Kutta stages: exact second derivative of
+ * motions) ... */
 void drive_at(struct stepper *stepper, double time, struct drive *drive);
-/* stepping/spectrum.c: largest frequency of the undamped operator (rad per time) by Lanczos or power
- * iteration. */
-double largest_frequency(struct model *model, double *work[4], double tolerance);
+/* ... and at step n (leapfrog family): second differences of motions over dt, warped histories if unwarp.
+ * With `corrected` one twelfth of its own second difference is added to each amplitude (the load term of the
+ * modified equation). */
+void drive_at_step(struct stepper *stepper, unsigned long n, bool corrected, struct drive *drive);
+/* Displacement history of a prescribed face (per amplitude): the history or, for a velocity, its integral. */
+double motion_displacement(const struct boundary *boundary, double time, int derivative);
+
+/* stepping/spectrum.c: largest frequency (rad per time) of the undamped operator; *error gets a bound on its
+ * relative error or 0. */
+selas_status largest_frequency(struct model *model, double *omega, double *error, struct messages *messages);
 
 #endif

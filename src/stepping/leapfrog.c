@@ -1,0 +1,61 @@
+/* Leapfrog (central differences in time, second order), in velocity-Verlet form:
+ *
+ *   w(n+1/2) = v(n) + dt/2 a(n),   u(n+1) = u(n) + dt w(n+1/2),
+ *   (M + dt/2 C) a(n+1) = F(n+1) - K u(n+1) - C w(n+1/2),   v(n+1) = w(n+1/2) + dt/2 a(n+1),
+ *
+ * which is M (u(n+1) - 2 u(n) + u(n-1)) / dt^2 + C (u(n+1) - u(n-1)) / (2 dt) + K u(n) = F(n): the dampers
+ * are implicit, one operator call a step. Stable for omega dt <= 2. With `unwarp` the only time error, the
+ * warp omega = (2/dt) sin(omega' dt/2), is taken out of the histories (stepping/time_dispersion.c). */
+#include "stepping/schemes.h"
+#include "stepping/time_dispersion.h"
+
+#include <math.h>
+
+static double limit(double omega, double viscous, long stages)
+{
+    (void)stages;
+    /* (v/2 dt) <= sqrt(1 + ...) : central damping at the full step does not lower the limit; a viscous force
+     * taken explicitly at the half step does: omega^2 dt^2 + 2 viscous dt <= 4. */
+    if (omega <= 0.0) return viscous > 0.0 ? 2.0 / viscous : INFINITY;
+    const double ratio = viscous / omega;
+    return 2.0 / omega * (sqrt(1.0 + 0.25 * ratio * ratio) - 0.5 * ratio);
+}
+
+static void start(struct stepper *stepper, struct state *state)
+{
+    struct model *model = stepper->model;
+    struct drive drive;
+    drive_at_step(stepper, state->step, false, &drive);
+    model->class->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
+}
+
+static void step(struct stepper *stepper, struct state *state)
+{
+    struct model *model = stepper->model;
+    double *u = state->y;
+    double *v = state->y + model->unknowns;
+    leapfrog_drift(stepper, state);
+    struct drive drive;
+    drive_at_step(stepper, state->step, false, &drive);
+    model->class->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
+    leapfrog_kick(stepper, state);
+}
+
+static selas_status finish(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
+                           struct messages *messages)
+{
+    if (!stepper->unwarp) return SELAS_OK;
+    return time_dispersion_unwarp(stepper->dt, n, u, v, a, messages);
+}
+
+const struct scheme_class scheme_leapfrog = {
+    .name = "leapfrog",
+    .order = 2,
+    .needs_acceleration = true,
+    .evaluations = 1.0,
+    .limit = limit,
+    .vectors = 1,
+    .start = start,
+    .step = step,
+    .finish = finish,
+};

@@ -1,0 +1,35 @@
+/* The two halves of a step that the leapfrog family shares. */
+#include "stepping/schemes.h"
+
+#include <string.h>
+
+void leapfrog_drift(struct stepper *stepper, struct state *state)
+{
+    struct model *model = stepper->model;
+    const size_t n = model->unknowns;
+    const double dt = stepper->dt;
+    double *restrict u = state->y;
+    double *restrict v = state->y + n;
+    const double *restrict a = state->a;
+    const bool filters = model->class->after_step != NULL;
+    if (filters) memcpy(stepper->work[0], u, n * sizeof *u);
+#pragma omp parallel for simd schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        v[i] += 0.5 * dt * a[i];
+        u[i] += dt * v[i];
+    }
+    if (filters) model->class->after_step(model, dt, stepper->work[0], u, v);
+    state->step++;
+    state->time = (double)state->step * dt;
+}
+
+void leapfrog_kick(struct stepper *stepper, struct state *state)
+{
+    const size_t n = stepper->model->unknowns;
+    double *restrict v = state->y + n;
+    const double *restrict a = state->a;
+    const double half = 0.5 * stepper->dt;
+#pragma omp parallel for simd schedule(static)
+    for (size_t i = 0; i < n; i++)
+        v[i] += half * a[i];
+}

@@ -1,0 +1,16 @@
+/* The schemes known to the table, and the two halves of a step that the leapfrog family shares. */
+#ifndef SELAS_SCHEMES_H
+#define SELAS_SCHEMES_H
+
+#include "stepping/stepping.h"
+
+extern const struct scheme_class scheme_leapfrog;
+extern const struct scheme_class scheme_modified_equation;
+
+/* v := v + dt/2 a, u := u + dt v, filter of the model if it has one, time and step move on. Needs work[0] if
+ * the model filters. */
+void leapfrog_drift(struct stepper *stepper, struct state *state);
+/* v := v + dt/2 a. */
+void leapfrog_kick(struct stepper *stepper, struct state *state);
+
+#endif

@@ -1,0 +1,159 @@
+/* The largest frequency of the undamped operator, M^-1 K x = omega^2 x.
+ *
+ * Self-adjoint models: Lanczos iteration in the inner product of the mass (Parlett 1998, chapter 13). It
+ * needs no product with M: the energies give the coefficients, alpha = q.Kq = 2 strain(q), beta^2 = r.Mr = 2
+ * kinetic(r). The largest Ritz value theta is a lower bound, and some eigenvalue lies within beta |last
+ * component of the Ritz vector| of it: that is the error told. Other models: power iteration in the Euclidean
+ * norm. */
+#include "stepping/stepping.h"
+
+#include "base/memory.h"
+
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+#include <stdint.h>
+
+enum { LANCZOS_STEPS = 120, LANCZOS_CHECK = 8, POWER_STEPS = 200, POWER_TAIL = 20 };
+
+/* Small reproducible numbers in [-1, 1). */
+static double noise(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-52 - 1.0;
+}
+
+/* y's u part := random, made admissible (prescribed components zero) by one call of the operator into a. */
+static void first_vector(struct model *model, double *y, double *a)
+{
+    const struct drive quiet = {0.0, NULL, NULL};
+    uint64_t seed = 20061;
+    for (size_t i = 0; i < model->unknowns; i++)
+        y[i] = noise(&seed);
+    model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+}
+
+struct tridiagonal {
+    size_t n;
+    double alpha[LANCZOS_STEPS], beta[LANCZOS_STEPS]; /* beta[j] couples j and j + 1 */
+};
+
+/* Largest Ritz value and the bound on its distance to an eigenvalue. */
+static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
+{
+    const size_t n = t->n;
+    gsl_matrix *matrix = gsl_matrix_calloc(n, n);
+    gsl_matrix *vectors = gsl_matrix_alloc(n, n);
+    gsl_vector *values = gsl_vector_alloc(n);
+    gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);
+    const bool room = matrix != NULL && vectors != NULL && values != NULL && work != NULL;
+    if (room) {
+        for (size_t j = 0; j < n; j++) {
+            gsl_matrix_set(matrix, j, j, t->alpha[j]);
+            if (j + 1 < n) {
+                gsl_matrix_set(matrix, j, j + 1, t->beta[j]);
+                gsl_matrix_set(matrix, j + 1, j, t->beta[j]);
+            }
+        }
+        gsl_eigen_symmv(matrix, values, vectors, work);
+        const size_t top = gsl_vector_max_index(values);
+        *theta = gsl_vector_get(values, top);
+        *bound = t->beta[n - 1] * fabs(gsl_matrix_get(vectors, n - 1, top));
+    }
+    gsl_matrix_free(matrix);
+    gsl_matrix_free(vectors);
+    gsl_vector_free(values);
+    gsl_eigen_symmv_free(work);
+    return room;
+}
+
+static double mass_norm(struct model *model, double *y, const double *r)
+{
+    struct energy energy;
+    for (size_t i = 0; i < model->unknowns; i++)
+        y[model->unknowns + i] = r[i];
+    model->class->energy(model, y, &energy);
+    return sqrt(2.0 * energy.kinetic);
+}
+
+static bool lanczos(struct model *model, double *y, double *a, double *before, double *theta, double *bound)
+{
+    const size_t n = model->unknowns;
+    const struct drive quiet = {0.0, NULL, NULL};
+    struct tridiagonal t = {0};
+    first_vector(model, y, a);
+    double beta = mass_norm(model, y, a);
+    *theta = 0.0;
+    *bound = 0.0;
+    if (!(beta > 0.0)) return true; /* nothing moves: no stiffness */
+    for (size_t i = 0; i < n; i++) {
+        y[i] = a[i] / beta;
+        before[i] = 0.0;
+    }
+    beta = 0.0;
+    while (t.n < LANCZOS_STEPS) {
+        struct energy energy;
+        model->class->energy(model, y, &energy);
+        const double alpha = 2.0 * energy.strain;
+        model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+        for (size_t i = 0; i < n; i++)
+            a[i] = -a[i] - alpha * y[i] - beta * before[i];
+        beta = mass_norm(model, y, a);
+        t.alpha[t.n] = alpha;
+        t.beta[t.n++] = beta;
+        const bool exhausted = !(beta > 1e-12 * fabs(t.alpha[0]));
+        if (exhausted || t.n % LANCZOS_CHECK == 0) {
+            if (!ritz(&t, theta, bound)) return false;
+            if (exhausted || *bound < 1e-3 * *theta) return true;
+        }
+        for (size_t i = 0; i < n; i++) {
+            before[i] = y[i];
+            y[i] = a[i] / beta;
+        }
+    }
+    return true;
+}
+
+static double euclidean_norm(const double *x, size_t n)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * x[i];
+    return sqrt(sum);
+}
+
+/* Largest growth of the norm over the last steps; an eigenvalue pair that is complex only makes it larger. */
+static double power_iteration(struct model *model, double *y, double *a)
+{
+    const size_t n = model->unknowns;
+    const struct drive quiet = {0.0, NULL, NULL};
+    double theta = 0.0;
+    first_vector(model, y, a);
+    for (int j = 0; j < POWER_STEPS; j++) {
+        const double norm = euclidean_norm(a, n);
+        if (!(norm > 0.0)) return 0.0;
+        for (size_t i = 0; i < n; i++)
+            y[i] = a[i] / norm;
+        model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+        if (j >= POWER_STEPS - POWER_TAIL) theta = fmax(theta, euclidean_norm(a, n));
+    }
+    return theta;
+}
+
+selas_status largest_frequency(struct model *model, double *omega, double *error, struct messages *messages)
+{
+    double *y = array_new(model->state_size, sizeof *y);
+    double *a = array_new(model->unknowns, sizeof *a);
+    double *before = model->self_adjoint ? array_new(model->unknowns, sizeof *before) : NULL;
+    bool room = y != NULL && a != NULL && (before != NULL || !model->self_adjoint);
+    double theta = 0.0;
+    double bound = 0.0;
+    if (room && model->self_adjoint) room = lanczos(model, y, a, before, &theta, &bound);
+    if (room && !model->self_adjoint) theta = power_iteration(model, y, a);
+    array_free(y);
+    array_free(a);
+    array_free(before);
+    if (!room) return fail(messages, SELAS_NO_MEMORY, "no memory to measure the largest frequency");
+    *omega = sqrt(theta);
+    *error = theta > 0.0 ? 0.5 * bound / theta : 0.0;
+    return SELAS_OK;
+}

@@ -1,0 +1,26 @@
+/* The state at t = 0 as the scene and the scheme have it. */
+#include "stepping/stepping.h"
+
+#include "base/memory.h"
+
+selas_status state_create(struct stepper *stepper, struct state *state, struct messages *messages)
+{
+    struct model *model = stepper->model;
+    *state = (struct state){0};
+    state->y = array_new(model->state_size, sizeof *state->y);
+    state->a = array_new(model->unknowns, sizeof *state->a);
+    if (state->y == NULL || state->a == NULL) {
+        state_free(state);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for a state of %zu numbers", model->state_size);
+    }
+    if (model->class->initialise != NULL) model->class->initialise(model, state->y);
+    if (stepper->scheme->start != NULL) stepper->scheme->start(stepper, state);
+    return SELAS_OK;
+}
+
+void state_free(struct state *state)
+{
+    array_free(state->y);
+    array_free(state->a);
+    *state = (struct state){0};
+}

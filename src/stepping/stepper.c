@@ -1,0 +1,193 @@
+/* Chooses scheme, stages and time step; all memory that stepping needs is taken here. */
+#include "stepping/stepping.h"
+
+#include "base/memory.h"
+#include "stepping/time_dispersion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static double fastest_speed(const struct scene *scene)
+{
+    double speed = 0.0;
+    for (size_t i = 0; i < scene->materials; i++)
+        speed = fmax(speed, scene->material[i].p_speed);
+    return speed;
+}
+
+/* Largest stable step by the scheme's own limit over the measured spectrum; INFINITY where nothing vibrates.
+ */
+static selas_status measure_limit(struct stepper *stepper, struct messages *messages)
+{
+    struct model *model = stepper->model;
+    if (model->class->accelerate == NULL) return SELAS_OK;
+    const selas_status status =
+        largest_frequency(model, &stepper->largest_frequency, &stepper->frequency_error, messages);
+    if (status != SELAS_OK) return status;
+    const double omega = stepper->largest_frequency * (1.0 + stepper->frequency_error);
+    stepper->limit = stepper->scheme->limit(omega, stepper->viscous_radius, stepper->stages);
+    return SELAS_OK;
+}
+
+static selas_status choose_step(struct stepper *stepper, struct messages *messages)
+{
+    const struct scene *scene = stepper->model->scene;
+    const struct stepping_choice *choice = &scene->stepping;
+    const selas_status status = measure_limit(stepper, messages);
+    if (status != SELAS_OK) return status;
+    const double limit = stepper->limit;
+    if (choice->time_step > 0.0) {
+        stepper->dt = choice->time_step;
+        snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "given (stepping%%time_step)");
+    } else if (choice->courant > 0.0) {
+        stepper->dt = choice->courant * scene->body.spacing / fastest_speed(scene);
+        snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "courant number %g given", choice->courant);
+    } else if (isfinite(limit) && limit > 0.0) {
+        /* whole steps to end_time, so that the last row is end_time itself */
+        stepper->dt = scene->end_time / ceil(scene->end_time / (choice->safety * limit) - 1e-9);
+        snprintf(stepper->dt_reason, sizeof stepper->dt_reason,
+                 "%g of the limit %.6g (largest frequency %.6g +- %.1g %%)", choice->safety, limit,
+                 stepper->largest_frequency, 100.0 * stepper->frequency_error);
+    } else {
+        return fail(messages, SELAS_BAD_SCENE,
+                    "scheme '%s' has no stable time step for this scene that the program could choose; give "
+                    "stepping%%time_step or another stepping%%scheme",
+                    stepper->scheme->name);
+    }
+    if (limit > 0.0 && stepper->dt > limit * (1.0 + 1e-9) && !choice->force)
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "the time step %.6g is beyond the stability limit %.6g of scheme '%s' (largest frequency %.6g); "
+            "take a smaller stepping%%time_step or courant, leave both out, or set stepping%%force = .true.",
+            stepper->dt, limit, stepper->scheme->name, stepper->largest_frequency);
+    return SELAS_OK;
+}
+
+static selas_status take_memory(struct stepper *stepper, struct messages *messages)
+{
+    const struct model *model = stepper->model;
+    const size_t vectors = stepper->scheme->vectors;
+    stepper->load = array_new(model->scene->loads, sizeof *stepper->load);
+    stepper->motion = array_new(FACES, sizeof *stepper->motion);
+    stepper->work = array_new(vectors, sizeof *stepper->work);
+    bool room = stepper->load != NULL && stepper->motion != NULL && stepper->work != NULL;
+    /* leapfrog keeps the displacements before a step only for models that filter */
+    const bool idle = stepper->scheme->evaluations == 1.0 && stepper->scheme->needs_acceleration &&
+                      model->class->after_step == NULL;
+    for (size_t i = 0; room && !idle && i < vectors; i++) {
+        stepper->work[i] = array_new(model->state_size, sizeof **stepper->work);
+        room = stepper->work[i] != NULL;
+    }
+    if (!room)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu work vectors of the scheme", vectors);
+    return SELAS_OK;
+}
+
+/* Steps that the record needs beyond end_time: the un-warping kernel reaches a few times (t dt^2 / 8)^(1/3)
+ * (the width of the Airy function at its caustic) beyond the row it makes. */
+static unsigned long steps_beyond(const struct stepper *stepper)
+{
+    if (!stepper->unwarp) return 1;
+    const double width = cbrt(stepper->model->scene->end_time * stepper->dt * stepper->dt / 8.0);
+    return 12 + (unsigned long)ceil(6.0 * width / stepper->dt);
+}
+
+static selas_status warp_drives(struct stepper *stepper, struct messages *messages)
+{
+    const struct scene *scene = stepper->model->scene;
+    const unsigned long rows = stepper->steps + stepper->extra + 2;
+    stepper->warped_rows = rows;
+    stepper->warped_load = array_new(rows * scene->loads, sizeof(double));
+    stepper->warped_motion = array_new(rows * FACES, sizeof(double));
+    if (stepper->warped_load == NULL || stepper->warped_motion == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for warped histories of %lu steps", rows);
+    for (size_t k = 0; k < scene->loads; k++) {
+        const selas_status status = time_dispersion_warp(&scene->load[k].history, 0, stepper->dt, rows,
+                                                         scene->loads, stepper->warped_load + k, messages);
+        if (status != SELAS_OK) return status;
+    }
+    for (size_t face = 0; face < FACES; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        if (boundary->kind != BOUNDARY_VELOCITY && boundary->kind != BOUNDARY_DISPLACEMENT) continue;
+        const selas_status status =
+            time_dispersion_warp(&boundary->history, boundary->kind == BOUNDARY_VELOCITY, stepper->dt, rows,
+                                 FACES, stepper->warped_motion + face, messages);
+        if (status != SELAS_OK) return status;
+    }
+    return SELAS_OK;
+}
+
+/* The transform is exact for linear models at rest at t = 0 that prescribed histories drive; it is
+ * leapfrog's. */
+static bool can_unwarp(const struct stepper *stepper)
+{
+    const struct model *model = stepper->model;
+    return stepper->scheme->finish != NULL && stepper->scheme->evaluations == 1.0 && model->self_adjoint &&
+           model->class->after_step == NULL && model->scene->initial.kind == INITIAL_REST;
+}
+
+static selas_status choose_unwarp(struct stepper *stepper, struct messages *messages)
+{
+    const struct stepping_choice *choice = &stepper->model->scene->stepping;
+    const bool possible = can_unwarp(stepper);
+    if (choice->unwarp_given && choice->unwarp && !possible)
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "stepping%%unwarp needs scheme 'leapfrog', a linear symmetric method without filter and a body "
+            "at rest at t = 0");
+    stepper->unwarp = choice->unwarp_given ? choice->unwarp : possible;
+    return SELAS_OK;
+}
+
+static selas_status prepare(struct stepper *stepper, struct messages *messages)
+{
+    const struct scene *scene = stepper->model->scene;
+    stepper->scheme = scheme_find(scene->stepping.scheme);
+    if (stepper->scheme == NULL)
+        return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", scene->stepping.scheme);
+    const struct model_class *class = stepper->model->class;
+    if (stepper->scheme->needs_acceleration && class->accelerate == NULL)
+        return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
+                    stepper->scheme->name, class->method, class->variant);
+    stepper->stages = scene->stepping.stages;
+    selas_status status = choose_step(stepper, messages);
+    if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
+    if (status != SELAS_OK) return status;
+    stepper->steps = (unsigned long)ceil(scene->end_time / stepper->dt - 1e-9);
+    stepper->extra = steps_beyond(stepper);
+    status = take_memory(stepper, messages);
+    if (status == SELAS_OK && stepper->unwarp) status = warp_drives(stepper, messages);
+    return status;
+}
+
+selas_status stepper_create(struct model *model, struct stepper **created, struct messages *messages)
+{
+    *created = NULL;
+    struct stepper *stepper = calloc(1, sizeof *stepper);
+    if (stepper == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the time stepping");
+    stepper->model = model;
+    const selas_status status = prepare(stepper, messages);
+    if (status != SELAS_OK) {
+        stepper_free(&stepper);
+        return status;
+    }
+    *created = stepper;
+    return SELAS_OK;
+}
+
+void stepper_free(struct stepper **freed)
+{
+    if (freed == NULL || *freed == NULL) return;
+    struct stepper *stepper = *freed;
+    if (stepper->work != NULL)
+        for (size_t i = 0; i < stepper->scheme->vectors; i++)
+            array_free(stepper->work[i]);
+    array_free(stepper->work);
+    array_free(stepper->load);
+    array_free(stepper->motion);
+    array_free(stepper->warped_load);
+    array_free(stepper->warped_motion);
+    free(stepper);
+    *freed = NULL;
+}
