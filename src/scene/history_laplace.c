@@ -1,0 +1,196 @@
+/* Laplace transforms F(s) = integral of f(t) exp(-s t) dt of the histories, and their cutoff frequencies.
+ *
+ * Smoothing by the cubic B-spline on [0, S] multiplies by ((1 - exp(-s S/4)) / (s S/4))^4. The Gaussian and
+ * the Ricker wavelet are cut at t = 0, which needs the error function of a complex argument. */
+#include "base/faddeeva.h"
+#include "scene/history.h"
+#include "scene/history_kinds.h"
+
+#include <math.h>
+
+double complex history_decay_ratio(double complex x)
+{
+    if (cabs(x) > .1) return (1 - cexp(-x)) / x;
+    return 1 -
+           x / 2 *
+               (1 -
+                x / 3 *
+                    (1 -
+                     x / 4 *
+                         (1 - x / 5 * (1 - x / 6 * (1 - x / 7 * (1 - x / 8 * (1 - x / 9 * (1 - x / 10))))))));
+}
+
+/* Integral from 0 to infinity of exp(-(t - delay)^2 / (2 width^2) - s t) dt
+ *   = width sqrt(pi/2) exp(-delay^2/(2 width^2)) erfcx(z),  z = (s width - delay/width) / sqrt 2,      (1)
+ * with erfcx(z) = exp(z^2) erfc(z) = 2 exp(z^2) - erfcx(-z), the latter form where Re z < 0. */
+static double complex cut_gaussian(double width, double delay, double complex s)
+{
+    const double ratio = delay / width, factor = width * sqrt(M_PI / 2), tail = exp(-.5 * ratio * ratio);
+    const double complex z = (s * width - ratio) * M_SQRT1_2;
+    if (creal(z) >= 0) return factor * tail * scaled_erfc(z);
+    return factor * (2 * cexp(s * (.5 * s * width * width - delay)) - tail * scaled_erfc(-z));
+}
+
+/* f = -g''/(2 b^2) with g = exp(-b^2 (t - delay)^2), b = pi frequency; L[g''] = s^2 G - s g(0) - g'(0). */
+static double complex cut_ricker(double frequency, double delay, double complex s)
+{
+    const double b = M_PI * frequency, start = exp(-b * b * delay * delay);
+    const double complex bell = cut_gaussian(M_SQRT1_2 / b, delay, s);
+    return -(s * s * bell - s * start - 2 * b * b * delay * start) / (2 * b * b);
+}
+
+/* Sum of three sines over [0, end]: integral of sin(a t) exp(-s t) dt
+ *   = [a - exp(-s end) (s sin(a end) + a cos(a end))] / (s^2 + a^2).                                   (2) */
+static double complex burst(const struct history *history, double complex s)
+{
+    const double end = history->cycles / history->frequency, a = 2 * M_PI * history->frequency;
+    const double rate[3] = {a, a * (1 + 1 / history->cycles), a * (1 - 1 / history->cycles)};
+    const double weight[3] = {.5, -.25, -.25};
+    double complex sum = 0;
+    for (int i = 0; i < 3; i++)
+        sum += weight[i] *
+               (rate[i] - cexp(-s * end) * (s * sin(rate[i] * end) + rate[i] * cos(rate[i] * end))) /
+               (s * s + rate[i] * rate[i]);
+    return sum;
+}
+
+static double complex plain_laplace(const struct history *history, double complex s)
+{
+    switch (history->kind) {
+    case HISTORY_TRIANGLE: {
+        const double half = .5 * history->duration;
+        const double complex ratio = history_decay_ratio(s * half);
+        return half * ratio * ratio;
+    }
+    case HISTORY_STEP:
+        return 1 / s;
+    case HISTORY_RICKER:
+        return cut_ricker(history->frequency, history->delay, s);
+    case HISTORY_GAUSSIAN:
+        return cut_gaussian(history->width, history->delay, s);
+    case HISTORY_SINE_BURST:
+        return burst(history, s);
+    case HISTORY_TABLE:
+        return history->rows > 0 ? history_table_laplace(history, s) : 0;
+    }
+    return 0;
+}
+
+double complex history_laplace(const struct history *history, double complex s)
+{
+    const double complex plain = plain_laplace(history, s);
+    if (history->smoothing <= 0) return plain;
+    const double complex ratio = history_decay_ratio(.25 * s * history->smoothing), square = ratio * ratio;
+    return plain * square * square;
+}
+
+/* The spectrum that history_cutoff() judges: of f, or of f' where f does not come back to zero. */
+static bool comes_back(const struct history *history)
+{
+    if (history->kind == HISTORY_STEP) return false;
+    return history->kind != HISTORY_TABLE || history->rows == 0 ||
+           history->table_value[history->rows - 1] == 0;
+}
+
+/* Frequency beyond which envelope() holds. */
+static double highest_peak(const struct history *history)
+{
+    switch (history->kind) {
+    case HISTORY_TRIANGLE:
+        return 4 / history->duration;
+    case HISTORY_GAUSSIAN:
+        return 1 / history->width;
+    case HISTORY_RICKER:
+        return 2 * M_PI * history->frequency;
+    case HISTORY_SINE_BURST:
+        return 2 * M_PI * history->frequency * (1 + 1 / history->cycles);
+    case HISTORY_TABLE: {
+        double shortest = INFINITY;
+        for (size_t i = 0; i + 1 < history->rows; i++)
+            shortest = fmin(shortest, history->table_time[i + 1] - history->table_time[i]);
+        return isinf(shortest) ? 1 : M_PI / shortest;
+    }
+    case HISTORY_STEP:
+        break;
+    }
+    return 1;
+}
+
+/* Bound of |F(i w)| (of |w F| if f does not come back) that decreases for w > highest_peak(). */
+static double plain_envelope(const struct history *history, double w)
+{
+    switch (history->kind) {
+    case HISTORY_TRIANGLE:
+        return 8 / (history->duration * w * w);
+    case HISTORY_STEP:
+        return 1;
+    case HISTORY_GAUSSIAN: {
+        const double x = w * history->width, ratio = history->delay / history->width;
+        return history->width * sqrt(2 * M_PI) * exp(-.5 * x * x) + exp(-.5 * ratio * ratio) / w;
+    }
+    case HISTORY_RICKER: {
+        const double b = M_PI * history->frequency, x = w / b, cut = b * history->delay;
+        return sqrt(M_PI) / (2 * b) * x * x * exp(-.25 * x * x) + (1 + 2 * cut * cut) * exp(-cut * cut) / w;
+    }
+    case HISTORY_SINE_BURST: { /* Eq 2 with the sines summed; a (1 +- 1/n) end = a end +- 2 pi */
+        const double a = 2 * M_PI * history->frequency, x = 1 / history->cycles;
+        const double phase = 2 * M_PI * history->cycles;
+        const double rate[3] = {a, a * (1 + x), a * (1 - x)}, weight[3] = {.5, -.25, -.25};
+        double odd = 0, even = 0;
+        for (int i = 0; i < 3; i++) {
+            odd += weight[i] * rate[i] / (w * w - rate[i] * rate[i]);
+            even += weight[i] / (w * w - rate[i] * rate[i]);
+        }
+        return (1 + fabs(cos(phase))) * fabs(odd) + fabs(sin(phase)) * w * fabs(even);
+    }
+    case HISTORY_TABLE: {
+        double sum = fabs(history->table_value[0]) / w, slope = 0;
+        for (size_t i = 0; i < history->rows; i++) {
+            const double next = i + 1 < history->rows
+                                    ? (history->table_value[i + 1] - history->table_value[i]) /
+                                          (history->table_time[i + 1] - history->table_time[i])
+                                    : 0;
+            sum += fabs(next - slope) / (w * w);
+            slope = next;
+        }
+        return comes_back(history) ? sum : w * sum;
+    }
+    }
+    return 0;
+}
+
+static double envelope(const struct history *history, double w)
+{
+    const double plain = plain_envelope(history, w);
+    if (history->smoothing <= 0) return plain;
+    return plain * fmin(1, pow(8 / (w * history->smoothing), 4)); /* |2 sin(x/2) / x|^4, x = w S/4 */
+}
+
+double history_cutoff(const struct history *history, double fraction)
+{
+    enum { SAMPLES = 512 };
+    if (history->kind == HISTORY_TABLE && history->rows == 0) return 0;
+    const double top = highest_peak(history), span = fmax(history_end(history), 1 / top);
+    const double back = comes_back(history) ? 0 : 1;
+    double largest = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        const double w = top * i / SAMPLES;
+        const double complex s = 1e-6 / span + I * w;
+        largest = fmax(largest, cabs(history_laplace(history, s)) * (back > 0 ? cabs(s) : 1));
+    }
+    double low = top * (1 + 1e-9), high = low;
+    if (!(largest > 0)) return 0;
+    while (envelope(history, high) > fraction * largest) {
+        low = high;
+        high *= 2;
+        if (high > 1e15 * top) return INFINITY;
+    }
+    for (int i = 0; i < 60 && high > low; i++) {
+        const double middle = .5 * (low + high);
+        if (envelope(history, middle) > fraction * largest)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high;
+}

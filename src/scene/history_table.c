@@ -1,0 +1,178 @@
+/* The history given as a table: straight lines between rows, zero before the first row, the last value
+ * afterwards. */
+#include "base/memory.h"
+#include "scene/history.h"
+#include "scene/history_kinds.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Number of rows with table_time <= t (right) or < t (left). */
+static size_t rows_before(const struct history *history, double t, bool right)
+{
+    size_t low = 0, high = history->rows;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const double time = history->table_time[middle];
+        if (right ? time <= t : time < t)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double area_between(const struct history *history, size_t row, double t)
+{
+    const double start = history->table_time[row], from = history->table_value[row];
+    if (row + 1 == history->rows) return from * (t - start);
+    const double span = history->table_time[row + 1] - start, x = (t - start) / span;
+    return (t - start) * (from + .5 * x * (history->table_value[row + 1] - from));
+}
+
+double history_table_value(const struct history *history, double t, int derivative, bool right)
+{
+    const size_t rows = rows_before(history, t, right);
+    if (rows == 0 || derivative > 1) return 0;
+    const size_t row = rows - 1;
+    const double *time = history->table_time, *value = history->table_value;
+    if (derivative == -1) {
+        double sum = 0;
+        for (size_t i = 0; i < row; i++)
+            sum += area_between(history, i, time[i + 1]);
+        return sum + area_between(history, row, t);
+    }
+    if (rows == history->rows) return derivative == 0 ? value[row] : 0;
+    const double span = time[rows] - time[row];
+    if (derivative == 1) return (value[rows] - value[row]) / span;
+    const double x = (t - time[row]) / span;
+    return (1 - x) * value[row] + x * value[rows];
+}
+
+double history_table_kink_after(const struct history *history, double t)
+{
+    const size_t rows = rows_before(history, t, true);
+    return rows < history->rows ? history->table_time[rows] : INFINITY;
+}
+
+double complex history_table_laplace(const struct history *history, double complex s)
+{
+    const double *time = history->table_time, *value = history->table_value;
+    double complex sum = 0;
+    for (size_t i = 0; i + 1 < history->rows; i++) {
+        const double span = time[i + 1] - time[i];
+        const double complex x = s * span;
+        /* Integrals over 0..1 of exp(-x u) and of u exp(-x u). */
+        const double complex even = history_decay_ratio(x);
+        const double complex ramp =
+            cabs(x) > .1
+                ? (even - cexp(-x)) / x
+                : 1. / 2 -
+                      x * (1. / 3 -
+                           x * (1. / 8 -
+                                x * (1. / 30 -
+                                     x * (1. / 144 - x * (1. / 840 - x * (1. / 5760 -
+                                                                          x * (1. / 45360 - x / 403200)))))));
+        sum += cexp(-s * time[i]) * span * (value[i] * even + (value[i + 1] - value[i]) * ramp);
+    }
+    const size_t last = history->rows - 1;
+    return sum + value[last] * cexp(-s * time[last]) / s;
+}
+
+/* One line of the table; 1: a row was read, 0: nothing on the line, -1: not two numbers. */
+static int read_row(char *line, double *time, double *value)
+{
+    line[strcspn(line, "#!\r\n")] = '\0';
+    char *at = line;
+    while (isspace((unsigned char)*at))
+        at++;
+    if (*at == '\0') return 0;
+    char *end = NULL;
+    *time = strtod(at, &end);
+    if (end == at) return -1;
+    at = end;
+    while (isspace((unsigned char)*at) || *at == ',')
+        at++;
+    *value = strtod(at, &end);
+    if (end == at) return -1;
+    while (isspace((unsigned char)*end))
+        end++;
+    return *end == '\0' && isfinite(*time) && isfinite(*value) ? 1 : -1;
+}
+
+static selas_status keep_row(struct history *history, size_t *room, double time, double value)
+{
+    if (history->rows == *room) {
+        const size_t more = *room == 0 ? 64 : 2 * *room;
+        double *times = array_new(more, sizeof *times), *values = array_new(more, sizeof *values);
+        if (times == NULL || values == NULL) {
+            array_free(times);
+            array_free(values);
+            return SELAS_NO_MEMORY;
+        }
+        if (history->rows > 0) {
+            memcpy(times, history->table_time, history->rows * sizeof *times);
+            memcpy(values, history->table_value, history->rows * sizeof *values);
+        }
+        history_free(history);
+        history->table_time = times;
+        history->table_value = values;
+        *room = more;
+    }
+    history->table_time[history->rows] = time;
+    history->table_value[history->rows++] = value;
+    return SELAS_OK;
+}
+
+static selas_status read_rows(struct history *history, FILE *file, const char *path,
+                              struct messages *messages)
+{
+    char line[1024];
+    size_t room = 0;
+    for (size_t number = 1; fgets(line, sizeof line, file) != NULL; number++) {
+        double time = 0, value = 0;
+        if (strlen(line) + 1 == sizeof line)
+            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: line too long for a table", path, number);
+        const int found = read_row(line, &time, &value);
+        if (found == 0) continue;
+        if (found < 0)
+            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: expected two numbers, 'time value'", path,
+                        number);
+        if (time < 0 || (history->rows > 0 && time <= history->table_time[history->rows - 1]))
+            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: times must ascend from 0 or later, here is %g",
+                        path, number, time);
+        if (keep_row(history, &room, time, value) != SELAS_OK)
+            return fail(messages, SELAS_NO_MEMORY, "%s: not enough memory for the table", path);
+    }
+    if (ferror(file)) return fail(messages, SELAS_FILE_ERROR, "%s: %s", path, strerror(errno));
+    if (history->rows == 0)
+        return fail(messages, SELAS_FILE_ERROR, "%s: no rows 'time value' in the table", path);
+    return SELAS_OK;
+}
+
+selas_status history_read_table(struct history *history, const char *path, struct messages *messages)
+{
+    history_free(history);
+    history->rows = 0;
+    FILE *file = fopen(path, "r");
+    if (file == NULL) return fail(messages, SELAS_FILE_ERROR, "%s: %s", path, strerror(errno));
+    const selas_status status = read_rows(history, file, path, messages);
+    (void)fclose(file);
+    if (status != SELAS_OK) {
+        history_free(history);
+        history->rows = 0;
+    }
+    return status;
+}
+
+void history_free(struct history *history)
+{
+    array_free(history->table_time);
+    array_free(history->table_value);
+    history->table_time = NULL;
+    history->table_value = NULL;
+}
