@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#undef fail /* the library has a function of this name (base/messages.h); tests use fail_msg */
+
 #define assert_near(value, expected, tolerance)                                                              \
     do {                                                                                                     \
         const double near_value = (value), near_expected = (expected), near_tolerance = (tolerance);         \
