@@ -31,10 +31,10 @@ struct energy {
 struct probe {
     double position[3]; /* deck coordinates */
     size_t count;
-    size_t *index;  /* [count] */
-    double *weight; /* [count] */
-    double
-        *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz in the body's frame: gradient[3 * j + axis] */
+    size_t *index;    /* [count] */
+    double *weight;   /* [count] */
+    double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame
+                         of the unknowns (the body's if model->frame is set, else the deck's) */
     const struct material *material;
 };
 
@@ -99,8 +99,20 @@ const struct model_class *model_find(const char *method, const char *variant);
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages);
 void model_free(struct model **model);
 
+/* What is known at one place, in the frame of the unknowns. */
+struct point_values {
+    double displacement[3], velocity[3], acceleration[3];
+    double gradient[9]; /* d u_i / d x_j at [3 * i + j] */
+};
+
 /* method/probe.c */
+/* Room for count weights, all zero; SELAS_NO_MEMORY. */
+selas_status probe_allocate(struct probe *probe, size_t count, struct messages *messages);
 void probe_free(struct probe *probe);
+/* A field in deck coordinates from values at one place: rotation by model->frame, strain, Hooke's law of the
+ * material in the scene's dimension and plane (out-of-plane strain and stress included). */
+void field_from_values(const struct model *model, const struct material *material,
+                       const struct point_values *values, selas_field field, double *value);
 void probe_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                    const double *a, double *value);
 int field_components(selas_field field); /* 3, 6 or 1 */
