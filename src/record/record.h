@@ -41,6 +41,17 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
  * report.txt, and with output%plots the PNGs. */
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages);
+/* Value of a receiver at the state given (mid-run, as computed), deck coordinates; `value` has room for 6. */
+void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
+                    double *value);
+/* The plan that `selas check` prints and report.txt begins with, one key and value after the other: points,
+ * unknowns, lattice, method, scheme, time step and how it was chosen, steps, memory and bytes per point,
+ * points per wavelength of the slowest wave at the loads' cutoff (history_cutoff), estimated time (a few
+ * operator calls are timed), which parts are on, model's describe. */
+void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
+                   void *context);
+/* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
+selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
 void recorder_free(struct recorder **recorder);
 
 #endif
