@@ -21,6 +21,7 @@ struct drive {
     const double *load; /* [scene->loads]: history value times load amplitude is load[k] * amplitude */
     const double
         *motion; /* [FACES]: second time derivative of the prescribed displacement history (per amplitude) */
+    const double *displacement, *velocity; /* [FACES]: that history itself and its first derivative */
 };
 
 struct energy {
@@ -52,6 +53,9 @@ struct model_class {
                        const double *v, double *a);
     /* dy/dt for the Runge-Kutta family. */
     void (*rate)(struct model *model, const struct drive *drive, const double *y, double *dydt);
+    /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the
+     * body at rest (for measuring its spectrum). NULL for linear models. */
+    void (*linearise)(struct model *model, bool on);
     /* Filters the increment of one step: u_before and u are the displacements at both ends; changes u and
      * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
      * Called right after u has moved, before the acceleration there. NULL where there is no filter. */

@@ -13,14 +13,26 @@ double motion_displacement(const struct boundary *boundary, double time, int der
     return history_value(&boundary->history, time, integrated);
 }
 
+/* stepper->motion holds displacements, velocities and accelerations of the faces, one after the other. */
+static struct drive drive_of(const struct stepper *stepper, double time)
+{
+    return (struct drive){.time = time,
+                          .load = stepper->load,
+                          .motion = stepper->motion + 2 * FACES,
+                          .displacement = stepper->motion,
+                          .velocity = stepper->motion + FACES};
+}
+
 void drive_at(struct stepper *stepper, double time, struct drive *drive)
 {
     const struct scene *scene = stepper->model->scene;
     for (size_t k = 0; k < scene->loads; k++)
         stepper->load[k] = history_value(&scene->load[k].history, time, 0);
     for (size_t face = 0; face < FACES; face++)
-        stepper->motion[face] = motion_displacement(&scene->boundary[face], time, 2);
-    *drive = (struct drive){time, stepper->load, stepper->motion};
+        for (int derivative = 0; derivative <= 2; derivative++)
+            stepper->motion[(size_t)derivative * FACES + face] =
+                motion_displacement(&scene->boundary[face], time, derivative);
+    *drive = drive_of(stepper, time);
 }
 
 /* Row of a warped table; before the start everything is at rest. */
@@ -57,12 +69,14 @@ void drive_at_step(struct stepper *stepper, unsigned long step, bool corrected, 
         stepper->load[k] = amplitude;
     }
     for (size_t face = 0; face < FACES; face++) {
-        stepper->motion[face] = 0.0;
         if (!is_motion(&scene->boundary[face])) continue;
-        stepper->motion[face] =
-            (motion_amplitude(stepper, face, n + 1) - 2.0 * motion_amplitude(stepper, face, n) +
-             motion_amplitude(stepper, face, n - 1)) /
-            (stepper->dt * stepper->dt);
+        const double dt = stepper->dt;
+        const double before = motion_amplitude(stepper, face, n - 1);
+        const double now = motion_amplitude(stepper, face, n);
+        const double after = motion_amplitude(stepper, face, n + 1);
+        stepper->motion[face] = now;
+        stepper->motion[FACES + face] = (after - before) / (2.0 * dt);
+        stepper->motion[2 * FACES + face] = (after - 2.0 * now + before) / (dt * dt);
     }
-    *drive = (struct drive){(double)step * stepper->dt, stepper->load, stepper->motion};
+    *drive = drive_of(stepper, (double)step * stepper->dt);
 }

@@ -25,7 +25,7 @@ static double noise(uint64_t *seed)
 /* y's u part := random, made admissible (prescribed components zero) by one call of the operator into a. */
 static void first_vector(struct model *model, double *y, double *a)
 {
-    const struct drive quiet = {0.0, NULL, NULL};
+    const struct drive quiet = {.time = 0.0};
     uint64_t seed = 20061;
     for (size_t i = 0; i < model->unknowns; i++)
         y[i] = noise(&seed);
@@ -78,7 +78,7 @@ static double mass_norm(struct model *model, double *y, const double *r)
 static bool lanczos(struct model *model, double *y, double *a, double *before, double *theta, double *bound)
 {
     const size_t n = model->unknowns;
-    const struct drive quiet = {0.0, NULL, NULL};
+    const struct drive quiet = {.time = 0.0};
     struct tridiagonal t = {0};
     first_vector(model, y, a);
     double beta = mass_norm(model, y, a);
@@ -125,7 +125,7 @@ static double euclidean_norm(const double *x, size_t n)
 static double power_iteration(struct model *model, double *y, double *a)
 {
     const size_t n = model->unknowns;
-    const struct drive quiet = {0.0, NULL, NULL};
+    const struct drive quiet = {.time = 0.0};
     double theta = 0.0;
     first_vector(model, y, a);
     for (int j = 0; j < POWER_STEPS; j++) {
@@ -145,10 +145,12 @@ selas_status largest_frequency(struct model *model, double *omega, double *error
     double *a = array_new(model->unknowns, sizeof *a);
     double *before = model->self_adjoint ? array_new(model->unknowns, sizeof *before) : NULL;
     bool room = y != NULL && a != NULL && (before != NULL || !model->self_adjoint);
+    if (model->class->linearise != NULL) model->class->linearise(model, true);
     double theta = 0.0;
     double bound = 0.0;
     if (room && model->self_adjoint) room = lanczos(model, y, a, before, &theta, &bound);
     if (room && !model->self_adjoint) theta = power_iteration(model, y, a);
+    if (model->class->linearise != NULL) model->class->linearise(model, false);
     array_free(y);
     array_free(a);
     array_free(before);

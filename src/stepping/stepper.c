@@ -69,7 +69,7 @@ static selas_status take_memory(struct stepper *stepper, struct messages *messag
     const struct model *model = stepper->model;
     const size_t vectors = stepper->scheme->vectors;
     stepper->load = array_new(model->scene->loads, sizeof *stepper->load);
-    stepper->motion = array_new(FACES, sizeof *stepper->motion);
+    stepper->motion = array_new(3 * FACES, sizeof *stepper->motion);
     stepper->work = array_new(vectors, sizeof *stepper->work);
     bool room = stepper->load != NULL && stepper->motion != NULL && stepper->work != NULL;
     /* leapfrog keeps the displacements before a step only for models that filter */
@@ -124,7 +124,8 @@ static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
     return stepper->scheme->finish != NULL && stepper->scheme->evaluations == 1.0 && model->self_adjoint &&
-           model->class->after_step == NULL && model->scene->initial.kind == INITIAL_REST;
+           model->class->after_step == NULL && model->class->linearise == NULL &&
+           model->scene->initial.kind == INITIAL_REST;
 }
 
 static selas_status choose_unwarp(struct stepper *stepper, struct messages *messages)

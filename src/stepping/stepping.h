@@ -46,7 +46,7 @@ struct stepper {
     unsigned long steps;   /* steps from t = 0 until end_time is reached or passed */
     unsigned long extra;   /* steps beyond that the finished histories need */
     double **work;         /* [scheme->vectors] arrays of state_size */
-    double *load, *motion; /* amplitudes handed to the model: [loads], [FACES] */
+    double *load, *motion; /* amplitudes handed to the model: [loads], [3 * FACES]: see drive_at */
     double *
         warped_load; /* [rows * loads] and [rows * FACES] if unwarp: amplitudes of the warped histories ... */
     double *warped_motion; /* ... (motion: of the displacement, not its second derivative) */
