@@ -6,6 +6,11 @@
 static const struct scheme_class *const schemes[] = {
     &scheme_leapfrog,
     &scheme_modified_equation,
+    &scheme_euler,
+    &scheme_pc2,
+    &scheme_rk4,
+    &scheme_rkc,
+    &scheme_lsrk54,
     NULL,
 };
 

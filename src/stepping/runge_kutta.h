@@ -1,0 +1,38 @@
+/* What the Runge-Kutta schemes share: y' = F(t, y) for every model, and the end of a step.
+ *
+ * All schemes of this family keep F(t_n, y_n) in work[0] between steps ("first same as last"): the
+ * acceleration that receivers see costs no extra call, and a restart from y alone gives the same bits. */
+#ifndef SELAS_RUNGE_KUTTA_H
+#define SELAS_RUNGE_KUTTA_H
+
+#include "stepping/stepping.h"
+
+#include <complex.h>
+
+/* dydt = F(time, y). A model that has only accelerate() is read as y = [u | v]: F = [v | a(u, v)]. */
+void runge_kutta_rate(struct stepper *stepper, double time, const double *y, double *dydt);
+
+/* scheme_class.start of the family: work[0] = F(t, y), state->a. */
+void runge_kutta_start(struct stepper *stepper, struct state *state);
+
+/* Ends a step: time and step count move on, then runge_kutta_start() for the next one. The filter of a model
+ * (after_step()) belongs to leapfrog's half-step velocity and is not called: such models are refused. */
+void runge_kutta_finish(struct stepper *stepper, struct state *state);
+
+/* out = x + factor * f, for n numbers; out may be x. */
+void runge_kutta_add(size_t n, double *out, const double *x, double factor, const double *f);
+
+/* stepping/stability.c: R(z) of a scheme with the given number of stages: y_(n+1) = R(dt lambda) y_n. */
+typedef double complex stability_polynomial(double complex z, long stages);
+
+/* Largest dt for which every mode of a damped wave operator stays bounded. The modes are taken as those of a
+ * stiffness-proportional (Kelvin-Voigt) viscosity, which is what an artificial viscosity is:
+ *     lambda^2 + d lambda + w^2 = 0,   w = theta omega,   d = theta^2 viscous,   0 < theta <= 1,
+ * together with the purely viscous mode lambda = -viscous. 0 if no dt is stable (|R| > 1 + 1e-9 however small
+ * dt), INFINITY if omega = viscous = 0. */
+double stability_limit(stability_polynomial *polynomial, long stages, double omega, double viscous);
+/* True if every such mode stays bounded with this dt. */
+bool stability_bounded(stability_polynomial *polynomial, long stages, double omega, double viscous,
+                       double dt);
+
+#endif
