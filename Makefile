@@ -7,6 +7,7 @@ BUILD   ?= build
 CFLAGS  ?= -O3 -g
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(WERROR),-Werror)
 PKGS     = gsl fftw3 hdf5
+Q        = $(if $(V),,@)
 ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden $(WARNINGS) $(CFLAGS) \
            $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
@@ -36,19 +37,22 @@ unit: $(BUILD)/selas $(TESTS) ## run the tests without the set-up
 	@sh regress/run-tests $(BUILD)
 
 $(BUILD)/selas: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
-	$(CC) -fopenmp $(LDFLAGS) -o $@ $^ $(LIBS)
+	$(if $(V),,@echo "  link $@")
+	$(Q)$(CC) -fopenmp $(LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/libselas.a: $(OBJECTS)
-	rm -f $@
-	ar rcs $@ $^
+	@rm -f $@
+	$(Q)ar rcs $@ $^
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
-	$(CC) $(ALL_C) -MMD -MP -c -o $@ $<
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP -c -o $@ $<
 
 $(BUILD)/test/%: regress/unit/%.c $(BUILD)/libselas.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_C) -Iregress/unit -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS) -lcmocka
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -Iregress/unit -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS) -lcmocka
 
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
