@@ -1,5 +1,5 @@
 /* Chooses scheme, stages and time step; all memory that stepping needs is taken here. */
-#include "stepping/stepping.h"
+#include "stepping/schemes.h"
 
 #include "base/memory.h"
 #include "stepping/time_dispersion.h"
@@ -123,7 +123,7 @@ static selas_status warp_drives(struct stepper *stepper, struct messages *messag
 static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
-    return stepper->scheme->finish != NULL && stepper->scheme->evaluations == 1.0 && model->self_adjoint &&
+    return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->class->linearise == NULL &&
            model->class->after_step == NULL && model->class->linearise == NULL &&
            model->scene->initial.kind == INITIAL_REST;
 }
