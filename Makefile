@@ -58,7 +58,8 @@ check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 
 check-tidy: ## clang-tidy
-	clang-tidy --quiet $(SOURCES) $(PROGRAM) -- $(filter-out -fopenmp,$(ALL_C)) -fopenmp=libgomp -I/usr/lib/gcc/x86_64-linux-gnu/12/include
+	printf '%s\n' $(SOURCES) $(PROGRAM) | xargs -P2 -n4 sh -c 'clang-tidy --quiet "$$@" -- $(filter-out -fopenmp,$(ALL_C)) \
+	    -fopenmp -idirafter $(shell gcc -print-file-name=include) 2>/dev/null' tidy
 
 check-cppcheck: ## cppcheck
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --error-exitcode=1 --inline-suppr -Isrc -j2 src

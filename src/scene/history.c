@@ -253,7 +253,7 @@ size_t history_kinks(const struct history *history, double *times, size_t room)
 {
     const int copies = history->smoothing > 0 ? 5 : 1;
     const double h = .25 * history->smoothing;
-    double next[5];
+    double next[5] = {0};
     for (int i = 0; i < copies; i++)
         next[i] = history_plain_kink_after(history, -1);
     size_t count = 0;

@@ -4,14 +4,10 @@
 #include <string.h>
 
 static const struct scheme_class *const schemes[] = {
-    &scheme_leapfrog,
-    &scheme_modified_equation,
-    &scheme_euler,
-    &scheme_pc2,
-    &scheme_rk4,
-    &scheme_rkc,
-    &scheme_lsrk54,
-    NULL,
+    &scheme_leapfrog, &scheme_modified_equation,
+    &scheme_euler,    &scheme_pc2,
+    &scheme_rk4,      &scheme_rkc,
+    &scheme_lsrk54,   NULL,
 };
 
 const struct scheme_class *scheme_find(const char *name)

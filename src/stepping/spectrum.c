@@ -141,15 +141,16 @@ static double power_iteration(struct model *model, double *y, double *a)
 
 selas_status largest_frequency(struct model *model, double *omega, double *error, struct messages *messages)
 {
+    const bool self_adjoint = model->self_adjoint;
     double *y = array_new(model->state_size, sizeof *y);
     double *a = array_new(model->unknowns, sizeof *a);
-    double *before = model->self_adjoint ? array_new(model->unknowns, sizeof *before) : NULL;
-    bool room = y != NULL && a != NULL && (before != NULL || !model->self_adjoint);
+    double *before = self_adjoint ? array_new(model->unknowns, sizeof *before) : NULL;
+    bool room = y != NULL && a != NULL && (before != NULL || !self_adjoint);
     if (model->class->linearise != NULL) model->class->linearise(model, true);
     double theta = 0.0;
     double bound = 0.0;
-    if (room && model->self_adjoint) room = lanczos(model, y, a, before, &theta, &bound);
-    if (room && !model->self_adjoint) theta = power_iteration(model, y, a);
+    if (room && self_adjoint) room = lanczos(model, y, a, before, &theta, &bound);
+    if (room && !self_adjoint) theta = power_iteration(model, y, a);
     if (model->class->linearise != NULL) model->class->linearise(model, false);
     array_free(y);
     array_free(a);

@@ -124,8 +124,7 @@ static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
     return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->class->linearise == NULL &&
-           model->class->after_step == NULL && model->class->linearise == NULL &&
-           model->scene->initial.kind == INITIAL_REST;
+           model->class->after_step == NULL && model->scene->initial.kind == INITIAL_REST;
 }
 
 static selas_status choose_unwarp(struct stepper *stepper, struct messages *messages)
