@@ -1,5 +1,6 @@
 /* The methods: a table of names. A new method is one new file and one line here. */
-#include "method/model.h"
+#include "method/mirror.h"
+#include "scene/symmetry.h"
 
 #include <string.h>
 
@@ -22,6 +23,8 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     if (class == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,
                     scene->method.variant);
+    const unsigned axes = class->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
+    if (axes != 0) return mirror_create(class, scene, axes, model, messages);
     return class->create(scene, model, messages);
 }
 

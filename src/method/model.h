@@ -37,12 +37,15 @@ struct probe {
     double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame
                          of the unknowns (the body's if model->frame is set, else the deck's) */
     const struct material *material;
+    unsigned mirrored; /* method/mirror.c: bit 1 << axis if the values come from the mirror image across it */
 };
 
 struct model;
 
 struct model_class {
     const char *method, *variant; /* as in the deck */
+    bool mirrors; /* exact on the half of a symmetric scene with symmetry on the middle plane: see
+                     method/mirror.h */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
     void (*destroy)(struct model *model);

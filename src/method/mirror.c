@@ -1,0 +1,303 @@
+/* Half, quarter or eighth of a body in place of the whole.
+ *
+ * Points, operator and state are those of the part below the mirror planes; whoever asks for a place above
+ * one gets the values of its image, reflected: vectors v -> H v and tensors s -> H s H with H = I - 2 n n^T,
+ * n the plane's normal. */
+#include "method/mirror.h"
+
+#include "base/memory.h"
+#include "scene/symmetry.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct mirror {
+    struct model model;
+    struct model *part;
+    struct scene part_scene;
+    unsigned axes;
+    double *position;
+};
+
+bool mirrors_wanted(const struct scene *scene)
+{
+    return scene->method.group == NULL || deck_logical(scene->method.group, "symmetry", 0);
+}
+
+static struct model *part_of(struct model *model)
+{
+    return ((struct mirror *)model)->part;
+}
+
+/* --- Reflection
+ * ------------------------------------------------------------------------------------------------ */
+
+static double middle(const struct mirror *mirror, int axis)
+{
+    return mirror->part_scene.body.high[axis];
+}
+
+/* Maps a position (deck coordinates) below all mirror planes; returns the mask of planes it was above. */
+static unsigned fold(const struct mirror *mirror, const double position[3], double folded[3])
+{
+    const struct body *body = &mirror->part_scene.body;
+    double place[3];
+    unsigned above = 0;
+    body_from_deck(body, position, place);
+    for (int axis = 0; axis < 3; axis++)
+        if ((mirror->axes & 1u << axis) != 0 && place[axis] > middle(mirror, axis)) {
+            place[axis] = 2.0 * middle(mirror, axis) - place[axis];
+            above |= 1u << axis;
+        }
+    body_to_deck(body, place, folded);
+    return above;
+}
+
+/* H of the planes in the mask, in deck coordinates. Planes are across each other, so their order does not
+ * matter. */
+static void reflection(const struct mirror *mirror, unsigned planes, double h[3][3])
+{
+    const struct body *body = &mirror->part_scene.body;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            h[i][j] = i == j ? 1.0 : 0.0;
+            for (int axis = 0; axis < 3; axis++)
+                if ((planes & 1u << axis) != 0) h[i][j] -= 2.0 * body->frame[i][axis] * body->frame[j][axis];
+        }
+}
+
+static void reflect_vector(double h[3][3], double *v)
+{
+    const double old[3] = {v[0], v[1], v[2]};
+    for (int i = 0; i < 3; i++)
+        v[i] = h[i][0] * old[0] + h[i][1] * old[1] + h[i][2] * old[2];
+}
+
+static void reflect_tensor(double h[3][3], double *s)
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; /* of xx yy zz xy yz zx */
+    double old[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            old[i][j] = s[place[i][j]];
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
+            double sum = 0.0;
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3; l++)
+                    sum += h[i][k] * old[k][l] * h[l][j];
+            s[place[i][j]] = sum;
+        }
+}
+
+static void reflect(double h[3][3], selas_field field, double *value)
+{
+    if (field_components(field) == 3) reflect_vector(h, value);
+    if (field_components(field) == 6) reflect_tensor(h, value);
+}
+
+/* --- The model's functions: those of the part
+ * -------------------------------------------------------------------- */
+
+static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
+                       const double *v, double *a)
+{
+    struct model *part = part_of(model);
+    part->class->accelerate(part, drive, half_step, u, v, a);
+    model->evaluations++;
+}
+
+static void initialise(struct model *model, double *y)
+{
+    struct model *part = part_of(model);
+    if (part->class->initialise != NULL) part->class->initialise(part, y);
+}
+
+static selas_status find_probe(struct model *model, const double position[3], struct probe *probe,
+                               struct messages *messages)
+{
+    struct mirror *mirror = (struct mirror *)model;
+    double folded[3];
+    const unsigned above = fold(mirror, position, folded);
+    const selas_status status = mirror->part->class->probe(mirror->part, folded, probe, messages);
+    probe->mirrored = above;
+    for (int c = 0; c < 3; c++)
+        probe->position[c] = position[c];
+    return status;
+}
+
+static void observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                    const double *a, double *value)
+{
+    struct mirror *mirror = (struct mirror *)model;
+    probe_observe(mirror->part, probe, field, y, a, value);
+    double h[3][3];
+    if (probe->mirrored == 0) return;
+    reflection(mirror, probe->mirrored, h);
+    reflect(h, field, value);
+}
+
+/* Index along one axis in the part of index i in the whole, and whether it lies above the plane. */
+static size_t folded_index(const struct mirror *mirror, int axis, size_t i, unsigned *planes)
+{
+    const size_t last = mirror->part->grid[axis] - 1;
+    if ((mirror->axes & 1u << axis) == 0 || i <= last) return i;
+    *planes |= 1u << axis;
+    return 2 * last - i;
+}
+
+/* The part's values fill the head of the array and spread from its end: a point's index in the whole is never
+ * below its index in the part, so nothing is overwritten that is still needed. */
+static void unfold(struct mirror *mirror, size_t components, double *value,
+                   void (*turn)(const struct mirror *mirror, unsigned planes, size_t point, double *value,
+                                void *context),
+                   void *context)
+{
+    const size_t *whole = mirror->model.grid;
+    const size_t *part = mirror->part->grid;
+    for (size_t k = whole[2]; k-- > 0;)
+        for (size_t j = whole[1]; j-- > 0;)
+            for (size_t i = whole[0]; i-- > 0;) {
+                unsigned planes = 0;
+                const size_t pi = folded_index(mirror, 0, i, &planes);
+                const size_t pj = folded_index(mirror, 1, j, &planes);
+                const size_t pk = folded_index(mirror, 2, k, &planes);
+                const size_t from = pi + part[0] * (pj + part[1] * pk);
+                const size_t to = i + whole[0] * (j + whole[1] * k);
+                for (size_t c = 0; c < components; c++)
+                    value[components * to + c] = value[components * from + c];
+                turn(mirror, planes, to, value + components * to, context);
+            }
+}
+
+static void turn_value(const struct mirror *mirror, unsigned planes, size_t point, double *value,
+                       void *context)
+{
+    (void)point;
+    if (planes == 0) return;
+    double h[3][3];
+    reflection(mirror, planes, h);
+    reflect(h, *(const selas_field *)context, value);
+}
+
+static void whole_field(struct model *model, selas_field field, const double *y, const double *a,
+                        double *value)
+{
+    struct mirror *mirror = (struct mirror *)model;
+    mirror->part->class->field(mirror->part, field, y, a, value);
+    unfold(mirror, (size_t)field_components(field), value, turn_value, &field);
+}
+
+static double copies(const struct model *model)
+{
+    double count = 1.0;
+    for (int axis = 0; axis < 3; axis++)
+        if ((((const struct mirror *)model)->axes & 1u << axis) != 0) count *= 2.0;
+    return count;
+}
+
+static void whole_energy(struct model *model, const double *y, struct energy *energy)
+{
+    part_of(model)->class->energy(part_of(model), y, energy);
+    energy->kinetic *= copies(model);
+    energy->strain *= copies(model);
+}
+
+static void whole_power(struct model *model, const struct drive *drive, const double *y, double *load,
+                        double *absorbed)
+{
+    part_of(model)->class->power(part_of(model), drive, y, load, absorbed);
+    *load *= copies(model);
+    *absorbed *= copies(model);
+}
+
+static void describe(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct mirror *mirror = (const struct mirror *)model;
+    char text[96];
+    snprintf(text, sizeof text, "mirror planes across%s%s%s: 1/%g of the body is computed",
+             (mirror->axes & 1u) != 0 ? " x" : "", (mirror->axes & 2u) != 0 ? " y" : "",
+             (mirror->axes & 4u) != 0 ? " z" : "", copies(model));
+    tell(context, "symmetry", text);
+    if (mirror->part->class->describe != NULL) mirror->part->class->describe(mirror->part, tell, context);
+}
+
+static void destroy(struct model *model)
+{
+    struct mirror *mirror = (struct mirror *)model;
+    model_free(&mirror->part);
+    array_free(mirror->position);
+    free(mirror);
+}
+
+/* --- Building
+ * ---------------------------------------------------------------------------------------------------- */
+
+static const struct model_class mirror_class = {
+    .method = "smoothed-point",
+    .variant = "consistent",
+    .destroy = destroy,
+    .accelerate = accelerate,
+    .initialise = initialise,
+    .probe = find_probe,
+    .observe = observe,
+    .field = whole_field,
+    .energy = whole_energy,
+    .power = whole_power,
+    .describe = describe,
+};
+
+static void turn_position(const struct mirror *mirror, unsigned planes, size_t point, double *value,
+                          void *context)
+{
+    (void)point;
+    (void)context;
+    const struct body *body = &mirror->part_scene.body;
+    double place[3];
+    body_from_deck(body, value, place);
+    for (int axis = 0; axis < 3; axis++)
+        if ((planes & 1u << axis) != 0) place[axis] = 2.0 * middle(mirror, axis) - place[axis];
+    body_to_deck(body, place, value);
+}
+
+/* What the whole shows of the part: numbers of the state are the part's, points and positions the whole's. */
+static selas_status fill(struct mirror *mirror, struct messages *messages)
+{
+    const struct model *part = mirror->part;
+    struct model *model = &mirror->model;
+    const struct scene *scene = model->scene;
+    *model = *part;
+    model->class = &mirror_class;
+    model->scene = scene;
+    for (int axis = 0; axis < 3; axis++)
+        if ((mirror->axes & 1u << axis) != 0) model->grid[axis] = 2 * part->grid[axis] - 1;
+    model->points = model->grid[0] * model->grid[1] * model->grid[2];
+    mirror->position = array_new(3 * model->points, sizeof *mirror->position);
+    if (mirror->position == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", model->points);
+    for (size_t i = 0; i < 3 * part->points; i++)
+        mirror->position[i] = part->position[i];
+    unfold(mirror, 3, mirror->position, turn_position, NULL);
+    model->position = mirror->position;
+    model->bytes += 3 * model->points * sizeof *mirror->position;
+    return SELAS_OK;
+}
+
+selas_status mirror_create(const struct model_class *class, const struct scene *scene, unsigned axes,
+                           struct model **created, struct messages *messages)
+{
+    *created = NULL;
+    struct mirror *mirror = calloc(1, sizeof *mirror);
+    if (mirror == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
+    mirror->axes = axes;
+    mirror->part_scene = scene_below_mirrors(scene, axes);
+    selas_status status = class->create(&mirror->part_scene, &mirror->part, messages);
+    mirror->model = (struct model){.class = &mirror_class, .scene = scene};
+    if (status == SELAS_OK) status = fill(mirror, messages);
+    if (status == SELAS_OK)
+        *created = &mirror->model;
+    else
+        destroy(&mirror->model);
+    return status;
+}

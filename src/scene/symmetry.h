@@ -1,0 +1,17 @@
+/* Mirror planes of a scene: where everything (faces, ground, loads) maps onto itself, half of the body is
+ * enough. */
+#ifndef SELAS_SYMMETRY_H
+#define SELAS_SYMMETRY_H
+
+#include "scene/scene.h"
+
+/* Bit 1 << axis (of the body's frame) is set if the plane across this axis through the middle of the box is a
+ * mirror plane of the scene and a plane of lattice points. Boxes at rest at t = 0 only; 0 otherwise. */
+unsigned scene_mirror_axes(const struct scene *scene);
+
+/* The part of a scene below its mirror planes: low..middle along each axis of the mask, symmetry on the new
+ * faces. A shallow copy that shares all arrays with the scene given, which must outlive it; loads keep their
+ * order. */
+struct scene scene_below_mirrors(const struct scene *scene, unsigned axes);
+
+#endif
