@@ -53,7 +53,13 @@ void deck_warning(const struct deck *deck, const struct deck_group *group, const
 
 const char *deck_name(const struct deck *deck);      /* file name without folder and ".nml" */
 const char *deck_directory(const struct deck *deck); /* folder of the file, "." if none */
-const char *deck_source(const struct deck *deck);    /* the text as read, without overrides */
+/* Path of a file that the deck names (a word of type WORD_FILE), relative to the deck's folder unless it is
+ * absolute; new memory (array_free), NULL if there is none. */
+char *deck_resolve(const struct deck *deck, const char *file);
+const char *deck_source(const struct deck *deck); /* the text as read, without overrides */
+
+/* Prints the tables of all groups and names in Markdown (the deck reference of doc/deck.md). */
+void deck_reference(FILE *file);
 
 /* Writes the echo: every group with every name that has a value, defaults included, reals to the last bit
  * (%.17g); a file that gfortran's namelist reading takes and that runs to the same bits. Paths are written so

@@ -1,0 +1,178 @@
+/* Access to the values of a deck, and errors at their places. */
+#include "deck/deck.h"
+#include "base/memory.h"
+#include "deck/deck_private.h"
+
+#include <assert.h>
+#include <stdarg.h>
+#include <string.h>
+
+size_t deck_count(const struct deck *deck, const char *group)
+{
+    const size_t kind = words_find_group(deck->list.table, group, strlen(group));
+    assert(kind < deck->list.table->groups);
+    return deck->first[kind + 1] - deck->first[kind];
+}
+
+const struct deck_group *deck_get(const struct deck *deck, const char *group, size_t index)
+{
+    assert(index < deck_count(deck, group));
+    const size_t kind = words_find_group(deck->list.table, group, strlen(group));
+    return deck->list.group[deck->first[kind] + index];
+}
+
+const struct item *group_item(const struct deck_group *group, const char *name, size_t *index)
+{
+    *index = words_find(group->kind, name, strlen(name));
+    assert(*index < group->kind->words);
+    return &group->item[*index];
+}
+
+size_t group_values(const struct deck_group *group, size_t word)
+{
+    const size_t given = group->item[word].values, defaults = group->defaults[word].values;
+    return given > defaults ? given : defaults;
+}
+
+const struct value *group_value(const struct deck_group *group, size_t word, size_t i)
+{
+    const struct item *item = &group->item[word], *defaults = &group->defaults[word];
+    if (i < item->values && item->value[i].given) return &item->value[i];
+    return i < defaults->values ? &defaults->value[i] : NULL;
+}
+
+static const struct value *typed_value(const struct deck_group *group, const char *name, size_t i,
+                                       bool (*right)(enum word_type))
+{
+    size_t word;
+    group_item(group, name, &word);
+    assert(right(group->kind->word[word].type));
+    const struct value *value = group_value(group, word, i);
+    assert(value != NULL);
+    (void)right;
+    return value;
+}
+
+static bool is_real(enum word_type type)
+{
+    return type == WORD_REAL;
+}
+
+static bool is_integer(enum word_type type)
+{
+    return type == WORD_INTEGER;
+}
+
+static bool is_logical(enum word_type type)
+{
+    return type == WORD_LOGICAL;
+}
+
+static bool is_text(enum word_type type)
+{
+    return type >= WORD_TEXT;
+}
+
+bool deck_given(const struct deck_group *group, const char *name)
+{
+    size_t word;
+    return group_item(group, name, &word)->values > 0;
+}
+
+size_t deck_values(const struct deck_group *group, const char *name)
+{
+    size_t word;
+    group_item(group, name, &word);
+    return group_values(group, word);
+}
+
+double deck_real(const struct deck_group *group, const char *name, size_t i)
+{
+    return typed_value(group, name, i, is_real)->as.real;
+}
+
+long deck_integer(const struct deck_group *group, const char *name, size_t i)
+{
+    return typed_value(group, name, i, is_integer)->as.integer;
+}
+
+bool deck_logical(const struct deck_group *group, const char *name, size_t i)
+{
+    return typed_value(group, name, i, is_logical)->as.logical;
+}
+
+const char *deck_text(const struct deck_group *group, const char *name, size_t i)
+{
+    return typed_value(group, name, i, is_text)->as.text;
+}
+
+size_t deck_choice(const struct deck_group *group, const char *name, size_t i)
+{
+    size_t word;
+    group_item(group, name, &word);
+    assert(group->kind->word[word].type == WORD_CHOICE);
+    return word_find_choice(&group->kind->word[word], deck_text(group, name, i));
+}
+
+const char *deck_name(const struct deck *deck)
+{
+    return deck->name;
+}
+
+const char *deck_directory(const struct deck *deck)
+{
+    return deck->directory;
+}
+
+const char *deck_source(const struct deck *deck)
+{
+    return deck->source;
+}
+
+static void message_at(const struct deck *deck, const struct deck_group *group, const char *name,
+                       struct messages *messages, bool is_error, const char *text)
+{
+    struct place place = group->place;
+    if (name != NULL) {
+        size_t word;
+        const struct item *item = group_item(group, name, &word);
+        if (item->named) place = item->place;
+    }
+    namelist_message(messages, deck->path, place, is_error, "%s", text);
+}
+
+selas_status deck_error(const struct deck *deck, const struct deck_group *group, const char *name,
+                        struct messages *messages, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    message_at(deck, group, name, messages, true, text);
+    return SELAS_BAD_DECK;
+}
+
+void deck_warning(const struct deck *deck, const struct deck_group *group, const char *name,
+                  struct messages *messages, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    message_at(deck, group, name, messages, false, text);
+}
+
+void deck_free(struct deck **deck)
+{
+    if (deck == NULL || *deck == NULL) return;
+    namelist_free(&(*deck)->list);
+    array_free((*deck)->path);
+    array_free((*deck)->name);
+    array_free((*deck)->directory);
+    array_free((*deck)->source);
+    array_free((*deck)->first);
+    array_free(*deck);
+    *deck = NULL;
+}

@@ -1,0 +1,28 @@
+/* Inside of the deck: what deck.c, deck_read.c and deck_write.c share. */
+#ifndef SELAS_DECK_PRIVATE_H
+#define SELAS_DECK_PRIVATE_H
+
+#include "deck/deck.h"
+#include "deck/namelist.h"
+
+struct deck {
+    char *path;      /* as given; names the deck in messages */
+    char *name;      /* file name without folder and ".nml" */
+    char *directory; /* folder of the file, "." if none */
+    char *source;
+    size_t length;        /* of source */
+    struct namelist list; /* groups sorted by kind in the table's order, else as in the text */
+    size_t *first; /* per kind: index of its first group in the list; first[kinds] = number of groups */
+};
+
+/* The item of a name and the value that holds (given or default), or NULL. */
+const struct item *group_item(const struct deck_group *group, const char *name, size_t *index);
+const struct value *group_value(const struct deck_group *group, size_t word, size_t i);
+size_t group_values(const struct deck_group *group, size_t word);
+
+/* Checks ranges, choices, gaps and obligatory names of all groups. */
+void deck_check(const struct deck *deck, struct messages *messages);
+/* Applies one override; reports what is wrong. */
+void deck_override(struct deck *deck, const char *text, struct messages *messages);
+
+#endif

@@ -1,0 +1,111 @@
+/* The echo of a deck: every value, defaults included, as a deck that reads again to the same bits, here and
+ * in gfortran. */
+#include "base/memory.h"
+#include "deck/deck_private.h"
+
+#include <errno.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* folder "/" file in new memory. */
+static char *join(const char *folder, const char *file)
+{
+    const size_t size = strlen(folder) + strlen(file) + 2;
+    char *path = array_new(size, 1);
+    if (path != NULL) snprintf(path, size, "%s%s%s", folder, strcmp(folder, "/") == 0 ? "" : "/", file);
+    return path;
+}
+
+char *deck_resolve(const struct deck *deck, const char *file)
+{
+    const bool here = *file == '/' || strcmp(deck->directory, ".") == 0;
+    if (!here) return join(deck->directory, file);
+    char *path = array_new(strlen(file) + 1, 1);
+    if (path != NULL) memcpy(path, file, strlen(file));
+    return path;
+}
+
+static char *absolute(const struct deck *deck, const char *file)
+{
+    char *path = deck_resolve(deck, file);
+    if (path == NULL || *path == '/') return path;
+    char *folder = getcwd(NULL, 0);
+    char *whole = folder == NULL ? NULL : join(folder, path);
+    free(folder);
+    array_free(path);
+    return whole;
+}
+
+static void write_text(const char *text, FILE *file)
+{
+    putc('\'', file);
+    for (; *text != '\0'; text++) {
+        if (*text == '\'') putc('\'', file);
+        putc(*text, file);
+    }
+    putc('\'', file);
+}
+
+static bool write_value(const struct deck *deck, enum word_type type, const struct value *value, FILE *file)
+{
+    char *path;
+    switch (type) {
+    case WORD_REAL:
+        fprintf(file, "%.17g", value->as.real);
+        break;
+    case WORD_INTEGER:
+        fprintf(file, "%ld", value->as.integer);
+        break;
+    case WORD_LOGICAL:
+        fputs(value->as.logical ? ".true." : ".false.", file);
+        break;
+    case WORD_FILE:
+        path = absolute(deck, value->as.text);
+        if (path == NULL) return false;
+        write_text(path, file);
+        array_free(path);
+        break;
+    case WORD_TEXT:
+    case WORD_CHOICE:
+        write_text(value->as.text, file);
+        break;
+    }
+    return true;
+}
+
+static bool write_group(const struct deck *deck, const struct deck_group *group, FILE *file)
+{
+    enum { VALUES_A_LINE = 6 };
+    bool good = true;
+    fprintf(file, "&%s\n", group->kind->name);
+    for (size_t i = 0; i < group->kind->words; i++) {
+        const size_t count = group_values(group, i);
+        if (count == 0) continue;
+        fprintf(file, "  %s =", group->kind->word[i].name);
+        for (size_t j = 0; j < count && good; j++) {
+            fputs(j == 0 ? " " : j % VALUES_A_LINE == 0 ? ",\n    " : ", ", file);
+            good = write_value(deck, group->kind->word[i].type, group_value(group, i, j), file);
+        }
+        putc('\n', file);
+    }
+    fputs("/\n", file);
+    return good;
+}
+
+selas_status deck_write(const struct deck *deck, FILE *file, struct messages *messages)
+{
+    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+    const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
+    bool good = true;
+    for (size_t i = 0; i < deck->list.groups && good; i++)
+        good = write_group(deck, deck->list.group[i], file);
+    if (plain != (locale_t)0) {
+        uselocale(host);
+        freelocale(plain);
+    }
+    if (!good) return fail(messages, SELAS_NO_MEMORY, "not enough memory to write the deck");
+    if (ferror(file) != 0) return fail(messages, SELAS_FILE_ERROR, "the deck's echo: %s", strerror(errno));
+    return SELAS_OK;
+}

@@ -1,0 +1,145 @@
+/* Finding words: by name, by the nearest spelling, and what their choices and ranges say. */
+#include "deck/words.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+size_t words_find_group(const struct word_table *table, const char *name, size_t length)
+{
+    size_t i = 0;
+    while (i < table->groups &&
+           (strlen(table->group[i].name) != length || strncasecmp(table->group[i].name, name, length) != 0))
+        i++;
+    return i;
+}
+
+size_t words_find(const struct word_group *group, const char *name, size_t length)
+{
+    size_t i = 0;
+    while (i < group->words &&
+           (strlen(group->word[i].name) != length || strncasecmp(group->word[i].name, name, length) != 0))
+        i++;
+    return i;
+}
+
+size_t word_choices(const struct word *word)
+{
+    size_t count = 1;
+    for (const char *c = word->range; *c != '\0'; c++)
+        if (*c == '|') count++;
+    return count;
+}
+
+void word_choice(const struct word *word, size_t index, char *text, size_t size)
+{
+    const char *start = word->range;
+    for (size_t i = 0; i < index && start != NULL; i++) {
+        start = strchr(start, '|');
+        if (start != NULL) start++;
+    }
+    size_t length = start == NULL ? 0 : strcspn(start, "|");
+    if (length >= size) length = size - 1;
+    if (start != NULL) memcpy(text, start, length);
+    text[length] = '\0';
+}
+
+size_t word_find_choice(const struct word *word, const char *text)
+{
+    const size_t count = word_choices(word);
+    char choice[TEXT_SIZE];
+    size_t i = 0;
+    for (; i < count; i++) {
+        word_choice(word, i, choice, sizeof choice);
+        if (strcmp(choice, text) == 0) break;
+    }
+    return i;
+}
+
+bool word_in_range(const struct word *word, double value)
+{
+    if (!isfinite(value)) return false;
+    if (word->range == NULL) return true;
+    char *end;
+    const double low = strtod(word->range + 1, &end);
+    const double high = strtod(end + 1, &end);
+    const bool above = *word->range == '[' ? value >= low : value > low;
+    const bool below = *end == ']' ? value <= high : value < high;
+    return above && below;
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static int lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
+}
+
+size_t words_distance(const char *one, const char *other)
+{
+    enum { LONGEST = 63 };
+    const size_t rows = strnlen(one, LONGEST + 1), columns = strnlen(other, LONGEST + 1);
+    if (rows > LONGEST || columns > LONGEST) return SIZE_MAX;
+    size_t cost[3][LONGEST + 1]; /* three rows of the table of distances between beginnings, used in turn */
+    for (size_t j = 0; j <= columns; j++)
+        cost[0][j] = j;
+    for (size_t i = 1; i <= rows; i++) {
+        size_t *now = cost[i % 3];
+        const size_t *last = cost[(i - 1) % 3], *before = cost[(i + 1) % 3];
+        now[0] = i;
+        for (size_t j = 1; j <= columns; j++) {
+            const bool same = lower(one[i - 1]) == lower(other[j - 1]);
+            now[j] = least(least(last[j], now[j - 1]) + 1, last[j - 1] + (same ? 0 : 1));
+            if (i > 1 && j > 1 && lower(one[i - 1]) == lower(other[j - 2]) &&
+                lower(one[i - 2]) == lower(other[j - 1]))
+                now[j] = least(now[j], before[j - 2] + 1);
+        }
+    }
+    return cost[rows % 3][columns];
+}
+
+/* Keeps the nearer of two spellings; what differs in more than half of its letters is not near. */
+static void keep_nearest(const char *word, const char *name, const char **nearest, size_t *least_distance)
+{
+    const size_t distance = words_distance(word, name);
+    if (distance >= *least_distance || 2 * distance > strlen(name) || 2 * distance > strlen(word) + 1) return;
+    *least_distance = distance;
+    *nearest = name;
+}
+
+const char *words_nearest_group(const struct word_table *table, const char *word)
+{
+    const char *nearest = "";
+    size_t least_distance = SIZE_MAX;
+    for (size_t i = 0; i < table->groups; i++)
+        keep_nearest(word, table->group[i].name, &nearest, &least_distance);
+    return nearest;
+}
+
+const char *words_nearest(const struct word_group *group, const char *word)
+{
+    const char *nearest = "";
+    size_t least_distance = SIZE_MAX;
+    for (size_t i = 0; i < group->words; i++)
+        keep_nearest(word, group->word[i].name, &nearest, &least_distance);
+    return nearest;
+}
+
+const char *word_nearest_choice(const struct word *word, const char *text, char *choice, size_t size)
+{
+    const char *nearest = "";
+    size_t least_distance = SIZE_MAX, found = SIZE_MAX;
+    for (size_t i = 0; i < word_choices(word); i++) {
+        const size_t before = least_distance;
+        word_choice(word, i, choice, size);
+        keep_nearest(text, choice, &nearest, &least_distance);
+        if (least_distance != before) found = i;
+    }
+    word_choice(word, found, choice, size);
+    return choice;
+}

@@ -1,0 +1,211 @@
+/* The table of groups and names: the only place where a word of the deck is declared. */
+#include "deck/words.h"
+
+#define COUNT(list) (sizeof(list) / sizeof(list)[0])
+#define FACES "x-|x+|y-|y+|z-|z+|hole|all"
+#define FIELDS "displacement|velocity|acceleration|stress|strain|pressure|energy"
+#define HISTORIES "triangle|step|ricker|gaussian|sine-burst|table"
+#define POSITIVE "(0, inf)"
+#define NOT_NEGATIVE "[0, inf)"
+
+/* name, type, most values, default, range or choices, obligatory, gloss */
+static const struct word scene_words[] = {
+    {"title", WORD_TEXT, 1, "''", NULL, false, "heading of plots and reports"},
+    {"dimension", WORD_INTEGER, 1, "3", "[1, 3]", false, "dimensions of space"},
+    {"end_time", WORD_REAL, 1, NULL, POSITIVE, true, "end of the computation [time]"},
+    {"accuracy", WORD_REAL, 1, NULL, "(0, 1)", false,
+     "wanted relative error, in place of the spacing and of the method's options"},
+    {"plane", WORD_CHOICE, 1, "'strain'", "strain|stress", false,
+     "what holds across the plane in 2D and 1D (1D stress: a thin bar)"},
+};
+
+static const struct word method_words[] = {
+    {"name", WORD_CHOICE, 1, "'smoothed-point'", "smoothed-point|sph", false, "family of methods"},
+    {"variant", WORD_CHOICE, 1, NULL, "consistent|paper|total-lagrangian|updated-lagrangian", false,
+     "form of the method: consistent or paper (smoothed-point), total-lagrangian or updated-lagrangian "
+     "(sph)"},
+    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", false, "degree of the B-splines (consistent)"},
+    {"ends", WORD_CHOICE, 1, NULL, "open|mapped", false, "knots at the faces (consistent)"},
+    {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", false,
+     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent)"},
+    {"precision", WORD_CHOICE, 1, "'double'", "double|single", false, "precision of the state"},
+    {"kernel", WORD_CHOICE, 1, NULL, "cubic|quintic|wendland", false, "smoothing kernel (paper, sph)"},
+    {"smoothing_length", WORD_REAL, 1, NULL, "(0, 10]", false, "smoothing length [spacings] (paper, sph)"},
+    {"filter", WORD_REAL, 1, NULL, "[0, 1]", false, "strength of the filter (paper: alpha of Eq 35)"},
+    {"deconvolution", WORD_LOGICAL, 1, NULL, NULL, false, "de-convolve the histories (paper: Eq 38)"},
+    {"viscosity_alpha", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "linear artificial viscosity (sph)"},
+    {"viscosity_beta", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "quadratic artificial viscosity (sph)"},
+    {"artificial_stress", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,
+     "artificial stress against clumping (updated-lagrangian)"},
+    {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "hourglass control (total-lagrangian)"},
+    {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic", false,
+     "fields whose gradient is exact (total-lagrangian)"},
+};
+
+static const struct word stepping_words[] = {
+    {"scheme", WORD_CHOICE, 1, NULL, "leapfrog|modified-equation|euler|pc2|rk4|rkc|lsrk54", false,
+     "time scheme"},
+    {"time_step", WORD_REAL, 1, NULL, POSITIVE, false, "time step [time]"},
+    {"courant", WORD_REAL, 1, NULL, POSITIVE, false, "time step [spacing over the fastest wave speed]"},
+    {"safety", WORD_REAL, 1, NULL, POSITIVE, false, "time step [fraction of the measured limit], else .9"},
+    {"stages", WORD_INTEGER, 1, NULL, "[2, 1000]", false, "stages of rkc; else chosen"},
+    {"max_stages", WORD_INTEGER, 1, NULL, "[2, 1000]", false, "most stages that rkc may choose"},
+    {"unwarp", WORD_LOGICAL, 1, NULL, NULL, false,
+     "time-dispersion transform: take the scheme's time error out of the histories"},
+    {"force", WORD_LOGICAL, 1, ".false.", NULL, false, "run beyond the stability limit all the same"},
+};
+
+static const struct word material_words[] = {
+    {"name", WORD_TEXT, 1, NULL, NULL, true, "name that bodies and layers use"},
+    {"density", WORD_REAL, 1, NULL, POSITIVE, true, "density [mass/volume]"},
+    {"lambda", WORD_REAL, 1, NULL, NULL, false, "first Lame constant [stress]"},
+    {"mu", WORD_REAL, 1, NULL, POSITIVE, false, "second Lame constant [stress]"},
+    {"young", WORD_REAL, 1, NULL, POSITIVE, false, "Young's modulus [stress]"},
+    {"poisson", WORD_REAL, 1, NULL, "(-1, 0.5)", false, "Poisson's ratio"},
+    {"p_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of P waves [length/time]"},
+    {"s_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of S waves [length/time]"},
+    {"bulk", WORD_REAL, 1, NULL, POSITIVE, false, "bulk modulus [stress]"},
+    {"shear", WORD_REAL, 1, NULL, POSITIVE, false, "shear modulus [stress]"},
+};
+
+static const struct word body_words[] = {
+    {"name", WORD_TEXT, 1, "'body'", NULL, false, "name that layers use"},
+    {"material", WORD_TEXT, 1, NULL, NULL, false, "name of a material; may be left out if all is layers"},
+    {"shape", WORD_CHOICE, 1, "'box'", "box|half-space|plate-with-hole|points", false, "shape"},
+    {"low", WORD_REAL, 3, NULL, NULL, false, "lowest corner [length]"},
+    {"high", WORD_REAL, 3, NULL, NULL, false, "highest corner [length]"},
+    {"hole_centre", WORD_REAL, 3, NULL, NULL, false, "centre of the hole [length]"},
+    {"hole_radius", WORD_REAL, 1, NULL, POSITIVE, false, "radius of the hole [length]"},
+    {"file", WORD_FILE, 1, NULL, NULL, false, "points of the body, HDF5 or text"},
+    {"spacing", WORD_REAL, 1, NULL, POSITIVE, false, "distance of neighbouring points [length]"},
+    {"arrangement", WORD_CHOICE, 1, "'lattice'", "lattice|radial|equally-radial|conformal", false,
+     "arrangement of the points"},
+    {"rotation", WORD_REAL, 3, "0, 0, 0", NULL, false, "turn about x, then y, then z [degrees]"},
+    {"jitter", WORD_REAL, 1, "0", "[0, 0.5]", false, "random shift of the points [spacings]"},
+    {"seed", WORD_INTEGER, 1, "1", "[0, 2147483647]", false, "seed of the random shift"},
+};
+
+/* What loads and boundaries with a prescribed motion share: their history. */
+#define HISTORY_WORDS                                                                                        \
+    {"amplitude", WORD_REAL, 1, "1", NULL, false, "factor on the history [stress, force, length, ...]"},     \
+        {"history", WORD_CHOICE, 1, NULL, HISTORIES, false, "how it varies in time"},                        \
+        {"duration", WORD_REAL, 1, NULL, POSITIVE, false, "length of the triangle [time]"},                  \
+        {"frequency", WORD_REAL, 1, NULL, POSITIVE, false, "frequency of ricker and sine-burst [1/time]"},   \
+        {"delay", WORD_REAL, 1, NULL, NULL, false, "time of the peak of ricker and gaussian [time]"},        \
+        {"width", WORD_REAL, 1, NULL, POSITIVE, false, "standard deviation of the gaussian [time]"},         \
+        {"cycles", WORD_REAL, 1, "5", POSITIVE, false, "cycles of the Hann-windowed sine-burst"},            \
+        {"file", WORD_FILE, 1, NULL, NULL, false, "table of the history: columns time, value"},              \
+    {                                                                                                        \
+        "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, false,                                                 \
+            "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                   \
+    }
+
+static const struct word boundary_words[] = {
+    {"face", WORD_CHOICE, 8, NULL, FACES, true, "faces"},
+    {"kind", WORD_CHOICE, 1, NULL, "free|fixed|roller|symmetry|transmitting|velocity|displacement", true,
+     "what the faces do"},
+    {"layer", WORD_CHOICE, 1, NULL, "lysmer|pml", false, "how a transmitting face absorbs"},
+    {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", false, "thickness of the absorbing layer [points]"},
+    {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", false, "wanted reflection, in place of layer_points"},
+    {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, false, "Lysmer-Kuhlemeyer factor on the P impedance"},
+    {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, false, "Lysmer-Kuhlemeyer factor on the S impedance"},
+    {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the prescribed motion"},
+    {"slip", WORD_LOGICAL, 1, ".false.", NULL, false, "leave the other components free"},
+    HISTORY_WORDS,
+};
+
+static const struct word layer_words[] = {
+    {"body", WORD_TEXT, 1, NULL, NULL, false, "name of the body"},
+    {"material", WORD_TEXT, 1, NULL, NULL, true, "name of a material"},
+    {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, true, "depth of the upper face [length]"},
+};
+
+static const struct word initial_words[] = {
+    {"kind", WORD_CHOICE, 1, "'rest'", "rest|uniform-velocity|beam-mode|plane-wave|gaussian", false,
+     "state at t = 0"},
+    {"velocity", WORD_REAL, 3, NULL, NULL, false, "of uniform-velocity [length/time]"},
+    {"amplitude", WORD_REAL, 1, NULL, NULL, false, "of beam-mode [c0], plane-wave, gaussian [length]"},
+    {"wave", WORD_CHOICE, 1, "'p'", "p|s", false, "kind of plane wave"},
+    {"direction", WORD_REAL, 3, NULL, NULL, false, "of propagation (plane-wave) or displacement (gaussian)"},
+    {"polarisation", WORD_REAL, 3, NULL, NULL, false, "direction of motion of an S wave"},
+    {"wavelength", WORD_REAL, 1, NULL, POSITIVE, false, "of the plane wave [length]"},
+    {"centre", WORD_REAL, 3, NULL, NULL, false, "of the gaussian [length]"},
+    {"width", WORD_REAL, 1, NULL, POSITIVE, false, "standard deviation of the gaussian [length]"},
+};
+
+static const struct word load_words[] = {
+    {"kind", WORD_CHOICE, 1, "'traction'", "traction|body-force|moment-tensor", false, "kind of load"},
+    {"face", WORD_CHOICE, 1, NULL, "x-|x+|y-|y+|z-|z+|hole", false, "face on which a traction acts"},
+    {"shape", WORD_CHOICE, 1, NULL, "square|disc|face|point", false, "where it acts"},
+    {"centre", WORD_REAL, 3, NULL, NULL, false, "centre of the patch, or the point [length]"},
+    {"size", WORD_REAL, 2, NULL, POSITIVE, false, "edges of the square, or diameter of the disc [length]"},
+    {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the force"},
+    {"moment", WORD_REAL, 6, NULL, NULL, false, "moment tensor: xx yy zz xy yz zx [force length]"},
+    {"velocity", WORD_REAL, 3, "0, 0, 0", NULL, false, "velocity of a moving patch [length/time]"},
+    HISTORY_WORDS,
+};
+
+static const struct word receiver_words[] = {
+    {"name", WORD_TEXT, 1, NULL, NULL, true, "name of the history's files"},
+    {"position", WORD_REAL, 3, NULL, NULL, true, "position [length]"},
+};
+
+static const struct word profile_words[] = {
+    {"name", WORD_TEXT, 1, NULL, NULL, true, "name of the profile's file"},
+    {"from", WORD_REAL, 3, NULL, NULL, true, "first point [length]"},
+    {"to", WORD_REAL, 3, NULL, NULL, true, "last point [length]"},
+    {"points", WORD_INTEGER, 1, "101", "[2, 1000000]", false, "number of points"},
+    {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, false, "when [time]; else at the end"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", FIELDS, false, "what"},
+};
+
+static const struct word snapshot_words[] = {
+    {"every", WORD_REAL, 1, NULL, POSITIVE, false, "time between snapshots [time]"},
+    {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, false, "when [time], in place of every"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", FIELDS, false, "what"},
+    {"region", WORD_REAL, 6, NULL, NULL, false,
+     "lowest, then highest corner of the part that is kept [length]; else the whole body"},
+};
+
+static const struct word output_words[] = {
+    {"directory", WORD_TEXT, 1, NULL, NULL, false, "folder of the results; else output/DECKNAME"},
+    {"checkpoint_every", WORD_INTEGER, 1, "0", NOT_NEGATIVE, false, "steps between checkpoints; 0: none"},
+    {"plots", WORD_LOGICAL, 1, ".true.", NULL, false, "draw the PNGs"},
+    {"history_step", WORD_REAL, 1, "0", NOT_NEGATIVE, false,
+     "time between rows of the histories [time]; 0: every step"},
+    {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, false,
+     "zero-phase low-pass of the histories: exp(-(w/low_pass)^4) [angle/time]; 0: none"},
+};
+
+static const struct word reference_words[] = {
+    {"kind", WORD_CHOICE, 1, NULL, "lamb|bar|beam|hole|plane-wave|file", true, "exact solution"},
+    {"file", WORD_FILE, 1, NULL, NULL, false, "history to compare with"},
+};
+
+#define GROUP(name, occurrence, gloss)                                                                       \
+    {                                                                                                        \
+#name, occurrence, gloss, name##_words, COUNT(name##_words)                                          \
+    }
+static const struct word_group groups[] = {
+    GROUP(scene, GROUP_ALWAYS, "what is computed"),
+    GROUP(method, GROUP_ALWAYS, "how"),
+    GROUP(stepping, GROUP_ALWAYS, "time integration; one of time_step, courant and safety"),
+    GROUP(material, GROUP_MANY,
+          "one elastic material; one pair of lambda, mu / young, poisson / p_speed, s_speed / bulk, shear"),
+    GROUP(body, GROUP_ONCE, "the body of points"),
+    GROUP(boundary, GROUP_MANY, "what one or more faces do; a face that no boundary names is free"),
+    GROUP(layer, GROUP_MANY, "ground that varies with depth; below the last layer it goes on"),
+    GROUP(initial, GROUP_ONCE, "state at t = 0"),
+    GROUP(load, GROUP_MANY, "traction or other source"),
+    GROUP(receiver, GROUP_MANY, "a time history"),
+    GROUP(profile, GROUP_MANY, "values along a line"),
+    GROUP(snapshot, GROUP_MANY, "fields to HDF5 and XDMF"),
+    GROUP(output, GROUP_ALWAYS, "where results go and what else is written"),
+    GROUP(reference, GROUP_ONCE, "exact solution to compare with"),
+};
+static const struct word_table table = {groups, COUNT(groups)};
+
+const struct word_table *deck_words(void)
+{
+    return &table;
+}
