@@ -1,0 +1,30 @@
+/* Plots off-screen by gnuplot. Script and data are unlinked temporary files that gnuplot reads through its
+ * standard input and /dev/fd/3: nothing is left behind, and a gnuplot that dies cannot hurt us. */
+#ifndef SELAS_GNUPLOT_H
+#define SELAS_GNUPLOT_H
+
+#include "base/messages.h"
+
+#include <stdio.h>
+
+#define GNUPLOT_DATA "/dev/fd/3" /* what `data` is called in the script */
+
+struct gnuplot {
+    FILE *script; /* write commands here */
+    FILE *data;   /* binary or text data, if any */
+};
+
+/* False (and a warning) if there is no room for temporary files. */
+bool gnuplot_begin(struct gnuplot *plot, struct messages *messages);
+/* Runs the script; false and a warning with gnuplot's first words if there is no gnuplot or it fails. */
+bool gnuplot_run(struct gnuplot *plot, const char *what, struct messages *messages);
+/* In place of gnuplot_run() when there is nothing to draw. */
+void gnuplot_discard(struct gnuplot *plot);
+
+/* A file name or text as a gnuplot string in single quotes. */
+void gnuplot_quote(FILE *script, const char *text);
+/* `set output` to the temporary name of folder/name; after gnuplot_run(): give it its name (or remove it). */
+void gnuplot_output(FILE *script, const char *folder, const char *name);
+void gnuplot_keep(const char *folder, const char *name, bool good, struct messages *messages);
+
+#endif

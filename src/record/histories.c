@@ -1,0 +1,88 @@
+/* NAME.dat and NAME.exact.dat: columns t ux uy uz vx vy vz with a header. Numbers have 17 digits: what is
+ * read back is what was written. */
+#include "record/parts.h"
+
+#include "base/memory.h"
+#include "record/safe_file.h"
+
+#include <math.h>
+
+enum { ROWS_WITHOUT_STEP = 600 };
+
+static selas_status write_history(const struct scene *scene, size_t receiver, bool exact,
+                                  const struct history_rows *history, struct messages *messages)
+{
+    const struct receiver *place = &scene->receiver[receiver];
+    char name[NAME_SIZE + 16];
+    file_name_of(place->name, exact ? ".exact.dat" : ".dat", name, sizeof name);
+    struct safe_file file;
+    const selas_status status = safe_file_open(scene->output.directory, name, &file, messages);
+    if (status != SELAS_OK) return status;
+    FILE *out = file.file;
+    fprintf(out, "# %s at receiver %s, position %.17g %.17g %.17g\n", exact ? "exact history" : "history",
+            place->name, place->position[0], place->position[1], place->position[2]);
+    fprintf(out, "# %s\n", scene->title);
+    fprintf(out, "# deck %s, selas %s; units: the deck's own\n",
+            scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version());
+    if (!exact && scene->output.low_pass > 0.0)
+        fprintf(out, "# low-passed: spectrum times exp(-(omega/%.17g)^4), zero phase\n",
+                scene->output.low_pass);
+    fprintf(out, "# t ux uy uz vx vy vz\n");
+    for (size_t i = 0; i < history->rows; i++) {
+        fprintf(out, "%.17g", history->time[i]);
+        for (size_t c = 0; c < 6; c++)
+            fprintf(out, " %.17g", history->value[6 * i + c]);
+        fputc('\n', out);
+    }
+    return safe_file_close(&file, SELAS_OK, messages);
+}
+
+static selas_status compute_exact(struct recorder *recorder, struct exact *exact, struct messages *messages)
+{
+    const struct scene *scene = recorder->scene;
+    recorder->exact = array_new(scene->receivers * recorder->rows * 6, sizeof *recorder->exact);
+    if (recorder->exact == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the exact histories");
+    selas_status status = SELAS_OK;
+    for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++)
+        status = exact->class->history(exact, scene->receiver[r].position, recorder->rows, recorder->time,
+                                       recorder->exact + r * recorder->rows * 6, messages);
+    return status;
+}
+
+selas_status histories_write(struct recorder *recorder, struct exact *exact, struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    if (exact != NULL && recorder->exact == NULL) status = compute_exact(recorder, exact, messages);
+    for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++) {
+        struct history_rows history = recorder_history(recorder, r);
+        status = write_history(recorder->scene, r, false, &history, messages);
+        if (status != SELAS_OK || recorder->exact == NULL) continue;
+        history.value = recorder->exact + r * recorder->rows * 6;
+        status = write_history(recorder->scene, r, true, &history, messages);
+    }
+    return status;
+}
+
+selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages)
+{
+    const double step =
+        scene->output.history_step > 0.0 ? scene->output.history_step : scene->end_time / ROWS_WITHOUT_STEP;
+    size_t rows = 0;
+    selas_status status = row_count(scene->end_time, step, &rows, messages);
+    if (status == SELAS_OK) status = make_folder(scene->output.directory, messages);
+    if (status != SELAS_OK) return status;
+    double *time = array_new(rows, sizeof *time);
+    double *value = array_new(6 * rows, sizeof *value);
+    if (time == NULL || value == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for histories of %zu rows", rows);
+    for (size_t i = 0; status == SELAS_OK && i < rows; i++)
+        time[i] = (double)i * step;
+    const struct history_rows history = {rows, time, value};
+    for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++) {
+        status = exact->class->history(exact, scene->receiver[r].position, rows, time, value, messages);
+        if (status == SELAS_OK) status = write_history(scene, r, true, &history, messages);
+    }
+    array_free(time);
+    array_free(value);
+    return status;
+}

@@ -1,0 +1,52 @@
+/* How far a history lies from its reference, and names that several files of this room share. */
+#include "record/parts.h"
+
+#include <math.h>
+#include <string.h>
+
+struct misfit misfit_of(size_t rows, const double *time, const double *value, const double *reference,
+                        size_t stride, size_t components)
+{
+    struct misfit misfit = {0};
+    double last_difference = 0.0, last_reference = 0.0;
+    for (size_t i = 0; i < rows; i++) {
+        double difference = 0.0, size = 0.0;
+        for (size_t c = 0; c < components; c++) {
+            const double r = reference[i * stride + c];
+            const double d = value[i * stride + c] - r;
+            difference += d * d;
+            size += r * r;
+        }
+        if (i > 0) { /* trapezoid */
+            const double half = 0.5 * (time[i] - time[i - 1]);
+            misfit.l2 += half * (last_difference + difference);
+            misfit.l2_of += half * (last_reference + size);
+        }
+        misfit.linf = fmax(misfit.linf, difference);
+        misfit.linf_of = fmax(misfit.linf_of, size);
+        last_difference = difference;
+        last_reference = size;
+    }
+    misfit.l2 = sqrt(misfit.l2);
+    misfit.l2_of = sqrt(misfit.l2_of);
+    misfit.linf = sqrt(misfit.linf);
+    misfit.linf_of = sqrt(misfit.linf_of);
+    return misfit;
+}
+
+void file_name_of(const char *name, const char *ending, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s", name, ending);
+    for (char *c = text; *c != '\0'; c++)
+        if (*c == '/' || (unsigned char)*c < ' ') *c = '_';
+    if (text[0] == '.') text[0] = '_';
+}
+
+const char *const *component_names(selas_field field)
+{
+    static const char *const vector[] = {"x", "y", "z"};
+    static const char *const tensor[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    static const char *const scalar[] = {""};
+    const int components = field_components(field);
+    return components == 6 ? tensor : components == 3 ? vector : scalar;
+}

@@ -1,0 +1,164 @@
+/* The parts of the recorder, shared by the files of this room only. */
+#ifndef SELAS_RECORD_PARTS_H
+#define SELAS_RECORD_PARTS_H
+
+#include "record/record.h"
+
+#include <stdio.h>
+
+/* One receiver: what every step showed, and the finished rows. */
+struct trace {
+    struct probe probe;
+    size_t rows, room;
+    double *u, *v, *a; /* [3 * room], rows at step 0, 1, 2, ... */
+    double *value;     /* [6 * finished rows] */
+};
+
+/* A profile: at each of its times the fields of all its points, interpolated over four steps. */
+struct profile_record {
+    const struct profile *profile;
+    struct probe *probe;  /* [points] */
+    size_t columns;       /* of all fields together */
+    unsigned long *first; /* [times] first of the four steps */
+    double *weight;       /* [4 * times] Lagrange weights of these */
+    double *value;        /* [times * points * columns] */
+    unsigned char *seen;  /* [times] how many of the four steps have come */
+};
+
+/* A group of snapshots and the part of the body that it shows. */
+struct snapshot_record {
+    const struct snapshot *snapshot;
+    size_t due;        /* index of the next time */
+    size_t points;     /* that are shown */
+    size_t *index;     /* [points] which ones; NULL: all */
+    size_t grid[3];    /* of the points shown, 0 0 0 if they form no lattice */
+    bool regular;      /* the lattice lies along the deck's axes ... */
+    double origin[3];  /* ... begins here ... */
+    double step[3];    /* ... and has these spacings */
+    double *buffer;    /* [points * 6] one field of the whole body */
+    char position[48]; /* path of the positions in run.h5 */
+};
+
+/* One snapshot that was written. */
+struct snapshot_entry {
+    size_t group; /* occurrence of &snapshot */
+    size_t number;
+    double time;
+};
+
+struct run_file;
+
+/* Energy over time. */
+struct watch {
+    bool by_work;                      /* the model tells the power of loads and dampers */
+    double work, gross, absorbed;      /* trapezoid sums; gross: of positive power only */
+    double power, power_absorbed;      /* at the last step */
+    double initial, largest;           /* energy: at the start, largest so far */
+    double reference, reference_until; /* without work: largest energy up to this time */
+    double largest_defect;             /* largest |E - E0 - work + absorbed| */
+    struct energy last;
+    double last_time;
+    unsigned long next;
+};
+
+struct recorder {
+    const struct scene *scene;
+    struct model *model;
+    const struct stepper *stepper;
+    struct trace *trace; /* [scene->receivers] */
+    size_t rows;         /* finished */
+    double *time;        /* [rows] */
+    double *exact;       /* [receivers * rows * 6] or NULL */
+    bool finished;
+    struct profile_record *profile;   /* [scene->profiles] */
+    struct snapshot_record *snapshot; /* [scene->snapshots] */
+    size_t entries, entry_room;
+    struct snapshot_entry *entry;
+    struct run_file *file;
+    struct watch watch;
+    unsigned long last_step;
+    double last_time;
+    bool started;
+};
+
+/* trace.c: receivers step by step, and their finished rows */
+selas_status trace_create(struct recorder *recorder, struct messages *messages);
+selas_status trace_observe(struct recorder *recorder, const struct state *state, struct messages *messages);
+selas_status trace_finish(struct recorder *recorder, struct messages *messages);
+void trace_free(struct recorder *recorder);
+
+/* Rows 0, step, 2 step, ... up to end (to rounding); SELAS_BAD_SCENE beyond a thousand million. */
+selas_status row_count(double end, double step, size_t *rows, struct messages *messages);
+
+/* low_pass.c: zero-phase low-pass exp(-(omega / cutoff)^4) of `columns` interleaved series, in place. With
+ * `from_rest` the series is zero before its first row; its other end goes on by point reflection. */
+selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, size_t columns, double *series,
+                      struct messages *messages);
+
+/* profile.c */
+selas_status profile_create(struct recorder *recorder, struct messages *messages);
+void profile_observe(struct recorder *recorder, const struct state *state);
+selas_status profile_write(struct recorder *recorder, struct messages *messages);
+void profile_free(struct recorder *recorder);
+
+/* snapshot.c: which points, which times */
+selas_status snapshot_create(struct recorder *recorder, struct messages *messages);
+selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
+                              struct messages *messages);
+void snapshot_free(struct recorder *recorder);
+
+/* run_file.c: run.h5 */
+selas_status run_file_open(struct recorder *recorder, struct messages *messages);
+selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_record *record,
+                               const struct state *state, size_t number, struct messages *messages);
+/* Histories, settings, provenance; closes the file and gives it its name. */
+selas_status run_file_finish(struct recorder *recorder, const struct run_figures *figures,
+                             struct messages *messages);
+void run_file_discard(struct recorder *recorder);
+/* Reads `count` blocks of `block` rows, `stride` rows apart, of one field of one snapshot from the finished
+ * run.h5; value [count * block * components]. */
+selas_status run_file_read(const struct recorder *recorder, size_t number, selas_field field, size_t start,
+                           size_t stride, size_t count, size_t block, double *value,
+                           struct messages *messages);
+
+/* settings.c: every setting of the deck as text, one call each: group "load", occurrence from 1 */
+void settings_walk(const struct deck *deck,
+                   void (*tell)(void *context, const char *group, size_t occurrence, const char *name,
+                                const char *value),
+                   void *context, struct messages *messages);
+
+/* xdmf.c: run.xdmf */
+selas_status xdmf_write(const struct recorder *recorder, struct messages *messages);
+
+/* watch.c: energy and finite values */
+void watch_start(struct recorder *recorder);
+selas_status watch_observe(struct recorder *recorder, const struct state *state, struct messages *messages);
+
+/* histories.c: NAME.dat and NAME.exact.dat */
+selas_status histories_write(struct recorder *recorder, struct exact *exact, struct messages *messages);
+
+/* plan.c: the plan without timing anything */
+void plan_tell(const struct recorder *recorder,
+               void (*tell)(void *context, const char *key, const char *value), void *context);
+
+/* report.c: report.txt */
+selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
+                          struct messages *messages);
+
+/* plots: PNGs and the GIF; what goes wrong here is a warning */
+void plot_histories(struct recorder *recorder, struct messages *messages);
+void plot_snapshots(struct recorder *recorder, struct messages *messages);
+
+/* misfit.c: error of one component over the whole history (trapezoid in time, equal rows) */
+struct misfit {
+    double l2, linf;       /* norms of the difference */
+    double l2_of, linf_of; /* norms of the reference */
+};
+struct misfit misfit_of(size_t rows, const double *time, const double *value, const double *reference,
+                        size_t stride, size_t components);
+
+/* names of files and data sets from names of the deck: '/' and control characters become '_' */
+void file_name_of(const char *name, const char *ending, char *text, size_t size);
+const char *const *component_names(selas_field field);
+
+#endif

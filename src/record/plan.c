@@ -1,0 +1,170 @@
+/* The plan of a run: what `selas check` prints and report.txt begins with. */
+#include "record/parts.h"
+
+#include "base/memory.h"
+#include "record/progress.h"
+
+#include <math.h>
+#include <stdarg.h>
+
+struct teller {
+    void (*tell)(void *context, const char *key, const char *value);
+    void *context;
+};
+
+__attribute__((format(printf, 3, 4))) static void say(const struct teller *teller, const char *key,
+                                                      const char *format, ...)
+{
+    char value[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(value, sizeof value, format, arguments);
+    va_end(arguments);
+    teller->tell(teller->context, key, value);
+}
+
+/* Part of the largest amplitude in the spectrum that still counts for the resolution. */
+static const double counting = 0.05;
+
+static double largest_source_frequency(const struct scene *scene)
+{
+    double omega = 0.0;
+    for (size_t k = 0; k < scene->loads; k++)
+        omega = fmax(omega, history_cutoff(&scene->load[k].history, counting));
+    for (size_t face = 0; face < FACES; face++)
+        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
+            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
+            omega = fmax(omega, history_cutoff(&scene->boundary[face].history, counting));
+    return omega;
+}
+
+static void say_resolution(const struct teller *teller, const struct scene *scene)
+{
+    const double omega = largest_source_frequency(scene);
+    double slowest = INFINITY;
+    for (size_t m = 0; m < scene->materials; m++)
+        slowest =
+            fmin(slowest, scene->dimension == 1 ? scene->material[m].p_speed : scene->material[m].s_speed);
+    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return;
+    const double two_pi = 6.283185307179586477;
+    say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)", omega,
+        100.0 * counting);
+    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)",
+        two_pi * slowest / omega / scene->body.spacing);
+}
+
+static double operator_calls(const struct stepper *stepper)
+{
+    const double each = stepper->scheme->evaluations;
+    return stepper->stages > 0 && !(each > 1.0) ? fmax(each, 1.0) * (double)stepper->stages : each;
+}
+
+static void say_step(const struct teller *teller, const struct stepper *stepper)
+{
+    say(teller, "scheme", "%s", stepper->scheme->name);
+    say(teller, "order in time", "%d", stepper->scheme->order);
+    if (stepper->stages > 0) say(teller, "stages", "%ld", stepper->stages);
+    say(teller, "time step", "%.9g", stepper->dt);
+    say(teller, "time step chosen", "%s", stepper->dt_reason);
+    if (stepper->limit > 0.0) say(teller, "time step limit", "%.9g", stepper->limit);
+    if (stepper->largest_frequency > 0.0)
+        say(teller, "largest frequency", "%.9g", stepper->largest_frequency);
+    say(teller, "time-dispersion transform", "%s", stepper->unwarp ? "yes" : "no");
+    say(teller, "steps", "%lu", stepper->steps);
+    if (stepper->extra > 0) say(teller, "steps beyond end_time", "%lu", stepper->extra);
+}
+
+static double memory_of(const struct recorder *recorder)
+{
+    const struct stepper *stepper = recorder->stepper;
+    const struct model *model = recorder->model;
+    const double vectors = (double)stepper->scheme->vectors + 1.0;
+    const double rows = (double)(stepper->steps + stepper->extra + 2);
+    return (double)model->bytes + 8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +
+           72.0 * rows * (double)recorder->scene->receivers;
+}
+
+static void say_parts(const struct teller *teller, const struct scene *scene)
+{
+    say(teller, "loads", "%zu", scene->loads);
+    say(teller, "receivers", "%zu", scene->receivers);
+    if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);
+    if (scene->snapshots > 0) say(teller, "snapshot groups", "%zu", scene->snapshots);
+    static const char *const kind[] = {"free",         "fixed",    "roller",      "symmetry",
+                                       "transmitting", "velocity", "displacement"};
+    for (size_t face = 0; face < FACES; face++)
+        if (scene->boundary[face].given) {
+            char key[32];
+            snprintf(key, sizeof key, "face %s", face_name((enum face)face));
+            say(teller, key, "%s", kind[scene->boundary[face].kind]);
+        }
+    if (scene->output.low_pass > 0.0)
+        say(teller, "low-pass", "exp(-(omega/%.9g)^4), zero phase, on computed histories",
+            scene->output.low_pass);
+}
+
+void plan_tell(const struct recorder *recorder,
+               void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct teller teller = {tell, context};
+    const struct scene *scene = recorder->scene;
+    const struct model *model = recorder->model;
+    say(&teller, "title", "%s", scene->title);
+    if (scene->deck != NULL) say(&teller, "deck", "%s", deck_name(scene->deck));
+    say(&teller, "dimension", "%d", scene->dimension);
+    say(&teller, "method", "%s", model->class->method);
+    say(&teller, "variant", "%s", model->class->variant);
+    say(&teller, "points", "%zu", model->points);
+    say(&teller, "unknowns", "%zu", model->unknowns);
+    if (model->grid[0] > 0)
+        say(&teller, "lattice", "%zu x %zu x %zu", model->grid[0], model->grid[1] > 0 ? model->grid[1] : 1,
+            model->grid[2] > 0 ? model->grid[2] : 1);
+    if (model->class->describe != NULL) model->class->describe(model, tell, context);
+    say_step(&teller, recorder->stepper);
+    say_resolution(&teller, scene);
+    say_parts(&teller, scene);
+    const double memory = memory_of(recorder);
+    say(&teller, "planned memory bytes", "%.0f", memory);
+    say(&teller, "planned bytes per point", "%.1f", memory / (double)(model->points > 0 ? model->points : 1));
+}
+
+/* Seconds of one operator call on a state at rest, the best of a few; negative if there is no room. */
+static double time_operator(struct recorder *recorder)
+{
+    struct model *model = recorder->model;
+    enum { TRIES = 3 };
+    double *y = array_new(model->state_size, sizeof *y);
+    double *result = array_new(model->state_size, sizeof *result);
+    double best = -1.0;
+    const unsigned long evaluations = model->evaluations;
+    if (y != NULL && result != NULL) {
+        if (model->class->initialise != NULL) model->class->initialise(model, y);
+        const struct drive drive = {0};
+        for (int i = 0; i < TRIES; i++) {
+            const double before = wall_seconds();
+            if (model->class->accelerate != NULL)
+                model->class->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
+            else
+                model->class->rate(model, &drive, y, result);
+            const double spent = wall_seconds() - before;
+            if (i == 0 || spent < best) best = spent;
+        }
+    }
+    model->evaluations = evaluations; /* these calls are not the run's */
+    array_free(y);
+    array_free(result);
+    return best;
+}
+
+void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
+                   void *context)
+{
+    plan_tell(recorder, tell, context);
+    const struct stepper *stepper = recorder->stepper;
+    const double seconds = time_operator(recorder);
+    if (seconds < 0.0) return;
+    const double calls = operator_calls(stepper) * (double)(stepper->steps + stepper->extra);
+    const struct teller teller = {tell, context};
+    say(&teller, "estimated operator calls", "%.0f", calls);
+    say(&teller, "estimated stepping seconds", "%.3g", calls * seconds);
+}

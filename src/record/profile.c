@@ -1,0 +1,186 @@
+/* Profiles: fields along a line at given times.
+ *
+ * A time between steps is interpolated by Lagrange's cubic through the four nearest steps, for every field
+ * alike: error of the order dt^4 where the field is smooth in time. */
+#include "record/parts.h"
+
+#include "base/memory.h"
+#include "record/safe_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { NODES = 4, LAST_FIELD = SELAS_ENERGY };
+
+static size_t columns_of(unsigned fields)
+{
+    size_t columns = 0;
+    for (int field = 0; field <= LAST_FIELD; field++)
+        if ((fields >> field & 1U) != 0) columns += (size_t)field_components((selas_field)field);
+    return columns;
+}
+
+/* Weights of the four steps from `first` on for time x (in steps). */
+static void lagrange(double x, unsigned long first, double *weight)
+{
+    for (int j = 0; j < NODES; j++) {
+        weight[j] = 1.0;
+        for (int k = 0; k < NODES; k++)
+            if (k != j) weight[j] *= (x - (double)(first + (unsigned long)k)) / (double)(j - k);
+    }
+}
+
+static void choose_steps(const struct recorder *recorder, struct profile_record *record)
+{
+    const struct stepper *stepper = recorder->stepper;
+    const unsigned long last = stepper->steps + stepper->extra;
+    for (size_t k = 0; k < record->profile->times; k++) {
+        const double x = record->profile->time[k] / stepper->dt;
+        const double whole = fmax(floor(x + 1e-9) - 1.0, 0.0);
+        unsigned long first = whole < (double)last ? (unsigned long)whole : last;
+        if (first + NODES - 1 > last) first = last >= NODES - 1 ? last - (NODES - 1) : 0;
+        record->first[k] = first;
+        lagrange(x, first, record->weight + NODES * k);
+    }
+}
+
+static selas_status create_one(struct recorder *recorder, const struct profile *profile,
+                               struct profile_record *record, struct messages *messages)
+{
+    *record = (struct profile_record){.profile = profile, .columns = columns_of(profile->fields)};
+    record->probe = array_new(profile->points, sizeof *record->probe);
+    record->first = array_new(profile->times, sizeof *record->first);
+    record->weight = array_new(NODES * profile->times, sizeof *record->weight);
+    record->value = array_new(profile->times, profile->points * record->columns * sizeof *record->value);
+    record->seen = array_new(profile->times, sizeof *record->seen);
+    if (record->probe == NULL || record->first == NULL || record->weight == NULL || record->value == NULL ||
+        record->seen == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the profile '%s'", profile->name);
+    selas_status status = SELAS_OK;
+    for (size_t i = 0; i < profile->points && status == SELAS_OK; i++) {
+        const double s = profile->points > 1 ? (double)i / (double)(profile->points - 1) : 0.0;
+        double position[3];
+        for (int axis = 0; axis < 3; axis++)
+            position[axis] = (1.0 - s) * profile->from[axis] + s * profile->to[axis];
+        status = recorder->model->class->probe(recorder->model, position, &record->probe[i], messages);
+    }
+    if (status == SELAS_OK) choose_steps(recorder, record);
+    return status;
+}
+
+selas_status profile_create(struct recorder *recorder, struct messages *messages)
+{
+    const struct scene *scene = recorder->scene;
+    recorder->profile = array_new(scene->profiles, sizeof *recorder->profile);
+    if (recorder->profile == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu profiles", scene->profiles);
+    selas_status status = SELAS_OK;
+    for (size_t p = 0; p < scene->profiles && status == SELAS_OK; p++)
+        status = create_one(recorder, &scene->profile[p], &recorder->profile[p], messages);
+    return status;
+}
+
+static void add_point(struct model *model, const struct state *state, const struct profile_record *record,
+                      size_t point, double weight, double *sum)
+{
+    for (int field = 0; field <= LAST_FIELD; field++) {
+        if ((record->profile->fields >> field & 1U) == 0) continue;
+        double value[6] = {0};
+        probe_observe(model, &record->probe[point], (selas_field)field, state->y, state->a, value);
+        const int components = field_components((selas_field)field);
+        for (int c = 0; c < components; c++)
+            sum[c] += weight * value[c];
+        sum += components;
+    }
+}
+
+void profile_observe(struct recorder *recorder, const struct state *state)
+{
+    for (size_t p = 0; p < recorder->scene->profiles; p++) {
+        struct profile_record *record = &recorder->profile[p];
+        const size_t points = record->profile->points;
+        for (size_t k = 0; k < record->profile->times; k++) {
+            if (state->step < record->first[k] || state->step >= record->first[k] + NODES) continue;
+            const double weight = record->weight[NODES * k + (state->step - record->first[k])];
+            double *value = record->value + k * points * record->columns;
+            for (size_t i = 0; i < points && weight != 0.0; i++)
+                add_point(recorder->model, state, record, i, weight, value + i * record->columns);
+            record->seen[k]++;
+        }
+    }
+}
+
+static void write_header(FILE *out, const struct recorder *recorder, const struct profile *profile)
+{
+    const struct scene *scene = recorder->scene;
+    fprintf(out, "# profile %s from %.17g %.17g %.17g to %.17g %.17g %.17g\n", profile->name,
+            profile->from[0], profile->from[1], profile->from[2], profile->to[0], profile->to[1],
+            profile->to[2]);
+    fprintf(out, "# %s\n# deck %s, selas %s; units: the deck's own\n", scene->title,
+            scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version());
+    if (recorder->stepper->unwarp)
+        fprintf(out, "# mid-run values: they keep the time error of the scheme, which only receivers lose\n");
+    fprintf(out, "# s x y z");
+    for (int field = 0; field <= LAST_FIELD; field++) {
+        if ((profile->fields >> field & 1U) == 0) continue;
+        const char *const *component = component_names((selas_field)field);
+        for (int c = 0; c < field_components((selas_field)field); c++)
+            fprintf(out, " %s%s%s", field_name((selas_field)field), component[c][0] != '\0' ? "_" : "",
+                    component[c]);
+    }
+    fprintf(out, "\n");
+}
+
+static selas_status write_one(const struct recorder *recorder, const struct profile_record *record,
+                              struct messages *messages)
+{
+    const struct profile *profile = record->profile;
+    char name[NAME_SIZE + 16];
+    file_name_of(profile->name, ".dat", name, sizeof name);
+    struct safe_file file;
+    const selas_status status = safe_file_open(recorder->scene->output.directory, name, &file, messages);
+    if (status != SELAS_OK) return status;
+    FILE *out = file.file;
+    write_header(out, recorder, profile);
+    for (size_t k = 0; k < profile->times; k++) {
+        if (record->seen[k] < NODES) { /* the run ended before */
+            warn(messages, "profile '%s' has no values at t = %g: the run ended before", profile->name,
+                 profile->time[k]);
+            continue;
+        }
+        fprintf(out, "%s# t = %.17g\n", k > 0 ? "\n\n" : "", profile->time[k]);
+        for (size_t i = 0; i < profile->points; i++) {
+            const double *x = record->probe[i].position;
+            const double s =
+                hypot(hypot(x[0] - profile->from[0], x[1] - profile->from[1]), x[2] - profile->from[2]);
+            fprintf(out, "%.17g %.17g %.17g %.17g", s, x[0], x[1], x[2]);
+            for (size_t c = 0; c < record->columns; c++)
+                fprintf(out, " %.17g", record->value[(k * profile->points + i) * record->columns + c]);
+            fputc('\n', out);
+        }
+    }
+    return safe_file_close(&file, SELAS_OK, messages);
+}
+
+selas_status profile_write(struct recorder *recorder, struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    for (size_t p = 0; p < recorder->scene->profiles && status == SELAS_OK; p++)
+        status = write_one(recorder, &recorder->profile[p], messages);
+    return status;
+}
+
+void profile_free(struct recorder *recorder)
+{
+    for (size_t p = 0; recorder->profile != NULL && p < recorder->scene->profiles; p++) {
+        struct profile_record *record = &recorder->profile[p];
+        for (size_t i = 0; record->probe != NULL && i < record->profile->points; i++)
+            probe_free(&record->probe[i]);
+        array_free(record->probe);
+        array_free(record->first);
+        array_free(record->weight);
+        array_free(record->value);
+        array_free(record->seen);
+    }
+    array_free(recorder->profile);
+}

@@ -1,0 +1,112 @@
+/* The recorder: what a run leaves, gathered step by step and written at the end. */
+#include "record/parts.h"
+
+#include "base/memory.h"
+#include "record/safe_file.h"
+
+#include <stdlib.h>
+
+selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
+                             struct recorder **created, struct messages *messages)
+{
+    *created = NULL;
+    struct recorder *recorder = calloc(1, sizeof *recorder);
+    if (recorder == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the record");
+    recorder->scene = scene;
+    recorder->model = model;
+    recorder->stepper = stepper;
+    selas_status status = trace_create(recorder, messages);
+    if (status == SELAS_OK) status = profile_create(recorder, messages);
+    if (status == SELAS_OK) status = snapshot_create(recorder, messages);
+    if (status != SELAS_OK) {
+        recorder_free(&recorder);
+        return status;
+    }
+    watch_start(recorder);
+    *created = recorder;
+    return SELAS_OK;
+}
+
+selas_status recorder_open(struct recorder *recorder, struct messages *messages)
+{
+    if (recorder->file != NULL) return SELAS_OK;
+    const selas_status status = make_folder(recorder->scene->output.directory, messages);
+    return status == SELAS_OK ? run_file_open(recorder, messages) : status;
+}
+
+selas_status recorder_observe(struct recorder *recorder, const struct state *state, struct messages *messages)
+{
+    if (recorder->started && state->step != recorder->last_step + 1)
+        return fail(messages, SELAS_BAD_ARGUMENT, "the record has step %lu and was given step %lu",
+                    recorder->last_step, state->step);
+    selas_status status = trace_observe(recorder, state, messages);
+    if (status == SELAS_OK) status = watch_observe(recorder, state, messages);
+    if (status != SELAS_OK) return status;
+    recorder->started = true;
+    recorder->last_step = state->step;
+    recorder->last_time = state->time;
+    profile_observe(recorder, state);
+    return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+}
+
+selas_status recorder_finish(struct recorder *recorder, struct messages *messages)
+{
+    if (recorder->finished) return SELAS_OK;
+    const selas_status status = trace_finish(recorder, messages);
+    recorder->finished = status == SELAS_OK;
+    return status;
+}
+
+struct history_rows recorder_history(const struct recorder *recorder, size_t receiver)
+{
+    return (struct history_rows){recorder->rows, recorder->time, recorder->trace[receiver].value};
+}
+
+void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
+                    double *value)
+{
+    probe_observe(recorder->model, &recorder->trace[receiver].probe, field, state->y, state->a, value);
+}
+
+static selas_status write_deck(const struct recorder *recorder, struct messages *messages)
+{
+    const struct scene *scene = recorder->scene;
+    if (scene->deck == NULL) return SELAS_OK;
+    struct safe_file file;
+    selas_status status = safe_file_open(scene->output.directory, "deck.nml", &file, messages);
+    if (status != SELAS_OK) return status;
+    status = deck_write(scene->deck, file.file, messages);
+    return safe_file_close(&file, status, messages);
+}
+
+selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
+                            struct messages *messages)
+{
+    selas_status status = recorder_open(recorder, messages);
+    if (status == SELAS_OK) status = recorder_finish(recorder, messages);
+    if (status == SELAS_OK) status = write_deck(recorder, messages);
+    if (status == SELAS_OK) status = histories_write(recorder, exact, messages);
+    if (status == SELAS_OK) status = profile_write(recorder, messages);
+    if (status == SELAS_OK) status = run_file_finish(recorder, figures, messages);
+    if (status == SELAS_OK) status = xdmf_write(recorder, messages);
+    if (status == SELAS_OK) status = report_write(recorder, exact, figures, messages);
+    if (status != SELAS_OK || !recorder->scene->output.plots) return status;
+    plot_histories(recorder, messages);
+    plot_snapshots(recorder, messages);
+    return SELAS_OK;
+}
+
+void recorder_free(struct recorder **freed)
+{
+    if (freed == NULL || *freed == NULL) return;
+    struct recorder *recorder = *freed;
+    run_file_discard(recorder);
+    trace_free(recorder);
+    profile_free(recorder);
+    snapshot_free(recorder);
+    array_free(recorder->time);
+    array_free(recorder->exact);
+    free(recorder->entry);
+    free(recorder);
+    *freed = NULL;
+}

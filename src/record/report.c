@@ -1,0 +1,137 @@
+/* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
+#include "record/parts.h"
+
+#include "record/safe_file.h"
+
+#include <math.h>
+#include <sys/resource.h>
+
+/* A component smaller than this part of the receiver's largest one is as good as zero: its own norm says
+ * nothing, the error is then told relative to the largest component. */
+static const double nearly_zero = 1e-3;
+
+static void tell_line(void *context, const char *key, const char *value)
+{
+    fprintf(context, "%s: %s\n", key, value);
+}
+
+static double per(double amount, double whole)
+{
+    return whole > 0.0 ? amount / whole : 0.0;
+}
+
+static double peak_memory(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0.0;
+}
+
+static void write_energy(FILE *out, const struct recorder *recorder)
+{
+    const struct watch *watch = &recorder->watch;
+    if (recorder->model->class->energy == NULL) return;
+    fprintf(out, "energy at time: %.9g\n", watch->last_time);
+    fprintf(out, "energy kinetic: %.6e\nenergy strain: %.6e\n", watch->last.kinetic, watch->last.strain);
+    fprintf(out, "energy at start: %.6e\nenergy largest: %.6e\n", watch->initial, watch->largest);
+    if (!watch->by_work) return;
+    fprintf(out, "work of loads: %.6e\nenergy absorbed: %.6e\n", watch->work, watch->absorbed);
+    fprintf(out, "energy balance defect: %.3e (largest |E - E0 - work + absorbed|, relative to %.3e)\n",
+            per(watch->largest_defect, watch->initial + watch->gross), watch->initial + watch->gross);
+}
+
+static void write_cost(FILE *out, const struct recorder *recorder, const struct run_figures *figures)
+{
+    const struct model *model = recorder->model;
+    if (figures != NULL) {
+        fprintf(out, "threads: %d\n", figures->threads);
+        fprintf(out, "set-up wall seconds: %.4g\nset-up CPU seconds: %.4g\n", figures->setup_wall_seconds,
+                figures->setup_cpu_seconds);
+        if (recorder->exact != NULL) fprintf(out, "exact CPU seconds: %.4g\n", figures->exact_cpu_seconds);
+        fprintf(out, "stepping wall seconds: %.4g\n", figures->wall_seconds);
+    }
+    fprintf(out, "operator calls: %lu\n", model->evaluations);
+    const double memory = peak_memory();
+    fprintf(out, "peak memory bytes: %.0f\nbytes per point: %.1f\n", memory,
+            per(memory, (double)model->points));
+    fprintf(out, "model memory bytes: %zu\n", model->bytes);
+}
+
+static void write_misfit(FILE *out, const char *receiver, const char *component, const struct misfit *misfit,
+                         double largest_l2, double largest_linf)
+{
+    const bool small = misfit->l2_of <= nearly_zero * largest_l2;
+    if (!small)
+        fprintf(out, "error %s %s: L2 %.4e Linf %.4e", receiver, component, per(misfit->l2, misfit->l2_of),
+                per(misfit->linf, misfit->linf_of));
+    else
+        fprintf(out, "error %s %s: L2 - Linf - (the component is nearly zero)", receiver, component);
+    fprintf(out, "; of the largest component: L2 %.4e Linf %.4e\n", per(misfit->l2, largest_l2),
+            per(misfit->linf, largest_linf));
+}
+
+static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r)
+{
+    static const char *const name[6] = {"ux", "uy", "uz", "vx", "vy", "vz"};
+    const double *value = recorder->trace[r].value;
+    const double *exact = recorder->exact + r * recorder->rows * 6;
+    const char *receiver = recorder->scene->receiver[r].name;
+    for (size_t kind = 0; kind < 2; kind++) { /* displacement, velocity */
+        struct misfit misfit[3];
+        double largest_l2 = 0.0, largest_linf = 0.0;
+        for (size_t c = 0; c < 3; c++) {
+            const size_t column = 3 * kind + c;
+            misfit[c] = misfit_of(recorder->rows, recorder->time, value + column, exact + column, 6, 1);
+            largest_l2 = fmax(largest_l2, misfit[c].l2_of);
+            largest_linf = fmax(largest_linf, misfit[c].linf_of);
+        }
+        for (size_t c = 0; c < (size_t)recorder->scene->dimension; c++)
+            write_misfit(out, receiver, name[3 * kind + c], &misfit[c], largest_l2, largest_linf);
+        const struct misfit vector =
+            misfit_of(recorder->rows, recorder->time, value + 3 * kind, exact + 3 * kind, 6, 3);
+        fprintf(out, "error %s %s: L2 %.4e Linf %.4e\n", receiver, kind == 0 ? "displacement" : "velocity",
+                per(vector.l2, vector.l2_of), per(vector.linf, vector.linf_of));
+    }
+}
+
+static void write_speed_against_error(FILE *out, const struct recorder *recorder,
+                                      const struct run_figures *figures)
+{
+    if (figures != NULL) {
+        const double work = (double)recorder->model->points * (double)recorder->last_step;
+        fprintf(out, "point-steps per second: %.4e\nCPU seconds: %.4g\n", per(work, figures->wall_seconds),
+                figures->cpu_seconds);
+    }
+    if (recorder->exact == NULL) return;
+    if (recorder->rows > 0)
+        fprintf(out, "error window: 0 to %.9g, %zu rows\n", recorder->time[recorder->rows - 1],
+                recorder->rows);
+    double worst = 0.0;
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
+        write_errors_at(out, recorder, r);
+        const struct misfit vector = misfit_of(recorder->rows, recorder->time, recorder->trace[r].value + 3,
+                                               recorder->exact + r * recorder->rows * 6 + 3, 6, 3);
+        worst = fmax(worst, per(vector.l2, vector.l2_of));
+    }
+    fprintf(out, "error largest: %.4e (L2 of the velocity vector, worst receiver)\n", worst);
+}
+
+selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
+                          struct messages *messages)
+{
+    struct safe_file file;
+    const selas_status status =
+        safe_file_open(recorder->scene->output.directory, "report.txt", &file, messages);
+    if (status != SELAS_OK) return status;
+    FILE *out = file.file;
+    fprintf(out, "version: %s\ncompiler: %s\n", selas_version(), __VERSION__);
+    plan_tell(recorder, tell_line, out);
+    fprintf(out, "steps done: %lu\ntime reached: %.9g\n", recorder->last_step, recorder->last_time);
+    if (exact != NULL) {
+        fprintf(out, "reference: %s\n", exact->class->kind);
+        if (exact->class->describe != NULL) exact->class->describe(exact, tell_line, out);
+    }
+    write_energy(out, recorder);
+    write_cost(out, recorder, figures);
+    write_speed_against_error(out, recorder, figures);
+    return safe_file_close(&file, SELAS_OK, messages);
+}

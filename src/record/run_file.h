@@ -1,0 +1,25 @@
+/* run.h5 and the helpers that write into it; shared by run_file.c and provenance.c only. The helpers return
+ * false on failure. */
+#ifndef SELAS_RUN_FILE_H
+#define SELAS_RUN_FILE_H
+
+#include "record/parts.h"
+
+#include <hdf5.h>
+
+struct run_file {
+    char *path, *temporary;
+    hid_t file, snapshots; /* -1 when closed */
+    bool complete;         /* has its name */
+};
+
+bool hdf_text(hid_t place, const char *name, const char *text);
+bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);
+bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value);
+hid_t hdf_group(hid_t place, const char *name);
+
+/* provenance.c: groups /settings and /provenance */
+bool write_provenance(const struct recorder *recorder, hid_t file, const struct run_figures *figures,
+                      struct messages *messages);
+
+#endif

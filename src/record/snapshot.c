@@ -1,0 +1,170 @@
+/* Snapshots: which points, at which steps. A snapshot shows the step nearest to its time, as computed, and
+ * says that step's time. */
+#include "record/parts.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+static bool in_region(const struct snapshot *snapshot, const double *x)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double slack =
+            1e-9 * (fabs(snapshot->region_low[axis]) + fabs(snapshot->region_high[axis]) + 1e-30);
+        if (x[axis] < snapshot->region_low[axis] - slack || x[axis] > snapshot->region_high[axis] + slack)
+            return false;
+    }
+    return true;
+}
+
+/* Points per axis of the lattice, 1 where it has no extent. */
+static void lattice_of(const struct model *model, size_t grid[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        grid[axis] = model->grid[axis] > 0 ? model->grid[axis] : 1;
+    if (model->grid[0] == 0 || grid[0] * grid[1] * grid[2] != model->points) grid[0] = grid[1] = grid[2] = 0;
+}
+
+/* If the chosen points of a lattice are again a box of it, its numbers of points; else 0, 0, 0. */
+static void sub_lattice(const size_t grid[3], const struct snapshot_record *record, size_t part[3])
+{
+    size_t low[3] = {SIZE_MAX, SIZE_MAX, SIZE_MAX}, high[3] = {0, 0, 0};
+    for (size_t k = 0; k < record->points; k++) {
+        const size_t i = record->index[k];
+        const size_t at[3] = {i % grid[0], i / grid[0] % grid[1], i / (grid[0] * grid[1])};
+        for (int axis = 0; axis < 3; axis++) {
+            low[axis] = at[axis] < low[axis] ? at[axis] : low[axis];
+            high[axis] = at[axis] > high[axis] ? at[axis] : high[axis];
+        }
+    }
+    for (int axis = 0; axis < 3; axis++)
+        part[axis] = high[axis] - low[axis] + 1;
+    if (part[0] * part[1] * part[2] != record->points) part[0] = part[1] = part[2] = 0;
+}
+
+/* A lattice along the deck's axes with equal spacings can be told by origin and spacings alone. */
+static void look_regular(const struct model *model, struct snapshot_record *record)
+{
+    const size_t *grid = record->grid;
+    if (grid[0] == 0) return;
+    const size_t stride[3] = {1, grid[0], grid[0] * grid[1]};
+    double size = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        const size_t first = record->index != NULL ? record->index[0] : 0;
+        record->origin[axis] = model->position[3 * first + (size_t)axis];
+        record->step[axis] = 0.0;
+        if (grid[axis] < 2) continue;
+        const size_t end = (grid[axis] - 1) * stride[axis];
+        const size_t last = record->index != NULL ? record->index[end] : end;
+        record->step[axis] =
+            (model->position[3 * last + (size_t)axis] - record->origin[axis]) / (double)(grid[axis] - 1);
+        size = fmax(size, fabs(record->step[axis]));
+    }
+    record->regular = true;
+    for (size_t k = 0; k < record->points && record->regular; k++) {
+        const size_t point = record->index != NULL ? record->index[k] : k;
+        const size_t at[3] = {k % grid[0], k / grid[0] % grid[1], k / stride[2]};
+        for (size_t axis = 0; axis < 3; axis++)
+            if (!(fabs(model->position[3 * point + axis] - record->origin[axis] -
+                       (double)at[axis] * record->step[axis]) <= 1e-6 * size))
+                record->regular = false;
+    }
+}
+
+static selas_status create_one(const struct model *model, size_t number, struct snapshot_record *record,
+                               struct messages *messages)
+{
+    const struct snapshot *snapshot = record->snapshot;
+    record->points = model->points;
+    record->buffer = array_new(6 * model->points, sizeof *record->buffer);
+    if (record->buffer == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", model->points);
+    snprintf(record->position, sizeof record->position, "/points/position");
+    lattice_of(model, record->grid);
+    if (!snapshot->whole) {
+        record->index = array_new(model->points, sizeof *record->index);
+        if (record->index == NULL)
+            return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", model->points);
+        record->points = 0;
+        for (size_t i = 0; i < model->points; i++)
+            if (in_region(snapshot, model->position + 3 * i)) record->index[record->points++] = i;
+        if (record->points == 0)
+            return fail(messages, SELAS_BAD_SCENE, "the region of snapshot group %zu holds no points",
+                        number + 1);
+        const size_t whole[3] = {record->grid[0], record->grid[1], record->grid[2]};
+        if (whole[0] > 0) sub_lattice(whole, record, record->grid);
+        snprintf(record->position, sizeof record->position, "/points/region_%zu/position", number + 1);
+    }
+    look_regular(model, record);
+    return SELAS_OK;
+}
+
+selas_status snapshot_create(struct recorder *recorder, struct messages *messages)
+{
+    const struct scene *scene = recorder->scene;
+    recorder->snapshot = array_new(scene->snapshots, sizeof *recorder->snapshot);
+    if (recorder->snapshot == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu groups of snapshots", scene->snapshots);
+    selas_status status = SELAS_OK;
+    for (size_t s = 0; s < scene->snapshots && status == SELAS_OK; s++) {
+        recorder->snapshot[s].snapshot = &scene->snapshot[s];
+        status = create_one(recorder->model, s, &recorder->snapshot[s], messages);
+    }
+    return status;
+}
+
+/* Time of the next snapshot of a group; INFINITY when there is none any more. */
+static double next_time(const struct scene *scene, const struct snapshot_record *record)
+{
+    const struct snapshot *snapshot = record->snapshot;
+    if (snapshot->every > 0.0) {
+        const double time = (double)record->due * snapshot->every;
+        return time <= scene->end_time * (1.0 + 1e-9) ? time : INFINITY;
+    }
+    return record->due < snapshot->times ? snapshot->time[record->due] : INFINITY;
+}
+
+static selas_status keep_entry(struct recorder *recorder, size_t group, const struct state *state,
+                               struct messages *messages)
+{
+    if (recorder->entries == recorder->entry_room) {
+        const size_t room = 2 * recorder->entry_room + 16;
+        struct snapshot_entry *grown = realloc(recorder->entry, room * sizeof *grown);
+        if (grown == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the list of snapshots");
+        recorder->entry = grown;
+        recorder->entry_room = room;
+    }
+    recorder->entry[recorder->entries] = (struct snapshot_entry){group, recorder->entries, state->time};
+    recorder->entries++;
+    return SELAS_OK;
+}
+
+selas_status snapshot_observe(struct recorder *recorder, const struct state *state, struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    for (size_t s = 0; s < recorder->scene->snapshots && status == SELAS_OK; s++) {
+        struct snapshot_record *record = &recorder->snapshot[s];
+        const double until = state->time + 0.5 * recorder->stepper->dt;
+        if (!(next_time(recorder->scene, record) < until)) continue;
+        if (record->snapshot->every > 0.0) /* one snapshot a step, however many times fall into it */
+            record->due = (size_t)fmin(floor(until / record->snapshot->every) + 1.0, 1e15);
+        else
+            while (next_time(recorder->scene, record) < until)
+                record->due++;
+        status = keep_entry(recorder, s, state, messages);
+        if (status == SELAS_OK)
+            status = run_file_snapshot(recorder, record, state, recorder->entries - 1, messages);
+    }
+    return status;
+}
+
+void snapshot_free(struct recorder *recorder)
+{
+    for (size_t s = 0; recorder->snapshot != NULL && s < recorder->scene->snapshots; s++) {
+        array_free(recorder->snapshot[s].index);
+        array_free(recorder->snapshot[s].buffer);
+    }
+    array_free(recorder->snapshot);
+}
