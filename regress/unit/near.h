@@ -10,14 +10,16 @@
 
 #include <cmocka.h>
 
-#undef fail /* the library has a function of this name (base/messages.h); tests use fail_msg */
+#undef fail /* the library has a function of this name (base/messages.h) */
 
 #define assert_near(value, expected, tolerance)                                                              \
     do {                                                                                                     \
         const double near_value = (value), near_expected = (expected), near_tolerance = (tolerance);         \
-        if (!(fabs(near_value - near_expected) <= near_tolerance))                                           \
-            fail_msg("%s = %.17g, expected %.17g within %g (off by %g)", #value, near_value, near_expected,  \
-                     near_tolerance, near_value - near_expected);                                            \
+        if (!(fabs(near_value - near_expected) <= near_tolerance)) {                                         \
+            print_error("%s = %.17g, expected %.17g within %g (off by %g)\n", #value, near_value,            \
+                        near_expected, near_tolerance, near_value - near_expected);                          \
+            _fail(__FILE__, __LINE__);                                                                       \
+        }                                                                                                    \
     } while (0)
 
 #endif

@@ -48,7 +48,7 @@ static void test_plane_factor(void **state)
             const double plane = integral(kernel, dimension, dimension - 1, h);
             assert_near(kernel_plane_factor(kernel, dimension, h) * plane, 1, 1e-13);
         }
-    const struct kernel *cubic = kernel_find("cubic-spline");
+    const struct kernel *cubic = kernel_find("cubic");
     assert_near(kernel_plane_factor(cubic, 3, h), 10 * h / 7, 1e-14); /* Ding Eq 41 */
     assert_near(kernel_plane_factor(cubic, 2, h), 7 * M_PI * h / 15, 1e-14);
     assert_near(kernel_plane_factor(cubic, 1, h), 3 * h / 2, 1e-14);
@@ -57,7 +57,7 @@ static void test_plane_factor(void **state)
 static void test_published_values(void **state)
 {
     (void)state;
-    const struct kernel *cubic = kernel_find("cubic-spline");
+    const struct kernel *cubic = kernel_find("cubic");
     /* Ding Eq 39 at v = 0, 1/2, 1, 3/2: (1/pi) {1, 23/32, 1/4, 1/32} */
     assert_near(kernel_value(cubic, 3, 0, 1), 1 / M_PI, 1e-15);
     assert_near(kernel_value(cubic, 3, .5, 1), 23 / (32 * M_PI), 1e-15);

@@ -7,7 +7,7 @@
 #define SELAS_KERNEL_H
 
 struct kernel {
-    const char *name;        /* as in method%kernel: 'cubic-spline', 'wendland-c2', 'quintic-spline' */
+    const char *name;        /* as in method%kernel: 'cubic', 'wendland', 'quintic' */
     double support;          /* radius of the support in smoothing lengths */
     double normalisation[3]; /* c_d of dimension 1, 2, 3 */
     double plane[3];         /* h times the integral of W over a plane (line, point) through its centre */

@@ -177,7 +177,7 @@ static void destroy(struct model *model)
 
 struct paper_options paper_options_default(void)
 {
-    return (struct paper_options){.kernel = kernel_find("cubic-spline"),
+    return (struct paper_options){.kernel = kernel_find("cubic"),
                                   .smoothing_length = 1,
                                   .volume_factors = true,
                                   .area_factors = true,
