@@ -1,0 +1,76 @@
+/* What the files that build a scene from its deck share: where they build, how they complain, how they read
+ * vectors and histories. */
+#ifndef SELAS_SCENE_BUILD_H
+#define SELAS_SCENE_BUILD_H
+
+#include "scene/scene.h"
+
+struct builder {
+    const struct deck *deck;
+    struct scene *scene;
+    struct messages *messages;
+    selas_status status; /* SELAS_OK, or what went wrong first */
+    bool body_known;     /* box, spacing and frame are right: places can be checked against them */
+    bool materials_known;
+};
+
+/* Adds a line with the place of `name` in the group (deck_error); the building goes on. */
+void complain(struct builder *builder, const struct deck_group *group, const char *name, const char *format,
+              ...) __attribute__((format(printf, 4, 5)));
+/* Notes that memory ran out. */
+void complain_of_memory(struct builder *builder);
+
+/* Zeroed array for an entry of the scene; NULL after complaining. */
+void *scene_array(struct builder *builder, size_t count, size_t size);
+
+/* Copies a name of at most NAME_SIZE - 1 bytes that must not be empty. */
+bool take_name(struct builder *builder, const struct deck_group *group, const char *name,
+               char text[NAME_SIZE]);
+/* A vector with as many values as the scene has dimensions. take_: false if it is not given; need_: that is
+ * an error, said with `purpose` ("a traction"). Both are false after an error; missing components are 0. */
+bool take_vector(struct builder *builder, const struct deck_group *group, const char *name, double vector[3]);
+bool need_vector(struct builder *builder, const struct deck_group *group, const char *name,
+                 const char *purpose, double vector[3]);
+/* A direction of any length but zero, made a unit vector. */
+bool need_direction(struct builder *builder, const struct deck_group *group, const char *name,
+                    const char *purpose, double unit[3]);
+/* A real that `purpose` cannot do without. */
+bool need_real(struct builder *builder, const struct deck_group *group, const char *name, const char *purpose,
+               double *value);
+/* Complains of each given name of the list (ended by NULL): it does not belong to `purpose`. */
+void refuse(struct builder *builder, const struct deck_group *group, const char *const *names,
+            const char *purpose);
+/* The words of a history; on an error the history is empty. */
+bool take_history(struct builder *builder, const struct deck_group *group, const char *purpose,
+                  struct history *history);
+/* The words of a history, for refuse(). */
+extern const char *const history_words[];
+
+/* Path of a file that the deck names, relative to the deck's folder; free with array_free. */
+char *deck_path(struct builder *builder, const char *path);
+
+/* The parts, in this order; each reads its groups. */
+void build_materials(struct builder *builder);
+void build_body(struct builder *builder);
+void build_layers(struct builder *builder);
+void build_boundaries(struct builder *builder);
+void build_loads(struct builder *builder);
+void build_initial(struct builder *builder);
+void build_receivers(struct builder *builder);
+void build_profiles(struct builder *builder);
+void build_snapshots(struct builder *builder);
+
+/* frame.c: sets body->frame, pivot and rotated from rotation, low and high. */
+void body_set_frame(struct body *body);
+
+/* True if a place lies in the body, faces included (to a millionth of the spacing); `nearest` (may be NULL)
+ * is then that place, else the nearest one of the box, both in the deck's coordinates. */
+bool body_holds(const struct body *body, int dimension, const double position[3], double nearest[3]);
+/* Distance below which two places are the same one. */
+double body_tolerance(const struct body *body);
+
+/* Text such as "1, 2.5, 0" of the first `count` components. */
+enum { VECTOR_TEXT_SIZE = 96 };
+const char *vector_text(char text[VECTOR_TEXT_SIZE], const double *vector, int count);
+
+#endif

@@ -1,0 +1,146 @@
+/* The frame of the body: rotation about the centre of its box, faces, what lies inside, material at a depth.
+ *
+ * R = Rz Ry Rx turns about x, then y, then z, about fixed axes; positions x = p + R (b - p), p the centre of
+ * the box, b in the body's own frame. R is orthonormal, so its inverse is its transpose. */
+#include "scene/build.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void multiply(double left[3][3], double right[3][3], double product[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            product[i][j] = left[i][0] * right[0][j] + left[i][1] * right[1][j] + left[i][2] * right[2][j];
+}
+
+/* Sine and cosine of an angle in degrees, exact at multiples of 90. */
+static void turn(double degrees, double *sine, double *cosine)
+{
+    const double quarters = degrees / 90;
+    if (quarters == round(quarters)) {
+        static const double sines[] = {0, 1, 0, -1};
+        const int quarter = (int)(fmod(fmod(quarters, 4) + 4, 4));
+        *sine = sines[quarter];
+        *cosine = sines[(quarter + 1) % 4];
+        return;
+    }
+    *sine = sin(degrees * M_PI / 180);
+    *cosine = cos(degrees * M_PI / 180);
+}
+
+void body_set_frame(struct body *body)
+{
+    double sine[3], cosine[3];
+    body->rotated = false;
+    for (int c = 0; c < 3; c++) {
+        turn(body->rotation[c], &sine[c], &cosine[c]);
+        body->pivot[c] = (body->low[c] + body->high[c]) / 2;
+        if (body->rotation[c] != 0) body->rotated = true;
+    }
+    double about_x[3][3] = {{1, 0, 0}, {0, cosine[0], -sine[0]}, {0, sine[0], cosine[0]}};
+    double about_y[3][3] = {{cosine[1], 0, sine[1]}, {0, 1, 0}, {-sine[1], 0, cosine[1]}};
+    double about_z[3][3] = {{cosine[2], -sine[2], 0}, {sine[2], cosine[2], 0}, {0, 0, 1}};
+    double about_y_x[3][3];
+    multiply(about_y, about_x, about_y_x);
+    multiply(about_z, about_y_x, body->frame);
+}
+
+void body_direction_from_deck(const struct body *body, const double direction[3], double body_direction[3])
+{
+    double result[3];
+    for (int i = 0; i < 3; i++)
+        result[i] = body->frame[0][i] * direction[0] + body->frame[1][i] * direction[1] +
+                    body->frame[2][i] * direction[2];
+    memcpy(body_direction, result, sizeof result);
+}
+
+void body_direction_to_deck(const struct body *body, const double body_direction[3], double direction[3])
+{
+    double result[3];
+    for (int i = 0; i < 3; i++)
+        result[i] = body->frame[i][0] * body_direction[0] + body->frame[i][1] * body_direction[1] +
+                    body->frame[i][2] * body_direction[2];
+    memcpy(direction, result, sizeof result);
+}
+
+/* An unrotated body's positions pass unchanged, to the last bit. */
+void body_from_deck(const struct body *body, const double position[3], double body_position[3])
+{
+    double offset[3];
+    if (!body->rotated) {
+        memmove(body_position, position, sizeof offset);
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        offset[c] = position[c] - body->pivot[c];
+    body_direction_from_deck(body, offset, offset);
+    for (int c = 0; c < 3; c++)
+        body_position[c] = body->pivot[c] + offset[c];
+}
+
+void body_to_deck(const struct body *body, const double body_position[3], double position[3])
+{
+    double offset[3];
+    if (!body->rotated) {
+        memmove(position, body_position, sizeof offset);
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        offset[c] = body_position[c] - body->pivot[c];
+    body_direction_to_deck(body, offset, offset);
+    for (int c = 0; c < 3; c++)
+        position[c] = body->pivot[c] + offset[c];
+}
+
+const char *face_name(enum face face)
+{
+    static const char *const names[FACES] = {"x-", "x+", "y-", "y+", "z-", "z+", "hole"};
+    return names[face];
+}
+
+double body_tolerance(const struct body *body)
+{
+    double extent = 0;
+    for (int c = 0; c < 3; c++)
+        extent = fmax(extent, fmax(fabs(body->low[c]), fabs(body->high[c])));
+    return 1e-6 * body->spacing + 1e-13 * extent;
+}
+
+bool body_holds(const struct body *body, int dimension, const double position[3], double nearest[3])
+{
+    const double tolerance = body_tolerance(body);
+    double place[3];
+    bool inside = true;
+    body_from_deck(body, position, place);
+    for (int c = 0; c < dimension; c++) {
+        if (place[c] < body->low[c] - tolerance || place[c] > body->high[c] + tolerance) inside = false;
+        place[c] = fmin(fmax(place[c], body->low[c]), body->high[c]);
+    }
+    if (nearest != NULL) body_to_deck(body, place, nearest);
+    if (body->shape == BODY_PLATE_WITH_HOLE &&
+        hypot(place[0] - body->hole_centre[0], place[1] - body->hole_centre[1]) <
+            body->hole_radius - tolerance)
+        inside = false;
+    return inside;
+}
+
+const struct material *scene_material_at(const struct scene *scene, double depth)
+{
+    const struct body *body = &scene->body;
+    size_t material = body->material;
+    for (size_t i = 0; i < body->layers && body->layer[i].top <= depth; i++)
+        material = body->layer[i].material;
+    return &scene->material[material];
+}
+
+const char *vector_text(char text[VECTOR_TEXT_SIZE], const double *vector, int count)
+{
+    int length = 0;
+    text[0] = '\0';
+    for (int c = 0; c < count && length < VECTOR_TEXT_SIZE; c++)
+        length += snprintf(text + length, (size_t)(VECTOR_TEXT_SIZE - length), "%s%.10g", c == 0 ? "" : ", ",
+                           vector[c]);
+    return text;
+}

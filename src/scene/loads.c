@@ -1,0 +1,229 @@
+/* Loads: tractions on patches of faces, body forces, moment tensors. */
+#include "scene/build.h"
+
+#include <math.h>
+
+static const char *const kinds[] = {"a traction", "a body force", "a moment tensor"};
+
+/* The two axes of a box face in the order of the axes (one in 2D, none in 1D); how many there are. */
+static int axes_of_face(enum face face, int dimension, int axes[2])
+{
+    int count = 0;
+    for (int c = 0; c < dimension; c++)
+        if (c != face_axis(face)) axes[count++] = c;
+    return count;
+}
+
+static void read_size(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    const size_t count = deck_values(group, "size");
+    const size_t wanted = load->shape == LOAD_DISC ? 1 : (size_t)builder->scene->dimension - 1;
+    if (count != wanted) {
+        complain(builder, group, count == 0 ? NULL : "size",
+                 "shape '%s' has %zu value%s of size; expected %zu: %s", deck_text(group, "shape", 0), count,
+                 count == 1 ? "" : "s", wanted,
+                 load->shape == LOAD_DISC ? "the diameter" : "the edges along the axes of the face");
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        load->size[i] = deck_real(group, "size", i);
+}
+
+/* The centre must lie in the plane of the face, where it is then put exactly, and the patch must cover some
+ * of the face. */
+static void place_patch(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    const struct body *body = &builder->scene->body;
+    const int axis = face_axis(load->face), dimension = builder->scene->dimension;
+    const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+    double place[3], beyond[2] = {0, 0};
+    char text[VECTOR_TEXT_SIZE];
+    int axes[2];
+    body_from_deck(body, load->centre, place);
+    const double off = fabs(place[axis] - plane);
+    place[axis] = plane;
+    body_to_deck(body, place, load->centre);
+    if (off > body_tolerance(body)) {
+        complain(builder, group, "centre",
+                 "the centre lies %.6g off the face '%s'; the nearest place on its plane is %s", off,
+                 face_name(load->face), vector_text(text, load->centre, dimension));
+        return;
+    }
+    const int count = axes_of_face(load->face, dimension, axes);
+    for (int i = 0; i < count; i++)
+        beyond[i] = fmax(0, fmax(body->low[axes[i]] - place[axes[i]], place[axes[i]] - body->high[axes[i]]));
+    const double tolerance = body_tolerance(body);
+    bool misses = false;
+    if (load->shape == LOAD_POINT)
+        misses = hypot(beyond[0], beyond[1]) > tolerance;
+    else if (load->shape == LOAD_DISC)
+        misses = hypot(beyond[0], beyond[1]) >= load->size[0] / 2 - tolerance;
+    else
+        for (int i = 0; i < count; i++)
+            misses = misses || beyond[i] >= load->size[i] / 2 - tolerance;
+    if (misses)
+        complain(builder, group, "centre",
+                 "the load lies beyond the face '%s'; no part of it acts on the body", face_name(load->face));
+}
+
+static void read_velocity(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    double own[3];
+    if (!take_vector(builder, group, "velocity", load->velocity) || !builder->body_known) return;
+    body_direction_from_deck(&builder->scene->body, load->velocity, own);
+    if (load->shape == LOAD_FACE)
+        complain(builder, group, "velocity", "a load on a whole face cannot move");
+    else if (fabs(own[face_axis(load->face)]) > 1e-9 * hypot(hypot(own[0], own[1]), own[2]))
+        complain(builder, group, "velocity", "the velocity leads off the face '%s'; expected one along it",
+                 face_name(load->face));
+}
+
+/* A load on a face whose motion is held does no work there. */
+static void warn_of_held_face(struct builder *builder, const struct deck_group *group,
+                              const struct load *load)
+{
+    const struct boundary *boundary = &builder->scene->boundary[load->face];
+    double own[3];
+    body_direction_from_deck(&builder->scene->body, load->direction, own);
+    const double normal = fabs(own[face_axis(load->face)]);
+    const bool mirrored = boundary->kind == BOUNDARY_ROLLER || boundary->kind == BOUNDARY_SYMMETRY;
+    const bool moved = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
+    if (boundary->kind == BOUNDARY_FIXED || (mirrored && normal > 0) || (moved && !boundary->slip))
+        deck_warning(
+            builder->deck, group, "face", builder->messages,
+            "the load acts on the face '%s', whose motion &boundary %zu prescribes%s; it does nothing "
+            "there",
+            face_name(load->face), boundary->group + 1, mirrored ? " along the normal" : "");
+}
+
+static void read_traction(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    static const char *const patch_words[] = {"centre", "size", NULL};
+    static const char *const size_words[] = {"size", NULL};
+    const int dimension = builder->scene->dimension;
+    bool known = builder->body_known;
+    if (deck_values(group, "face") == 0) {
+        complain(builder, group, NULL, "a traction needs face: x-, x+, y-, y+, z- or z+");
+        return;
+    }
+    load->face = (enum face)deck_choice(group, "face", 0);
+    if (load->face == FACE_HOLE || face_axis(load->face) >= dimension) {
+        complain(builder, group, "face", "no traction can act on a face '%s' of this body",
+                 face_name(load->face));
+        return;
+    }
+    if (deck_values(group, "shape") == 0 && dimension > 1) {
+        complain(builder, group, NULL, "a traction needs shape: 'square', 'disc', 'face' or 'point'");
+        return;
+    }
+    load->shape = LOAD_FACE; /* the end of a bar in 1D is a whole face whatever the shape */
+    if (dimension > 1) load->shape = (enum load_shape)deck_choice(group, "shape", 0);
+    if (load->shape == LOAD_FACE) {
+        refuse(builder, group, patch_words, dimension == 1 ? "a traction in 1D" : "shape 'face'");
+        if (known) { /* for those who want one: the middle of the face */
+            const struct body *body = &builder->scene->body;
+            double middle[3] = {body->pivot[0], body->pivot[1], body->pivot[2]};
+            const int axis = face_axis(load->face);
+            middle[axis] = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+            body_to_deck(body, middle, load->centre);
+        }
+    } else {
+        known = need_vector(builder, group, "centre", "a traction on a patch", load->centre) && known;
+        if (load->shape == LOAD_POINT)
+            refuse(builder, group, size_words, "shape 'point'");
+        else
+            read_size(builder, group, load);
+        if (known) place_patch(builder, group, load);
+    }
+    read_velocity(builder, group, load);
+    if (need_direction(builder, group, "direction", kinds[load->kind], load->direction) &&
+        builder->body_known)
+        warn_of_held_face(builder, group, load);
+}
+
+static bool place_inside(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    char text[VECTOR_TEXT_SIZE];
+    double nearest[3];
+    if (!need_vector(builder, group, "centre", kinds[load->kind], load->centre) || !builder->body_known)
+        return false;
+    if (body_holds(&builder->scene->body, builder->scene->dimension, load->centre, nearest)) return true;
+    complain(builder, group, "centre", "the centre lies outside the body; the nearest place of its box is %s",
+             vector_text(text, nearest, builder->scene->dimension));
+    return false;
+}
+
+static void read_body_force(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    static const char *const other_words[] = {"face", "size", "moment", "velocity", NULL};
+    static const char *const place_words[] = {"centre", NULL};
+    refuse(builder, group, other_words, kinds[load->kind]);
+    load->shape = LOAD_FACE; /* over the whole body */
+    if (deck_values(group, "shape") > 0) {
+        load->shape = (enum load_shape)deck_choice(group, "shape", 0);
+        if (load->shape != LOAD_POINT && load->shape != LOAD_FACE)
+            complain(builder, group, "shape",
+                     "a body force acts over the whole body (no shape, or 'face') or at a 'point'");
+    }
+    if (load->shape == LOAD_POINT)
+        place_inside(builder, group, load);
+    else
+        refuse(builder, group, place_words,
+               "a body force over the whole body (a force at a place has shape 'point')");
+    need_direction(builder, group, "direction", kinds[load->kind], load->direction);
+}
+
+static void read_moment(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    static const char *const other_words[] = {"face", "size", "direction", "shape", "velocity", NULL};
+    refuse(builder, group, other_words, kinds[load->kind]);
+    load->shape = LOAD_POINT;
+    place_inside(builder, group, load);
+    const size_t count = deck_values(group, "moment");
+    if (count != 6) {
+        complain(builder, group, count == 0 ? NULL : "moment",
+                 "a moment tensor has %zu value%s of moment; expected 6: xx yy zz xy yz zx", count,
+                 count == 1 ? "" : "s");
+        return;
+    }
+    bool zero = true;
+    for (size_t i = 0; i < 6; i++) {
+        load->moment[i] = deck_real(group, "moment", i);
+        zero = zero && load->moment[i] == 0;
+        const bool beyond = builder->scene->dimension < 2 ? i > 0 : i == 2 || i > 3;
+        if (builder->scene->dimension < 3 && beyond && load->moment[i] != 0)
+            complain(builder, group, "moment", "moment has components beyond the scene's %d dimension%s",
+                     builder->scene->dimension, builder->scene->dimension == 1 ? "" : "s");
+    }
+    if (zero) complain(builder, group, "moment", "moment is zero; expected a component that is not");
+}
+
+static void read_load(struct builder *builder, size_t index, struct load *load)
+{
+    static const char *const moment_words[] = {"moment", NULL};
+    const struct deck_group *group = deck_get(builder->deck, "load", index);
+    load->group = index;
+    load->kind = (enum load_kind)deck_choice(group, "kind", 0);
+    load->amplitude = deck_real(group, "amplitude", 0);
+    if (load->kind == LOAD_TRACTION) {
+        refuse(builder, group, moment_words, kinds[load->kind]);
+        read_traction(builder, group, load);
+    } else if (load->kind == LOAD_BODY_FORCE) {
+        read_body_force(builder, group, load);
+    } else {
+        read_moment(builder, group, load);
+    }
+    take_history(builder, group, kinds[load->kind], &load->history);
+}
+
+void build_loads(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    const size_t count = deck_count(builder->deck, "load");
+    if (count == 0) return;
+    scene->load = scene_array(builder, count, sizeof *scene->load);
+    if (scene->load == NULL) return;
+    scene->loads = count;
+    for (size_t i = 0; i < count; i++)
+        read_load(builder, i, &scene->load[i]);
+}

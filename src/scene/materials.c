@@ -1,0 +1,153 @@
+/* Materials: any of four pairs of elastic constants become lambda and mu (doc/scene.md, Eqs 4-9).
+ *
+ * An isotropic solid is stable if its strain energy is positive definite: mu > 0 and 3 lambda + 2 mu > 0, so
+ * that -1 < nu < 1/2 (Love 1927, section 70). */
+#include "scene/build.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+enum { PAIRS = 4 };
+
+static const char *const pairs[PAIRS][2] = {
+    {"lambda", "mu"}, {"young", "poisson"}, {"p_speed", "s_speed"}, {"bulk", "shear"}};
+
+/* Index of the one pair that is given whole, or -1 after complaining. */
+static int find_pair(struct builder *builder, const struct deck_group *group)
+{
+    int found = -1, touched = 0;
+    for (int i = 0; i < PAIRS; i++) {
+        const bool first = deck_given(group, pairs[i][0]), second = deck_given(group, pairs[i][1]);
+        if (!first && !second) continue;
+        touched++;
+        if (touched > 1)
+            complain(builder, group, pairs[i][first ? 0 : 1],
+                     "'%s' comes on top of another pair; give exactly one pair of lambda, mu / young, "
+                     "poisson / p_speed, s_speed / bulk, shear",
+                     pairs[i][first ? 0 : 1]);
+        else if (!first || !second)
+            complain(builder, group, pairs[i][first ? 0 : 1], "'%s' needs '%s' beside it",
+                     pairs[i][first ? 0 : 1], pairs[i][first ? 1 : 0]);
+        else
+            found = i;
+    }
+    if (touched == 0)
+        complain(builder, group, NULL,
+                 "no elastic constants; give one pair of lambda, mu / young, poisson / p_speed, s_speed / "
+                 "bulk, shear");
+    return touched == 1 ? found : -1;
+}
+
+/* Poisson's ratio of the deck in (-1, 1/2). */
+static bool check_poisson(struct builder *builder, const struct deck_group *group, double poisson)
+{
+    if (poisson > -1 && poisson < .5) return true;
+    if (poisson == .5)
+        complain(builder, group, "poisson",
+                 "poisson = 0.5 is an incompressible solid, whose P waves are infinitely fast; expected less "
+                 "than 0.5, for instance 0.499");
+    else
+        complain(builder, group, "poisson", "poisson = %g is out of its range; expected -1 < poisson < 0.5",
+                 poisson);
+    return false;
+}
+
+static bool read_constants(struct builder *builder, const struct deck_group *group, int pair,
+                           struct material *material)
+{
+    const double first = deck_real(group, pairs[pair][0], 0), second = deck_real(group, pairs[pair][1], 0);
+    const double density = material->density;
+    if (pair == 0) {
+        material->lambda = first;
+        material->mu = second;
+    } else if (pair == 1) {
+        if (!check_poisson(builder, group, second)) return false;
+        material->mu = first / (2 * (1 + second));
+        material->lambda = first * second / ((1 + second) * (1 - 2 * second));
+    } else if (pair == 2) {
+        material->mu = density * second * second;
+        material->lambda = density * (first * first - 2 * second * second);
+    } else {
+        material->mu = second;
+        material->lambda = first - 2 * second / 3;
+    }
+    return true;
+}
+
+/* mu > 0 and 3 lambda + 2 mu > 0, in the words of the pair that was given. */
+static bool check_definite(struct builder *builder, const struct deck_group *group, int pair,
+                           const struct material *material)
+{
+    const double lambda = material->lambda, mu = material->mu;
+    if (!isfinite(lambda) || !isfinite(mu)) {
+        complain(builder, group, pairs[pair][0], "the elastic constants are not finite");
+        return false;
+    }
+    if (mu > 0 && 3 * lambda + 2 * mu > 0) return true;
+    if (!(mu > 0))
+        complain(builder, group, pairs[pair][pair == 1 ? 0 : 1], "the shear modulus is %g; expected mu > 0",
+                 mu);
+    else if (pair == 2)
+        complain(
+            builder, group, "s_speed",
+            "s_speed = %g is too fast beside p_speed = %g; expected less than sqrt(3)/2 p_speed = %g, so "
+            "that the bulk modulus is positive",
+            deck_real(group, "s_speed", 0), deck_real(group, "p_speed", 0),
+            sqrt(.75) * deck_real(group, "p_speed", 0));
+    else
+        complain(builder, group, pairs[pair][0],
+                 "3 lambda + 2 mu is %g; expected more than 0, so that the bulk modulus is positive",
+                 3 * lambda + 2 * mu);
+    return false;
+}
+
+/* Young, Poisson, and what enters the equations of a plane or a thin bar (doc/scene.md, Eqs 5-9). */
+static void complete(const struct scene *scene, struct material *material)
+{
+    const double lambda = material->lambda, mu = material->mu;
+    material->young = mu * (3 * lambda + 2 * mu) / (lambda + mu);
+    material->poisson = lambda / (2 * (lambda + mu));
+    material->plane_lambda = lambda;
+    if (scene->plane == PLANE_STRESS && scene->dimension == 2)
+        material->plane_lambda = 2 * lambda * mu / (lambda + 2 * mu);
+    if (scene->plane == PLANE_STRESS && scene->dimension == 1)
+        material->plane_lambda = material->young - 2 * mu;
+    material->p_speed = sqrt((material->plane_lambda + 2 * mu) / material->density);
+    material->s_speed = sqrt(mu / material->density);
+}
+
+void build_materials(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    const size_t count = deck_count(builder->deck, "material");
+    bool right = true;
+    if (count == 0) {
+        complain(builder, deck_get(builder->deck, "scene", 0), NULL,
+                 "the deck has no &material; a body needs one");
+        return;
+    }
+    scene->material = scene_array(builder, count, sizeof *scene->material);
+    if (scene->material == NULL) return;
+    scene->materials = count;
+    for (size_t i = 0; i < count; i++) {
+        const struct deck_group *group = deck_get(builder->deck, "material", i);
+        struct material *material = &scene->material[i];
+        if (!take_name(builder, group, "name", material->name)) right = false;
+        for (size_t k = 0; k < i; k++)
+            if (material->name[0] != '\0' && strcasecmp(scene->material[k].name, material->name) == 0) {
+                complain(builder, group, "name",
+                         "there is a material '%s' already (&material %zu); expected another name",
+                         material->name, k + 1);
+                right = false;
+            }
+        material->density = deck_real(group, "density", 0);
+        const int pair = find_pair(builder, group);
+        if (pair < 0 || !read_constants(builder, group, pair, material) ||
+            !check_definite(builder, group, pair, material))
+            right = false;
+        else
+            complete(scene, material);
+    }
+    builder->materials_known = right;
+}

@@ -1,0 +1,184 @@
+/* What the user wants to see: receivers, profiles, snapshots. */
+#include "scene/build.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Names become file names: letters, digits, '_', '-', '+' and '.', not a '.' or '-' first, and not those of
+ * other files of a run. */
+static bool check_file_name(struct builder *builder, const struct deck_group *group, const char *name)
+{
+    static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
+    const size_t length = strlen(name), good = strspn(name, safe);
+    if (good < length) {
+        complain(builder, group, "name",
+                 "'%c' in the name '%s' cannot stand in a file name; expected letters, digits, _ - + .",
+                 name[good], name);
+        return false;
+    }
+    if (name[0] == '.' || name[0] == '-') {
+        complain(builder, group, "name", "the name '%s' begins with '%c'; expected a letter or a digit first",
+                 name, name[0]);
+        return false;
+    }
+    if (length >= 6 && strcasecmp(name + length - 6, ".exact") == 0) {
+        complain(builder, group, "name", "names ending in '.exact' are those of the exact histories");
+        return false;
+    }
+    return true;
+}
+
+/* Receivers and profiles share a folder; some file systems do not tell case. */
+static void check_unique(struct builder *builder, const struct deck_group *group, const char *name,
+                         size_t receivers, size_t profiles)
+{
+    const struct scene *scene = builder->scene;
+    for (size_t i = 0; i < receivers; i++)
+        if (strcasecmp(scene->receiver[i].name, name) == 0)
+            complain(builder, group, "name", "there is a receiver '%s' already (&receiver %zu)", name, i + 1);
+    for (size_t i = 0; i < profiles; i++)
+        if (strcasecmp(scene->profile[i].name, name) == 0)
+            complain(builder, group, "name", "there is a profile '%s' already (&profile %zu)", name, i + 1);
+}
+
+static void read_place(struct builder *builder, const struct deck_group *group, const char *name,
+                       const char *what, double position[3])
+{
+    char given[VECTOR_TEXT_SIZE], near[VECTOR_TEXT_SIZE];
+    const struct body *body = &builder->scene->body;
+    const int dimension = builder->scene->dimension;
+    double nearest[3];
+    if (!need_vector(builder, group, name, what, position) || !builder->body_known) return;
+    if (body_holds(body, dimension, position, nearest)) return;
+    if (body->shape == BODY_PLATE_WITH_HOLE && memcmp(nearest, position, sizeof nearest) == 0)
+        complain(builder, group, name, "%s at %s lies in the hole", what,
+                 vector_text(given, position, dimension));
+    else
+        complain(builder, group, name, "%s at %s lies outside the body; the nearest place in it is %s", what,
+                 vector_text(given, position, dimension), vector_text(near, nearest, dimension));
+}
+
+void build_receivers(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    const size_t count = deck_count(builder->deck, "receiver");
+    if (count == 0) return;
+    scene->receiver = scene_array(builder, count, sizeof *scene->receiver);
+    if (scene->receiver == NULL) return;
+    scene->receivers = count;
+    for (size_t i = 0; i < count; i++) {
+        const struct deck_group *group = deck_get(builder->deck, "receiver", i);
+        struct receiver *receiver = &scene->receiver[i];
+        if (take_name(builder, group, "name", receiver->name) &&
+            check_file_name(builder, group, receiver->name))
+            check_unique(builder, group, receiver->name, i, 0);
+        read_place(builder, group, "position", "the receiver", receiver->position);
+    }
+}
+
+static int ascending(const void *one, const void *other)
+{
+    const double a = *(const double *)one, b = *(const double *)other;
+    return (a > b) - (a < b);
+}
+
+/* The values of `times`, ascending; NULL after complaining. */
+static double *read_times(struct builder *builder, const struct deck_group *group, size_t *count)
+{
+    *count = deck_values(group, "times");
+    double *times = scene_array(builder, *count, sizeof *times);
+    if (times == NULL) {
+        *count = 0;
+        return NULL;
+    }
+    for (size_t i = 0; i < *count; i++) {
+        times[i] = deck_real(group, "times", i);
+        if (times[i] > builder->scene->end_time)
+            complain(builder, group, "times", "%g is after scene%%end_time = %g", times[i],
+                     builder->scene->end_time);
+    }
+    qsort(times, *count, sizeof *times, ascending);
+    return times;
+}
+
+static unsigned read_fields(const struct deck_group *group)
+{
+    unsigned fields = 0;
+    for (size_t i = 0; i < deck_values(group, "fields"); i++)
+        fields |= 1U << deck_choice(group, "fields", i);
+    return fields;
+}
+
+void build_profiles(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    const size_t count = deck_count(builder->deck, "profile");
+    if (count == 0) return;
+    scene->profile = scene_array(builder, count, sizeof *scene->profile);
+    if (scene->profile == NULL) return;
+    scene->profiles = count;
+    for (size_t i = 0; i < count; i++) {
+        const struct deck_group *group = deck_get(builder->deck, "profile", i);
+        struct profile *profile = &scene->profile[i];
+        if (take_name(builder, group, "name", profile->name) &&
+            check_file_name(builder, group, profile->name))
+            check_unique(builder, group, profile->name, scene->receivers, i);
+        read_place(builder, group, "from", "the profile's first point", profile->from);
+        read_place(builder, group, "to", "the profile's last point", profile->to);
+        profile->points = (size_t)deck_integer(group, "points", 0);
+        profile->fields = read_fields(group);
+        if (deck_values(group, "times") > 0) {
+            profile->time = read_times(builder, group, &profile->times);
+        } else {
+            profile->time = scene_array(builder, 1, sizeof *profile->time);
+            if (profile->time == NULL) return;
+            profile->times = 1;
+            profile->time[0] = scene->end_time;
+        }
+    }
+}
+
+static void read_region(struct builder *builder, const struct deck_group *group, struct snapshot *snapshot)
+{
+    const size_t dimension = (size_t)builder->scene->dimension, count = deck_values(group, "region");
+    snapshot->whole = count == 0;
+    if (count == 0) return;
+    if (count != 2 * dimension) {
+        complain(builder, group, "region",
+                 "region has %zu values; expected %zu: the lowest corner, then the "
+                 "highest",
+                 count, 2 * dimension);
+        return;
+    }
+    for (size_t c = 0; c < dimension; c++) {
+        snapshot->region_low[c] = deck_real(group, "region", c);
+        snapshot->region_high[c] = deck_real(group, "region", dimension + c);
+        if (snapshot->region_low[c] > snapshot->region_high[c])
+            complain(builder, group, "region",
+                     "along %c the region goes from %g to %g; expected the lowest corner first", "xyz"[c],
+                     snapshot -> region_low[c], snapshot -> region_high[c]);
+    }
+}
+
+void build_snapshots(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    const size_t count = deck_count(builder->deck, "snapshot");
+    if (count == 0) return;
+    scene->snapshot = scene_array(builder, count, sizeof *scene->snapshot);
+    if (scene->snapshot == NULL) return;
+    scene->snapshots = count;
+    for (size_t i = 0; i < count; i++) {
+        const struct deck_group *group = deck_get(builder->deck, "snapshot", i);
+        struct snapshot *snapshot = &scene->snapshot[i];
+        const bool every = deck_given(group, "every"), times = deck_given(group, "times");
+        if (every == times)
+            complain(builder, group, every ? "times" : NULL, "a snapshot needs %s",
+                     every ? "either every or times, not both" : "every (time between snapshots) or times");
+        if (every) snapshot->every = deck_real(group, "every", 0);
+        if (times) snapshot->time = read_times(builder, group, &snapshot->times);
+        snapshot->fields = read_fields(group);
+        read_region(builder, group, snapshot);
+    }
+}

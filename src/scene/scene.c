@@ -1,0 +1,165 @@
+/* From the deck to the scene: what the words mean together. Every part reads its groups and complains with
+ * their place in the deck; the parts go on after an error, so that all errors come in one pass. */
+#include "base/memory.h"
+#include "scene/build.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void build_settings(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    const struct deck_group *group = deck_get(builder->deck, "scene", 0);
+    const char *title = deck_values(group, "title") > 0 ? deck_text(group, "title", 0) : "";
+    if (strlen(title) >= sizeof scene->title)
+        complain(builder, group, "title", "the title has %zu characters; expected at most %zu", strlen(title),
+                 sizeof scene->title - 1);
+    else
+        memcpy(scene->title, title, strlen(title) + 1);
+    scene->dimension = (int)deck_integer(group, "dimension", 0);
+    scene->end_time = deck_real(group, "end_time", 0);
+    scene->plane = (enum plane)deck_choice(group, "plane", 0);
+    if (scene->dimension == 3 && deck_given(group, "plane"))
+        complain(builder, group, "plane", "plane has no meaning in three dimensions; leave it out");
+    if (deck_given(group, "accuracy"))
+        complain(builder, group, "accuracy", "accuracy is not offered yet; give body%%spacing");
+}
+
+/* The default of each family; a variant must belong to its family. */
+static void build_method(struct builder *builder)
+{
+    static const char *const families[2] = {"smoothed-point", "sph"};
+    static const char *const variants[2][2] = {{"consistent", "paper"},
+                                               {"total-lagrangian", "updated-lagrangian"}};
+    struct method_choice *method = &builder->scene->method;
+    const struct deck_group *group = deck_get(builder->deck, "method", 0);
+    const size_t family = deck_choice(group, "name", 0);
+    size_t choice = 0;
+    method->group = group;
+    if (deck_given(group, "variant")) {
+        choice = deck_choice(group, "variant", 0);
+        if (choice / 2 != family) {
+            complain(builder, group, "variant", "method '%s' has no variant '%s'; expected '%s' or '%s'",
+                     families[family], deck_text(group, "variant", 0), variants[family][0],
+                     variants[family][1]);
+            choice = 2 * family;
+        }
+        choice %= 2;
+    }
+    snprintf(method->name, sizeof method->name, "%s", families[family]);
+    snprintf(method->variant, sizeof method->variant, "%s", variants[family][choice]);
+}
+
+static void build_stepping(struct builder *builder)
+{
+    static const char *const words[3] = {"time_step", "courant", "safety"};
+    struct stepping_choice *stepping = &builder->scene->stepping;
+    const struct deck_group *group = deck_get(builder->deck, "stepping", 0);
+    double *const values[3] = {&stepping->time_step, &stepping->courant, &stepping->safety};
+    int given = 0;
+    for (int i = 0; i < 3; i++) {
+        if (!deck_given(group, words[i])) continue;
+        if (given++ > 0)
+            complain(
+                builder, group, words[i],
+                "'%s' comes on top of another choice of the step; give one of time_step, courant and safety",
+                words[i]);
+        *values[i] = deck_real(group, words[i], 0);
+    }
+    if (given == 0) stepping->safety = .9;
+    if (deck_values(group, "scheme") > 0)
+        snprintf(stepping->scheme, sizeof stepping->scheme, "%s", deck_text(group, "scheme", 0));
+    if (deck_values(group, "stages") > 0) stepping->stages = deck_integer(group, "stages", 0);
+    if (deck_values(group, "max_stages") > 0) stepping->max_stages = deck_integer(group, "max_stages", 0);
+    if (stepping->stages > 0 && stepping->max_stages > 0)
+        complain(builder, group, "max_stages", "give stages or max_stages, not both");
+    stepping->unwarp_given = deck_given(group, "unwarp");
+    if (stepping->unwarp_given) stepping->unwarp = deck_logical(group, "unwarp", 0);
+    stepping->force = deck_logical(group, "force", 0);
+    if (stepping->time_step > builder->scene->end_time)
+        complain(builder, group, "time_step", "time_step = %g is longer than scene%%end_time = %g",
+                 stepping->time_step, builder->scene->end_time);
+}
+
+/* Results go where the user stands, not where the deck lies. */
+static void build_output(struct builder *builder)
+{
+    struct output_choice *output = &builder->scene->output;
+    const struct deck_group *group = deck_get(builder->deck, "output", 0);
+    const bool given = deck_given(group, "directory");
+    const char *name = given ? deck_text(group, "directory", 0) : deck_name(builder->deck);
+    if (given && name[0] == '\0') complain(builder, group, "directory", "the directory is empty");
+    const size_t room = strlen(name) + sizeof "output/";
+    output->directory = scene_array(builder, room, 1);
+    if (output->directory != NULL) snprintf(output->directory, room, "%s%s", given ? "" : "output/", name);
+    output->plots = deck_logical(group, "plots", 0);
+    output->history_step = deck_real(group, "history_step", 0);
+    output->low_pass = deck_real(group, "low_pass", 0);
+    output->checkpoint_every = deck_integer(group, "checkpoint_every", 0);
+}
+
+static void build_reference(struct builder *builder)
+{
+    static const char *const file_words[] = {"file", NULL};
+    struct reference *reference = &builder->scene->reference;
+    if (deck_count(builder->deck, "reference") == 0) return;
+    const struct deck_group *group = deck_get(builder->deck, "reference", 0);
+    reference->group = group;
+    snprintf(reference->kind, sizeof reference->kind, "%s", deck_text(group, "kind", 0));
+    if (strcmp(reference->kind, "file") != 0) {
+        refuse(builder, group, file_words, "an exact solution");
+    } else if (deck_values(group, "file") == 0) {
+        complain(builder, group, NULL, "reference 'file' needs file");
+    } else {
+        reference->file = deck_path(builder, deck_text(group, "file", 0));
+    }
+}
+
+selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages)
+{
+    *scene = array_new(1, sizeof **scene);
+    if (*scene == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the scene");
+    struct builder builder = {.deck = deck, .scene = *scene, .messages = messages};
+    (*scene)->deck = deck;
+    build_settings(&builder);
+    build_method(&builder);
+    build_stepping(&builder);
+    build_output(&builder);
+    build_reference(&builder);
+    build_materials(&builder);
+    build_body(&builder);
+    build_layers(&builder);
+    build_boundaries(&builder);
+    build_loads(&builder);
+    build_initial(&builder);
+    build_receivers(&builder);
+    build_profiles(&builder);
+    build_snapshots(&builder);
+    if (builder.status != SELAS_OK) scene_free(scene);
+    return builder.status;
+}
+
+void scene_free(struct scene **scene)
+{
+    if (scene == NULL || *scene == NULL) return;
+    struct scene *old = *scene;
+    for (int face = 0; face < FACES; face++)
+        history_free(&old->boundary[face].history);
+    for (size_t i = 0; i < old->loads; i++)
+        history_free(&old->load[i].history);
+    for (size_t i = 0; i < old->profiles; i++)
+        array_free(old->profile[i].time);
+    for (size_t i = 0; i < old->snapshots; i++)
+        array_free(old->snapshot[i].time);
+    array_free(old->body.layer);
+    array_free(old->body.file);
+    array_free(old->output.directory);
+    array_free(old->reference.file);
+    array_free(old->material);
+    array_free(old->load);
+    array_free(old->receiver);
+    array_free(old->profile);
+    array_free(old->snapshot);
+    array_free(old);
+    *scene = NULL;
+}

@@ -1,0 +1,95 @@
+/* The words of a history (&load, &boundary): each kind has its own parameters, and takes no others. */
+#include "base/memory.h"
+#include "scene/build.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *const history_words[] = {"history", "duration", "frequency", "delay",     "width",
+                                     "cycles",  "file",     "smoothing", "amplitude", NULL};
+
+enum { PARAMETERS = 6 };
+
+/* Which parameters a kind takes, in the order of enum history_kind. */
+static const struct {
+    const char *kind;
+    bool takes[PARAMETERS];
+} kinds[] = {
+    {"history 'triangle'", {true, false, false, false, false, false}},
+    {"history 'step'", {false, false, false, false, false, false}},
+    {"history 'ricker'", {false, true, true, false, false, false}},
+    {"history 'gaussian'", {false, false, true, true, false, false}},
+    {"history 'sine-burst'", {false, true, false, false, true, false}},
+    {"history 'table'", {false, false, false, false, false, true}},
+};
+static const char *const parameters[PARAMETERS] = {"duration", "frequency", "delay",
+                                                   "width",    "cycles",    "file"};
+
+/* Reads the table of a file and puts the place in the deck before what the reader says. */
+static bool take_table(struct builder *builder, const struct deck_group *group, struct history *history)
+{
+    struct messages said = {0};
+    char *path = deck_path(builder, deck_text(group, "file", 0));
+    if (path == NULL) return false;
+    const selas_status status = history_read_table(history, path, &said);
+    if (status != SELAS_OK) {
+        const char *text = said.text != NULL ? said.text : "";
+        if (strncmp(text, "error: ", 7) == 0) text += 7;
+        complain(builder, group, "file", "the table cannot be used: %.*s", (int)strcspn(text, "\n"), text);
+    }
+    messages_free(&said);
+    array_free(path);
+    return status == SELAS_OK;
+}
+
+/* Values before t = 0 are cut off: a pulse that begins earlier starts with a jump. */
+static void warn_of_cut(struct builder *builder, const struct deck_group *group,
+                        const struct history *history)
+{
+    if (history->kind != HISTORY_RICKER && history->kind != HISTORY_GAUSSIAN) return;
+    struct history raw = *history;
+    raw.smoothing = 0;
+    const double start = fabs(history_value(&raw, 0, 0));
+    if (start > 1e-3)
+        deck_warning(builder->deck, group, "delay", builder->messages,
+                     "the history is cut at t = 0, where it is %.3g of its peak; a longer delay would let it "
+                     "begin smoothly",
+                     start);
+}
+
+bool take_history(struct builder *builder, const struct deck_group *group, const char *purpose,
+                  struct history *history)
+{
+    *history = (struct history){0};
+    if (deck_values(group, "history") == 0) {
+        complain(builder, group, NULL,
+                 "%s needs history: 'triangle', 'step', 'ricker', 'gaussian', "
+                 "'sine-burst' or 'table'",
+                 purpose);
+        return false;
+    }
+    double *const numbers[PARAMETERS] = {&history->duration, &history->frequency, &history->delay,
+                                         &history->width,    &history->cycles,    NULL};
+    bool right = true;
+    history->kind = (enum history_kind)deck_choice(group, "history", 0);
+    for (int i = 0; i < PARAMETERS; i++) {
+        if (!kinds[history->kind].takes[i]) {
+            const char *const one[] = {parameters[i], NULL};
+            if (deck_given(group, parameters[i])) right = false;
+            refuse(builder, group, one, kinds[history->kind].kind);
+        } else if (deck_values(group, parameters[i]) == 0) {
+            complain(builder, group, NULL, "%s needs %s", kinds[history->kind].kind, parameters[i]);
+            right = false;
+        } else if (numbers[i] != NULL) {
+            *numbers[i] = deck_real(group, parameters[i], 0);
+        }
+    }
+    history->smoothing = deck_real(group, "smoothing", 0);
+    if (right && history->kind == HISTORY_TABLE) right = take_table(builder, group, history);
+    if (right)
+        warn_of_cut(builder, group, history);
+    else
+        *history = (struct history){0};
+    return right;
+}
