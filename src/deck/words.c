@@ -73,7 +73,7 @@ static const struct word material_words[] = {
     {"lambda", WORD_REAL, 1, NULL, NULL, false, "first Lame constant [stress]"},
     {"mu", WORD_REAL, 1, NULL, POSITIVE, false, "second Lame constant [stress]"},
     {"young", WORD_REAL, 1, NULL, POSITIVE, false, "Young's modulus [stress]"},
-    {"poisson", WORD_REAL, 1, NULL, "(-1, 0.5)", false, "Poisson's ratio"},
+    {"poisson", WORD_REAL, 1, NULL, NULL, false, "Poisson's ratio, between -1 and 0.5"},
     {"p_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of P waves [length/time]"},
     {"s_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of S waves [length/time]"},
     {"bulk", WORD_REAL, 1, NULL, POSITIVE, false, "bulk modulus [stress]"},
@@ -140,9 +140,11 @@ static const struct word initial_words[] = {
     {"wave", WORD_CHOICE, 1, "'p'", "p|s", false, "kind of plane wave"},
     {"direction", WORD_REAL, 3, NULL, NULL, false, "of propagation (plane-wave) or displacement (gaussian)"},
     {"polarisation", WORD_REAL, 3, NULL, NULL, false, "direction of motion of an S wave"},
-    {"wavelength", WORD_REAL, 1, NULL, POSITIVE, false, "of the plane wave [length]"},
-    {"centre", WORD_REAL, 3, NULL, NULL, false, "of the gaussian [length]"},
-    {"width", WORD_REAL, 1, NULL, POSITIVE, false, "standard deviation of the gaussian [length]"},
+    {"wavelength", WORD_REAL, 1, NULL, POSITIVE, false, "of a train of plane waves [length]"},
+    {"centre", WORD_REAL, 3, NULL, NULL, false,
+     "of the gaussian or the pulse; phase 0 of the train [length]"},
+    {"width", WORD_REAL, 1, NULL, POSITIVE, false,
+     "standard deviation of the gaussian or of a plane pulse [length]"},
 };
 
 static const struct word load_words[] = {
@@ -153,7 +155,7 @@ static const struct word load_words[] = {
     {"size", WORD_REAL, 2, NULL, POSITIVE, false, "edges of the square, or diameter of the disc [length]"},
     {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, false, "moment tensor: xx yy zz xy yz zx [force length]"},
-    {"velocity", WORD_REAL, 3, "0, 0, 0", NULL, false, "velocity of a moving patch [length/time]"},
+    {"velocity", WORD_REAL, 3, NULL, NULL, false, "velocity of a moving patch [length/time]; else at rest"},
     HISTORY_WORDS,
 };
 

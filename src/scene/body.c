@@ -49,7 +49,7 @@ static double nearest_spacing(const struct body *body, int dimension, double wan
 }
 
 /* Smoothed points lie on the faces, so the spacing must divide every edge; SPH fits it edge by edge. */
-static bool check_division(struct builder *builder, const struct deck_group *group)
+static void check_division(struct builder *builder, const struct deck_group *group)
 {
     const struct scene *scene = builder->scene;
     const struct body *body = &scene->body;
@@ -77,9 +77,8 @@ static bool check_division(struct builder *builder, const struct deck_group *gro
                 "spacing = %.10g does not divide the edge of %.10g along %c (points lie on the faces), nor "
                 "does any spacing near it divide every edge; change low or high",
                 body->spacing, length, "xyz"[c]);
-        return false;
+        return;
     }
-    return true;
 }
 
 /* Refuses more points than this machine could hold with displacement, velocity and acceleration alone. */
@@ -217,12 +216,12 @@ void build_body(struct builder *builder)
         complain(builder, group, "arrangement",
                  "arrangement '%s' is for shape 'plate-with-hole'; expected 'lattice'",
                  deck_text(group, "arrangement", 0));
-    if (!need_real(builder, group, "spacing", "a body of points", &body->spacing) || !right) return;
-    right = check_memory(builder, group);
-    const bool lattice = body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
-    if (lattice && right) right = check_division(builder, group);
+    const bool spaced = need_real(builder, group, "spacing", "a body of points", &body->spacing);
+    if (!right) return;
     body_set_frame(body);
-    builder->body_known = right;
+    builder->body_known = true;
+    const bool lattice = body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
+    if (spaced && check_memory(builder, group) && lattice) check_division(builder, group);
 }
 
 static int by_depth(const void *one, const void *other)

@@ -10,8 +10,7 @@ struct builder {
     struct scene *scene;
     struct messages *messages;
     selas_status status; /* SELAS_OK, or what went wrong first */
-    bool body_known;     /* box, spacing and frame are right: places can be checked against them */
-    bool materials_known;
+    bool body_known;     /* box and frame are right: places can be checked against them */
 };
 
 /* Adds a line with the place of `name` in the group (deck_error); the building goes on. */

@@ -121,7 +121,6 @@ void build_materials(struct builder *builder)
 {
     struct scene *scene = builder->scene;
     const size_t count = deck_count(builder->deck, "material");
-    bool right = true;
     if (count == 0) {
         complain(builder, deck_get(builder->deck, "scene", 0), NULL,
                  "the deck has no &material; a body needs one");
@@ -133,21 +132,16 @@ void build_materials(struct builder *builder)
     for (size_t i = 0; i < count; i++) {
         const struct deck_group *group = deck_get(builder->deck, "material", i);
         struct material *material = &scene->material[i];
-        if (!take_name(builder, group, "name", material->name)) right = false;
+        take_name(builder, group, "name", material->name);
         for (size_t k = 0; k < i; k++)
-            if (material->name[0] != '\0' && strcasecmp(scene->material[k].name, material->name) == 0) {
+            if (material->name[0] != '\0' && strcasecmp(scene->material[k].name, material->name) == 0)
                 complain(builder, group, "name",
                          "there is a material '%s' already (&material %zu); expected another name",
                          material->name, k + 1);
-                right = false;
-            }
         material->density = deck_real(group, "density", 0);
         const int pair = find_pair(builder, group);
-        if (pair < 0 || !read_constants(builder, group, pair, material) ||
-            !check_definite(builder, group, pair, material))
-            right = false;
-        else
+        if (pair >= 0 && read_constants(builder, group, pair, material) &&
+            check_definite(builder, group, pair, material))
             complete(scene, material);
     }
-    builder->materials_known = right;
 }
