@@ -1,0 +1,335 @@
+/* The library's door: a simulation goes one way, deck -> scene -> model -> stepping -> record, each made when
+ * first needed. */
+#include "selas.h"
+
+#include "base/memory.h"
+#include "deck/deck.h"
+#include "exact/exact.h"
+#include "record/progress.h"
+#include "record/record.h"
+#include "scene/scene.h"
+#include "stepping/stepping.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct selas_simulation {
+    struct messages messages;
+    struct deck *deck;
+    struct scene *scene;
+    struct model *model;
+    struct stepper *stepper;
+    struct state state;
+    struct recorder *recorder;
+    struct exact *exact;
+    struct run_figures figures;
+    bool prepared, recording, finished;
+};
+
+/* Seconds by the wall clock and of this process's CPUs. */
+struct stopwatch {
+    double wall, cpu;
+};
+
+static struct stopwatch start_watch(void)
+{
+    return (struct stopwatch){wall_seconds(), cpu_seconds()};
+}
+
+static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
+{
+    const struct stopwatch now = start_watch();
+    if (wall != NULL) *wall += now.wall - since.wall;
+    *cpu += now.cpu - since.cpu;
+}
+
+/* --- Opening and closing
+ * --------------------------------------------------------------------------------------- */
+
+static selas_status new_simulation(selas_simulation **simulation)
+{
+    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    *simulation = calloc(1, sizeof **simulation);
+    return *simulation != NULL ? SELAS_OK : SELAS_NO_MEMORY;
+}
+
+static selas_status build_scene(selas_simulation *simulation)
+{
+    return scene_build(simulation->deck, &simulation->scene, &simulation->messages);
+}
+
+selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
+                                  selas_simulation **opened)
+{
+    const selas_status status = new_simulation(opened);
+    if (status != SELAS_OK) return status;
+    selas_simulation *simulation = *opened;
+    if (path == NULL || (count > 0 && overrides == NULL))
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's path or the overrides are NULL");
+    const selas_status read =
+        deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
+    return read == SELAS_OK ? build_scene(simulation) : read;
+}
+
+selas_status selas_open_deck(const char *path, selas_simulation **simulation)
+{
+    return selas_open_deck_with(path, 0, NULL, simulation);
+}
+
+selas_status selas_open_text(const char *name, const char *text, selas_simulation **opened)
+{
+    const selas_status status = new_simulation(opened);
+    if (status != SELAS_OK) return status;
+    selas_simulation *simulation = *opened;
+    if (name == NULL || text == NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's name or text is NULL");
+    const selas_status read =
+        deck_read_text(name, text, strlen(text), 0, NULL, &simulation->deck, &simulation->messages);
+    return read == SELAS_OK ? build_scene(simulation) : read;
+}
+
+void selas_close(selas_simulation **closed)
+{
+    if (closed == NULL || *closed == NULL) return;
+    selas_simulation *simulation = *closed;
+    recorder_free(&simulation->recorder);
+    state_free(&simulation->state);
+    stepper_free(&simulation->stepper);
+    model_free(&simulation->model);
+    exact_free(&simulation->exact);
+    scene_free(&simulation->scene);
+    deck_free(&simulation->deck);
+    messages_free(&simulation->messages);
+    free(simulation);
+    *closed = NULL;
+}
+
+/* --- Building and stepping
+ * ------------------------------------------------------------------------------------- */
+
+static selas_status check_open(selas_simulation *simulation)
+{
+    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    if (simulation->scene == NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the simulation was not opened successfully");
+    return SELAS_OK;
+}
+
+/* Model, time step and recorder, without files. */
+static selas_status prepare(selas_simulation *simulation)
+{
+    selas_status status = check_open(simulation);
+    if (status != SELAS_OK || simulation->prepared) return status;
+    struct messages *messages = &simulation->messages;
+    const struct stopwatch watch = start_watch();
+    if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
+    if (status == SELAS_OK && simulation->stepper == NULL)
+        status = stepper_create(simulation->model, &simulation->stepper, messages);
+    if (status == SELAS_OK && simulation->recorder == NULL)
+        status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
+                                 &simulation->recorder, messages);
+    simulation->prepared = status == SELAS_OK;
+    simulation->figures.threads = omp_get_max_threads();
+    add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
+    return status;
+}
+
+/* The state at t = 0, seen by the recorder. */
+static selas_status begin(selas_simulation *simulation)
+{
+    selas_status status = prepare(simulation);
+    if (status != SELAS_OK || simulation->state.y != NULL) return status;
+    const struct stopwatch watch = start_watch();
+    simulation->model->evaluations = 0;
+    status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
+    if (status == SELAS_OK && simulation->recording)
+        status = recorder_open(simulation->recorder, &simulation->messages);
+    if (status == SELAS_OK)
+        status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
+    add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
+    return status;
+}
+
+static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
+{
+    selas_status status = begin(simulation);
+    if (status == SELAS_OK && simulation->finished)
+        status =
+            fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
+    const struct stopwatch watch = start_watch();
+    for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
+        simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
+        status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
+    }
+    add_elapsed(watch, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
+    return status;
+}
+
+selas_status selas_step(selas_simulation *simulation, unsigned long steps)
+{
+    return run_steps(simulation, steps);
+}
+
+selas_status selas_advance(selas_simulation *simulation, double time)
+{
+    const selas_status status = prepare(simulation);
+    if (status != SELAS_OK) return status;
+    if (!isfinite(time))
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the time to advance to must be finite");
+    const double steps = ceil(time / simulation->stepper->dt - 1e-9);
+    if (steps <= (double)simulation->state.step) return begin(simulation);
+    if (steps > 9e15) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "time %g is too far away", time);
+    return run_steps(simulation, (unsigned long)steps - simulation->state.step);
+}
+
+double selas_time(const selas_simulation *simulation)
+{
+    return simulation != NULL && simulation->scene != NULL ? simulation->state.time : (double)NAN;
+}
+
+double selas_end_time(const selas_simulation *simulation)
+{
+    return simulation != NULL && simulation->scene != NULL ? simulation->scene->end_time : (double)NAN;
+}
+
+double selas_time_step(selas_simulation *simulation)
+{
+    return prepare(simulation) == SELAS_OK ? simulation->stepper->dt : 0.0;
+}
+
+unsigned long selas_steps(const selas_simulation *simulation)
+{
+    return simulation != NULL ? simulation->state.step : 0;
+}
+
+unsigned long selas_steps_needed(selas_simulation *simulation)
+{
+    if (prepare(simulation) != SELAS_OK) return 0;
+    return simulation->stepper->steps + simulation->stepper->extra;
+}
+
+/* --- Results
+ * --------------------------------------------------------------------------------------------------- */
+
+static selas_status find_receiver(selas_simulation *simulation, const char *name, size_t *index)
+{
+    const struct scene *scene = simulation->scene;
+    for (size_t i = 0; name != NULL && i < scene->receivers; i++)
+        if (strcmp(scene->receiver[i].name, name) == 0) {
+            *index = i;
+            return SELAS_OK;
+        }
+    return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is no receiver '%s'",
+                name != NULL ? name : "(NULL)");
+}
+
+selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field, double *value)
+{
+    selas_status status = begin(simulation);
+    if (status != SELAS_OK) return status;
+    if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ENERGY)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no such field, or no room for its value");
+    size_t index = 0;
+    status = find_receiver(simulation, name, &index);
+    if (status == SELAS_OK) recorder_value(simulation->recorder, index, field, &simulation->state, value);
+    return status;
+}
+
+selas_status selas_finish(selas_simulation *simulation)
+{
+    selas_status status = begin(simulation);
+    if (status != SELAS_OK || simulation->finished) return status;
+    const unsigned long needed = simulation->stepper->steps + simulation->stepper->extra;
+    if (simulation->state.step < needed) status = run_steps(simulation, needed - simulation->state.step);
+    if (status == SELAS_OK) status = recorder_finish(simulation->recorder, &simulation->messages);
+    simulation->finished = status == SELAS_OK;
+    return status;
+}
+
+selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows, const double **time,
+                           const double **value)
+{
+    selas_status status = check_open(simulation);
+    if (status != SELAS_OK) return status;
+    if (!simulation->finished || rows == NULL || time == NULL || value == NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "histories exist after selas_finish, and need room for rows, time and value");
+    size_t index = 0;
+    status = find_receiver(simulation, name, &index);
+    if (status != SELAS_OK) return status;
+    const struct history_rows history = recorder_history(simulation->recorder, index);
+    *rows = history.rows;
+    *time = history.time;
+    *value = history.value;
+    return SELAS_OK;
+}
+
+selas_status selas_record(selas_simulation *simulation)
+{
+    const selas_status status = check_open(simulation);
+    if (status != SELAS_OK) return status;
+    if (simulation->state.y != NULL && !simulation->recording)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "ask for result files before the first step");
+    simulation->recording = true;
+    return SELAS_OK;
+}
+
+static selas_status make_exact(selas_simulation *simulation)
+{
+    if (simulation->exact != NULL || simulation->scene->reference.kind[0] == '\0') return SELAS_OK;
+    const struct stopwatch watch = start_watch();
+    const selas_status status = exact_create(simulation->scene, &simulation->exact, &simulation->messages);
+    add_elapsed(watch, NULL, &simulation->figures.exact_cpu_seconds);
+    return status;
+}
+
+selas_status selas_write(selas_simulation *simulation)
+{
+    selas_status status = check_open(simulation);
+    if (status != SELAS_OK) return status;
+    if (!simulation->recording)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "selas_record was not called before the first step");
+    status = selas_finish(simulation);
+    if (status == SELAS_OK) status = make_exact(simulation);
+    if (status == SELAS_OK)
+        status = recorder_write(simulation->recorder, simulation->exact, &simulation->figures,
+                                &simulation->messages);
+    return status;
+}
+
+selas_status selas_write_exact(selas_simulation *simulation)
+{
+    selas_status status = check_open(simulation);
+    if (status != SELAS_OK) return status;
+    if (simulation->scene->reference.kind[0] == '\0')
+        return fail(&simulation->messages, SELAS_BAD_SCENE, "the deck has no &reference");
+    status = make_exact(simulation);
+    if (status == SELAS_OK)
+        status = record_exact(simulation->scene, simulation->exact, &simulation->messages);
+    return status;
+}
+
+selas_status selas_plan(selas_simulation *simulation,
+                        void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    if (tell == NULL && simulation != NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
+    const selas_status status = prepare(simulation);
+    if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
+    return status;
+}
+
+const char *selas_message(const selas_simulation *simulation)
+{
+    if (simulation == NULL) return "no simulation (the handle is NULL)";
+    return simulation->messages.text != NULL ? simulation->messages.text : "";
+}
+
+const char *selas_output_directory(const selas_simulation *simulation)
+{
+    return simulation != NULL && simulation->scene != NULL ? simulation->scene->output.directory : "";
+}
