@@ -1,0 +1,334 @@
+/* The consistent smoothed point method (manual, doc/consistent-method.md): Ding et al. (2006), Eq 14, with
+ * the smoothing kept on both sides, which is Galerkin's method with tensor-product B-splines:
+ *
+ *   M a + C v + K u = F.
+ *
+ * Here: the model's making, its acceleration and energies. */
+#include "method/consistent.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+static void destroy(struct model *model)
+{
+    struct consistent *c = consistent_of(model);
+    forces_free(c);
+    mass_free(c);
+    tensor_plan_free(c->stiffness);
+    tensor_plan_free(c->mass);
+    for (size_t i = 0; i < c->matrices; i++)
+        band_free(c->matrix[i].band);
+    for (int axis = 0; axis < 3; axis++) {
+        spline_free(c->spline[axis]);
+        array_free(c->lattice[axis][0]);
+        array_free(c->lattice[axis][1]);
+        band_free(c->collocation[axis][0]);
+        band_free(c->collocation[axis][1]);
+    }
+    for (int weight = 0; weight < WEIGHT_NONE; weight++)
+        array_free(c->weighted[weight]);
+    array_free(c->line_buffer);
+    array_free(c->face_buffer);
+    array_free(c->position);
+    array_free(c);
+}
+
+/* Control values of a component on a held face: the mass solve leaves 0 there. */
+void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane)
+{
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        if (!c->held[component][face]) continue;
+        const int slot = c->slot[face / 2];
+        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        if (slot == 0)
+            for (size_t j = 0; j < c->n[1]; j++)
+                plane[j * c->n[0] + at] = 0;
+        else if (slot == 1)
+            memset(plane + at * c->n[0], 0, c->n[0] * sizeof *plane);
+        else if (k == at)
+            memset(plane, 0, c->plane * sizeof *plane);
+    }
+}
+
+/* F - K u - C v - M_IB a_B in plane k. */
+static void residual_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
+                           const double *u, const double *v, double *a)
+{
+    const struct scene *scene = c->model.scene;
+    double *out[3] = {NULL, NULL, NULL};
+    for (int component = 0; component < c->dimension; component++) {
+        out[component] = a + (size_t)component * c->volume + k * c->plane;
+        memset(out[component], 0, c->plane * sizeof *a);
+    }
+    tensor_plane(c->stiffness, thread, k, -1, u, out);
+    if (v != NULL && c->model.damped) dampers_subtract(c, thread, k, v, out);
+    for (int component = 0; component < c->dimension; component++) {
+        for (size_t l = 0; drive->load != NULL && l < scene->loads; l++)
+            if (drive->load[l] != 0)
+                sparse_add(c, &c->load[l], component, k, drive->load[l] * scene->load[l].amplitude,
+                           out[component]);
+        for (int face = 0; drive->motion != NULL && face < 2 * c->dimension; face++)
+            if (c->moving[face])
+                sparse_add(c, &c->inertia[face], component, k, -drive->motion[face], out[component]);
+        consistent_clear_held(c, component, k, out[component]);
+    }
+}
+
+static void set_moving(const struct consistent *c, const struct drive *drive, double *a)
+{
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        if (!c->moving[face] || drive->motion == NULL) continue;
+        for (int component = 0; component < c->dimension; component++)
+            for (size_t k = 0; k < c->n[DEPTH]; k++)
+                sparse_add(c, &c->pattern[face], component, k, drive->motion[face],
+                           a + (size_t)component * c->volume + k * c->plane);
+    }
+}
+
+static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
+                       const double *v, double *a)
+{
+    struct consistent *c = consistent_of(model);
+    const struct mass_factors *factors = mass_factors_for(c, half_step);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = 0; k < c->n[DEPTH]; k++) {
+        const int thread = omp_get_thread_num();
+        residual_plane(c, drive, thread, k, u, v, a);
+        mass_solve_plane(c, factors, thread, k, a);
+    }
+    mass_solve_depth(c, factors, a);
+    set_moving(c, drive, a);
+    model->evaluations++;
+}
+
+static void energy(struct model *model, const double *y, struct energy *energy)
+{
+    struct consistent *c = consistent_of(model);
+    const double *v = y + model->unknowns;
+    energy->kinetic = tensor_form(c->mass, v, v) / 2;
+    energy->strain = tensor_form(c->stiffness, y, y) / 2;
+}
+
+static void power(struct model *model, const struct drive *drive, const double *y, double *load,
+                  double *absorbed)
+{
+    struct consistent *c = consistent_of(model);
+    const double *v = y + model->unknowns;
+    *load = 0;
+    for (size_t l = 0; drive->load != NULL && l < model->scene->loads; l++)
+        if (drive->load[l] != 0)
+            *load += drive->load[l] * model->scene->load[l].amplitude * sparse_dot(c, &c->load[l], v);
+    *absorbed = dampers_power(c, v);
+}
+
+static void describe(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct consistent *c = (const struct consistent *)model;
+    char text[160];
+    snprintf(text, sizeof text, "B-splines of degree %d, %s ends", c->options.degree,
+             c->options.mapped ? "mapped" : "open");
+    tell(context, "basis", text);
+    tell(context, "mass", "exact (banded Cholesky per axis)");
+    size_t control[3] = {1, 1, 1};
+    for (int axis = 0; axis < c->dimension; axis++)
+        control[axis] = c->spline[axis]->count;
+    snprintf(text, sizeof text, "%zu x %zu x %zu", model->grid[0], model->grid[1], model->grid[2]);
+    tell(context, "lattice points", text);
+    snprintf(text, sizeof text, "%zu x %zu x %zu", control[0], control[1], control[2]);
+    tell(context, "control values per component", text);
+}
+
+/* What each face does to each component's control values, in the body's frame. */
+static selas_status lay_faces(struct consistent *c, struct messages *messages)
+{
+    const struct scene *scene = c->model.scene;
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        const int axis = face / 2;
+        const struct spline *spline = c->spline[axis];
+        const struct material *material = &scene->material[scene->body.material];
+        double direction[3];
+        memcpy(direction, boundary->direction, sizeof direction);
+        if (scene->body.rotated) body_direction_from_deck(&scene->body, boundary->direction, direction);
+        c->moving[face] = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
+        c->damped[face] = boundary->kind == BOUNDARY_TRANSMITTING;
+        c->model.damped = c->model.damped || c->damped[face];
+        if (c->damped[face] && boundary->absorber != ABSORBER_LYSMER)
+            return fail(messages, SELAS_UNSUPPORTED, "face %s: the consistent method has no layer 'pml' yet",
+                        face_name((enum face)face));
+        for (int component = 0; component < c->dimension; component++) {
+            const bool normal = component == axis;
+            bool *held = &c->held[component][face];
+            c->motion[face][component] = boundary->amplitude * direction[component];
+            if (boundary->kind == BOUNDARY_FIXED) *held = true;
+            if (boundary->kind == BOUNDARY_ROLLER) *held = normal;
+            if (boundary->kind == BOUNDARY_SYMMETRY)
+                *held = normal && (!spline->mirror[face % 2] || spline->centred[face % 2]);
+            if (c->moving[face]) *held = !boundary->slip || fabs(direction[component]) > 1e-9;
+            if (c->damped[face])
+                c->damping[face][component] = normal ? boundary->normal_factor * material->p_speed
+                                                     : boundary->shear_factor * material->s_speed;
+        }
+    }
+    return SELAS_OK;
+}
+
+/* Depths below the low end of the last axis where the material changes, as positions. */
+static size_t interfaces(const struct body *body, int axis, double *at)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < body->layers; i++) {
+        const double x = body->low[axis] + body->layer[i].top;
+        const double small = 1e-9 * (body->high[axis] - body->low[axis]);
+        if (x > body->low[axis] + small && x < body->high[axis] - small) at[count++] = x;
+    }
+    return count;
+}
+
+static selas_status lay_axes(struct consistent *c, struct messages *messages)
+{
+    static const int slots[3][3] = {{2, 0, 0}, {0, 2, 0}, {0, 1, 2}};
+    const struct body *body = &c->model.scene->body;
+    double *interface = array_new(body->layers, sizeof *interface);
+    if (interface == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the axes");
+    for (int axis = 0; axis < 3; axis++)
+        c->n[axis] = 1;
+    selas_status status = SELAS_OK;
+    for (int axis = 0; axis < c->dimension && status == SELAS_OK; axis++) {
+        struct spline_choice choice = {.degree = c->options.degree,
+                                       .low = body->low[axis],
+                                       .high = body->high[axis],
+                                       .spacing = body->spacing,
+                                       .mapped = c->options.mapped,
+                                       .interface = interface};
+        const double cells = round((choice.high - choice.low) / choice.spacing);
+        c->slot[axis] = slots[c->dimension - 1][axis];
+        if (c->slot[axis] == DEPTH) choice.interfaces = interfaces(body, axis, interface);
+        for (int end = 0; end < 2; end++) /* in a body too thin for mirrors the normal component is held */
+            choice.mirror[end] = c->model.scene->boundary[2 * axis + end].kind == BOUNDARY_SYMMETRY &&
+                                 cells > 2 * c->options.degree;
+        c->spline[axis] = spline_new(&choice, messages);
+        if (c->spline[axis] == NULL)
+            status = SELAS_BAD_SCENE;
+        else
+            c->n[c->slot[axis]] = c->spline[axis]->count;
+        c->layout[c->slot[axis]] = c->spline[axis];
+    }
+    array_free(interface);
+    c->plane = c->n[0] * c->n[1];
+    c->volume = c->plane * c->n[2];
+    return status;
+}
+
+static void properties(const struct material *material, double property[WEIGHT_NONE])
+{
+    property[WEIGHT_DENSITY] = material->density;
+    property[WEIGHT_LAMBDA] = material->plane_lambda;
+    property[WEIGHT_MU] = material->mu;
+    property[WEIGHT_P] = material->plane_lambda + 2 * material->mu;
+}
+
+/* Material by element of the depth axis. */
+static bool lay_material(struct consistent *c)
+{
+    const struct scene *scene = c->model.scene;
+    properties(&scene->material[scene->body.material], c->property);
+    if (scene->body.layers == 0) return true;
+    const struct spline *spline = c->layout[DEPTH];
+    for (int weight = 0; weight < WEIGHT_NONE; weight++) {
+        c->weighted[weight] = array_new(spline->elements, sizeof(double));
+        if (c->weighted[weight] == NULL) return false;
+    }
+    for (size_t e = 0; e < spline->elements; e++) {
+        const double middle = (spline->element[e].x_from + spline->element[e].x_to) / 2;
+        double property[WEIGHT_NONE];
+        properties(scene_material_at(scene, middle - spline->low), property);
+        for (int weight = 0; weight < WEIGHT_NONE; weight++)
+            c->weighted[weight][e] = property[weight];
+    }
+    return true;
+}
+
+static selas_status check_options(const struct scene *scene, const struct consistent_options *options,
+                                  struct messages *messages)
+{
+    if (options->degree < 1 || options->degree > SPLINE_MAX_DEGREE)
+        return fail(messages, SELAS_BAD_SCENE, "method%%degree = %d; expected 1 to %d", options->degree,
+                    SPLINE_MAX_DEGREE);
+    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "the consistent smoothed point method needs a box or a half-space; for other bodies take "
+                    "method%%variant = 'paper' or method%%name = 'sph'");
+    return SELAS_OK;
+}
+
+static selas_status build(struct consistent *c, struct messages *messages)
+{
+    selas_status status = lay_axes(c, messages);
+    if (status == SELAS_OK) status = lay_faces(c, messages);
+    if (status != SELAS_OK) return status;
+    if (!lay_material(c) || !consistent_plans(c) || !mass_allocate(c) || !dampers_allocate(c) ||
+        !observe_create(c) || !collocation_create(c))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
+    return forces_create(c, messages);
+}
+
+selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
+                                    struct model **model, struct messages *messages)
+{
+    *model = NULL;
+    selas_status status = check_options(scene, options, messages);
+    if (status != SELAS_OK) return status;
+    struct consistent *c = array_new(1, sizeof *c);
+    if (c == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
+    c->options = *options;
+    c->dimension = scene->dimension;
+    c->threads = omp_get_max_threads();
+    c->model.class = &consistent_class;
+    c->model.scene = scene;
+    c->model.self_adjoint = true;
+    status = build(c, messages);
+    if (status != SELAS_OK) {
+        destroy(&c->model);
+        return status;
+    }
+    c->model.unknowns = (size_t)c->dimension * c->volume;
+    c->model.state_size = 2 * c->model.unknowns;
+    c->model.component_stride = c->volume;
+    c->model.point_stride = 1;
+    c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
+    c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
+                     3 * c->model.points * sizeof(double);
+    *model = &c->model;
+    return SELAS_OK;
+}
+
+static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
+{
+    const struct deck_group *group = scene->method.group;
+    const struct consistent_options options = {
+        .degree = (int)deck_integer(group, "degree", 0),
+        .mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0,
+    };
+    return consistent_create_with(scene, &options, model, messages);
+}
+
+const struct model_class consistent_class = {
+    .method = "smoothed-point",
+    .variant = "consistent",
+    .create = create,
+    .destroy = destroy,
+    .accelerate = accelerate,
+    .initialise = consistent_initialise,
+    .probe = consistent_probe,
+    .observe = consistent_observe,
+    .field = consistent_field,
+    .energy = energy,
+    .power = power,
+    .describe = describe,
+};

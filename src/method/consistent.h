@@ -1,0 +1,122 @@
+/* The consistent smoothed point method: inside of the model (doc/consistent-method.md).
+ *
+ * Unknowns are control values of tensor-product B-splines in the body's own frame, component c of control
+ * value (i, j, k) at c * volume + i + n[0] * (j + n[1] * k). The scene's axes lie in the slots x, y, z of
+ * that layout: one axis in slot 2; two in 0 and 2; three in 0, 1, 2. The last axis (depth, slot 2) may have
+ * material that varies. */
+#ifndef SELAS_CONSISTENT_H
+#define SELAS_CONSISTENT_H
+
+#include "method/bspline.h"
+#include "method/model.h"
+#include "method/tensor.h"
+
+struct consistent_options {
+    int degree;  /* 1 .. SPLINE_MAX_DEGREE */
+    bool mapped; /* ends mapped instead of open */
+    int sweeps;  /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
+};
+
+enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 2, LANES = 8 };
+
+/* Material property that weights an integral over depth. */
+enum weighting { WEIGHT_DENSITY, WEIGHT_LAMBDA, WEIGHT_MU, WEIGHT_P, WEIGHT_NONE };
+
+struct axis_matrix {
+    int axis, test_slope, trial_slope;
+    bool test_odd, trial_odd;
+    enum weighting weight;
+    struct band *band;
+};
+
+/* A vector with few entries: those of component c in plane k are start[c * n[2] + k] and on. */
+struct sparse {
+    size_t *start, *index; /* index within the plane */
+    double *value;
+};
+
+/* Factors of M + half_step C, product form (section 5 of the manual). */
+struct mass_factors {
+    double half_step;
+    double *factor[3][3]; /* [component][slot]: band_factorise's; NULL for slots that are not used */
+};
+
+struct consistent {
+    struct model model;
+    struct consistent_options options;
+    int dimension, slot[3];         /* slot of each axis */
+    struct spline *spline[3];       /* by axis */
+    const struct spline *layout[3]; /* by slot; NULL where there is no axis */
+    size_t n[3], plane, volume;
+    double property[WEIGHT_NONE];  /* of the body's material */
+    double *weighted[WEIGHT_NONE]; /* per element of the depth axis; NULL: the same everywhere */
+    size_t matrices;
+    struct axis_matrix matrix[MAX_MATRICES];
+    const struct band *mass_band[3][3]; /* [component][axis], weighted by density where that varies */
+    struct tensor_plan *stiffness, *mass;
+    bool held[3][BOX_FACES]; /* the face's control values of this component are prescribed */
+    bool moving[BOX_FACES];
+    double motion[BOX_FACES][3]; /* amplitude and direction in the body's frame */
+    bool damped[BOX_FACES];
+    double damping[BOX_FACES][3]; /* velocity (factor times wave speed) by component */
+    struct sparse *load;          /* [scene->loads] */
+    struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
+    struct mass_factors factors[FACTOR_SETS];
+    struct band *scratch[3]; /* [axis]: matrix to be factorised */
+    double *lane_buffer;     /* [threads * n[0] * LANES] */
+    double *line_buffer;     /* [threads * (n[0] + n[1])] */
+    double *face_buffer;     /* [dimension * plane] */
+    int threads;
+    double *position;
+    struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
+    struct band *collocation[3][2];     /* [axis][odd]: LU factors of the values at the Greville points */
+};
+
+selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
+                                    struct model **model, struct messages *messages);
+extern const struct model_class consistent_class;
+
+static inline struct consistent *consistent_of(struct model *model)
+{
+    return (struct consistent *)model;
+}
+
+/* consistent_matrices.c: 1-D matrix of an axis, kept by the model; NULL: no memory. */
+const struct band *consistent_matrix(struct consistent *c, int axis, int test_slope, bool test_odd,
+                                     int trial_slope, bool trial_odd, enum weighting weight);
+bool consistent_plans(struct consistent *c);
+
+/* consistent_mass.c */
+bool mass_allocate(struct consistent *c);
+void mass_free(struct consistent *c);
+const struct mass_factors *mass_factors_for(struct consistent *c, double half_step);
+void mass_solve_plane(struct consistent *c, const struct mass_factors *factors, int thread, size_t k,
+                      double *a);
+void mass_solve_depth(struct consistent *c, const struct mass_factors *factors, double *a);
+
+/* consistent_forces.c: loads, prescribed faces. */
+selas_status forces_create(struct consistent *c, struct messages *messages);
+void forces_free(struct consistent *c);
+void sparse_add(const struct consistent *c, const struct sparse *sparse, int component, size_t k,
+                double factor, double *plane);
+double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field);
+
+/* consistent_dampers.c: subtracts C v from plane k of each component; power v.Cv. */
+bool dampers_allocate(struct consistent *c);
+void dampers_subtract(const struct consistent *c, int thread, size_t k, const double *v, double *const *out);
+double dampers_power(const struct consistent *c, const double *v);
+
+/* consistent.c: sets a component's prescribed control values in plane k to 0. */
+void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane);
+
+/* consistent_observe.c */
+bool observe_create(struct consistent *c);
+bool collocation_create(struct consistent *c);
+void consistent_initialise(struct model *model, double *y);
+selas_status consistent_probe(struct model *model, const double position[3], struct probe *probe,
+                              struct messages *messages);
+void consistent_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                        const double *a, double *value);
+void consistent_field(struct model *model, selas_field field, const double *y, const double *a,
+                      double *value);
+#endif
