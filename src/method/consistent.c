@@ -308,19 +308,22 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     return SELAS_OK;
 }
 
+/* The deck's options; what it leaves open has the method's defaults. */
 static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     const struct deck_group *group = scene->method.group;
-    const struct consistent_options options = {
-        .degree = (int)deck_integer(group, "degree", 0),
-        .mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0,
-    };
+    struct consistent_options options = {.degree = 3};
+    if (group != NULL && deck_values(group, "degree") > 0)
+        options.degree = (int)deck_integer(group, "degree", 0);
+    if (group != NULL && deck_values(group, "ends") > 0)
+        options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     return consistent_create_with(scene, &options, model, messages);
 }
 
 const struct model_class consistent_class = {
     .method = "smoothed-point",
     .variant = "consistent",
+    .mirrors = true,
     .create = create,
     .destroy = destroy,
     .accelerate = accelerate,

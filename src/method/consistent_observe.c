@@ -4,7 +4,7 @@
 #include "method/consistent.h"
 
 #include "base/memory.h"
-#include "method/initial.h"
+#include "scene/initial.h"
 
 #include <string.h>
 
