@@ -1,12 +1,14 @@
 /* The methods: a table of names. A new method is one new file and one line here. */
 #include "method/consistent.h"
 #include "method/mirror.h"
+#include "method/paper.h"
 #include "scene/symmetry.h"
 
 #include <string.h>
 
 static const struct model_class *const methods[] = {
     &consistent_class,
+    &paper_class,
     NULL,
 };
 

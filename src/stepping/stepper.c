@@ -143,10 +143,11 @@ static selas_status choose_unwarp(struct stepper *stepper, struct messages *mess
 static selas_status prepare(struct stepper *stepper, struct messages *messages)
 {
     const struct scene *scene = stepper->model->scene;
-    stepper->scheme = scheme_find(scene->stepping.scheme);
-    if (stepper->scheme == NULL)
-        return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", scene->stepping.scheme);
     const struct model_class *class = stepper->model->class;
+    const char *name = scene->stepping.scheme;
+    if (name[0] == '\0') name = class->accelerate != NULL ? "leapfrog" : "rk4"; /* the defaults */
+    stepper->scheme = scheme_find(name);
+    if (stepper->scheme == NULL) return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", name);
     if (stepper->scheme->needs_acceleration && class->accelerate == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
                     stepper->scheme->name, class->method, class->variant);
