@@ -59,7 +59,8 @@ static void check_item(const struct deck *deck, const struct deck_group *group, 
         if (!item->value[i].given) {
             if (group_value(group, index, i) == NULL && !item->wrong)
                 namelist_message(messages, deck->path, item->place, true,
-                                 "value %zu of '%s' in &%s is missing", i + 1, word->name, group->kind->name);
+                                 "value %zu of '%s' in &%s is missing%s", i + 1, word->name,
+                                 group->kind->name, item->comment_null ? COMMENT_NULL : "");
             continue;
         }
         const struct value *value = &item->value[i];
@@ -72,8 +73,8 @@ static void check_item(const struct deck *deck, const struct deck_group *group, 
     }
     if (word->obligatory && item->values == 0 && !item->wrong) {
         const struct place place = item->named ? item->place : group->place;
-        namelist_message(messages, deck->path, place, true, "'%s' is missing in &%s (%s)", word->name,
-                         group->kind->name, word->gloss);
+        namelist_message(messages, deck->path, place, true, "'%s' is missing in &%s: %s%s", word->name,
+                         group->kind->name, word->gloss, item->comment_null ? COMMENT_NULL : "");
     }
 }
 

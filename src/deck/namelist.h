@@ -25,11 +25,14 @@ struct value {
     } as;
 };
 
+#define COMMENT_NULL " (a comment right after '=' or ',' is a null value, as in gfortran 12)"
+
 /* What a group says about one word of its kind. */
 struct item {
-    bool named; /* the name stands in the text, perhaps with nulls only */
-    bool whole; /* without a subscript */
-    bool wrong; /* an error was reported for it */
+    bool named;        /* the name stands in the text, perhaps with nulls only */
+    bool whole;        /* without a subscript */
+    bool wrong;        /* an error was reported for it */
+    bool comment_null; /* a comment took the place of a value, see COMMENT_NULL */
     struct place place;
     size_t values; /* 1 + index of the last value given */
     size_t room;

@@ -137,6 +137,11 @@ static bool read_logical(const char *from, size_t length, bool *logical)
     return true;
 }
 
+static bool is_blank_or_line_end(int c)
+{
+    return c == ' ' || c == '\n' || c == '\r';
+}
+
 static enum scanned read_plain(struct scanner *scanner, const struct word *word, struct value *value)
 {
     static const char *const expected[] = {"a real number", "an integer", "a logical (.true. or .false.)"};
@@ -148,7 +153,16 @@ static enum scanned read_plain(struct scanner *scanner, const struct word *word,
     if (word->type == WORD_LOGICAL) good = read_logical(from, end - start, &value->as.logical);
     if (!good) return wrong(scanner, start, end - start, expected[word->type]);
     scanner->at = end;
+    /* gfortran looks for '=' behind words that could be names: past line ends after inf and nan, past the
+     * separator after a logical in letters, which makes it forget a line end in a comment */
+    if (word->type == WORD_REAL && !isfinite(value->as.real) && !is_digit(from[end - start - 1]))
+        while (is_blank_or_line_end(scan_peek(scanner, scanner->at)))
+            scanner->at++;
     scan_separator(scanner);
+    if (word->type == WORD_LOGICAL && *from != '.' && end - start > 1) {
+        scan_next(scanner);
+        scan_back(scanner);
+    }
     return SCANNED_VALUE;
 }
 
@@ -206,7 +220,9 @@ static enum scanned read_text(struct scanner *scanner, struct value *value)
     const size_t start = scanner->at;
     const int quote = scan_peek(scanner, start);
     if (quote != '\'' && quote != '"') {
-        const size_t end = token_end(scanner, start);
+        size_t end = start;
+        while (!is_separator(scan_peek(scanner, end)))
+            end++;
         /* gfortran takes text without quotes if it begins with a digit or after a repeat count */
         if (is_digit(quote) || scanner->repeat > 0) return keep_text(scanner, start, 0, end, value);
         return wrong(scanner, start, end - start, "a text in quotes");
@@ -229,19 +245,18 @@ static enum scanned read_text(struct scanner *scanner, struct value *value)
 enum scanned scan_value(struct scanner *scanner, const struct word *word, struct value *value)
 {
     scanner->repeat = 0;
-    while (scan_peek(scanner, scanner->at) == '!') {
-        scan_line(scanner);
-        scan_blanks(scanner);
-    }
     value->place = scan_place(scanner, scanner->at);
     if (scan_is_assignment(scanner, scanner->at)) return SCANNED_NAME;
     if (!read_repeat(scanner, value)) return SCANNED_WRONG;
     const int c = scan_peek(scanner, scanner->at);
-    if (is_separator(c) || (c == '!' && scanner->repeat > 0)) {
+    const bool is_text = word->type >= WORD_TEXT;
+    if (c == '!' && scanner->repeat == 0) scanner->comment_null = true;
+    /* to gfortran 12 a comment where a value should stand is a null value, or for texts the end of them */
+    if (is_separator(c) || (c == '!' && !is_text)) {
         scan_separator(scanner);
         return SCANNED_NULL;
     }
+    if (c == '!' && scanner->repeat == 0) return SCANNED_NAME;
     if ((c == '&' || c == '$') && scanner->repeat == 0) return SCANNED_NAME;
-    if (word->type >= WORD_TEXT) return read_text(scanner, value);
-    return read_plain(scanner, word, value);
+    return is_text ? read_text(scanner, value) : read_plain(scanner, word, value);
 }
