@@ -53,19 +53,20 @@ static double rectangle_area(const struct rectangle *rectangle)
     return area;
 }
 
-/* Area of a rectangle within a disc, by strips whose chords are exact (2D: length within the interval). */
+/* Area of a rectangle within a disc: chords integrated over the angle whose sine is the place across them
+ * (midpoint rule, exact for the whole disc); on the line that is a face in 2D, the length within. */
 static double area_in_disc(const struct rectangle *part, const double centre[2], double radius)
 {
     enum { STRIPS = 400 };
     if (part->axes == 0) return 1;
     if (part->axes == 1) return overlap(part->low[0], part->high[0], centre[0] - radius, centre[0] + radius);
-    const double from = fmax(part->low[0], centre[0] - radius), to = fmin(part->high[0], centre[0] + radius);
+    const double from = asin(fmax(-1, fmin(1, (part->low[0] - centre[0]) / radius)));
+    const double to = asin(fmax(-1, fmin(1, (part->high[0] - centre[0]) / radius)));
     double area = 0;
-    for (int k = 0; k < STRIPS && to > from; k++) {
-        const double x = from + (to - from) * (k + .5) / STRIPS - centre[0];
-        const double half = sqrt(fmax(0, radius * radius - x * x));
-        area +=
-            (to - from) / STRIPS * overlap(part->low[1], part->high[1], centre[1] - half, centre[1] + half);
+    for (int k = 0; k < STRIPS; k++) {
+        const double half = radius * cos(from + (to - from) * (k + .5) / STRIPS);
+        area += half * (to - from) / STRIPS *
+                overlap(part->low[1], part->high[1], centre[1] - half, centre[1] + half);
     }
     return area;
 }
