@@ -9,8 +9,8 @@
  * to local axes (R_a) the dim x dim matrix is kept in deck coordinates. Prescribed displacements are set at
  * the points themselves instead of by the sum of Eq 30, which would smooth them. */
 #include "base/memory.h"
-#include "method/initial.h"
 #include "method/paper.h"
+#include "scene/initial.h"
 
 #include <math.h>
 
