@@ -11,6 +11,13 @@
 #include <cmocka.h>
 
 #undef fail /* the library has a function of this name (base/messages.h) */
+#undef fail_msg
+#define fail_msg(...)                                                                                        \
+    do {                                                                                                     \
+        print_error(__VA_ARGS__);                                                                            \
+        print_error("\n");                                                                                   \
+        _fail(__FILE__, __LINE__);                                                                           \
+    } while (0)
 
 #define assert_near(value, expected, tolerance)                                                              \
     do {                                                                                                     \
