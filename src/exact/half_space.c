@@ -1,0 +1,198 @@
+/* Compliances of the elastic half-space under surface tractions (Lamb 1904, in the notation of Kausel 2006,
+ * "Fundamental solutions in elastodynamics", ch. 8; derived in doc/lamb.md, Eqs 1-9).
+ *
+ * With p = sqrt(k^2 + s^2/cp^2), q = sqrt(k^2 + w), w = s^2/cs^2, kap = 2 k^2 + w, R = kap^2 - 4 k^2 p q,
+ * Ep = exp(-p z), Eq = exp(-q z):
+ *   vertical   = p [kap Ep - 2 k^2 Eq] / R,       horizontal = k [-kap Ep + 2 p q Eq] / R,
+ *   radial     = q [-2 k^2 Ep + kap Eq] / R,      coupled    = k [-2 p q Ep + kap Eq] / R,  shear = Eq / q.
+ * For k^2 >> |w| all brackets and R cancel to O(w); so w is divided out beforehand:
+ *   R/w   = [16 (1-a) k^6 + (24-16 a) k^4 w + 8 k^2 w^2 + w^3] / (kap^2 + 4 k^2 p q),   a = cs^2/cp^2,
+ *   c     = (kap - 2 p q)/w = 1 - 2 [k^2 (1+a) + a w] / (p q + k^2),
+ *   D     = (Ep - Eq)/w with q - p = w (1-a) / (q + p),
+ *   vertical = p (Ep + 2 k^2 D) / (R/w),  horizontal = -k (c Eq + kap D) / (R/w),
+ *   radial   = q (Eq - 2 k^2 D) / (R/w),  coupled    =  k (c Eq - 2 p q D) / (R/w). */
+#include "exact/half_space.h"
+
+#include <math.h>
+
+/* Complex numbers as pairs: the compiler's own complex products test for NaN, which costs half the time. */
+struct pair {
+    double re, im;
+};
+
+static inline struct pair plus(struct pair a, struct pair b)
+{
+    return (struct pair){a.re + b.re, a.im + b.im};
+}
+static inline struct pair times(struct pair a, struct pair b)
+{
+    return (struct pair){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+static inline struct pair scaled(double factor, struct pair a)
+{
+    return (struct pair){factor * a.re, factor * a.im};
+}
+static inline struct pair over(struct pair a, struct pair b)
+{
+    const double norm = 1 / (b.re * b.re + b.im * b.im);
+    return (struct pair){(a.re * b.re + a.im * b.im) * norm, (a.im * b.re - a.re * b.im) * norm};
+}
+/* Principal root, for im >= 0. */
+static inline struct pair root(struct pair a)
+{
+    const double size = sqrt(a.re * a.re + a.im * a.im), large = sqrt(.5 * (size + fabs(a.re)));
+    const double small = large > 0 ? .5 * a.im / large : 0;
+    return a.re >= 0 ? (struct pair){large, small} : (struct pair){small, large};
+}
+static inline struct pair decay(struct pair rate, double z)
+{
+    const double size = exp(-rate.re * z);
+    return (struct pair){size * cos(rate.im * z), -size * sin(rate.im * z)};
+}
+/* exp(x) - 1 */
+static inline struct pair exp_minus_one(struct pair x)
+{
+    const double half = sin(.5 * x.im), less = expm1(x.re);
+    const double versine = -2 * half * half; /* cos - 1 */
+    return (struct pair){less + versine + less * versine, (1 + less) * sin(x.im)};
+}
+
+void half_space_set(struct half_space *half_space, double density, double lambda, double mu)
+{
+    *half_space = (struct half_space){.density = density, .mu = mu, .poisson = .5 * lambda / (lambda + mu)};
+    half_space->p_speed = sqrt((lambda + 2 * mu) / density);
+    half_space->s_speed = sqrt(mu / density);
+    const double a = half_space->ratio = mu / (lambda + 2 * mu);
+    /* y^3 - 8 y^2 + (24 - 16 a) y - 16 (1 - a) = 0 has one root in (0, 1): negative at 0, 1 at 1. */
+    double low = 0, high = 1;
+    for (int i = 0; i < 200 && high > low; i++) {
+        const double y = .5 * (low + high);
+        if (y == low || y == high) break;
+        if (((y - 8) * y + 24 - 16 * a) * y - 16 * (1 - a) < 0)
+            low = y;
+        else
+            high = y;
+    }
+    const double y = half_space->rayleigh = .5 * (low + high);
+    half_space->rayleigh_speed = half_space->s_speed * sqrt(y);
+    const double p = half_space->p_decay = sqrt(1 - a * y), q = half_space->s_decay = sqrt(1 - y);
+    const double kap = 2 - y, slope = 2 * kap - 2 * (a * q / p + p / q); /* dR/dw at k = 1 */
+    const double residues[4][2] = {
+        {p * kap, -2 * p}, {-kap, 2 * p * q}, {-2 * q, q * kap}, {-2 * p * q, kap}};
+    for (int i = 0; i < 2; i++) {
+        half_space->vertical_residue[i] = residues[0][i] / slope;
+        half_space->horizontal_residue[i] = residues[1][i] / slope;
+        half_space->radial_residue[i] = residues[2][i] / slope;
+        half_space->coupled_residue[i] = residues[3][i] / slope;
+    }
+}
+
+double complex half_space_rayleigh_function(const struct half_space *half_space, double complex y)
+{
+    return (2 + y) * (2 + y) - 4 * csqrt(1 + half_space->ratio * y) * csqrt(1 + y);
+}
+
+/* What all compliances at one k share. */
+struct roots {
+    struct pair p, q, pq, kap;
+    struct pair over_w; /* R / w */
+    struct pair c;      /* (kap - 2 p q) / w */
+    struct pair e_p, e_q, d;
+};
+
+static inline void find_roots(double a, struct pair w, double size, double z, double k, struct roots *roots)
+{
+    const double k2 = k * k;
+    const struct pair one = {1, 0}, kk = {k2, 0};
+    roots->p = root(plus(kk, scaled(a, w)));
+    roots->q = root(plus(kk, w));
+    roots->pq = times(roots->p, roots->q);
+    roots->kap = plus(scaled(2, kk), w);
+    const struct pair square = times(roots->kap, roots->kap), product = scaled(4 * k2, roots->pq);
+    if (k2 > 2 * size) {
+        struct pair sum = plus(w, (struct pair){8 * k2, 0});
+        sum = plus(times(sum, w), (struct pair){(24 - 16 * a) * k2 * k2, 0});
+        sum = plus(times(sum, w), (struct pair){16 * (1 - a) * k2 * k2 * k2, 0});
+        roots->over_w = over(sum, plus(square, product));
+        const struct pair above = plus((struct pair){(1 + a) * k2, 0}, scaled(a, w));
+        roots->c = plus(one, scaled(-2, over(above, plus(roots->pq, kk))));
+    } else {
+        roots->over_w = over(plus(square, scaled(-1, product)), w);
+        roots->c = over(plus(roots->kap, scaled(-2, roots->pq)), w);
+    }
+    if (z == 0) {
+        roots->e_p = roots->e_q = one;
+        roots->d = (struct pair){0, 0};
+        return;
+    }
+    const struct pair difference = over(scaled(1 - a, w), plus(roots->p, roots->q)); /* q - p */
+    roots->e_q = decay(roots->q, z);
+    if (fabs(difference.re * z) + fabs(difference.im * z) < 1) {
+        roots->d = over(times(roots->e_q, exp_minus_one(scaled(z, difference))), w);
+        roots->e_p = plus(roots->e_q, times(roots->d, w));
+    } else {
+        roots->e_p = decay(roots->p, z);
+        roots->d = over(plus(roots->e_p, scaled(-1, roots->e_q)), w);
+    }
+}
+
+void half_space_compliance(const struct half_space *half_space, double complex s, double z, size_t count,
+                           const double *k, bool horizontal_loads, bool without_rayleigh,
+                           struct compliance *compliance)
+{
+    const double a = half_space->ratio;
+    const struct pair slowness = {creal(s) / half_space->s_speed, cimag(s) / half_space->s_speed};
+    const struct pair w = times(slowness, slowness);
+    const double size = sqrt(w.re * w.re + w.im * w.im);
+    for (size_t i = 0; i < count; i++) {
+        struct roots r;
+        find_roots(a, w, size, z, k[i], &r);
+        const double k2 = k[i] * k[i];
+        const struct pair inverse = over((struct pair){1, 0}, r.over_w);
+        const struct pair c_q = times(r.c, r.e_q);
+        struct pair values[5] = {
+            times(times(r.p, plus(r.e_p, scaled(2 * k2, r.d))), inverse),
+            times(scaled(-k[i], plus(c_q, times(r.kap, r.d))), inverse),
+        };
+        if (horizontal_loads) {
+            values[2] = times(times(r.q, plus(r.e_q, scaled(-2 * k2, r.d))), inverse);
+            values[3] = times(scaled(k[i], plus(c_q, scaled(-2, times(r.pq, r.d)))), inverse);
+            values[4] = over(r.e_q, r.q);
+        }
+        if (without_rayleigh) {
+            const struct pair pole =
+                over((struct pair){k[i], 0}, plus(w, (struct pair){half_space->rayleigh * k2, 0}));
+            const double e_p = z == 0 ? 1 : exp(-half_space->p_decay * k[i] * z);
+            const double e_s = z == 0 ? 1 : exp(-half_space->s_decay * k[i] * z);
+            const double *const residues[4] = {half_space->vertical_residue, half_space->horizontal_residue,
+                                               half_space->radial_residue, half_space->coupled_residue};
+            for (int j = 0; j < (horizontal_loads ? 4 : 2); j++)
+                values[j] = plus(values[j], scaled(-(residues[j][0] * e_p + residues[j][1] * e_s), pole));
+        }
+        double(*const parts[5])[BLOCK] = {compliance->vertical, compliance->horizontal, compliance->radial,
+                                          compliance->coupled, compliance->shear};
+        for (int j = 0; j < (horizontal_loads ? 5 : 2); j++) {
+            parts[j][0][i] = values[j].re;
+            parts[j][1][i] = values[j].im;
+        }
+    }
+}
+
+void half_space_static(const struct half_space *half_space, double z, double k, double value[5])
+{
+    const double nu = half_space->poisson, factor = exp(-k * z) / k, half = .5 * k * z;
+    value[0] = (1 - nu + half) * factor;
+    value[1] = (.5 - nu - half) * factor;
+    value[2] = (1 - nu - half) * factor;
+    value[3] = -(.5 - nu + half) * factor;
+    value[4] = factor;
+}
+
+void half_space_static_rayleigh(const struct half_space *half_space, double z, double k, double value[4])
+{
+    const double e_p = exp(-half_space->p_decay * k * z), e_s = exp(-half_space->s_decay * k * z);
+    const double *const residues[4] = {half_space->vertical_residue, half_space->horizontal_residue,
+                                       half_space->radial_residue, half_space->coupled_residue};
+    for (int j = 0; j < 4; j++)
+        value[j] = (residues[j][0] * e_p + residues[j][1] * e_s) / (half_space->rayleigh * k);
+}

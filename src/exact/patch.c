@@ -1,0 +1,177 @@
+/* Transforms and potentials of loaded patches (doc/lamb.md, Eqs 10-19). The direction averages of a rectangle
+ * are taken by the trapezoidal rule on the full circle (by symmetry: on a quarter), which converges
+ * exponentially once it resolves k times the farthest distance; those of a disc and a point are Bessel
+ * functions. */
+#include "exact/patch.h"
+
+#include <gsl/gsl_integration.h>
+#include <math.h>
+
+static void rectangle_averages(const struct patch *patch, double x, double y, double k,
+                               double average[AVERAGES])
+{
+    const double reach = k * hypot(fabs(x) + patch->half[0], fabs(y) + patch->half[1]);
+    const int points = (int)(.27 * reach + 5 * cbrt(reach)) + 20; /* in a quarter of the circle */
+    const double turn = M_PI_2 / points, turn_cos = cos(turn), turn_sin = sin(turn);
+    double c = 1, s = 0; /* direction of the wavenumber */
+    for (int i = 0; i < AVERAGES; i++)
+        average[i] = 0;
+    for (int i = 0; i <= points; i++) {
+        const double kx = k * c, ky = k * s;
+        const double shape_x = i == points ? 2 * patch->half[0] : 2 * sin(kx * patch->half[0]) / kx;
+        const double shape_y = i == 0 ? 2 * patch->half[1] : 2 * sin(ky * patch->half[1]) / ky;
+        const double shape = (i == 0 || i == points ? .5 : 1) * shape_x * shape_y;
+        const double cos_x = cos(kx * x), sin_x = sin(kx * x), cos_y = cos(ky * y), sin_y = sin(ky * y);
+        average[AVERAGE] += shape * cos_x * cos_y;
+        average[AVERAGE_X] -= shape * c * sin_x * cos_y;
+        average[AVERAGE_Y] -= shape * s * cos_x * sin_y;
+        average[AVERAGE_XX] += shape * c * c * cos_x * cos_y;
+        average[AVERAGE_XY] -= shape * c * s * sin_x * sin_y;
+        const double next = c * turn_cos - s * turn_sin;
+        s = s * turn_cos + c * turn_sin;
+        c = next;
+    }
+    for (int i = 0; i < AVERAGES; i++)
+        average[i] /= 2 * M_PI * points;
+}
+
+void patch_averages(const struct patch *patch, double x, double y, double k, double average[AVERAGES])
+{
+    if (patch->shape == PATCH_RECTANGLE) {
+        rectangle_averages(patch, x, y, k, average);
+        return;
+    }
+    const double radius = patch->half[0], r = hypot(x, y), kr = k * r;
+    const double shape = patch->shape == PATCH_POINT ? 1 / (2 * M_PI) : radius * j1(k * radius) / k;
+    const double zero = j0(kr), one = j1(kr);
+    const double one_over = kr > 1e-4 ? one / kr : .5 - kr * kr / 16;
+    const double two = kr > 1e-4 ? 2 * one / kr - zero : kr * kr / 8;
+    const double nx = r > 0 ? x / r : 0, ny = r > 0 ? y / r : 0;
+    average[AVERAGE] = shape * zero;
+    average[AVERAGE_X] = -shape * one * nx;
+    average[AVERAGE_Y] = -shape * one * ny;
+    average[AVERAGE_XX] = shape * (one_over - nx * nx * two);
+    average[AVERAGE_XY] = -shape * nx * ny * two;
+}
+
+static double share_of(double distance, double half)
+{
+    const double near = 1e-9 * half;
+    if (fabs(fabs(distance) - half) <= near) return .5;
+    return fabs(distance) < half ? 1 : 0;
+}
+
+double patch_share(const struct patch *patch, double x, double y)
+{
+    if (patch->shape == PATCH_POINT) return 0;
+    if (patch->shape == PATCH_DISC) return share_of(hypot(x, y), patch->half[0]);
+    return share_of(x, patch->half[0]) * share_of(y, patch->half[1]);
+}
+
+static void point_potentials(double x, double y, double complex d, struct potentials *potentials)
+{
+    const double complex r = csqrt(x * x + y * y + d * d), sum = r + d, r3 = r * r * r;
+    const double complex slope = 1 / (r * sum); /* once_x = x slope */
+    const double complex bend = -(2 * r + d) / (r3 * sum * sum);
+    const double complex turn = 1 / (r * sum * sum);
+    potentials->angle = d / r3;
+    potentials->plain = 1 / r;
+    potentials->plain_x = -x / r3;
+    potentials->plain_y = -y / r3;
+    potentials->once = clog(sum);
+    potentials->once_x = x * slope;
+    potentials->once_y = y * slope;
+    potentials->once_xx = slope + x * x * bend;
+    potentials->once_yy = slope + y * y * bend;
+    potentials->once_xy = x * y * bend;
+    potentials->twice_x = -x / sum;
+    potentials->twice_y = -y / sum;
+    potentials->twice_xx = -1 / sum + x * x * turn;
+    potentials->twice_yy = -1 / sum + y * y * turn;
+    potentials->twice_xy = x * y * turn;
+}
+
+/* Integrals round the disc's edge: integral of f over the disc = contour integral of F (r x dl)/r^2 with
+ * F = integral of f r dr; gradients: minus the contour integral of f n dl. */
+struct edge {
+    double radius, distance, depth;
+    int which;
+};
+
+static double edge_integrand(double angle, void *parameters)
+{
+    const struct edge *edge = parameters;
+    /* Edge point seen from the receiver; the disc's centre lies at -distance on the x axis. */
+    const double u = edge->radius * cos(angle) - edge->distance, v = edge->radius * sin(angle);
+    const double square = u * u + v * v, r = sqrt(square + edge->depth * edge->depth);
+    const double cross = edge->radius * (edge->radius - edge->distance * cos(angle));
+    const double share = square > 0 ? cross / square : .5;
+    switch (edge->which) {
+    case 0: /* angle: depth/R^3 */
+        return edge->depth > 0 ? (1 - edge->depth / r) * share : 0;
+    case 1: /* 1/R */
+        return (r - edge->depth) * share;
+    case 2: /* d/dx of 1/R */
+        return -edge->radius * cos(angle) / r;
+    case 3: /* d/dx of ln(depth + R) */
+        return -edge->radius * cos(angle) * log(edge->depth + r);
+    case 4: /* d2/dx2 of the integral of ln(depth + R) over depth: d/dx of it at a point is -u/(R + depth)
+               with u from the point to the receiver */
+        return -edge->radius * cos(angle) * u / (r + edge->depth);
+    case 5: /* d2/dy2 of the same */
+        return -edge->radius * sin(angle) * v / (r + edge->depth);
+    case 6: /* d2/dx2 of ln(depth + R) */
+        return edge->radius * cos(angle) * u / (r * (r + edge->depth));
+    default: /* d2/dy2 of ln(depth + R) */
+        return edge->radius * sin(angle) * v / (r * (r + edge->depth));
+    }
+}
+
+static void disc_potentials(double radius, double x, double y, double depth, struct potentials *potentials)
+{
+    const double distance = hypot(x, y), nx = distance > 0 ? x / distance : 1,
+                 ny = distance > 0 ? y / distance : 0;
+    struct edge edge = {radius, distance, depth, 0};
+    const gsl_function function = {edge_integrand, &edge};
+    gsl_integration_cquad_workspace *space = gsl_integration_cquad_workspace_alloc(400);
+    double value[8] = {0};
+    for (edge.which = 0; space != NULL && edge.which < (depth > 0 ? 8 : 6); edge.which++) {
+        /* symmetric about the line to the receiver; halves of the half circle so that the end near the
+         * receiver is an end of the rule */
+        double part = 0;
+        gsl_integration_cquad(&function, 0, .5, 1e-13, 1e-12, space, &part, NULL, NULL);
+        value[edge.which] = 2 * part;
+        gsl_integration_cquad(&function, .5, M_PI, 1e-13, 1e-12, space, &part, NULL, NULL);
+        value[edge.which] += 2 * part;
+    }
+    gsl_integration_cquad_workspace_free(space);
+    potentials->angle = value[0];
+    potentials->plain = value[1];
+    potentials->plain_x = nx * value[2];
+    potentials->plain_y = ny * value[2];
+    potentials->once_x = nx * value[3];
+    potentials->once_y = ny * value[3];
+    potentials->once_xx = nx * nx * value[6] + ny * ny * value[7];
+    potentials->once_yy = ny * ny * value[6] + nx * nx * value[7];
+    potentials->once_xy = nx * ny * (value[6] - value[7]);
+    potentials->twice_xx = nx * nx * value[4] + ny * ny * value[5];
+    potentials->twice_yy = ny * ny * value[4] + nx * nx * value[5];
+    potentials->twice_xy = nx * ny * (value[4] - value[5]);
+}
+
+void patch_potentials(const struct patch *patch, double x, double y, double complex depth,
+                      struct potentials *potentials)
+{
+    *potentials = (struct potentials){0};
+    switch (patch->shape) {
+    case PATCH_RECTANGLE:
+        rectangle_potentials(patch->half, x, y, depth, potentials);
+        break;
+    case PATCH_DISC:
+        disc_potentials(patch->half[0], x, y, creal(depth), potentials);
+        break;
+    case PATCH_POINT:
+        point_potentials(x, y, depth, potentials);
+        break;
+    }
+}
