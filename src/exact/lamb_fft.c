@@ -22,12 +22,20 @@ struct path {
     const struct lamb_load *load;
     double x, y, z;
     bool without_rayleigh, horizontal;
-    double share;              /* patch_share */
-    double *weight;            /* [COMPONENTS * KERNELS * room]: coefficients by component and compliance */
-    double offset[COMPONENTS]; /* sum of coefficients times static compliances */
+    double share;    /* patch_share */
+    double *weight;  /* [COMPONENTS * KERNELS * room]: coefficients by component and compliance */
+    double *statics; /* [COMPONENTS * room]: sum of coefficients times static compliances */
+};
+
+/* Scales of the problem: smallest edge (0 without patches), farthest distance, highest frequency worth having
+ * before convergence is judged, frequency above which nothing is left. */
+struct scales {
+    double edge, reach, depth, start, least, most;
+    bool kinks, points;
 };
 
 struct work {
+    struct scales scales;
     const struct lamb_problem *problem;
     size_t receivers;
     struct lamb_signal *signal;
@@ -48,6 +56,20 @@ struct work {
 static double complex frequency(const struct work *work, size_t j)
 {
     return work->decay + I * (2 * M_PI * (double)j / work->period);
+}
+
+/* The wavenumbers that count at one frequency: all up to `flat`, fading out until `end`. */
+struct range {
+    double flat, end;
+};
+
+static struct range wavenumbers(const struct work *work, double angular_frequency)
+{
+    const double slowest = angular_frequency / work->problem->ground.rayleigh_speed;
+    const double flat = 1.15 * slowest + 48 / work->scales.edge;
+    /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading */
+    const double buried = hypot(26 / work->scales.depth, slowest);
+    return buried < flat ? (struct range){buried, buried} : (struct range){flat, flat / .6};
 }
 
 /* Coefficients of the compliances (order of struct compliance) for each component. */
@@ -90,8 +112,15 @@ static bool extend_nodes(struct work *work, double largest)
             for (size_t c = 0; c < COMPONENTS * KERNELS; c++)
                 memcpy(weight + c * room, work->path[p].weight + c * work->room,
                        work->nodes * sizeof *weight);
+            double *statics = array_new(COMPONENTS * room, sizeof *statics);
+            for (size_t c = 0; statics != NULL && c < COMPONENTS; c++)
+                memcpy(statics + c * room, work->path[p].statics + c * work->room,
+                       work->nodes * sizeof *statics);
             array_free(work->path[p].weight);
+            array_free(work->path[p].statics);
             work->path[p].weight = weight;
+            work->path[p].statics = statics;
+            if (statics == NULL) return false;
         }
         work->room = room;
     }
@@ -117,8 +146,10 @@ static bool extend_nodes(struct work *work, double largest)
             if (path->without_rayleigh)
                 half_space_static_rayleigh(&work->problem->ground, path->z, work->k[i], pole);
             for (size_t c = 0; c < COMPONENTS; c++) {
+                double *statics = &path->statics[c * room + i];
+                *statics = 0;
                 for (size_t g = 0; g < KERNELS; g++)
-                    path->offset[c] +=
+                    *statics +=
                         path->weight[(c * KERNELS + g) * room + i] * (value[g] - (g < 4 ? pole[g] : 0));
             }
         }
@@ -156,22 +187,53 @@ static void add_block(const struct path *path, size_t room, size_t from, size_t 
         }
 }
 
-/* Sums of all paths at one s: [paths][COMPONENTS], before the history's transform. */
-static void sum_wavenumbers(const struct work *work, double complex s, double complex *sum)
+/* 1 up to range.flat, then smoothly to 0 at range.end with three continuous derivatives. */
+static double roll_off(struct range range, double k)
+{
+    if (k <= range.flat) return 1;
+    if (k >= range.end) return 0;
+    const double y = (k - range.flat) / (range.end - range.flat);
+    return .5 * (1 + cos(M_PI * y * y * y * (10 - y * (15 - 6 * y))));
+}
+
+static void multiply(double factor, size_t i, bool horizontal, struct compliance *compliance)
+{
+    for (int part = 0; part < 2; part++) {
+        compliance->vertical[part][i] *= factor;
+        compliance->horizontal[part][i] *= factor;
+        if (!horizontal) continue;
+        compliance->radial[part][i] *= factor;
+        compliance->coupled[part][i] *= factor;
+        compliance->shear[part][i] *= factor;
+    }
+}
+
+/* Sums of all paths at one s over the wavenumbers of a range: [paths][COMPONENTS], before the history's
+ * transform. */
+static void sum_wavenumbers(const struct work *work, double complex s, struct range range,
+                            double complex *sum)
 {
     for (size_t i = 0; i < work->paths * COMPONENTS; i++)
         sum[i] = 0;
-    for (size_t from = 0; from < work->nodes; from += BLOCK) {
+    for (size_t from = 0; from < work->nodes && work->k[from] < range.end; from += BLOCK) {
         const size_t count = work->nodes - from < BLOCK ? work->nodes - from : BLOCK;
         struct compliance compliance;
+        double taper[BLOCK];
+        for (size_t i = 0; i < count; i++)
+            taper[i] = roll_off(range, work->k[from + i]);
         for (size_t p = 0; p < work->paths; p++) {
             const struct path *path = &work->path[p];
             const struct path *before = p > 0 ? path - 1 : NULL;
             if (before == NULL || before->z != path->z || before->horizontal != path->horizontal ||
-                before->without_rayleigh != path->without_rayleigh)
+                before->without_rayleigh != path->without_rayleigh) {
                 half_space_compliance(&work->problem->ground, s, path->z, count, work->k + from,
                                       path->horizontal, path->without_rayleigh, &compliance);
+                for (size_t i = 0; i < count && taper[count - 1] < 1; i++)
+                    multiply(taper[i], i, path->horizontal, &compliance);
+            }
             add_block(path, work->room, from, count, &compliance, sum + p * COMPONENTS);
+            for (size_t c = 0; c < COMPONENTS; c++)
+                sum[p * COMPONENTS + c] -= dot(path->statics + c * work->room + from, taper, count);
         }
     }
 }
@@ -180,7 +242,7 @@ static void one_frequency(const struct work *work, size_t j, double complex *sum
 {
     const double complex s = frequency(work, j);
     const double mu = work->problem->ground.mu;
-    sum_wavenumbers(work, s, sum);
+    sum_wavenumbers(work, s, wavenumbers(work, cimag(s)), sum);
     const size_t loads = work->problem->loads;
     for (size_t p = 0; p < work->paths; p++) {
         const struct path *path = &work->path[p];
@@ -188,7 +250,7 @@ static void one_frequency(const struct work *work, size_t j, double complex *sum
         double complex plane[COMPONENTS];
         lamb_split_plane(&work->problem->ground, s, path->z, plane);
         for (size_t c = 0; c < COMPONENTS; c++) {
-            double complex value = sum[p * COMPONENTS + c] - path->offset[c];
+            double complex value = sum[p * COMPONENTS + c];
             value += mu * work->signal[p / loads].statics[3 * (p % loads) + c];
             value -= path->share * path->load->traction[c] * plane[c];
             work->spectrum[((p / loads) * COMPONENTS + c) * work->frequency_room + j] += f * value;
@@ -318,13 +380,6 @@ static double signal_norm(const struct work *work, const struct lamb_signal *sig
     return sqrt(fmax(sum[0], fmax(sum[1], sum[2])));
 }
 
-/* Scales of the problem: smallest edge (0 without patches), farthest distance, highest frequency worth having
- * before convergence is judged, frequency above which nothing is left. */
-struct scales {
-    double edge, reach, depth, start, least, most;
-    bool kinks, points;
-};
-
 static void find_scales(const struct work *work, struct scales *scales)
 {
     *scales = (struct scales){.edge = INFINITY, .depth = INFINITY};
@@ -353,28 +408,21 @@ static void find_scales(const struct work *work, struct scales *scales)
     scales->least = fmin(fmax(scales->least, 20 * speed / scales->edge), scales->most);
 }
 
-static double largest_wavenumber(const struct work *work, const struct scales *scales, double cutoff)
-{
-    const double slowest = cutoff / work->problem->ground.rayleigh_speed;
-    const double largest = 1.6 * slowest + 40 / scales->edge;
-    /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier */
-    const double buried = hypot(36 / scales->depth, 1.1 * slowest);
-    return fmin(largest, buried);
-}
-
 static selas_status work_off_bands(struct work *work, struct messages *messages)
 {
-    struct scales scales;
-    find_scales(work, &scales);
-    const double tolerance = work->problem->tolerance > 0 ? work->problem->tolerance : 2e-6;
-    const double most_evaluations = 1.2e8;
+    find_scales(work, &work->scales);
+    const struct scales scales = work->scales;
+    const double tolerance = work->problem->tolerance > 0 ? work->problem->tolerance
+                             : scales.kinks               ? 2e-5
+                                                          : 5e-7;
+    const double most_evaluations = 4e7;
     double cutoff = scales.start;
     double *last = array_new(work->receivers, sizeof *last);
     if (last == NULL)
         return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
     for (int band = 0; band < MOST_BANDS; band++) {
         const size_t from = work->frequencies;
-        const double wavenumber = largest_wavenumber(work, &scales, cutoff);
+        const double wavenumber = wavenumbers(work, cutoff).end;
         if (!add_band(work, cutoff, wavenumber) || !make_plan(work)) {
             array_free(last);
             return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
@@ -397,8 +445,8 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
         }
         if (cutoff >= scales.most || (band > 1 && cutoff >= scales.least && worst < tolerance)) break;
         const double next = fmin(cutoff * M_SQRT2, scales.most);
-        const double more = (next - cutoff) * work->period / (2 * M_PI) * 12 *
-                            largest_wavenumber(work, &scales, next) / work->panel;
+        const double more =
+            (next - cutoff) * work->period / (2 * M_PI) * 12 * wavenumbers(work, next).end / work->panel;
         if (work->evaluations + more > most_evaluations && cutoff >= scales.least) break;
         cutoff = next;
     }
@@ -452,8 +500,10 @@ selas_status lamb_fft(const struct lamb_problem *problem, double end_time, size_
     }
     selas_status status = prepare(&work, end_time, messages);
     if (status == SELAS_OK) status = work_off_bands(&work, messages);
-    for (size_t p = 0; work.path != NULL && p < work.paths; p++)
+    for (size_t p = 0; work.path != NULL && p < work.paths; p++) {
         array_free(work.path[p].weight);
+        array_free(work.path[p].statics);
+    }
     array_free(work.path);
     array_free(work.k);
     array_free(work.k_weight);

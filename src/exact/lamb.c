@@ -1,0 +1,291 @@
+/* Reference 'lamb': the infinite half-space under the scene's traction loads (Lamb 1904), computed by
+ * exact/lamb_fft.c. This file turns the scene into that problem: the body's frame, mirror images at symmetry
+ * planes, whole-face loads (plane waves), and refuses what has no such solution. */
+#include "exact/lamb.h"
+
+#include "base/memory.h"
+#include "exact/exact.h"
+#include "exact/lamb_fft.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+struct lamb {
+    struct exact exact;
+    struct lamb_problem problem;
+    struct lamb_load *load; /* patches, images included */
+    size_t planes;
+    struct lamb_load *plane; /* loads of the whole face */
+    size_t signals;
+    struct lamb_signal *signal; /* of the scene's receivers */
+};
+
+static double surface_depth(const struct body *body)
+{
+    return body->shape == BODY_BOX ? body->low[2] : 0;
+}
+
+/* Position relative to the surface, in the body's frame; depths of rounding size are 0. */
+static void position_in_ground(const struct scene *scene, const double deck[3], double position[3])
+{
+    body_from_deck(&scene->body, deck, position);
+    position[2] -= surface_depth(&scene->body);
+    const double size = fabs(deck[0]) + fabs(deck[1]) + fabs(deck[2]) + 1;
+    if (fabs(position[2]) < 1e-12 * size) position[2] = 0;
+}
+
+static selas_status refuse(struct messages *messages, const char *why)
+{
+    return fail(messages, SELAS_BAD_SCENE, "reference 'lamb': %s", why);
+}
+
+static selas_status check_load(const struct load *load, struct messages *messages)
+{
+    if (load->kind != LOAD_TRACTION)
+        return refuse(messages, "only traction loads; body forces and moment tensors have another solution");
+    if (load->face != FACE_Z_LOW) return refuse(messages, "loads must act on the free surface, face = 'z-'");
+    if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
+        return refuse(messages, "a moving patch is not offered");
+    return SELAS_OK;
+}
+
+static selas_status check_scene(const struct scene *scene, struct messages *messages)
+{
+    if (scene->dimension != 3) return refuse(messages, "the half-space is three-dimensional, dimension = 3");
+    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+        return refuse(messages, "the body must have shape = 'box' or 'half-space'");
+    if (scene->body.layers > 0) return refuse(messages, "the ground must be homogeneous, without &layer");
+    if (scene->initial.kind != INITIAL_REST) return refuse(messages, "the ground must start at rest");
+    if (scene->loads == 0) return refuse(messages, "there is no &load");
+    for (int face = 0; face < BOX_FACES; face++) {
+        const enum boundary_kind kind = scene->boundary[face].kind;
+        if (face == FACE_Z_LOW
+                ? kind != BOUNDARY_FREE
+                : kind != BOUNDARY_FREE && kind != BOUNDARY_TRANSMITTING && kind != BOUNDARY_SYMMETRY)
+            return fail(
+                messages, SELAS_BAD_SCENE, "reference 'lamb': face %s must be %s for an infinite half-space",
+                face_name((enum face)face),
+                face == FACE_Z_LOW ? "'free'" : "'transmitting', 'symmetry' (sides) or 'free' and far away");
+        if (kind == BOUNDARY_SYMMETRY && face == FACE_Z_HIGH)
+            return refuse(messages, "face z+ cannot be a symmetry plane of a half-space");
+    }
+    for (int axis = 0; axis < 2; axis++)
+        if (scene->boundary[2 * axis].kind == BOUNDARY_SYMMETRY &&
+            scene->boundary[2 * axis + 1].kind == BOUNDARY_SYMMETRY)
+            return refuse(messages, "opposite symmetry planes repeat the load without end; make one of them "
+                                    "'transmitting'");
+    for (size_t i = 0; i < scene->loads; i++) {
+        const selas_status status = check_load(&scene->load[i], messages);
+        if (status != SELAS_OK) return status;
+    }
+    return SELAS_OK;
+}
+
+static void set_load(const struct scene *scene, const struct load *load, struct lamb_load *out)
+{
+    double centre[3], direction[3];
+    position_in_ground(scene, load->centre, centre);
+    body_direction_from_deck(&scene->body, load->direction, direction);
+    *out = (struct lamb_load){.history = &load->history};
+    out->patch.centre[0] = centre[0];
+    out->patch.centre[1] = centre[1];
+    out->patch.shape = load->shape == LOAD_SQUARE ? PATCH_RECTANGLE
+                       : load->shape == LOAD_DISC ? PATCH_DISC
+                                                  : PATCH_POINT;
+    if (load->shape == LOAD_SQUARE) {
+        out->patch.half[0] = .5 * load->size[0];
+        out->patch.half[1] = .5 * load->size[1];
+    }
+    if (load->shape == LOAD_DISC) out->patch.half[0] = out->patch.half[1] = .5 * load->size[0];
+    for (int i = 0; i < 3; i++) {
+        out->traction[i] = load->amplitude * direction[i];
+        if (fabs(direction[i]) < 1e-14) out->traction[i] = 0;
+    }
+}
+
+/* Mirror images of loads [0, *count) at the symmetry plane of an axis, if there is one. */
+static selas_status add_images(const struct scene *scene, int axis, struct lamb_load *load, size_t *count,
+                               struct messages *messages)
+{
+    const bool low = scene->boundary[2 * axis].kind == BOUNDARY_SYMMETRY;
+    if (!low && scene->boundary[2 * axis + 1].kind != BOUNDARY_SYMMETRY) return SELAS_OK;
+    const double plane = low ? scene->body.low[axis] : scene->body.high[axis];
+    const double size = scene->body.high[axis] - scene->body.low[axis];
+    const size_t before = *count;
+    for (size_t i = 0; i < before; i++) {
+        const double away = fabs(load[i].patch.centre[axis] - plane);
+        if (away < 1e-9 * size) {
+            if (load[i].traction[axis] != 0)
+                return refuse(messages, "a load on a symmetry plane cannot act across it");
+            continue;
+        }
+        if (away < load[i].patch.half[axis] * (1 - 1e-9))
+            return refuse(messages, "a symmetry plane may cut a load only through its centre");
+        load[*count] = load[i];
+        load[*count].patch.centre[axis] = 2 * plane - load[i].patch.centre[axis];
+        load[*count].traction[axis] = -load[i].traction[axis];
+        ++*count;
+    }
+    return SELAS_OK;
+}
+
+static selas_status set_loads(struct lamb *lamb, const struct scene *scene, struct messages *messages)
+{
+    lamb->load = array_new(4 * scene->loads, sizeof *lamb->load);
+    lamb->plane = array_new(scene->loads, sizeof *lamb->plane);
+    if (lamb->load == NULL || lamb->plane == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
+    size_t count = 0;
+    for (size_t i = 0; i < scene->loads; i++)
+        set_load(scene, &scene->load[i],
+                 scene->load[i].shape == LOAD_FACE ? &lamb->plane[lamb->planes++] : &lamb->load[count++]);
+    for (int axis = 0; axis < 2; axis++) {
+        const selas_status status = add_images(scene, axis, lamb->load, &count, messages);
+        if (status != SELAS_OK) return status;
+    }
+    lamb->problem.loads = count;
+    lamb->problem.load = lamb->load;
+    return SELAS_OK;
+}
+
+/* A point of a point load has no value. */
+static selas_status check_position(const struct lamb *lamb, const double position[3],
+                                   struct messages *messages)
+{
+    if (position[2] < 0) return refuse(messages, "a receiver lies above the ground");
+    for (size_t i = 0; i < lamb->problem.loads; i++) {
+        const struct patch *patch = &lamb->load[i].patch;
+        if (patch->shape == PATCH_POINT && position[2] == 0 && position[0] == patch->centre[0] &&
+            position[1] == patch->centre[1])
+            return refuse(messages, "the displacement right under a point load is infinite");
+    }
+    return SELAS_OK;
+}
+
+static selas_status compute_receivers(struct lamb *lamb, const struct scene *scene, struct messages *messages)
+{
+    lamb->signal = array_new(scene->receivers, sizeof *lamb->signal);
+    if (lamb->signal == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
+    for (size_t i = 0; i < scene->receivers; i++) {
+        position_in_ground(scene, scene->receiver[i].position, lamb->signal[i].position);
+        const selas_status status = check_position(lamb, lamb->signal[i].position, messages);
+        if (status != SELAS_OK) return status;
+    }
+    if (lamb->problem.loads == 0 || scene->receivers == 0) return SELAS_OK;
+    const selas_status status =
+        lamb_fft(&lamb->problem, scene->end_time, scene->receivers, lamb->signal, messages);
+    if (status == SELAS_OK) lamb->signals = scene->receivers;
+    return status;
+}
+
+static void destroy(struct exact *exact)
+{
+    struct lamb *lamb = (struct lamb *)exact;
+    for (size_t i = 0; i < lamb->signals; i++)
+        lamb_signal_free(&lamb->signal[i]);
+    array_free(lamb->signal);
+    array_free(lamb->load);
+    array_free(lamb->plane);
+    array_free(lamb);
+}
+
+static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
+{
+    *exact = NULL;
+    selas_status status = check_scene(scene, messages);
+    if (status != SELAS_OK) return status;
+    struct lamb *lamb = array_new(1, sizeof *lamb);
+    if (lamb == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
+    lamb->exact.class = &exact_lamb;
+    lamb->exact.scene = scene;
+    const struct material *material = &scene->material[scene->body.material];
+    half_space_set(&lamb->problem.ground, material->density, material->lambda, material->mu);
+    status = set_loads(lamb, scene, messages);
+    if (status == SELAS_OK) status = compute_receivers(lamb, scene, messages);
+    if (status != SELAS_OK) {
+        destroy(&lamb->exact);
+        return status;
+    }
+    *exact = &lamb->exact;
+    return SELAS_OK;
+}
+
+static void add_plane_wave(const struct half_space *ground, const struct lamb_load *load, double z, double t,
+                           double value[6])
+{
+    for (int i = 0; i < 3; i++) {
+        const double speed = i == 2 ? ground->p_speed : ground->s_speed;
+        const double factor = load->traction[i] / (ground->density * speed);
+        if (factor == 0) continue;
+        value[i] += factor * history_value(load->history, t - z / speed, -1);
+        value[3 + i] += factor * history_value(load->history, t - z / speed, 0);
+    }
+}
+
+static void evaluate(const struct lamb *lamb, const struct lamb_signal *signal, size_t n, const double *time,
+                     double *value)
+{
+    for (size_t i = 0; i < n; i++) {
+        double body[6] = {0};
+        if (lamb->problem.loads > 0) lamb_signal_value(&lamb->problem, signal, time[i], body);
+        for (size_t l = 0; l < lamb->planes; l++)
+            add_plane_wave(&lamb->problem.ground, &lamb->plane[l], signal->position[2], time[i], body);
+        body_direction_to_deck(&lamb->exact.scene->body, body, value + 6 * i);
+        body_direction_to_deck(&lamb->exact.scene->body, body + 3, value + 6 * i + 3);
+    }
+}
+
+static selas_status history(struct exact *exact, const double position[3], size_t n, const double *time,
+                            double *value, struct messages *messages)
+{
+    const struct lamb *lamb = (const struct lamb *)exact;
+    if (n == 0) return SELAS_OK;
+    struct lamb_signal own = {.value = NULL};
+    position_in_ground(exact->scene, position, own.position);
+    for (size_t i = 0; i < lamb->signals; i++) {
+        const struct lamb_signal *signal = &lamb->signal[i];
+        if (memcmp(signal->position, own.position, sizeof own.position) == 0 &&
+            time[n - 1] <= signal->end_time) {
+            evaluate(lamb, signal, n, time, value);
+            return SELAS_OK;
+        }
+    }
+    selas_status status = check_position(lamb, own.position, messages);
+    if (status != SELAS_OK) return status;
+    if (lamb->problem.loads > 0) {
+        status = lamb_fft(&lamb->problem, fmax(exact->scene->end_time, time[n - 1]), 1, &own, messages);
+        if (status != SELAS_OK) return status;
+    }
+    evaluate(lamb, &own, n, time, value);
+    lamb_signal_free(&own);
+    return SELAS_OK;
+}
+
+static void describe(const struct exact *exact,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct lamb *lamb = (const struct lamb *)exact;
+    struct lamb_effort effort = {0};
+    for (size_t i = 0; i < lamb->signals; i++) {
+        if (lamb->signal[i].effort.cutoff > 0) {
+            const double estimate = fmax(effort.estimate, lamb->signal[i].effort.estimate);
+            effort = lamb->signal[i].effort;
+            effort.estimate = estimate;
+        }
+    }
+    char text[128];
+    tell(context, "exact", "infinite half-space under traction patches, by FFT (doc/lamb.md)");
+    if (lamb->signals == 0) return;
+    (void)snprintf(text, sizeof text, "%.1e", fmax(effort.estimate, 5e-7));
+    tell(context, "exact accuracy (L2 of velocity, estimated)", text);
+    (void)snprintf(text, sizeof text, "%.4g", effort.cutoff);
+    tell(context, "exact largest angular frequency", text);
+    (void)snprintf(text, sizeof text, "%.4g", effort.largest_wavenumber);
+    tell(context, "exact largest wavenumber", text);
+    (void)snprintf(text, sizeof text, "%.4g, %.4g", effort.period, effort.decay);
+    tell(context, "exact period and decay", text);
+}
+
+const struct exact_class exact_lamb = {"lamb", create, destroy, history, describe};
