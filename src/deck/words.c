@@ -56,6 +56,8 @@ static const struct word method_words[] = {
     {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "hourglass control (total-lagrangian)"},
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic", false,
      "fields whose gradient is exact (total-lagrangian)"},
+    {"law", WORD_CHOICE, 1, NULL, "linear|saint-venant-kirchhoff|neo-hookean", false,
+     "elastic law (total-lagrangian)"},
 };
 
 static const struct word stepping_words[] = {

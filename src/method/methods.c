@@ -2,6 +2,7 @@
 #include "method/consistent.h"
 #include "method/mirror.h"
 #include "method/paper.h"
+#include "method/total_lagrangian.h"
 #include "scene/symmetry.h"
 
 #include <string.h>
@@ -9,6 +10,7 @@
 static const struct model_class *const methods[] = {
     &consistent_class,
     &paper_class,
+    &total_lagrangian_class,
     NULL,
 };
 

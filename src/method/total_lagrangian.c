@@ -1,0 +1,458 @@
+/* Total-Lagrangian SPH, method 'sph', variant 'total-lagrangian': the model behind the method table.
+ *
+ * Points carry reference volumes; the energy is the sum of V_i psi(grad u_i) with least-squares gradients in
+ * the reference configuration, the forces are minus its exact derivatives (total_lagrangian_force.c), the
+ * mass is rho V_i. So M u'' + dE/du = F with M diagonal and E bounded below: in the linear regime the
+ * spectrum is imaginary whatever the points and weights. Vignjevic, Reveles & Campbell 2006 for the
+ * reference-configuration form, doc/sph-total-lagrangian.md for the derivation. */
+#include "method/total_lagrangian.h"
+
+#include "base/memory.h"
+#include "method/initial.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static struct tl_model *of(struct model *model)
+{
+    return (struct tl_model *)model;
+}
+
+struct tl_options tl_default_options(void)
+{
+    return (struct tl_options){
+        .degree = 2, .hourglass = 0.05, .kernel = kernel_find("cubic"), .law = LAW_SAINT_VENANT_KIRCHHOFF};
+}
+
+static void destroy(struct model *model)
+{
+    struct tl_model *tl = of(model);
+    for (size_t k = 0; tl->load != NULL && k < model->scene->loads; k++) {
+        array_free(tl->load[k].point);
+        array_free(tl->load[k].force);
+    }
+    tl_rows_free(&tl->gradient);
+    tl_rows_free(&tl->transposed);
+    tl_rows_free(&tl->returned);
+    tl_rows_free(&tl->pair);
+    tl_rows_free(&tl->viscous);
+    neighbours_free(&tl->near);
+    cloud_free(&tl->cloud);
+    void *const arrays[] = {tl->deck_position,
+                            tl->site_position,
+                            tl->ghost,
+                            tl->row_sum,
+                            tl->mass,
+                            tl->damper,
+                            (void *)tl->material,
+                            tl->elastic,
+                            tl->load,
+                            tl->site_u,
+                            tl->site_v,
+                            tl->H,
+                            tl->A,
+                            tl->force,
+                            tl->extra};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        array_free(arrays[k]);
+    array_free(tl);
+}
+
+static void add_loads(struct tl_model *tl, const struct drive *drive)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    if (drive->load == NULL) return;
+    for (size_t k = 0; k < tl->model.scene->loads; k++) {
+        const struct tl_load *load = &tl->load[k];
+        const double amplitude = drive->load[k];
+        if (amplitude == 0) continue;
+        for (size_t e = 0; e < load->count; e++)
+            for (size_t a = 0; a < d; a++)
+                tl->force[d * load->point[e] + a] += amplitude * load->force[d * e + a];
+    }
+}
+
+/* All forces but the dampers' into tl->force. */
+static void all_forces(struct tl_model *tl, const struct drive *drive, const double *u, const double *v)
+{
+    memset(tl->displacement, 0, sizeof tl->displacement);
+    if (drive->displacement != NULL) memcpy(tl->displacement, drive->displacement, sizeof tl->displacement);
+    tl_sites(tl, u, v, drive->displacement, drive->velocity);
+    tl_gradients(tl);
+    tl_forces(tl);
+    if (tl->site_v != NULL && v != NULL) tl_viscosity(tl);
+    add_loads(tl, drive);
+    tl->model.evaluations++;
+}
+
+static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
+                       const double *v, double *a)
+{
+    struct tl_model *tl = of(model);
+    const size_t d = (size_t)tl->cloud->dimension;
+    all_forces(tl, drive, u, v);
+    const bool damped = tl->damper != NULL && v != NULL;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < tl->cloud->points; i++)
+        for (size_t k = d * i; k < d * (i + 1); k++) {
+            const double damper = damped ? tl->damper[k] : 0;
+            const double force = damped ? tl->force[k] - damper * v[k] : tl->force[k];
+            a[k] = force / (tl->mass[i] + half_step * damper);
+        }
+}
+
+static void rate(struct model *model, const struct drive *drive, const double *y, double *dydt)
+{
+    const size_t n = model->unknowns;
+    memcpy(dydt, y + n, n * sizeof *y);
+    accelerate(model, drive, 0, y, y + n, dydt + n);
+}
+
+static void linearise(struct model *model, bool on)
+{
+    of(model)->linear = on;
+}
+
+static void initialise(struct model *model, double *y)
+{
+    const struct tl_model *tl = of(model);
+    const struct body *body = &model->scene->body;
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (size_t i = 0; i < model->points; i++) {
+        double displacement[3];
+        double velocity[3];
+        double own[3];
+        initial_at(model->scene, model->position + 3 * i, displacement, velocity);
+        body_direction_from_deck(body, displacement, own);
+        memcpy(y + d * i, own, d * sizeof *y);
+        body_direction_from_deck(body, velocity, own);
+        memcpy(y + model->unknowns + d * i, own, d * sizeof *y);
+    }
+}
+
+static selas_status probe(struct model *model, const double position[3], struct probe *probe,
+                          struct messages *messages)
+{
+    struct tl_model *tl = of(model);
+    size_t count = 0;
+    size_t index[TL_PROBE_ROOM];
+    double weight[TL_PROBE_ROOM];
+    double gradient[3 * TL_PROBE_ROOM];
+    double place[3];
+    body_from_deck(&model->scene->body, position, place);
+    selas_status status = tl_probe(tl, place, &count, index, weight, gradient, messages);
+    if (status == SELAS_OK) status = probe_allocate(probe, count, messages);
+    if (status != SELAS_OK) return status;
+    memcpy(probe->position, position, sizeof probe->position);
+    memcpy(probe->index, index, count * sizeof *index);
+    memcpy(probe->weight, weight, count * sizeof *weight);
+    memcpy(probe->gradient, gradient, 3 * count * sizeof *gradient);
+    probe->material = tl->material[neighbours_nearest(&tl->near, place)];
+    return SELAS_OK;
+}
+
+static void turn_tensor(const double frame[3][3], double six[6])
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const double own[6] = {six[0], six[1], six[2], six[3], six[4], six[5]};
+    for (int a = 0; a < 3; a++)
+        for (int b = a; b < 3; b++) {
+            double sum = 0;
+            for (int c = 0; c < 3; c++)
+                for (int e = 0; e < 3; e++)
+                    sum += frame[a][c] * own[place[c][e]] * frame[b][e];
+            six[place[a][b]] = sum;
+        }
+}
+
+/* Stress, strain, pressure or energy from H (and velocity) at one place. */
+static void nonlinear_field(const struct model *model, const struct material *material,
+                            const struct elastic *elastic, const double *H, const double *velocity,
+                            selas_field field, double *value)
+{
+    double stress[6];
+    double strain[6];
+    elastic_observe(elastic, H, stress, strain);
+    if (field == SELAS_PRESSURE) value[0] = -(stress[0] + stress[1] + stress[2]) / 3;
+    if (field == SELAS_ENERGY) {
+        value[0] = elastic_energy(elastic, H);
+        for (int a = 0; a < elastic->dimension; a++)
+            value[0] += 0.5 * material->density * velocity[a] * velocity[a];
+    }
+    if (field != SELAS_STRESS && field != SELAS_STRAIN) return;
+    double *six = field == SELAS_STRESS ? stress : strain;
+    if (model->frame != NULL) turn_tensor(model->frame, six);
+    memcpy(value, six, sizeof stress);
+}
+
+static bool is_vector(selas_field field)
+{
+    return field == SELAS_DISPLACEMENT || field == SELAS_VELOCITY || field == SELAS_ACCELERATION;
+}
+
+static void observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                    const double *a, double *value)
+{
+    const struct tl_model *tl = of(model);
+    const size_t d = (size_t)tl->cloud->dimension;
+    if (is_vector(field)) {
+        probe_observe(model, probe, field, y, a, value);
+        return;
+    }
+    double H[9] = {0};
+    double velocity[3] = {0};
+    for (size_t k = 0; k < probe->count; k++)
+        for (size_t c = 0; c < d; c++) {
+            const size_t at = d * probe->index[k] + c;
+            velocity[c] += probe->weight[k] * y[model->unknowns + at];
+            for (size_t b = 0; b < d; b++)
+                H[c * d + b] += probe->gradient[3 * k + b] * y[at];
+        }
+    const struct elastic elastic = elastic_of(probe->material, tl->options.law, (int)d, model->scene->plane);
+    nonlinear_field(model, probe->material, &elastic, H, velocity, field, value);
+}
+
+static void field(struct model *model, selas_field field, const double *y, const double *a, double *value)
+{
+    struct tl_model *tl = of(model);
+    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t components = (size_t)field_components(field);
+    const double *own = y;
+    if (field == SELAS_VELOCITY) own = y + model->unknowns;
+    if (field == SELAS_ACCELERATION) own = a;
+    if (!is_vector(field)) {
+        tl_sites(tl, y, NULL, tl->displacement, NULL);
+        tl_gradients(tl);
+    }
+    for (size_t i = 0; i < model->points; i++) {
+        if (!is_vector(field)) {
+            nonlinear_field(model, tl->material[i], &tl->elastic[i], tl->H + d * d * i,
+                            y + model->unknowns + d * i, field, value + components * i);
+            continue;
+        }
+        double vector[3] = {0};
+        memcpy(vector, own + d * i, d * sizeof *own);
+        body_direction_to_deck(&model->scene->body, vector, value + 3 * i);
+    }
+}
+
+static void energy(struct model *model, const double *y, struct energy *energy)
+{
+    struct tl_model *tl = of(model);
+    const size_t d = (size_t)tl->cloud->dimension;
+    tl_sites(tl, y, NULL, tl->displacement, NULL);
+    tl_gradients(tl);
+    energy->strain = tl_strain_energy(tl);
+    energy->kinetic = 0;
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t c = 0; c < d; c++) {
+            const double v = y[model->unknowns + d * i + c];
+            energy->kinetic += 0.5 * tl->mass[i] * v * v;
+        }
+}
+
+/* Work done at moving faces: minus the force on each ghost times its prescribed velocity. */
+static double motion_power(const struct tl_model *tl, const double *velocity)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    double power = 0;
+    for (size_t g = 0; g < tl->ghosts; g++)
+        for (size_t c = 0; c < d; c++)
+            for (size_t f = 0; f < FACES; f++)
+                power -= tl->force[d * (tl->cloud->points + g) + c] * tl->ghost[g].motion[c][f] * velocity[f];
+    return power;
+}
+
+static void power(struct model *model, const struct drive *drive, const double *y, double *load,
+                  double *absorbed)
+{
+    struct tl_model *tl = of(model);
+    const size_t n = model->unknowns;
+    const size_t d = (size_t)tl->cloud->dimension;
+    const double *v = y + n;
+    *load = 0;
+    *absorbed = 0;
+    if (tl->moving && drive->velocity != NULL) {
+        tl_sites(tl, y, v, drive->displacement, drive->velocity);
+        tl_gradients(tl);
+        tl_forces(tl);
+        *load += motion_power(tl, drive->velocity);
+    }
+    if (tl->site_v != NULL) {
+        tl_sites(tl, y, v, drive->displacement, drive->velocity);
+        memset(tl->force, 0, n * sizeof *tl->force);
+        tl_viscosity(tl);
+        for (size_t k = 0; k < n; k++)
+            *absorbed -= tl->force[k] * v[k];
+    }
+    for (size_t k = 0; tl->damper != NULL && k < n; k++)
+        *absorbed += tl->damper[k] * v[k] * v[k];
+    memset(tl->force, 0, n * sizeof *tl->force);
+    add_loads(tl, drive);
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t k = d * i; k < d * (i + 1); k++)
+            *load += tl->force[k] * v[k];
+}
+
+static void describe(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct tl_model *tl = (const struct tl_model *)model;
+    char text[64];
+    tell(context, "gradient", tl->options.degree == 2 ? "quadratic" : "linear");
+    tell(context, "law", elastic_law_name(tl->options.law));
+    snprintf(text, sizeof text, "%s", tl->options.kernel->name);
+    tell(context, "kernel", text);
+    snprintf(text, sizeof text, "%.1f", (double)tl->gradient.start[model->points] / (double)model->points);
+    tell(context, "neighbours a point", text);
+    snprintf(text, sizeof text, "%zu", tl->ghosts);
+    tell(context, "ghosts", text);
+    snprintf(text, sizeof text, "%g", tl->options.hourglass);
+    tell(context, "hourglass control", text);
+    snprintf(text, sizeof text, "%g, %g", tl->options.viscosity_alpha, tl->options.viscosity_beta);
+    tell(context, "viscosity alpha, beta", text);
+}
+
+static selas_status create(const struct scene *scene, struct model **model, struct messages *messages);
+
+/* Hooke's law makes the model linear as a whole (without viscosity). */
+static const struct model_class linear_class = {
+    .method = "sph",
+    .variant = "total-lagrangian",
+    .create = create,
+    .destroy = destroy,
+    .accelerate = accelerate,
+    .rate = rate,
+    .initialise = initialise,
+    .probe = probe,
+    .observe = observe,
+    .field = field,
+    .energy = energy,
+    .power = power,
+    .describe = describe,
+};
+
+const struct model_class total_lagrangian_class = {
+    .method = "sph",
+    .variant = "total-lagrangian",
+    .create = create,
+    .destroy = destroy,
+    .accelerate = accelerate,
+    .rate = rate,
+    .linearise = linearise,
+    .initialise = initialise,
+    .probe = probe,
+    .observe = observe,
+    .field = field,
+    .energy = energy,
+    .power = power,
+    .describe = describe,
+};
+
+static selas_status fill_points(struct tl_model *tl, struct messages *messages)
+{
+    const struct scene *scene = tl->model.scene;
+    const size_t n = tl->cloud->points;
+    const size_t d = (size_t)scene->dimension;
+    tl->mass = array_new(n, sizeof *tl->mass);
+    tl->material = array_new(n, sizeof *tl->material);
+    tl->elastic = array_new(n, sizeof *tl->elastic);
+    tl->deck_position = array_new(3 * n, sizeof *tl->deck_position);
+    tl->H = array_new(d * d * n, sizeof *tl->H);
+    tl->A = array_new(d * d * n, sizeof *tl->A);
+    if (tl->mass == NULL || tl->material == NULL || tl->elastic == NULL || tl->deck_position == NULL ||
+        tl->H == NULL || tl->A == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
+    for (size_t i = 0; i < n; i++) {
+        const double *x = tl->cloud->position + 3 * i;
+        tl->material[i] = scene_material_at(scene, x[d - 1] - scene->body.low[d - 1]);
+        tl->elastic[i] = elastic_of(tl->material[i], tl->options.law, scene->dimension, scene->plane);
+        tl->mass[i] = tl->material[i]->density * tl->cloud->volume[i];
+        body_to_deck(&scene->body, x, tl->deck_position + 3 * i);
+    }
+    return neighbours_find(&tl->near, scene->dimension, n, tl->cloud->position, 1.5 * tl_radius(tl), false,
+                           messages);
+}
+
+static size_t rows_bytes(const struct tl_rows *rows, size_t count, size_t width)
+{
+    if (rows->start == NULL) return 0;
+    return (count + 1) * sizeof *rows->start +
+           rows->start[count] * (sizeof *rows->index + width * sizeof *rows->weight);
+}
+
+static void fill_model(struct tl_model *tl)
+{
+    struct model *model = &tl->model;
+    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t n = tl->cloud->points;
+    const bool viscous = tl->site_v != NULL;
+    model->class = tl->options.law == LAW_LINEAR && !viscous ? &linear_class : &total_lagrangian_class;
+    model->points = n;
+    model->position = tl->deck_position;
+    memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
+    model->unknowns = d * n;
+    model->state_size = 2 * d * n;
+    model->component_stride = 1;
+    model->point_stride = d;
+    model->damped = tl->damper != NULL || viscous;
+    model->self_adjoint = true;
+    if (model->scene->body.rotated) model->frame = model->scene->body.frame;
+    model->bytes = sizeof *tl + rows_bytes(&tl->gradient, n, d) + rows_bytes(&tl->transposed, tl->sites, d) +
+                   rows_bytes(&tl->pair, n, 1) + rows_bytes(&tl->viscous, n, 1) +
+                   neighbours_bytes(&tl->near) + tl->sites * (3 + (viscous ? 3 : 2) * d) * sizeof(double) +
+                   n * (9 + 2 * d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
+                   tl->ghosts * sizeof(struct tl_ghost);
+}
+
+selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
+                                     struct model **model, struct messages *messages)
+{
+    *model = NULL;
+    struct tl_model *tl = array_new(1, sizeof *tl);
+    if (tl == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
+    tl->model.scene = scene;
+    tl->model.class = &total_lagrangian_class;
+    tl->options = *options;
+    selas_status status = cloud_create(scene, &tl->cloud, messages);
+    if (status == SELAS_OK) status = fill_points(tl, messages);
+    if (status == SELAS_OK) status = tl_make_rows(tl, messages);
+    if (status == SELAS_OK) {
+        const size_t d = (size_t)scene->dimension;
+        tl->site_u = array_new(d * tl->sites, sizeof(double));
+        tl->force = array_new(d * tl->sites, sizeof(double));
+        if (tl->site_u == NULL || tl->force == NULL)
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu sites", tl->sites);
+    }
+    if (status == SELAS_OK) status = tl_make_loads(tl, messages);
+    if (status == SELAS_OK) status = tl_make_dampers(tl, messages);
+    if (status != SELAS_OK) {
+        destroy(&tl->model);
+        return status;
+    }
+    fill_model(tl);
+    *model = &tl->model;
+    return SELAS_OK;
+}
+
+static void read_real(const struct deck_group *group, const char *name, double *value)
+{
+    if (deck_values(group, name) > 0) *value = deck_real(group, name, 0);
+}
+
+static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
+{
+    struct tl_options options = tl_default_options();
+    const struct deck_group *group = scene->method.group;
+    if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
+    if (deck_values(group, "gradient") > 0)
+        options.degree = strcmp(deck_text(group, "gradient", 0), "linear") == 0 ? 1 : 2;
+    if (deck_values(group, "law") > 0)
+        options.law = (enum elastic_law)elastic_law_find(deck_text(group, "law", 0));
+    read_real(group, "smoothing_length", &options.smoothing_length);
+    read_real(group, "hourglass", &options.hourglass);
+    read_real(group, "viscosity_alpha", &options.viscosity_alpha);
+    read_real(group, "viscosity_beta", &options.viscosity_beta);
+    return total_lagrangian_create(scene, &options, model, messages);
+}

@@ -1,0 +1,106 @@
+/* Total-Lagrangian SPH: what its files share, and how tests build it without a deck.
+ *
+ * Unknowns: displacements of the points in the body's frame, u[dimension * i + c]. Sites are the points and,
+ * after them, the ghosts beyond mirror planes and on clamped faces. */
+#ifndef SELAS_TOTAL_LAGRANGIAN_H
+#define SELAS_TOTAL_LAGRANGIAN_H
+
+#include "kernel/kernel.h"
+#include "method/elastic_law.h"
+#include "method/model.h"
+#include "points/cloud.h"
+#include "points/neighbours.h"
+
+#include <stdint.h>
+
+struct tl_options {
+    int degree;                  /* 1: linear (TL1), 2: quadratic (TL2) gradients */
+    const struct kernel *kernel; /* shape of the weights */
+    double smoothing_length;     /* in spacings; 0: the degree's default */
+    double hourglass;            /* strength of the penalty on what the gradients do not see; 0: none */
+    double viscosity_alpha, viscosity_beta; /* Monaghan 1992; 0: none */
+    enum elastic_law law;
+};
+
+extern const struct model_class total_lagrangian_class;
+struct tl_options tl_default_options(void);
+selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
+                                     struct model **model, struct messages *messages);
+
+/* Compressed rows: entries start[i] .. start[i + 1] - 1 of site i. */
+struct tl_rows {
+    size_t *start;
+    uint32_t *index;
+    double *weight; /* [width] numbers an entry */
+};
+
+/* A ghost repeats a point mirrored in one or more faces: u = sign * u_source + prescribed motion. */
+struct tl_ghost {
+    size_t source;
+    double sign[3];
+    double motion[3][FACES]; /* displacement = sum over faces of motion * amplitude of the face's history */
+    double volume;
+};
+
+/* Entries of a load: force on points per unit of its history. */
+struct tl_load {
+    size_t count;
+    size_t *point;
+    double *force; /* [dimension * count], amplitude included */
+};
+
+struct tl_model {
+    struct model model;
+    struct tl_options options;
+    struct cloud *cloud;
+    double frame[3][3];
+    double *deck_position; /* [3 * points] */
+    double *site_position; /* [3 * sites], body frame */
+    size_t sites, ghosts;
+    struct tl_ghost *ghost;
+    bool moving;                      /* some face is prescribed to move */
+    struct tl_rows gradient;          /* rows of points over sites: G_ij */
+    struct tl_rows transposed;        /* rows of sites over points: G_ji */
+    struct tl_rows returned;          /* rows of points over ghosts (numbered from 0), no weights */
+    struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
+    struct tl_rows viscous;           /* rows of points over sites, weight = m_i m_j |W'|, width 1 */
+    double *row_sum;                  /* [dimension * points] sum over j of G_ij */
+    double *mass;                     /* [points] */
+    double *damper;                   /* [dimension * points] or NULL */
+    const struct material **material; /* [points] */
+    struct elastic *elastic;          /* [points] */
+    struct tl_load *load;             /* [scene->loads] */
+    struct neighbours near;           /* of the points, for probes */
+    double *site_u, *site_v;          /* [dimension * sites]; site_v NULL without viscosity */
+    double *H;                        /* [dimension^2 * points] */
+    double *A;                        /* [dimension^2 * points] V P (and the hourglass part) */
+    double *force;                    /* [dimension * sites] */
+    double *extra;                    /* [dimension * points] hourglass forces */
+    bool linear;                      /* linearise() is on */
+    double displacement[FACES];       /* amplitudes of the last drive, for energy() */
+};
+
+/* total_lagrangian_ghosts.c: sites beyond and on the faces. */
+selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
+/* total_lagrangian_setup.c: gradient weights, hourglass pairs, viscosity pairs. */
+selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
+double tl_radius(const struct tl_model *tl); /* of the weights, in length */
+/* total_lagrangian_loads.c */
+selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
+selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
+selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
+                      double *weight, double *gradient, struct messages *messages);
+enum { TL_PROBE_ROOM = 256 };
+/* total_lagrangian_force.c: internal forces of displacements u into tl->force (points), H and A on the way.
+ */
+void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
+              const double *velocity);
+void tl_gradients(struct tl_model *tl);
+void tl_forces(struct tl_model *tl);
+void tl_viscosity(struct tl_model *tl);
+double tl_strain_energy(struct tl_model *tl);
+
+selas_status tl_rows_allocate(struct tl_rows *rows, size_t count, size_t entries, size_t width);
+void tl_rows_free(struct tl_rows *rows);
+
+#endif

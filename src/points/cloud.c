@@ -1,0 +1,136 @@
+/* Clouds of points: boxes on a lattice half a spacing inside, jitter; the other shapes are in their own
+ * files. */
+#include "points/cloud.h"
+
+#include "base/memory.h"
+#include "points/lattice.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double body_volume(const struct body *body, int dimension)
+{
+    double volume = 1;
+    for (int c = 0; c < dimension; c++)
+        volume *= body->high[c] - body->low[c];
+    if (body->shape == BODY_PLATE_WITH_HOLE) {
+        double first = 0;
+        double last = 0;
+        hole_angles(body, &first, &last);
+        volume -= 0.5 * (last - first) * body->hole_radius * body->hole_radius;
+    }
+    return volume;
+}
+
+selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, struct messages *messages)
+{
+    *cloud = array_new(1, sizeof **cloud);
+    if (*cloud != NULL) {
+        (*cloud)->dimension = dimension;
+        (*cloud)->points = points;
+        (*cloud)->position = array_new(3 * points, sizeof(double));
+        (*cloud)->volume = array_new(points, sizeof(double));
+    }
+    if (*cloud == NULL || (*cloud)->position == NULL || (*cloud)->volume == NULL) {
+        cloud_free(cloud);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", points);
+    }
+    return SELAS_OK;
+}
+
+void cloud_free(struct cloud **cloud)
+{
+    if (cloud == NULL || *cloud == NULL) return;
+    array_free((*cloud)->position);
+    array_free((*cloud)->volume);
+    free((*cloud)->element);
+    array_free(*cloud);
+    *cloud = NULL;
+}
+
+static selas_status box(const struct scene *scene, struct cloud **cloud, struct messages *messages)
+{
+    const struct body *body = &scene->body;
+    const int dimension = scene->dimension;
+    size_t grid[3] = {1, 1, 1};
+    double step[3] = {0};
+    double volume = 1;
+    for (int c = 0; c < dimension; c++) {
+        const double length = body->high[c] - body->low[c];
+        grid[c] = (size_t)fmax(1, round(length / body->spacing));
+        step[c] = length / (double)grid[c];
+        volume *= step[c];
+    }
+    const size_t points = grid[0] * grid[1] * grid[2];
+    const selas_status status = cloud_allocate(dimension, points, cloud, messages);
+    if (status != SELAS_OK) return status;
+    size_t i = 0;
+    for (size_t z = 0; z < grid[2]; z++)
+        for (size_t y = 0; y < grid[1]; y++)
+            for (size_t x = 0; x < grid[0]; x++, i++) {
+                const size_t at[3] = {x, y, z};
+                for (int c = 0; c < dimension; c++)
+                    (*cloud)->position[3 * i + (size_t)c] = body->low[c] + ((double)at[c] + 0.5) * step[c];
+                (*cloud)->volume[i] = volume;
+            }
+    memcpy((*cloud)->grid, grid, sizeof grid);
+    return SELAS_OK;
+}
+
+/* Moves each point by up to jitter * spacing along each axis; it stays inside its own lattice cell's reach of
+ * the box, and outside the hole. */
+static void jitter(struct cloud *cloud, const struct body *body)
+{
+    for (size_t i = 0; i < cloud->points; i++) {
+        double *x = cloud->position + 3 * i;
+        double moved[3] = {0};
+        double distance = 0;
+        for (size_t c = 0; c < (size_t)cloud->dimension; c++) {
+            const double random = random_uniform((unsigned long)body->seed, 3 * i + c);
+            const double margin = 0.05 * body->spacing;
+            moved[c] = x[c] + body->jitter * body->spacing * (2 * random - 1);
+            moved[c] = fmin(fmax(moved[c], body->low[c] + margin), body->high[c] - margin);
+            const double d = moved[c] - body->hole_centre[c];
+            distance += d * d;
+        }
+        if (body->shape == BODY_PLATE_WITH_HOLE && sqrt(distance) < body->hole_radius) continue;
+        memcpy(x, moved, sizeof moved);
+    }
+    memset(cloud->grid, 0, sizeof cloud->grid);
+}
+
+static selas_status check(const struct scene *scene, struct messages *messages)
+{
+    const struct body *body = &scene->body;
+    if (!(body->spacing > 0)) return fail(messages, SELAS_BAD_SCENE, "body%%spacing must be positive");
+    if (body->shape == BODY_HALF_SPACE)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "body%%shape 'half-space' has no SPH points: give a 'box' with transmitting faces");
+    if (body->shape == BODY_BOX && body->arrangement != ARRANGEMENT_LATTICE)
+        return fail(messages, SELAS_UNSUPPORTED, "rings of points need body%%shape 'plate-with-hole'");
+    if (body->shape == BODY_PLATE_WITH_HOLE && scene->dimension != 2)
+        return fail(messages, SELAS_UNSUPPORTED, "a plate with a hole needs scene%%dimension = 2");
+    return SELAS_OK;
+}
+
+selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages)
+{
+    const struct body *body = &scene->body;
+    *cloud = NULL;
+    if (body->shape == BODY_POINTS) return cloud_read(scene, cloud, messages);
+    selas_status status = check(scene, messages);
+    if (status != SELAS_OK) return status;
+    if (body->shape == BODY_PLATE_WITH_HOLE)
+        status = cloud_plate(body, cloud, messages);
+    else
+        status = box(scene, cloud, messages);
+    if (status != SELAS_OK) return status;
+    (*cloud)->spacing = body->spacing;
+    if (body->jitter > 0) jitter(*cloud, body);
+    if (body->jitter > 0 || body->shape == BODY_PLATE_WITH_HOLE)
+        status = cloud_cells(*cloud, body, body->arrangement == ARRANGEMENT_CONFORMAL ? 40 : 0, messages);
+    if (status == SELAS_OK) status = cloud_surface(*cloud, body, messages);
+    if (status != SELAS_OK) cloud_free(cloud);
+    return status;
+}

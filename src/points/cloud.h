@@ -1,0 +1,56 @@
+/* Clouds: the points of a body with the volumes they stand for and the elements of its surface.
+ *
+ * All lengths are in the deck's units and in the body's own frame (see scene.h). Unused components are 0. The
+ * volumes add up to the body's volume (area in 2D, length in 1D) to rounding, the areas of a face's elements
+ * to the face's area (length in 2D, 1 in 1D). SPH points lie about half a spacing inside the surface. */
+#ifndef SELAS_CLOUD_H
+#define SELAS_CLOUD_H
+
+#include "scene/scene.h"
+
+/* A piece of the surface: a face of the box, of the hole, or FACES for surfaces without a name (files). */
+struct surface_element {
+    double position[3]; /* its middle, on the surface */
+    double normal[3];   /* outward, unit */
+    double width[3]; /* extent along the axes (0 along the normal); 0 where it is not an axis-aligned box */
+    double area;
+    int face; /* enum face or FACES */
+};
+
+struct cloud {
+    int dimension;
+    size_t points;
+    double *position; /* [3 * points] */
+    double *volume;   /* [points] */
+    double spacing;   /* nominal */
+    size_t grid[3];   /* points per axis where they form a lattice (x fastest), else 0 */
+    size_t elements;
+    struct surface_element *element;
+};
+
+/* Points of scene->body as its shape, arrangement, jitter and seed say; SELAS_BAD_SCENE with the reason where
+ * they cannot be made. On failure *cloud is NULL. */
+selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages);
+void cloud_free(struct cloud **cloud);
+
+/* Volume (area, length) of the body: box minus hole. */
+double body_volume(const struct body *body, int dimension);
+/* Angles from the hole's centre that lie in the box: all round, half or a quarter (centre on a face or a
+ * corner). */
+void hole_angles(const struct body *body, double *first, double *last);
+
+/* The parts, for those who build clouds: room for points (volumes 0) and for surface elements. */
+selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, struct messages *messages);
+selas_status cloud_add_element(struct cloud *cloud, const struct surface_element *element,
+                               struct messages *messages);
+/* points/surface.c: elements of the box faces (and the hole) about one spacing wide. */
+selas_status cloud_surface(struct cloud *cloud, const struct body *body, struct messages *messages);
+/* points/rings.c: plates with a hole. */
+selas_status cloud_plate(const struct body *body, struct cloud **cloud, struct messages *messages);
+/* points/points_file.c: text or HDF5. */
+selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages);
+/* points/cells.c: volumes of the Voronoi cells inside the body; `relax` sweeps of moving each point to the
+ * centroid of its cell before (0: points stay). Dimensions 1 and 2; in 3D boxes without relaxation. */
+selas_status cloud_cells(struct cloud *cloud, const struct body *body, int relax, struct messages *messages);
+
+#endif

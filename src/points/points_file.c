@@ -1,0 +1,197 @@
+/* Points from a file: positions, volumes and, for points next to the surface, the outward normal and the area
+ * they stand for.
+ *
+ * Text: a point a line, columns x [y [z]] volume [nx [ny [nz]] area], '#' or '!' comments. HDF5: datasets
+ * position [n, dimension], volume [n] and, if there is a surface, normal [n, dimension] and area [n]. A
+ * normal of zeros stands for "inside". The surface element lies half a local spacing outside the point along
+ * its normal; it belongs to a face of the body's box if it lies within one spacing of it and the normals
+ * agree. */
+#include "points/cloud.h"
+
+#include "base/memory.h"
+
+#include <hdf5.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 8 };
+
+/* Rows of `columns` numbers: 3 positions, volume, 3 normal components, area (unused ones 0). */
+struct table {
+    size_t rows, room;
+    double (*row)[COLUMNS];
+};
+
+static bool make_room(struct table *table, size_t rows)
+{
+    if (rows <= table->room) return true;
+    const size_t room = rows + rows / 2 + 64;
+    double(*larger)[COLUMNS] = realloc(table->row, room * sizeof *larger);
+    if (larger == NULL) return false;
+    table->row = larger;
+    table->room = room;
+    return true;
+}
+
+/* Numbers of a line; -1 if there is something else in it. */
+static int numbers(const char *line, double value[COLUMNS])
+{
+    int count = 0;
+    while (true) {
+        line += strspn(line, " \t,\r\n");
+        if (*line == '\0' || *line == '#' || *line == '!') return count;
+        char *end = NULL;
+        const double x = strtod(line, &end);
+        if (end == line || count == COLUMNS) return -1;
+        value[count++] = x;
+        line = end;
+    }
+}
+
+static selas_status add_row(struct table *table, size_t d, int count, const double *value, const char *path,
+                            size_t line, struct messages *messages)
+{
+    if (count != (int)d + 1 && count != (int)(2 * d) + 2)
+        return fail(messages, SELAS_FILE_ERROR,
+                    "%s:%zu: expected %zu numbers (position, volume) or %zu (and normal, area)", path, line,
+                    d + 1, 2 * d + 2);
+    if (!make_room(table, table->rows + 1))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+    double *row = table->row[table->rows++];
+    memset(row, 0, sizeof *table->row);
+    memcpy(row, value, d * sizeof *row);
+    row[3] = value[d];
+    if (count > (int)d + 1) memcpy(row + 4, value + d + 1, d * sizeof *row);
+    if (count > (int)d + 1) row[7] = value[2 * d + 1];
+    return SELAS_OK;
+}
+
+static selas_status read_text(const char *path, size_t d, struct table *table, struct messages *messages)
+{
+    FILE *file = fopen(path, "r");
+    if (file == NULL) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s'", path);
+    selas_status status = SELAS_OK;
+    char *line = NULL;
+    size_t length = 0;
+    for (size_t number = 1; status == SELAS_OK && getline(&line, &length, file) >= 0; number++) {
+        double value[COLUMNS];
+        const int count = numbers(line, value);
+        if (count != 0) status = add_row(table, d, count, value, path, number, messages);
+    }
+    free(line);
+    fclose(file);
+    return status;
+}
+
+/* Reads dataset `name` of n x columns into the table from column `at` on. */
+static bool read_dataset(hid_t file, const char *name, size_t columns, size_t at, struct table *table)
+{
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+    if (set < 0) return false;
+    const hid_t space = H5Dget_space(set);
+    hsize_t extent[2] = {0, 1};
+    const int rank = H5Sget_simple_extent_ndims(space);
+    bool right = rank >= 1 && rank <= 2 && H5Sget_simple_extent_dims(space, extent, NULL) == rank;
+    right = right && extent[1] == columns && (table->rows == 0 || extent[0] == table->rows) &&
+            make_room(table, (size_t)extent[0]);
+    double *values = right ? array_new((size_t)extent[0] * columns, sizeof *values) : NULL;
+    right = values != NULL && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    if (right && table->rows == 0) {
+        table->rows = (size_t)extent[0];
+        memset(table->row, 0, table->rows * sizeof *table->row);
+    }
+    for (size_t i = 0; right && i < table->rows; i++)
+        memcpy(table->row[i] + at, values + columns * i, columns * sizeof *values);
+    array_free(values);
+    H5Sclose(space);
+    H5Dclose(set);
+    return right;
+}
+
+static selas_status read_hdf5(const char *path, size_t d, struct table *table, struct messages *messages)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file < 0) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s'", path);
+    bool right = read_dataset(file, "position", d, 0, table) && read_dataset(file, "volume", 1, 3, table);
+    if (right && H5Lexists(file, "normal", H5P_DEFAULT) > 0)
+        right = read_dataset(file, "normal", d, 4, table) && read_dataset(file, "area", 1, 7, table);
+    H5Fclose(file);
+    if (!right)
+        return fail(
+            messages, SELAS_FILE_ERROR,
+            "'%s': expected datasets position [n, %zu], volume [n] and, if any, normal [n, %zu], area [n]",
+            path, d, d);
+    return SELAS_OK;
+}
+
+static bool is_hdf5(const char *path)
+{
+    static const unsigned char signature[4] = {0x89, 'H', 'D', 'F'};
+    unsigned char start[4] = {0};
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) return false;
+    const size_t count = fread(start, 1, sizeof start, file);
+    fclose(file);
+    return count == sizeof start && memcmp(start, signature, sizeof start) == 0;
+}
+
+/* Face of the box that an element lies on, FACES if none. */
+static int face_of(const struct body *body, int dimension, const struct surface_element *element,
+                   double spacing)
+{
+    for (int face = 0; face < 2 * dimension; face++) {
+        const int axis = face / 2;
+        const double plane = face % 2 == 0 ? body->low[axis] : body->high[axis];
+        if (element->normal[axis] * (face % 2 == 0 ? -1 : 1) > 0.99 &&
+            fabs(element->position[axis] - plane) < spacing)
+            return face;
+    }
+    return FACES;
+}
+
+static selas_status take(const struct scene *scene, const struct table *table, struct cloud *cloud,
+                         struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    for (size_t i = 0; i < table->rows && status == SELAS_OK; i++) {
+        const double *row = table->row[i];
+        memcpy(cloud->position + 3 * i, row, 3 * sizeof *row);
+        cloud->volume[i] = row[3];
+        if (!(row[3] > 0) || !isfinite(row[0] + row[1] + row[2]))
+            return fail(messages, SELAS_BAD_SCENE,
+                        "'%s': point %zu needs a finite position and a volume above 0", scene->body.file,
+                        i + 1);
+        const double length = sqrt(row[4] * row[4] + row[5] * row[5] + row[6] * row[6]);
+        if (!(length > 0)) continue;
+        const double spacing = pow(row[3], 1.0 / scene->dimension);
+        struct surface_element element = {.area = row[7]};
+        for (int c = 0; c < 3; c++) {
+            element.normal[c] = row[4 + c] / length;
+            element.position[c] = row[c] + 0.5 * spacing * element.normal[c];
+        }
+        element.face = face_of(&scene->body, scene->dimension, &element, spacing);
+        status = cloud_add_element(cloud, &element, messages);
+    }
+    return status;
+}
+
+selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages)
+{
+    const char *path = scene->body.file;
+    const size_t d = (size_t)scene->dimension;
+    struct table table = {0};
+    selas_status status =
+        is_hdf5(path) ? read_hdf5(path, d, &table, messages) : read_text(path, d, &table, messages);
+    if (status == SELAS_OK && table.rows == 0)
+        status = fail(messages, SELAS_FILE_ERROR, "'%s' has no points", path);
+    if (status == SELAS_OK) status = cloud_allocate(scene->dimension, table.rows, cloud, messages);
+    if (status == SELAS_OK) {
+        (*cloud)->spacing = scene->body.spacing;
+        status = take(scene, &table, *cloud, messages);
+    }
+    free(table.row);
+    if (status != SELAS_OK) cloud_free(cloud);
+    return status;
+}
