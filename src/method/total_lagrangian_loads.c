@@ -50,7 +50,7 @@ static double overlap(double a, double half, double b, double wide)
 }
 
 /* Part of a surface element that a patch covers. */
-static double covered(const struct load *load, const struct surface_element *element, const double centre[3])
+static double covered(const struct load *load, const struct face_element *element, const double centre[3])
 {
     enum { CUTS = 16 };
     const int axis = element->face < BOX_FACES ? element->face / 2 : 0;
@@ -166,7 +166,7 @@ static selas_status collect_load(struct tl_model *tl, const struct load *load, s
         return SELAS_OK;
     }
     for (size_t e = 0; e < tl->cloud->elements; e++) {
-        const struct surface_element *element = &tl->cloud->element[e];
+        const struct face_element *element = &tl->cloud->element[e];
         if (element->face != (int)load->face) continue;
         const double area = covered(load, element, centre) * element->area;
         if (!(area > 0)) continue;
@@ -232,7 +232,7 @@ selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
     const struct scene *scene = tl->model.scene;
     const size_t d = (size_t)scene->dimension;
     for (size_t e = 0; e < tl->cloud->elements; e++) {
-        const struct surface_element *element = &tl->cloud->element[e];
+        const struct face_element *element = &tl->cloud->element[e];
         if (element->face >= FACES) continue;
         const struct boundary *boundary = &scene->boundary[element->face];
         if (boundary->kind != BOUNDARY_TRANSMITTING) continue;

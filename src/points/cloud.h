@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 
 /* A piece of the surface: a face of the box, of the hole, or FACES for surfaces without a name (files). */
-struct surface_element {
+struct face_element {
     double position[3]; /* its middle, on the surface */
     double normal[3];   /* outward, unit */
     double width[3]; /* extent along the axes (0 along the normal); 0 where it is not an axis-aligned box */
@@ -25,7 +25,7 @@ struct cloud {
     double spacing;   /* nominal */
     size_t grid[3];   /* points per axis where they form a lattice (x fastest), else 0 */
     size_t elements;
-    struct surface_element *element;
+    struct face_element *element;
 };
 
 /* Points of scene->body as its shape, arrangement, jitter and seed say; SELAS_BAD_SCENE with the reason where
@@ -41,7 +41,7 @@ void hole_angles(const struct body *body, double *first, double *last);
 
 /* The parts, for those who build clouds: room for points (volumes 0) and for surface elements. */
 selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, struct messages *messages);
-selas_status cloud_add_element(struct cloud *cloud, const struct surface_element *element,
+selas_status cloud_add_element(struct cloud *cloud, const struct face_element *element,
                                struct messages *messages);
 /* points/surface.c: elements of the box faces (and the hole) about one spacing wide. */
 selas_status cloud_surface(struct cloud *cloud, const struct body *body, struct messages *messages);

@@ -138,8 +138,7 @@ static bool is_hdf5(const char *path)
 }
 
 /* Face of the box that an element lies on, FACES if none. */
-static int face_of(const struct body *body, int dimension, const struct surface_element *element,
-                   double spacing)
+static int face_of(const struct body *body, int dimension, const struct face_element *element, double spacing)
 {
     for (int face = 0; face < 2 * dimension; face++) {
         const int axis = face / 2;
@@ -166,7 +165,7 @@ static selas_status take(const struct scene *scene, const struct table *table, s
         const double length = sqrt(row[4] * row[4] + row[5] * row[5] + row[6] * row[6]);
         if (!(length > 0)) continue;
         const double spacing = pow(row[3], 1.0 / scene->dimension);
-        struct surface_element element = {.area = row[7]};
+        struct face_element element = {.area = row[7]};
         for (int c = 0; c < 3; c++) {
             element.normal[c] = row[4 + c] / length;
             element.position[c] = row[c] + 0.5 * spacing * element.normal[c];

@@ -5,12 +5,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-selas_status cloud_add_element(struct cloud *cloud, const struct surface_element *element,
+selas_status cloud_add_element(struct cloud *cloud, const struct face_element *element,
                                struct messages *messages)
 {
     enum { CHUNK = 64 };
     if (cloud->elements % CHUNK == 0) {
-        struct surface_element *larger =
+        struct face_element *larger =
             realloc(cloud->element, (cloud->elements + CHUNK) * sizeof *cloud->element);
         if (larger == NULL)
             return fail(messages, SELAS_NO_MEMORY, "no memory for %zu surface elements", cloud->elements);
@@ -60,7 +60,7 @@ static selas_status face_part(struct cloud *cloud, const struct body *body, enum
     if (length <= 1e-9 * body->spacing) return SELAS_OK;
     const size_t pieces = (size_t)fmax(1, round(length / body->spacing));
     for (size_t k = 0; k < pieces; k++) {
-        struct surface_element element = {.area = length / (double)pieces, .face = (int)face};
+        struct face_element element = {.area = length / (double)pieces, .face = (int)face};
         element.position[axis] = face_sign(face) < 0 ? body->low[axis] : body->high[axis];
         element.position[along] = from + ((double)k + 0.5) * element.area;
         element.normal[axis] = face_sign(face);
@@ -94,7 +94,7 @@ static selas_status hole(struct cloud *cloud, const struct body *body, struct me
     const size_t pieces = (size_t)fmax(2, round(length / body->spacing));
     for (size_t k = 0; k < pieces; k++) {
         const double angle = first + (last - first) * ((double)k + 0.5) / (double)pieces;
-        const struct surface_element element = {
+        const struct face_element element = {
             .position = {body->hole_centre[0] + body->hole_radius * cos(angle),
                          body->hole_centre[1] + body->hole_radius * sin(angle), 0},
             .normal = {-cos(angle), -sin(angle), 0},
@@ -113,7 +113,7 @@ static selas_status face_3d(struct cloud *cloud, const struct body *body, enum f
     const int first = axis == 0 ? 1 : 0;
     const int second = axis == 2 ? 1 : 2;
     size_t count[3] = {1, 1, 1};
-    struct surface_element element = {.area = 1, .face = (int)face};
+    struct face_element element = {.area = 1, .face = (int)face};
     for (int c = 0; c < 3; c++) {
         if (c == axis) continue;
         const double length = body->high[c] - body->low[c];
@@ -136,7 +136,7 @@ static selas_status face_3d(struct cloud *cloud, const struct body *body, enum f
 static selas_status face_1d(struct cloud *cloud, const struct body *body, enum face face,
                             struct messages *messages)
 {
-    struct surface_element element = {.area = 1, .face = (int)face};
+    struct face_element element = {.area = 1, .face = (int)face};
     element.position[0] = face_sign(face) < 0 ? body->low[0] : body->high[0];
     element.normal[0] = face_sign(face);
     return cloud_add_element(cloud, &element, messages);
