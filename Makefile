@@ -18,7 +18,7 @@ PROGRAM  = $(wildcard src/program/*.c)
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace test unit check-format check-tidy check-cppcheck install clean help
+.PHONY: all setup halfspace paper-figures test unit check-format check-tidy check-cppcheck install clean help
 
 all: $(BUILD)/selas ## build the program build/selas and the library
 
@@ -29,6 +29,9 @@ halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots i
 	@$(MAKE) --no-print-directory all
 	$(BUILD)/selas input/halfspace.nml
 	@ls output/halfspace
+
+paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
+	@sh regress/paper-figures $(BUILD)
 
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
