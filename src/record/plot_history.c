@@ -8,7 +8,16 @@
 /* A component below this part of the largest one is not drawn. */
 static const double drawn_from = 1e-6;
 
-enum { WIDTH = 1200, TOP = 70, BOTTOM = 70, MAIN = 300, DIFFERENCE = 130, GAP = 14 };
+enum {
+    WIDTH = 1200,
+    TOP = 80,
+    BOTTOM = 60,
+    MAIN = 300,
+    DIFFERENCE = 130,
+    GAP = 34,
+    MAIN_TICS = 6,
+    DIFFERENCE_TICS = 3
+};
 
 static double largest(const double *value, size_t rows, size_t column)
 {
@@ -66,11 +75,21 @@ static void last_panel(FILE *script, bool last)
         fprintf(script, "unset xlabel\nset format x ''\n");
 }
 
+/* Step between tics: 1, 2 or 5 times a power of ten, about `wanted` of them in a range. */
+static double tic_step(double range, int wanted)
+{
+    const double rough = range / wanted;
+    const double power = pow(10.0, floor(log10(rough)));
+    const double lead = rough / power;
+    return power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
+}
+
 /* A flat curve needs a range of its own: gnuplot refuses an empty one. */
-static void set_range(FILE *script, double low, double high)
+static void set_range(FILE *script, double low, double high, int tics)
 {
     const double room = high > low ? 0.08 * (high - low) : fmax(fabs(high), 1.0);
-    fprintf(script, "set yrange [%.9g:%.9g]\n", low - room, high + room);
+    fprintf(script, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", low - room, high + room,
+            tic_step(high - low + 2.0 * room, tics));
 }
 
 static void range_of(const double *a, const double *b, size_t rows, size_t column, bool difference,
@@ -94,8 +113,8 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     range_of(value, exact, recorder->rows, column, false, range);
     set_margins(script, height, *top, *top + MAIN);
     last_panel(script, last && exact == NULL);
-    set_range(script, range[0], range[1]);
-    fprintf(script, "set ylabel '{/:Italic %s} (units of the deck)'\nset key top right\n", name[column]);
+    set_range(script, range[0], range[1], MAIN_TICS);
+    fprintf(script, "set ylabel '{/:Italic %s} (units of the deck)'\n", name[column]);
     const size_t c = column - 3;
     if (exact != NULL)
         fprintf(script,
@@ -106,19 +125,20 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
         fprintf(script, "plot $history u 1:%zu w l lc rgb '#12306b' lw 1.8 t 'computed'\n", 2 + c);
     *top += MAIN + GAP;
     if (exact == NULL) return;
+    fprintf(script, "unset label 1\n"); /* the title is drawn once */
     const struct misfit misfit =
         misfit_of(recorder->rows, recorder->time, value + column, exact + column, 6, 1);
     range_of(value, exact, recorder->rows, column, true, range);
     set_margins(script, height, *top, *top + DIFFERENCE);
     last_panel(script, last);
-    set_range(script, range[0], range[1]);
+    set_range(script, range[0], range[1], DIFFERENCE_TICS);
     fprintf(script, "set ylabel 'difference'\n");
     fprintf(script,
             "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t "
             "'computed - exact: relative L2 %.3g %%, L{/Symbol \\245} %.3g %%'\n",
             6 + 2 * c, misfit.l2_of > 0.0 ? 100.0 * misfit.l2 / misfit.l2_of : NAN,
             misfit.linf_of > 0.0 ? 100.0 * misfit.linf / misfit.linf_of : NAN);
-    *top += DIFFERENCE + 3 * GAP;
+    *top += DIFFERENCE + GAP;
 }
 
 static void plot_name(const struct recorder *recorder, size_t receiver, char *name, size_t size)
@@ -133,7 +153,7 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     const double *exact = recorder->exact != NULL ? recorder->exact + receiver * recorder->rows * 6 : NULL;
     size_t column[3];
     const int panels = choose_columns(recorder, recorder->trace[receiver].value, exact, column);
-    const int one = exact != NULL ? MAIN + GAP + DIFFERENCE + 3 * GAP : MAIN + GAP;
+    const int one = exact != NULL ? MAIN + GAP + DIFFERENCE + GAP : MAIN + GAP;
     const int height = TOP + panels * one + BOTTOM;
     char name[NAME_SIZE + 16], title[512];
     plot_name(recorder, receiver, name, sizeof name);
@@ -147,11 +167,14 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     fprintf(script, " at screen 0.5, screen %.5f center noenhanced font 'DejaVu Sans,16'\n",
             1.0 - 0.5 * TOP / height);
     fprintf(script, "set grid lc rgb '#dddddd' lw 1 lt 1\nset border lw 1.2\nset tics nomirror\n"
-                    "set xzeroaxis lc rgb '#999999' lt 1\nset key opaque samplen 3\n");
+                    "set xzeroaxis lc rgb '#999999' lt 1\nset key samplen 3 horizontal right bottom at graph "
+                    "1, graph 1.005\n");
     fprintf(script, "set xrange [0:%.9g]\n", recorder->rows > 1 ? recorder->time[recorder->rows - 1] : 1.0);
     int top = TOP;
-    for (int p = 0; p < panels; p++)
+    for (int p = 0; p < panels; p++) {
         write_panels(script, recorder, receiver, column[p], height, &top, p == panels - 1);
+        fprintf(script, "unset label 1\n"); /* the title, drawn once */
+    }
     fprintf(script, "unset multiplot\nunset output\n");
 }
 

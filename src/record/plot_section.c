@@ -69,6 +69,30 @@ static size_t row_of(const struct section *section, size_t point)
     return section->start + read / section->block * section->stride + read % section->block;
 }
 
+/* A regular section is drawn as an image with at least so many pixels along each axis. */
+enum { FINE = 280 };
+
+static void look_regular(struct section *section)
+{
+    const size_t number[2] = {section->along, section->across};
+    if (number[0] < 2 || number[1] < 2) return;
+    section->regular = true;
+    for (size_t k = 0; k < section->points; k++)
+        for (int side = 0; side < 2; side++) {
+            const size_t at = side == 0 ? k % number[0] : k / number[0];
+            const double step = (section->high[side] - section->low[side]) / (double)(number[side] - 1);
+            const double expected = section->low[side] + (double)at * step;
+            if (!(fabs((double)section->coordinate[2 * k + (size_t)side] - expected) <= 1e-3 * step))
+                section->regular = false;
+        }
+    const size_t least = number[0] < number[1] ? number[0] : number[1];
+    const size_t refine = (FINE + least - 2) / (least - 1);
+    const size_t most = number[0] > number[1] ? number[0] : number[1];
+    const size_t factor = most * refine > 4 * FINE ? (4 * FINE + most - 1) / most : refine;
+    for (int side = 0; side < 2; side++)
+        section->fine[side] = (number[side] - 1) * factor + 1;
+}
+
 static bool place_points(const struct recorder *recorder, const struct snapshot_record *record,
                          struct section *section)
 {
@@ -84,6 +108,7 @@ static bool place_points(const struct recorder *recorder, const struct snapshot_
             section->high[side] = k == 0 ? at : fmax(section->high[side], at);
         }
     }
+    look_regular(section);
     return true;
 }
 
@@ -237,25 +262,50 @@ bool film_create(const struct recorder *recorder, size_t group, struct film *fil
     return false;
 }
 
+/* Pixels of a regular section: bilinear between the points. */
+static bool write_image(const struct section *section, const double *value, size_t components, FILE *data)
+{
+    const size_t along = section->along;
+    const size_t factor = (section->fine[0] - 1) / (along - 1);
+    for (size_t j = 0; j < section->fine[1]; j++)
+        for (size_t i = 0; i < section->fine[0]; i++) {
+            const size_t low[2] = {i / factor < along - 1 ? i / factor : along - 2,
+                                   j / factor < section->across - 1 ? j / factor : section->across - 2};
+            const double s = (double)i / (double)factor - (double)low[0];
+            const double t = (double)j / (double)factor - (double)low[1];
+            const double *corner = value + components * (low[1] * along + low[0]);
+            const double *above = corner + components * along;
+            const float pixel = (float)((1.0 - t) * ((1.0 - s) * corner[0] + s * corner[components]) +
+                                        t * ((1.0 - s) * above[0] + s * above[components]));
+            if (fwrite(&pixel, sizeof pixel, 1, data) != 1) return false;
+        }
+    return true;
+}
+
+static bool write_points(const struct section *section, const double *value, size_t components, FILE *data)
+{
+    for (size_t k = 0; k < section->points; k++) {
+        const float row[3] = {section->coordinate[2 * k], section->coordinate[2 * k + 1],
+                              (float)value[components * k]};
+        if (fwrite(row, sizeof row, 1, data) != 1) return false;
+    }
+    return true;
+}
+
 bool film_write(const struct recorder *recorder, struct film *film, FILE *data, struct messages *messages)
 {
     const size_t components = (size_t)field_components(film->field);
-    size_t written = 0;
     for (size_t f = 0; f < film->frames; f++)
         for (size_t s = 0; s < film->sections; s++) {
             const struct section *section = &film->section[s];
             struct frame *frame = &film->frame[f];
             if (!read_section(recorder, film, section, frame, messages)) return false;
-            const double *value = recorder->snapshot[film->group].buffer;
-            frame->skip[s] = written;
-            for (size_t k = 0; k < section->points; k++) {
-                const double shown = value[components * k + film->component];
-                const float row[3] = {section->coordinate[2 * k], section->coordinate[2 * k + 1],
-                                      (float)shown};
-                if (fwrite(row, sizeof row, 1, data) != 1) return false;
-                frame->largest[s] = fmax(frame->largest[s], fabs(shown));
-            }
-            written += section->points * 3 * sizeof(float);
+            const double *value = recorder->snapshot[film->group].buffer + film->component;
+            frame->skip[s] = (size_t)ftell(data);
+            if (!(section->regular ? write_image : write_points)(section, value, components, data))
+                return false;
+            for (size_t k = 0; k < section->points; k++)
+                frame->largest[s] = fmax(frame->largest[s], fabs(value[components * k]));
             film->largest[s] = fmax(film->largest[s], frame->largest[s]);
         }
     return true;

@@ -16,13 +16,15 @@ struct section {
     size_t *pick;                       /* [points] of the rows read; NULL: all */
     float *coordinate;                  /* [2 * points] */
     double low[2], high[2];
+    bool regular;   /* equal spacings along the axes: drawn as an image ... */
+    size_t fine[2]; /* ... of this many pixels, values in between bilinear */
 };
 
 struct frame {
     size_t number; /* of the snapshot */
     double time;
     double largest[2]; /* magnitude in each section */
-    size_t skip[2];    /* bytes before its values in the data file: x y value, floats */
+    size_t skip[2];    /* bytes before its values in the data file: floats, one a pixel or x y value */
 };
 
 /* All snapshots of one group. */

@@ -59,21 +59,30 @@ static void draw_map(FILE *script, const struct film *film, size_t s, const stru
     const struct section *section = &film->section[s];
     char label[64];
     label_of(film, label, sizeof label);
-    fprintf(script, "set xlabel '%c'\nset ylabel '%c'\nset cblabel '%s (units of the deck)'\n",
+    fprintf(script, "set xlabel '%c'\nset ylabel '%c'\nset cblabel '%s (units of the deck)' offset 1.5,0\n",
             axis_name[section->axis[0]], axis_name[section->axis[1]], label);
     fprintf(script, "set title '%s' noenhanced\n", section->title);
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", section->low[1], section->high[1], section->downwards);
     set_scale(script, film, largest);
+    if (section->regular) {
+        const double step[2] = {(section->high[0] - section->low[0]) / (double)(section->fine[0] - 1),
+                                (section->high[1] - section->low[1]) / (double)(section->fine[1] - 1)};
+        fprintf(script,
+                "plot '" GNUPLOT_DATA "' binary skip=%zu array=(%zu,%zu) origin=(%.9g,%.9g) dx=%.9g dy=%.9g "
+                "format='%%float' with image notitle\n",
+                frame->skip[s], section->fine[0], section->fine[1], section->low[0], section->low[1], step[0],
+                step[1]);
+        return;
+    }
     const char *format = "format='%float%float%float' using 1:2:3";
     if (section->along > 0) {
-        const bool coarse = section->points < 40000; /* few points: let the map be smooth */
-        fprintf(script, "set pm3d map %s\n", coarse ? "interpolate 4,4" : "interpolate 1,1");
+        fprintf(script, "set pm3d map %s\n", section->points < 10000 ? "interpolate 3,3" : "interpolate 1,1");
         fprintf(script, "splot '" GNUPLOT_DATA "' binary skip=%zu record=(%zu,%zu) %s with pm3d notitle\n",
                 frame->skip[s], section->along, section->across, format);
         return;
     }
-    const double size = 36.0 / sqrt((double)section->points + 1.0);
+    const double size = 62.0 / sqrt((double)section->points + 1.0);
     fprintf(script,
             "plot '" GNUPLOT_DATA "' binary skip=%zu record=(%zu) format='%%float%%float%%float' using 1:2:3 "
             "with points pt 7 ps %.3g lc palette notitle\n",
@@ -106,7 +115,7 @@ static void frame_title(FILE *script, const struct recorder *recorder, const str
 
 static void set_look(FILE *script)
 {
-    fprintf(script, "set tics out nomirror\nset border lw 1.2\nunset key\nset size ratio -1\n"
+    fprintf(script, "set tics out nomirror front\nset border lw 1.2\nunset key\nset size ratio -1\n"
                     "set format cb '%%.2g'\n");
 }
 

@@ -144,6 +144,8 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
     if (watch->by_work) add_work(recorder, state);
     if (state->step < watch->next) return SELAS_OK;
     watch->next = state->step + EVERY;
+    const unsigned long end = recorder->stepper->steps; /* the balance at the end is wanted in any case */
+    if (state->step < end && watch->next > end) watch->next = end;
     if (!state_finite(recorder, state))
         return tell_place(recorder, state, "the state is not finite", messages);
     if (recorder->model->class->energy == NULL) return SELAS_OK;
