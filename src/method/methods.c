@@ -3,6 +3,7 @@
 #include "method/mirror.h"
 #include "method/paper.h"
 #include "method/total_lagrangian.h"
+#include "method/updated_lagrangian.h"
 #include "scene/symmetry.h"
 
 #include <string.h>
@@ -11,6 +12,7 @@ static const struct model_class *const methods[] = {
     &consistent_class,
     &paper_class,
     &total_lagrangian_class,
+    &model_updated_lagrangian,
     NULL,
 };
 

@@ -59,6 +59,9 @@ struct model_class {
     /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the
      * body at rest (for measuring its spectrum). NULL for linear models. */
     void (*linearise)(struct model *model, bool on);
+    /* Methods with state of their own: largest frequency [rad/time] and largest damping rate [1/time] about the
+     * body at rest. NULL: measured with accelerate(). */
+    selas_status (*spectrum)(struct model *model, double *omega, double *viscous, struct messages *messages);
     /* Filters the increment of one step: u_before and u are the displacements at both ends; changes u and
      * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
      * Called right after u has moved, before the acceleration there. NULL where there is no filter. */

@@ -155,6 +155,7 @@ struct stepping_choice {
     char scheme[NAME_SIZE];
     double time_step, courant, safety; /* the one that was given is > 0, the others 0 (safety: default) */
     long stages, max_stages;           /* 0: chosen */
+    bool paper_rule;                   /* rkc: stages by Eq 28 of He & Seaid, from the step alone */
     bool unwarp, unwarp_given, force;
 };
 

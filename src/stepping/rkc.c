@@ -132,6 +132,27 @@ long rkc_best_stages(double omega, double viscous, long max_stages, double *limi
     return best;
 }
 
+enum { MOST_STAGES = 50 }; /* tried if the deck does not say; more never pay */
+
+static long choose_stages(const struct stepper *stepper, double omega, double dt)
+{
+    const struct scene *scene = stepper->model->scene;
+    const struct stepping_choice *choice = &scene->stepping;
+    if (choice->stages > 0) return choice->stages;
+    const long most = choice->max_stages > 0 ? choice->max_stages : MOST_STAGES;
+    if (choice->paper_rule && dt > 0) {
+        const struct material *material = &scene->material[scene->body.material];
+        const long stages =
+            rkc_paper_stages(sqrt(material->young / material->density) * dt / scene->body.spacing);
+        return stages < most ? stages : most;
+    }
+    const long needed = dt > 0 ? rkc_stages_for(dt, omega, stepper->viscous_radius, most) : 0;
+    if (needed > 0) return needed;
+    double longest;
+    const long best = rkc_best_stages(omega, stepper->viscous_radius, most, &longest);
+    return best > 0 ? best : 2;
+}
+
 static void step(struct stepper *stepper, struct state *state)
 {
     const size_t n = stepper->model->state_size;
@@ -166,6 +187,7 @@ const struct scheme_class scheme_rkc = {
     .order = 2,
     .evaluations = 1,
     .limit = limit,
+    .choose_stages = choose_stages,
     .vectors = 5,
     .start = runge_kutta_start,
     .step = step,

@@ -160,3 +160,32 @@ selas_status largest_frequency(struct model *model, double *omega, double *error
     *error = theta > 0.0 ? 0.5 * bound / theta : 0.0;
     return SELAS_OK;
 }
+
+selas_status largest_damping(struct model *model, double speed, double *rate, struct messages *messages)
+{
+    const size_t n = model->unknowns;
+    const struct drive quiet = {.time = 0.0};
+    const double scale = 1e-6 * speed; /* quadratic viscosities vanish against linear ones */
+    double *u = array_new(n, sizeof *u);
+    double *v = array_new(n, sizeof *v);
+    double *a = array_new(n, sizeof *a);
+    const bool room = u != NULL && v != NULL && a != NULL;
+    *rate = 0.0;
+    if (room) {
+        uint64_t seed = 20062;
+        for (size_t i = 0; i < n; i++)
+            a[i] = noise(&seed);
+        for (int j = 0; j <= POWER_STEPS; j++) {
+            const double norm = euclidean_norm(a, n);
+            if (j > POWER_STEPS - POWER_TAIL) *rate = fmax(*rate, norm / scale);
+            for (size_t i = 0; i < n; i++)
+                v[i] = norm > 0.0 ? scale * a[i] / norm : 0.0;
+            model->class->accelerate(model, &quiet, 0.0, u, v, a);
+        }
+    }
+    array_free(u);
+    array_free(v);
+    array_free(a);
+    if (!room) return fail(messages, SELAS_NO_MEMORY, "no memory to measure the damping");
+    return SELAS_OK;
+}

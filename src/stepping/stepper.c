@@ -16,51 +16,85 @@ static double fastest_speed(const struct scene *scene)
     return speed;
 }
 
-/* Largest stable step by the scheme's own limit over the measured spectrum; INFINITY where nothing vibrates.
- */
-static selas_status measure_limit(struct stepper *stepper, struct messages *messages)
+/* Largest frequency and damping rate about the body at rest. Dampers of linear models are implicit in
+ * leapfrog and count only for schemes that take them explicitly. */
+static selas_status measure_spectrum(struct stepper *stepper, struct messages *messages)
 {
     struct model *model = stepper->model;
-    if (model->class->accelerate == NULL) return SELAS_OK;
-    const selas_status status =
+    const struct model_class *class = model->class;
+    if (class->spectrum != NULL)
+        return class->spectrum(model, &stepper->largest_frequency, &stepper->viscous_radius, messages);
+    selas_status status =
         largest_frequency(model, &stepper->largest_frequency, &stepper->frequency_error, messages);
-    if (status != SELAS_OK) return status;
-    const double omega = stepper->largest_frequency * (1.0 + stepper->frequency_error);
-    stepper->limit = stepper->scheme->limit(omega, stepper->viscous_radius, stepper->stages);
-    return SELAS_OK;
+    const bool explicit_damping = !stepper->scheme->needs_acceleration || class->linearise != NULL;
+    if (status == SELAS_OK && model->damped && explicit_damping)
+        status = largest_damping(model, fastest_speed(model->scene), &stepper->viscous_radius, messages);
+    return status;
+}
+
+/* Step that the deck asks for; 0 if it leaves the choice to the program. */
+static double wanted_step(struct stepper *stepper)
+{
+    const struct scene *scene = stepper->model->scene;
+    const struct stepping_choice *choice = &scene->stepping;
+    if (choice->time_step > 0.0) {
+        snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "given (stepping%%time_step)");
+        return choice->time_step;
+    }
+    if (choice->courant > 0.0) {
+        snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "courant number %g given", choice->courant);
+        return choice->courant * scene->body.spacing / fastest_speed(scene);
+    }
+    return 0.0;
+}
+
+/* The reason why a step, or any step, is refused. */
+static selas_status refuse(const struct stepper *stepper, double dt, struct messages *messages)
+{
+    const char *name = stepper->scheme->name;
+    if (stepper->limit > 0.0)
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "the time step %.6g is beyond the stability limit %.6g of scheme '%s' (largest frequency %.6g, "
+            "damping rate %.6g); take a smaller stepping%%time_step or courant, leave both out, or set "
+            "stepping%%force = .true.",
+            dt, stepper->limit, name, stepper->largest_frequency, stepper->viscous_radius);
+    return fail(
+        messages, SELAS_BAD_SCENE,
+        "scheme '%s' is unstable for every time step here: the largest frequency is %.6g, the damping rate "
+        "only %.6g, and the scheme's stability region does not contain the imaginary axis, where undamped "
+        "waves live%s; take scheme 'leapfrog', 'rk4' or 'lsrk54', or set stepping%%time_step and "
+        "stepping%%force = .true.",
+        name, stepper->largest_frequency, stepper->viscous_radius,
+        stepper->scheme->choose_stages != NULL ? ", whatever the number of stages" : "");
 }
 
 static selas_status choose_step(struct stepper *stepper, struct messages *messages)
 {
     const struct scene *scene = stepper->model->scene;
     const struct stepping_choice *choice = &scene->stepping;
-    const selas_status status = measure_limit(stepper, messages);
+    const selas_status status = measure_spectrum(stepper, messages);
     if (status != SELAS_OK) return status;
+    const double omega = stepper->largest_frequency * (1.0 + stepper->frequency_error);
+    stepper->dt = wanted_step(stepper);
+    if (stepper->scheme->choose_stages != NULL)
+        stepper->stages = stepper->scheme->choose_stages(stepper, omega, stepper->dt);
+    stepper->limit = stepper->scheme->limit(omega, stepper->viscous_radius, stepper->stages);
     const double limit = stepper->limit;
-    if (choice->time_step > 0.0) {
-        stepper->dt = choice->time_step;
-        snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "given (stepping%%time_step)");
-    } else if (choice->courant > 0.0) {
-        stepper->dt = choice->courant * scene->body.spacing / fastest_speed(scene);
-        snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "courant number %g given", choice->courant);
-    } else if (isfinite(limit) && limit > 0.0) {
+    if (!(stepper->dt > 0.0) && isfinite(limit) && limit > 0.0) {
         /* whole steps to end_time, so that the last row is end_time itself */
         stepper->dt = scene->end_time / ceil(scene->end_time / (choice->safety * limit) - 1e-9);
         snprintf(stepper->dt_reason, sizeof stepper->dt_reason,
-                 "%g of the limit %.6g (largest frequency %.6g +- %.1g %%)", choice->safety, limit,
-                 stepper->largest_frequency, 100.0 * stepper->frequency_error);
-    } else {
-        return fail(messages, SELAS_BAD_SCENE,
-                    "scheme '%s' has no stable time step for this scene that the program could choose; give "
-                    "stepping%%time_step or another stepping%%scheme",
-                    stepper->scheme->name);
+                 "%g of the limit %.6g (largest frequency %.6g +- %.1g %%, damping rate %.6g)",
+                 choice->safety, limit, stepper->largest_frequency, 100.0 * stepper->frequency_error,
+                 stepper->viscous_radius);
     }
-    if (limit > 0.0 && stepper->dt > limit * (1.0 + 1e-9) && !choice->force)
-        return fail(
-            messages, SELAS_BAD_SCENE,
-            "the time step %.6g is beyond the stability limit %.6g of scheme '%s' (largest frequency %.6g); "
-            "take a smaller stepping%%time_step or courant, leave both out, or set stepping%%force = .true.",
-            stepper->dt, limit, stepper->scheme->name, stepper->largest_frequency);
+    if (!isfinite(limit) && !(stepper->dt > 0.0))
+        return fail(messages, SELAS_BAD_SCENE,
+                    "nothing vibrates in this scene, so that the program cannot choose a time step; give "
+                    "stepping%%time_step");
+    if (!(stepper->dt > 0.0) || (stepper->dt > limit * (1.0 + 1e-9) && !choice->force))
+        return refuse(stepper, stepper->dt, messages);
     return SELAS_OK;
 }
 

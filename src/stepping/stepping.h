@@ -22,6 +22,8 @@ struct scheme_class {
     /* Largest stable dt for undamped frequency omega and damping rate (real eigenvalue) `viscous`, either may
      * be 0. */
     double (*limit)(double omega, double viscous, long stages);
+    /* Schemes with a free number of stages: the number for a step dt (0: dt is free too). NULL: fixed. */
+    long (*choose_stages)(const struct stepper *stepper, double omega, double dt);
     size_t vectors; /* work vectors of state_size that the scheme needs */
     /* Makes state->a (and what else the scheme keeps) right at the start or after a restart. */
     void (*start)(struct stepper *stepper, struct state *state);
@@ -77,5 +79,8 @@ double motion_displacement(const struct boundary *boundary, double time, int der
 /* stepping/spectrum.c: largest frequency (rad per time) of the undamped operator; *error gets a bound on its
  * relative error or 0. */
 selas_status largest_frequency(struct model *model, double *omega, double *error, struct messages *messages);
+/* Largest damping rate (1 / time) of the body at rest, a(0, v) = -rate v, by power iteration at velocities
+ * far below `speed`. */
+selas_status largest_damping(struct model *model, double speed, double *rate, struct messages *messages);
 
 #endif

@@ -1,0 +1,271 @@
+/* Updated-Lagrangian SPH as published by He & Seaid (2016): checks the scene, reads the switches, places
+ * particles and ghosts. The equations are in updated_lagrangian_rate.c. */
+#include "method/updated_lagrangian.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const NAME = "updated-lagrangian SPH";
+
+static selas_status check_loads(const struct scene *scene, struct messages *messages)
+{
+    if (scene->loads > 64)
+        return fail(messages, SELAS_UNSUPPORTED, "%s takes at most 64 loads, not %zu", NAME, scene->loads);
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        const bool moves = load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
+        const bool body_force = load->kind == LOAD_BODY_FORCE && load->shape == LOAD_FACE;
+        const bool traction =
+            load->kind == LOAD_TRACTION && load->shape != LOAD_POINT && load->face != FACE_HOLE && !moves;
+        if (!body_force && !traction)
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "%s takes tractions at rest on box faces (square, disc, face) and uniform body forces; "
+                "load %zu is another kind",
+                NAME, k + 1);
+    }
+    return SELAS_OK;
+}
+
+/* What the ghosts of a face do; tractions need a face that is free or transmitting. */
+static selas_status choose_wall(struct updated *updated, enum face face, struct messages *messages)
+{
+    const struct scene *scene = updated->model.scene;
+    const struct boundary *boundary = &scene->boundary[face];
+    bool loaded = false;
+    for (size_t k = 0; k < scene->loads; k++)
+        loaded = loaded || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].face == face);
+    body_direction_from_deck(&scene->body, boundary->direction, updated->direction[face]);
+    enum updated_wall wall = WALL_NONE;
+    switch (boundary->kind) {
+    case BOUNDARY_FREE:
+        wall = loaded ? WALL_TRACTION : WALL_NONE;
+        break;
+    case BOUNDARY_TRANSMITTING:
+        if (boundary->absorber != ABSORBER_LYSMER)
+            return fail(messages, SELAS_UNSUPPORTED, "%s has no absorbing layers, only layer = 'lysmer'",
+                        NAME);
+        wall = WALL_TRACTION;
+        break;
+    case BOUNDARY_FIXED:
+        wall = WALL_STICK;
+        break;
+    case BOUNDARY_ROLLER:
+    case BOUNDARY_SYMMETRY:
+        wall = WALL_SLIP;
+        break;
+    case BOUNDARY_VELOCITY:
+    case BOUNDARY_DISPLACEMENT:
+        wall = boundary->slip ? WALL_SLIP : WALL_STICK;
+        break;
+    }
+    if (wall == WALL_SLIP && boundary->slip &&
+        fabs(fabs(updated->direction[face][face_axis(face)]) - 1) > 1e-9)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s: a wall that moves with slip moves along its own normal (face '%s')", NAME,
+                    face_name(face));
+    if (wall != WALL_NONE && face == FACE_HOLE)
+        return fail(messages, SELAS_UNSUPPORTED, "%s leaves the hole free", NAME);
+    updated->wall[face] = wall;
+    return SELAS_OK;
+}
+
+static selas_status check_scene(struct updated *updated, struct messages *messages)
+{
+    const struct scene *scene = updated->model.scene;
+    if (scene->body.layers > 0)
+        return fail(messages, SELAS_UNSUPPORTED, "%s takes one material, no layers", NAME);
+    selas_status status = check_loads(scene, messages);
+    const int faces = 2 * scene->dimension;
+    for (int face = 0; face < faces && status == SELAS_OK; face++)
+        status = choose_wall(updated, (enum face)face, messages);
+    if (status == SELAS_OK) status = choose_wall(updated, FACE_HOLE, messages);
+    return status;
+}
+
+static void choose_layout(struct updated *updated)
+{
+    const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
+    struct updated_layout *layout = &updated->layout;
+    layout->velocity = dimension;
+    layout->volume = 2 * dimension;
+    layout->mass = layout->volume + 1;
+    layout->tension = layout->mass + 1;
+    layout->repulsion = layout->tension + stresses;
+    layout->size = layout->repulsion + stresses;
+}
+
+static void choose_lengths(struct updated *updated)
+{
+    const struct updated_options *options = &updated->options;
+    const double spacing = updated->cloud->spacing;
+    updated->smoothing_length = options->smoothing_length * spacing;
+    updated->reach = options->kernel->support * updated->smoothing_length;
+    updated->skin = .15 * spacing;
+    updated->repulsion_scale = 1 / options->kernel->shape(updated->dimension, 1 / options->smoothing_length);
+    updated->sound_speed = sqrt(updated->material->young / updated->material->density); /* Eq 18 */
+    updated->alpha = options->alpha;
+    updated->beta = options->beta;
+    updated->repulsive = options->artificial_stress > 0;
+}
+
+static selas_status take_memory(struct updated *updated, struct messages *messages)
+{
+    const struct scene *scene = updated->model.scene;
+    const size_t points = updated->cloud->points, places = points + updated->ghosts;
+    updated->mass = array_new(points, sizeof(double));
+    updated->searched = array_new(3 * places, sizeof(double));
+    updated->record = array_new(updated->layout.size * places, sizeof(double));
+    updated->deck_position = array_new(3 * points, sizeof(double));
+    updated->load_direction = array_new(3 * scene->loads, sizeof(double));
+    if (updated->mass == NULL || updated->searched == NULL || updated->record == NULL ||
+        updated->deck_position == NULL || updated->load_direction == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles and %zu ghosts", points,
+                    updated->ghosts);
+    for (size_t i = 0; i < points; i++) {
+        updated->mass[i] = updated->material->density * updated->cloud->volume[i];
+        body_to_deck(&scene->body, updated->cloud->position + 3 * i, updated->deck_position + 3 * i);
+    }
+    for (size_t k = 0; k < scene->loads; k++) {
+        body_direction_from_deck(&scene->body, scene->load[k].direction, updated->load_direction + 3 * k);
+        for (size_t a = 0; a < 3; a++)
+            updated->load_direction[3 * k + a] *= scene->load[k].amplitude;
+    }
+    memcpy(updated->searched, updated->reference, 3 * places * sizeof(double));
+    return neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
+                           updated->reach + updated->skin, false, messages);
+}
+
+static void destroy(struct model *model)
+{
+    struct updated *updated = updated_of(model);
+    cloud_free(&updated->cloud);
+    neighbours_free(&updated->neighbours);
+    array_free(updated->mass);
+    array_free(updated->ghost);
+    array_free(updated->reference);
+    array_free(updated->searched);
+    array_free(updated->record);
+    array_free(updated->deck_position);
+    array_free(updated->load_direction);
+    array_free(updated);
+}
+
+static void fill_public_face(struct updated *updated)
+{
+    struct model *model = &updated->model;
+    const size_t points = updated->cloud->points, dimension = (size_t)updated->dimension;
+    model->points = points;
+    model->position = updated->deck_position;
+    memcpy(model->grid, updated->cloud->grid, sizeof model->grid);
+    model->unknowns = dimension * points;
+    model->state_size = (2 * dimension + 1 + (size_t)updated->stresses) * points;
+    model->component_stride = 1;
+    model->point_stride = dimension;
+    model->damped = updated->alpha > 0 || updated->beta > 0;
+    model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
+    model->bytes = neighbours_bytes(&updated->neighbours) +
+                   (points + updated->ghosts) * (6 + updated->layout.size) * sizeof(double) +
+                   points * 8 * sizeof(double);
+}
+
+static selas_status build(struct updated *updated, struct messages *messages)
+{
+    const size_t points = updated->cloud->points;
+    choose_layout(updated);
+    choose_lengths(updated);
+    selas_status status = check_scene(updated, messages);
+    if (status != SELAS_OK) return status;
+    updated->reference = array_new(3 * points, sizeof(double));
+    if (updated->reference == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
+    memcpy(updated->reference, updated->cloud->position, 3 * points * sizeof(double));
+    status = updated_ghosts_create(updated, messages);
+    if (status == SELAS_OK) status = take_memory(updated, messages);
+    if (status == SELAS_OK) fill_public_face(updated);
+    return status;
+}
+
+selas_status updated_lagrangian_new(const struct scene *scene, const struct updated_options *options,
+                                    struct cloud *cloud, struct model **model, struct messages *messages)
+{
+    *model = NULL;
+    struct updated *updated = array_new(1, sizeof *updated);
+    if (updated == NULL) {
+        cloud_free(&cloud);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the method");
+    }
+    updated->model.class = &model_updated_lagrangian;
+    updated->model.scene = scene;
+    updated->options = *options;
+    updated->dimension = scene->dimension;
+    updated->stresses = scene->dimension * (scene->dimension + 1) / 2;
+    updated->cloud = cloud;
+    updated->material = &scene->material[scene->body.material];
+    const selas_status status = build(updated, messages);
+    if (status != SELAS_OK) {
+        destroy(&updated->model);
+        return status;
+    }
+    *model = &updated->model;
+    return SELAS_OK;
+}
+
+static double real_or(const struct deck_group *group, const char *name, double standard)
+{
+    return deck_values(group, name) > 0 ? deck_real(group, name, 0) : standard;
+}
+
+static bool logical_or(const struct deck_group *group, const char *name, bool standard)
+{
+    return deck_values(group, name) > 0 ? deck_logical(group, name, 0) : standard;
+}
+
+struct updated_options updated_lagrangian_published(void)
+{
+    return (struct updated_options){.kernel = kernel_find("cubic-spline"),
+                                    .smoothing_length = 1.5,
+                                    .alpha = 2.5,
+                                    .beta = 2.5,
+                                    .artificial_stress = .3,
+                                    .correction = true,
+                                    .jaumann = true};
+}
+
+static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
+{
+    const struct deck_group *group = scene->method.group;
+    struct updated_options options = updated_lagrangian_published();
+    *model = NULL;
+    if (group != NULL) {
+        if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
+        options.smoothing_length = real_or(group, "smoothing_length", options.smoothing_length);
+        options.alpha = real_or(group, "viscosity_alpha", options.alpha);
+        options.beta = real_or(group, "viscosity_beta", options.beta);
+        options.artificial_stress = real_or(group, "artificial_stress", options.artificial_stress);
+        options.correction = logical_or(group, "correction", options.correction);
+        options.jaumann = logical_or(group, "jaumann", options.jaumann);
+    }
+    struct cloud *cloud = NULL;
+    const selas_status status = cloud_create(scene, &cloud, messages);
+    if (status != SELAS_OK) return status;
+    return updated_lagrangian_new(scene, &options, cloud, model, messages);
+}
+
+const struct model_class model_updated_lagrangian = {
+    .method = "sph",
+    .variant = "updated-lagrangian",
+    .create = create,
+    .destroy = destroy,
+    .rate = updated_rate,
+    .spectrum = updated_spectrum,
+    .initialise = updated_initialise,
+    .probe = updated_probe,
+    .observe = updated_observe,
+    .field = updated_field,
+    .energy = updated_energy,
+    .power = updated_power,
+    .describe = updated_describe,
+};
