@@ -40,6 +40,13 @@ struct probe {
     unsigned mirrored; /* method/mirror.c: bit 1 << axis if the values come from the mirror image across it */
 };
 
+/* What limits an explicit time step, about the body at rest. */
+struct spectrum {
+    double omega;        /* largest frequency of the undamped waves [rad/time] */
+    double wave_damping; /* mean damping rate of those fastest waves [1/time]; 0 if interior waves are undamped */
+    double viscous;      /* largest damping rate of any motion [1/time] */
+};
+
 struct model;
 
 struct model_class {
@@ -59,9 +66,8 @@ struct model_class {
     /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the
      * body at rest (for measuring its spectrum). NULL for linear models. */
     void (*linearise)(struct model *model, bool on);
-    /* Methods with state of their own: largest frequency [rad/time] and largest damping rate [1/time] about the
-     * body at rest. NULL: measured with accelerate(). */
-    selas_status (*spectrum)(struct model *model, double *omega, double *viscous, struct messages *messages);
+    /* Methods with state of their own. NULL: measured with accelerate(). */
+    selas_status (*spectrum)(struct model *model, struct spectrum *spectrum, struct messages *messages);
     /* Filters the increment of one step: u_before and u are the displacements at both ends; changes u and
      * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
      * Called right after u has moved, before the acceleration there. NULL where there is no filter. */

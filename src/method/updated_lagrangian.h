@@ -45,6 +45,7 @@ struct updated {
     int stresses;   /* components of the stress */
     bool repulsive; /* artificial stress is on; off while the spectrum is measured */
     double alpha, beta;
+    bool both_sides; /* viscosity between receding pairs too: while the spectrum is measured */
     struct cloud *cloud;
     const struct material *material;
     double sound_speed, smoothing_length, reach;
@@ -98,8 +99,8 @@ void updated_artificial_stress(int dimension, double epsilon, const double *tens
 
 /* updated_lagrangian_rate.c: dy/dt. */
 void updated_rate(struct model *model, const struct drive *drive, const double *y, double *dydt);
-/* updated_lagrangian_spectrum.c: largest frequency and viscous radius about the body at rest. */
-selas_status updated_spectrum(struct model *model, double *omega, double *viscous, struct messages *messages);
+/* updated_lagrangian_spectrum.c */
+selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
 
 /* updated_lagrangian_fields.c */
 void updated_initialise(struct model *model, double *y);

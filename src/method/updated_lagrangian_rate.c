@@ -81,7 +81,7 @@ __attribute__((always_inline)) static inline void gather(const struct updated *u
         if (repulsive)
             for (int a = 0; a < dimension; a++)
                 sums->repulsive[a] += mass * repulsion * d[a];
-        if (viscous && approach < 0) {
+        if (viscous && (approach < 0 || updated->both_sides)) {
             const double density =
                 (own[layout.mass] / own[layout.volume] + other[layout.mass] / other[layout.volume]) / 2;
             const double pressure = mass * viscosity(updated, approach, square, density);

@@ -67,8 +67,11 @@ static void say_step(const struct teller *teller, const struct stepper *stepper)
     say(teller, "time step", "%.9g", stepper->dt);
     say(teller, "time step chosen", "%s", stepper->dt_reason);
     if (stepper->limit > 0.0) say(teller, "time step limit", "%.9g", stepper->limit);
-    if (stepper->largest_frequency > 0.0)
-        say(teller, "largest frequency", "%.9g", stepper->largest_frequency);
+    if (stepper->spectrum.omega > 0.0) say(teller, "largest frequency", "%.9g", stepper->spectrum.omega);
+    if (stepper->spectrum.viscous > 0.0) {
+        say(teller, "largest damping rate", "%.6g", stepper->spectrum.viscous);
+        say(teller, "damping rate of the fastest waves", "%.6g", stepper->spectrum.wave_damping);
+    }
     say(teller, "time-dispersion transform", "%s", stepper->unwarp ? "yes" : "no");
     say(teller, "steps", "%lu", stepper->steps);
     if (stepper->extra > 0) say(teller, "steps beyond end_time", "%lu", stepper->extra);

@@ -11,8 +11,9 @@
 
 #include <math.h>
 
-static double limit(double omega, double viscous, long stages)
+static double limit(const struct spectrum *spectrum, long stages)
 {
+    const double omega = spectrum->omega, viscous = spectrum->viscous;
     (void)stages;
     /* (v/2 dt) <= sqrt(1 + ...) : central damping at the full step does not lower the limit; a viscous force
      * taken explicitly at the half step does: omega^2 dt^2 + 2 viscous dt <= 4. */

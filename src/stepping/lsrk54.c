@@ -28,9 +28,9 @@ static double complex polynomial(double complex z, long stages)
     return y;
 }
 
-static double limit(double omega, double viscous, long stages)
+static double limit(const struct spectrum *spectrum, long stages)
 {
-    return stability_limit(polynomial, stages, omega, viscous);
+    return stability_limit(polynomial, stages, spectrum);
 }
 
 static void step(struct stepper *stepper, struct state *state)

@@ -12,11 +12,10 @@
 #include <math.h>
 #include <string.h>
 
-static double limit(double omega, double viscous, long stages)
+static double limit(const struct spectrum *spectrum, long stages)
 {
     (void)stages;
-    (void)viscous;
-    return omega > 0.0 ? sqrt(12.0) / omega : INFINITY;
+    return spectrum->omega > 0.0 ? sqrt(12.0) / spectrum->omega : INFINITY;
 }
 
 static void accelerate(struct stepper *stepper, struct state *state, double half_step)

@@ -84,9 +84,9 @@ double complex rkc_polynomial(double complex z, long stages)
     return 1 - b * walk.value[0] + b * value;
 }
 
-static double limit(double omega, double viscous, long stages)
+static double limit(const struct spectrum *spectrum, long stages)
 {
-    return stability_limit(rkc_polynomial, stages, omega, viscous);
+    return stability_limit(rkc_polynomial, stages, spectrum);
 }
 
 static long rule(double argument)
@@ -105,22 +105,23 @@ long rkc_radius_stages(double dt_radius)
     return rule(dt_radius / .653);
 }
 
-long rkc_stages_for(double dt, double omega, double viscous, long max_stages)
+long rkc_stages_for(double dt, const struct spectrum *spectrum, long max_stages)
 {
-    long first = rkc_radius_stages(dt * viscous); /* fewer are unstable already for the viscosity alone */
+    long first =
+        rkc_radius_stages(dt * spectrum->viscous); /* fewer are unstable already for the viscosity alone */
     if (first > 2) first--;
     for (long stages = first; stages <= max_stages; stages++)
-        if (stability_bounded(rkc_polynomial, stages, omega, viscous, dt)) return stages;
+        if (stability_bounded(rkc_polynomial, stages, spectrum, dt)) return stages;
     return 0;
 }
 
-long rkc_best_stages(double omega, double viscous, long max_stages, double *limit_of_best)
+long rkc_best_stages(const struct spectrum *spectrum, long max_stages, double *limit_of_best)
 {
     long best = 0;
     double best_rate = 0;
     *limit_of_best = 0;
     for (long stages = 2; stages <= max_stages; stages++) {
-        const double longest = limit(omega, viscous, stages), rate = longest / (double)stages;
+        const double longest = limit(spectrum, stages), rate = longest / (double)stages;
         if (rate > best_rate) {
             best = stages;
             best_rate = rate;
@@ -134,7 +135,7 @@ long rkc_best_stages(double omega, double viscous, long max_stages, double *limi
 
 enum { MOST_STAGES = 50 }; /* tried if the deck does not say; more never pay */
 
-static long choose_stages(const struct stepper *stepper, double omega, double dt)
+static long choose_stages(const struct stepper *stepper, double dt)
 {
     const struct scene *scene = stepper->model->scene;
     const struct stepping_choice *choice = &scene->stepping;
@@ -146,10 +147,10 @@ static long choose_stages(const struct stepper *stepper, double omega, double dt
             rkc_paper_stages(sqrt(material->young / material->density) * dt / scene->body.spacing);
         return stages < most ? stages : most;
     }
-    const long needed = dt > 0 ? rkc_stages_for(dt, omega, stepper->viscous_radius, most) : 0;
+    const long needed = dt > 0 ? rkc_stages_for(dt, &stepper->spectrum, most) : 0;
     if (needed > 0) return needed;
     double longest;
-    const long best = rkc_best_stages(omega, stepper->viscous_radius, most, &longest);
+    const long best = rkc_best_stages(&stepper->spectrum, most, &longest);
     return best > 0 ? best : 2;
 }
 

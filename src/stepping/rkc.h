@@ -36,6 +36,6 @@ long rkc_radius_stages(double dt_radius);
 long rkc_stages_for(double dt, double omega, double viscous, long max_stages);
 /* Number of stages (2 ... max_stages) with the longest stable step per call; *limit gets that step. 0 if no
  * number of stages is stable (no viscosity). */
-long rkc_best_stages(double omega, double viscous, long max_stages, double *limit);
+long rkc_best_stages(const struct spectrum *spectrum, long max_stages, double *limit);
 
 #endif

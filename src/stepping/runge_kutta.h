@@ -25,14 +25,13 @@ void runge_kutta_add(size_t n, double *out, const double *x, double factor, cons
 /* stepping/stability.c: R(z) of a scheme with the given number of stages: y_(n+1) = R(dt lambda) y_n. */
 typedef double complex stability_polynomial(double complex z, long stages);
 
-/* Largest dt for which every mode of a damped wave operator stays bounded. The modes are taken as those of a
- * stiffness-proportional (Kelvin-Voigt) viscosity, which is what an artificial viscosity is:
- *     lambda^2 + d lambda + w^2 = 0,   w = theta omega,   d = theta^2 viscous,   0 < theta <= 1,
- * together with the purely viscous mode lambda = -viscous. 0 if no dt is stable (|R| > 1 + 1e-9 however small
- * dt), INFINITY if omega = viscous = 0. */
-double stability_limit(stability_polynomial *polynomial, long stages, double omega, double viscous);
+/* Largest dt for which every mode stays bounded: the waves, whose damping is taken as proportional to their
+ * stiffness (Kelvin-Voigt, which is what an artificial viscosity is), lambda^2 + d lambda + w^2 = 0,   w =
+ * theta omega,   d = theta^2 wave_damping,   0 < theta <= 1, and the mode with the largest damping, lambda =
+ * -viscous. 0 if no dt is stable (|R| > 1 + 1e-9 however small dt), INFINITY if omega = viscous = 0. */
+double stability_limit(stability_polynomial *polynomial, long stages, const struct spectrum *spectrum);
 /* True if every such mode stays bounded with this dt. */
-bool stability_bounded(stability_polynomial *polynomial, long stages, double omega, double viscous,
+bool stability_bounded(stability_polynomial *polynomial, long stages, const struct spectrum *spectrum,
                        double dt);
 
 #endif

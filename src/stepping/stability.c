@@ -8,14 +8,17 @@
 
 #include <math.h>
 
-bool stability_bounded(stability_polynomial *polynomial, long stages, double omega, double viscous, double dt)
+bool stability_bounded(stability_polynomial *polynomial, long stages, const struct spectrum *spectrum,
+                       double dt)
 {
     const double tolerance = 1e-9; /* growth per step that no run can notice */
     const int modes = 200 + 20 * (int)stages;
-    if (viscous > 0 && cabs(polynomial(-viscous * dt, stages)) > 1 + tolerance) return false;
+    if (spectrum->viscous > 0 && cabs(polynomial(-spectrum->viscous * dt, stages)) > 1 + tolerance)
+        return false;
     for (int k = modes; k > 0; k--) {
         const double theta = (double)k / modes;
-        const double frequency = theta * omega * dt, damping = theta * theta * viscous * dt;
+        const double frequency = theta * spectrum->omega * dt,
+                     damping = theta * theta * spectrum->wave_damping * dt;
         const double complex root = csqrt(damping * damping / 4 - frequency * frequency);
         if (cabs(polynomial(-damping / 2 - root, stages)) > 1 + tolerance) return false;
         if (cabs(polynomial(-damping / 2 + root, stages)) > 1 + tolerance) return false;
@@ -23,20 +26,20 @@ bool stability_bounded(stability_polynomial *polynomial, long stages, double ome
     return true;
 }
 
-double stability_limit(stability_polynomial *polynomial, long stages, double omega, double viscous)
+double stability_limit(stability_polynomial *polynomial, long stages, const struct spectrum *spectrum)
 {
-    const double radius = fmax(omega, viscous);
+    const double radius = fmax(spectrum->omega, spectrum->viscous);
     if (!(radius > 0)) return INFINITY;
     double low = .05 / radius;
-    if (!stability_bounded(polynomial, stages, omega, viscous, low)) return 0;
+    if (!stability_bounded(polynomial, stages, spectrum, low)) return 0;
     double high = low;
     do {
         low = high;
         high *= 1.05;
-    } while (stability_bounded(polynomial, stages, omega, viscous, high));
+    } while (stability_bounded(polynomial, stages, spectrum, high));
     while (high - low > 1e-6 * high) {
         const double middle = (low + high) / 2;
-        if (stability_bounded(polynomial, stages, omega, viscous, middle))
+        if (stability_bounded(polynomial, stages, spectrum, middle))
             low = middle;
         else
             high = middle;

@@ -22,13 +22,13 @@ static selas_status measure_spectrum(struct stepper *stepper, struct messages *m
 {
     struct model *model = stepper->model;
     const struct model_class *class = model->class;
-    if (class->spectrum != NULL)
-        return class->spectrum(model, &stepper->largest_frequency, &stepper->viscous_radius, messages);
-    selas_status status =
-        largest_frequency(model, &stepper->largest_frequency, &stepper->frequency_error, messages);
+    struct spectrum *spectrum = &stepper->spectrum;
+    if (class->spectrum != NULL) return class->spectrum(model, spectrum, messages);
+    selas_status status = largest_frequency(model, &spectrum->omega, &stepper->frequency_error, messages);
+    spectrum->omega *= 1.0 + stepper->frequency_error;
     const bool explicit_damping = !stepper->scheme->needs_acceleration || class->linearise != NULL;
     if (status == SELAS_OK && model->damped && explicit_damping)
-        status = largest_damping(model, fastest_speed(model->scene), &stepper->viscous_radius, messages);
+        status = largest_damping(model, fastest_speed(model->scene), &spectrum->viscous, messages);
     return status;
 }
 
@@ -58,14 +58,14 @@ static selas_status refuse(const struct stepper *stepper, double dt, struct mess
             "the time step %.6g is beyond the stability limit %.6g of scheme '%s' (largest frequency %.6g, "
             "damping rate %.6g); take a smaller stepping%%time_step or courant, leave both out, or set "
             "stepping%%force = .true.",
-            dt, stepper->limit, name, stepper->largest_frequency, stepper->viscous_radius);
+            dt, stepper->limit, name, stepper->spectrum.omega, stepper->spectrum.viscous);
     return fail(
         messages, SELAS_BAD_SCENE,
         "scheme '%s' is unstable for every time step here: the largest frequency is %.6g, the damping rate "
         "only %.6g, and the scheme's stability region does not contain the imaginary axis, where undamped "
         "waves live%s; take scheme 'leapfrog', 'rk4' or 'lsrk54', or set stepping%%time_step and "
         "stepping%%force = .true.",
-        name, stepper->largest_frequency, stepper->viscous_radius,
+        name, stepper->spectrum.omega, stepper->spectrum.wave_damping,
         stepper->scheme->choose_stages != NULL ? ", whatever the number of stages" : "");
 }
 
@@ -75,19 +75,18 @@ static selas_status choose_step(struct stepper *stepper, struct messages *messag
     const struct stepping_choice *choice = &scene->stepping;
     const selas_status status = measure_spectrum(stepper, messages);
     if (status != SELAS_OK) return status;
-    const double omega = stepper->largest_frequency * (1.0 + stepper->frequency_error);
     stepper->dt = wanted_step(stepper);
     if (stepper->scheme->choose_stages != NULL)
-        stepper->stages = stepper->scheme->choose_stages(stepper, omega, stepper->dt);
-    stepper->limit = stepper->scheme->limit(omega, stepper->viscous_radius, stepper->stages);
+        stepper->stages = stepper->scheme->choose_stages(stepper, stepper->dt);
+    stepper->limit = stepper->scheme->limit(&stepper->spectrum, stepper->stages);
     const double limit = stepper->limit;
     if (!(stepper->dt > 0.0) && isfinite(limit) && limit > 0.0) {
         /* whole steps to end_time, so that the last row is end_time itself */
         stepper->dt = scene->end_time / ceil(scene->end_time / (choice->safety * limit) - 1e-9);
         snprintf(stepper->dt_reason, sizeof stepper->dt_reason,
                  "%g of the limit %.6g (largest frequency %.6g +- %.1g %%, damping rate %.6g)",
-                 choice->safety, limit, stepper->largest_frequency, 100.0 * stepper->frequency_error,
-                 stepper->viscous_radius);
+                 choice->safety, limit, stepper->spectrum.omega, 100.0 * stepper->frequency_error,
+                 stepper->spectrum.viscous);
     }
     if (!isfinite(limit) && !(stepper->dt > 0.0))
         return fail(messages, SELAS_BAD_SCENE,

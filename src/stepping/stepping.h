@@ -19,11 +19,10 @@ struct scheme_class {
     int order;               /* in time */
     bool needs_acceleration; /* uses accelerate() (second-order form); otherwise rate() */
     double evaluations;      /* operator calls a step (for stages = 0: per stage) */
-    /* Largest stable dt for undamped frequency omega and damping rate (real eigenvalue) `viscous`, either may
-     * be 0. */
-    double (*limit)(double omega, double viscous, long stages);
+    /* Largest stable dt; 0 if none is, INFINITY if any is. */
+    double (*limit)(const struct spectrum *spectrum, long stages);
     /* Schemes with a free number of stages: the number for a step dt (0: dt is free too). NULL: fixed. */
-    long (*choose_stages)(const struct stepper *stepper, double omega, double dt);
+    long (*choose_stages)(const struct stepper *stepper, double dt);
     size_t vectors; /* work vectors of state_size that the scheme needs */
     /* Makes state->a (and what else the scheme keeps) right at the start or after a restart. */
     void (*start)(struct stepper *stepper, struct state *state);
@@ -39,10 +38,9 @@ struct stepper {
     struct model *model;
     double dt;
     long stages;
-    double largest_frequency; /* of the undamped operator, measured; 0 if not asked for */
-    double frequency_error;   /* bound on its relative error (Lanczos residual); 0 if unknown */
-    double viscous_radius;    /* measured, 0 if none */
-    double limit;             /* largest stable dt by the scheme's own limit; 0 if not measured */
+    struct spectrum spectrum; /* measured; omega with the bound on its error added */
+    double frequency_error;   /* bound on the relative error of omega (Lanczos residual); 0 if unknown */
+    double limit;             /* largest stable dt by the scheme's own limit; INFINITY if nothing vibrates */
     char dt_reason[160];      /* how the step was chosen, for the report */
     bool unwarp; /* time-dispersion transform: loads are warped beforehand, histories un-warped at the end */
     unsigned long steps;   /* steps from t = 0 until end_time is reached or passed */
