@@ -168,7 +168,7 @@ static void limits_are_sharp(void **state)
             f.scene.initial.kind = INITIAL_GAUSSIAN;
             const double omega = 2.0 * sin(CHAIN * PI / (2.0 * (CHAIN + 1)));
             f.scene.stepping.time_step =
-                scheme_find(names[i])->limit(omega, 0.0, 0) * (above ? 1.002 : 0.998);
+                scheme_find(names[i])->limit(&(struct spectrum){.omega = omega}, 0) * (above ? 1.002 : 0.998);
             f.scene.stepping.force = true;
             struct stepper *stepper = NULL;
             struct state s;

@@ -31,9 +31,8 @@ long rkc_paper_stages(double courant);
 /* Eq 26 with a spectral radius: s = 1 + [sqrt(1 + dt radius / .653)], at least 2. */
 long rkc_radius_stages(double dt_radius);
 
-/* Fewest stages (2 ... max_stages) that are stable for dt with wave radius omega and viscous radius viscous;
- * 0 if there are none. */
-long rkc_stages_for(double dt, double omega, double viscous, long max_stages);
+/* Fewest stages (2 ... max_stages) that are stable for dt; 0 if there are none. */
+long rkc_stages_for(double dt, const struct spectrum *spectrum, long max_stages);
 /* Number of stages (2 ... max_stages) with the longest stable step per call; *limit gets that step. 0 if no
  * number of stages is stable (no viscosity). */
 long rkc_best_stages(const struct spectrum *spectrum, long max_stages, double *limit);
