@@ -31,8 +31,6 @@ static const struct word method_words[] = {
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
      "compute half or quarter of a body where the scene has mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", false, "precision of the state"},
-    {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
-     "compute a half or a quarter where the scene has mirror planes (consistent)"},
     {"kernel", WORD_CHOICE, 1, NULL, "cubic|quintic|wendland", false, "smoothing kernel (paper, sph)"},
     {"smoothing_length", WORD_REAL, 1, NULL, "(0, 10]", false, "smoothing length [spacings] (paper, sph)"},
     {"filter", WORD_REAL, 1, NULL, "[0, 1]", false, "strength of the filter (paper: alpha of Eq 35)"},
