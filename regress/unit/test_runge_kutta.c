@@ -43,8 +43,8 @@ static unsigned long run(const struct model_class *class, const char *scheme, lo
                          long steps, double y[2])
 {
     struct model model = {.class = class, .scene = &empty, .unknowns = 1, .state_size = 2};
-    double work[5][2], *vectors[5] = {work[0], work[1], work[2], work[3], work[4]}, load[1], motion[FACES],
-                       a[1];
+    double work[5][2], *vectors[5] = {work[0], work[1], work[2], work[3], work[4]}, load[1],
+                       motion[3 * FACES], a[1];
     struct stepper stepper = {.scheme = scheme_find(scheme),
                               .model = &model,
                               .dt = dt,
