@@ -1,0 +1,354 @@
+/* Receivers, profiles, the low-pass and the watch, on a model whose states are known functions. */
+#include "fake_model.h"
+#include "record/parts.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+static const size_t line[3] = {9, 1, 1};
+
+static int reset(void **state)
+{
+    (void)state;
+    fake_gain = 1.0;
+    fake_growth = 0.0;
+    return 0;
+}
+
+/* Largest error of the finished rows of a receiver at x = 0.5, relative to the largest value. */
+static double history_error(double dt, double history_step, size_t *rows)
+{
+    struct fake fake;
+    fake_build(&fake, 3, line, 0.25, dt, 6.0);
+    fake.scene.receivers = 1;
+    fake.receiver[0] = (struct receiver){"middle", {0.5, 0.0, 0.0}};
+    fake.scene.output.history_step = history_step;
+    struct messages messages = {0};
+    struct recorder *recorder = NULL;
+    assert_int_equal(recorder_create(&fake.scene, &fake.model, &fake.stepper, &recorder, &messages),
+                     SELAS_OK);
+    assert_int_equal(fake_run(&fake, recorder, &messages), SELAS_OK);
+    assert_int_equal(recorder_finish(recorder, &messages), SELAS_OK);
+    const struct history_rows history = recorder_history(recorder, 0);
+    double error = 0.0, largest = 0.0;
+    for (size_t i = 0; i < history.rows; i++)
+        for (int k = 0; k < 6; k++) {
+            const double truth = fake_truth(fake.receiver[0].position, k % 3, history.time[i], k / 3);
+            error = fmax(error, fabs(history.value[6 * i + (size_t)k] - truth));
+            largest = fmax(largest, fabs(truth));
+        }
+    assert_true(history.time[history.rows - 1] <= 6.0 + 1e-9);
+    *rows = history.rows;
+    recorder_free(&recorder);
+    fake_clear(&fake);
+    assert_null(messages.text);
+    return error / largest;
+}
+
+static void rows_on_steps_are_exact(void **state)
+{
+    (void)state;
+    size_t rows = 0;
+    assert_true(history_error(0.1, 0.0, &rows) < 1e-14);
+    assert_int_equal(rows, 61);
+    assert_true(history_error(0.1, 0.2, &rows) < 1e-14);
+    assert_int_equal(rows, 31);
+}
+
+/* Cubic Hermite: the error falls as dt^4. */
+static void rows_between_steps(void **state)
+{
+    (void)state;
+    size_t rows = 0;
+    const double coarse = history_error(0.2, 0.07, &rows);
+    assert_int_equal(rows, 86);
+    const double fine = history_error(0.1, 0.07, &rows);
+    assert_true(coarse < 2e-3);
+    const double order = log2(coarse / fine);
+    print_message("# interpolated rows: order %.2f, error %.2e at dt = 0.1\n", order, fine);
+    assert_true(order > 3.5);
+}
+
+static void profile_between_steps(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+        struct fake fake;
+        const double dt = k == 0 ? 0.2 : 0.1;
+        fake_build(&fake, 3, line, 0.25, dt, 6.0);
+        double time[3] = {2.43, 4.0, 6.0};
+        fake.scene.profiles = 1;
+        fake.profile = (struct profile){.name = "line",
+                                        .to = {2.0, 0.0, 0.0},
+                                        .points = 9,
+                                        .times = 3,
+                                        .time = time,
+                                        .fields = 1U << SELAS_DISPLACEMENT | 1U << SELAS_VELOCITY};
+        struct messages messages = {0};
+        struct recorder *recorder = NULL;
+        assert_int_equal(recorder_create(&fake.scene, &fake.model, &fake.stepper, &recorder, &messages),
+                         SELAS_OK);
+        assert_int_equal(fake_run(&fake, recorder, &messages), SELAS_OK);
+        assert_int_equal(profile_write(recorder, &messages), SELAS_OK);
+        assert_null(messages.text);
+        char path[128], text[512];
+        snprintf(path, sizeof path, "%s/line.dat", fake.folder);
+        FILE *file = fopen(path, "r");
+        assert_non_null(file);
+        int rows = 0;
+        error[k] = 0.0;
+        while (fgets(text, sizeof text, file) != NULL) {
+            double s, x[3], value[6];
+            if (sscanf(text, "%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &s, x, x + 1, x + 2, value, value + 1,
+                       value + 2, value + 3, value + 4, value + 5) != 10)
+                continue;
+            assert_true(fabs(s - x[0]) < 1e-14);
+            for (int c = 0; c < 6; c++) {
+                const double away = fabs(value[c] - fake_truth(x, c % 3, time[rows / 9], c / 3));
+                if (rows < 9)
+                    error[k] = fmax(error[k], away);
+                else
+                    assert_true(away < 1e-12); /* times of steps */
+            }
+            rows++;
+        }
+        fclose(file);
+        assert_int_equal(rows, 27);
+        recorder_free(&recorder);
+        fake_clear(&fake);
+    }
+    print_message("# profile between steps: errors %.2e, %.2e\n", error[0], error[1]);
+    assert_true(log2(error[0] / error[1]) > 3.0);
+}
+
+enum { ROWS = 4000 };
+
+/* A tone of frequency omega well inside the record keeps its phase and is multiplied by exp(-(omega/wc)^4).
+ */
+static void low_pass_of_tones(void **state)
+{
+    (void)state;
+    static double series[2 * ROWS];
+    const double dt = 0.05, cutoff = 4.0;
+    for (int k = 1; k <= 6; k++) {
+        const double omega = k;
+        for (int i = 0; i < ROWS; i++) {
+            series[2 * i] = sin(omega * dt * i);
+            series[2 * i + 1] = 2.5; /* a constant stays */
+        }
+        struct messages messages = {0};
+        assert_int_equal(low_pass(dt, cutoff, false, ROWS, 2, series, &messages), SELAS_OK);
+        const double factor = exp(-pow(omega / cutoff, 4.0));
+        for (int i = 500; i < ROWS - 500; i++)
+            assert_true(fabs(series[2 * i] - factor * sin(omega * dt * i)) < 1e-9);
+        for (int i = 0; i < ROWS; i++)
+            assert_true(fabs(series[2 * i + 1] - 2.5) < 1e-9);
+    }
+}
+
+/* A slow pulse from rest passes unharmed, up to both ends of the record. */
+static void low_pass_of_a_slow_pulse(void **state)
+{
+    (void)state;
+    static double series[ROWS];
+    const double dt = 0.01;
+    for (int i = 0; i < ROWS; i++)
+        series[i] = exp(-pow((dt * i - 15.0) / 3.0, 2.0)) + 0.5 * (1.0 + tanh((dt * i - 20.0) / 3.0));
+    static double before[ROWS];
+    memcpy(before, series, sizeof series);
+    struct messages messages = {0};
+    assert_int_equal(low_pass(dt, 40.0, true, ROWS, 1, series, &messages), SELAS_OK);
+    for (int i = 0; i < ROWS; i++)
+        assert_true(fabs(series[i] - before[i]) < 1e-5);
+}
+
+static void low_passed_history(void **state)
+{
+    (void)state;
+    struct fake fake;
+    fake_build(&fake, 3, line, 0.25, 0.05, 40.0);
+    fake.scene.receivers = 1;
+    fake.receiver[0] = (struct receiver){"middle", {0.5, 0.0, 0.0}};
+    fake.scene.output.low_pass = 1.0;
+    struct messages messages = {0};
+    struct recorder *recorder = NULL;
+    assert_int_equal(recorder_create(&fake.scene, &fake.model, &fake.stepper, &recorder, &messages),
+                     SELAS_OK);
+    assert_int_equal(fake_run(&fake, recorder, &messages), SELAS_OK);
+    assert_int_equal(recorder_finish(recorder, &messages), SELAS_OK);
+    /* the spectrum of g' is i omega 720 / (1 + i omega)^7: the filtered history by quadrature */
+    const struct history_rows history = recorder_history(recorder, 0);
+    double worst = 0.0, largest = 0.0;
+    for (size_t i = 20; history.time[i] < 16.0; i += 40) {
+        const double t = history.time[i] - 0.5 / fake_speed;
+        double value = 0.0;
+        const int steps = 4000;
+        const double d = 4.0 / steps;
+        for (int k = 0; k < steps; k++) {
+            const double omega = ((double)k + 0.5) * d;
+            const double angle = omega * t - 7.0 * atan(omega) + 0.5 * 3.14159265358979;
+            value += 720.0 * omega * pow(1.0 + omega * omega, -3.5) * cos(angle) * exp(-pow(omega, 4.0)) * d /
+                     3.14159265358979;
+        }
+        worst = fmax(worst, fabs(history.value[6 * i + 3] - value));
+        largest = fmax(largest, fabs(value));
+    }
+    print_message("# low-passed history: error %.1e of %.1e\n", worst, largest);
+    assert_true(worst < 1e-9 * largest);
+    recorder_free(&recorder);
+    fake_clear(&fake);
+}
+
+static selas_status watched_run(double growth, bool nan, struct messages *messages)
+{
+    struct fake fake;
+    fake_build(&fake, 3, line, 0.25, 0.01, 40.0);
+    fake.scene.receivers = 1;
+    fake.receiver[0] = (struct receiver){"middle", {0.5, 0.0, 0.0}};
+    fake_growth = growth;
+    struct recorder *recorder = NULL;
+    assert_int_equal(recorder_create(&fake.scene, &fake.model, &fake.stepper, &recorder, messages), SELAS_OK);
+    selas_status status = SELAS_OK;
+    for (unsigned long step = 0; step <= 4000 && status == SELAS_OK; step++) {
+        fake_state(&fake.model, &fake.state, 0.01, step);
+        if (nan && step >= 1210) fake.state.y[3 * 7 + 1] = NAN; /* not where the receiver is */
+        status = recorder_observe(recorder, &fake.state, messages);
+        if (nan && status != SELAS_OK) assert_true(step < 1210 + 100);
+    }
+    recorder_free(&recorder);
+    fake_clear(&fake);
+    return status;
+}
+
+static void quiet_run_is_left_alone(void **state)
+{
+    (void)state;
+    struct messages messages = {0};
+    assert_int_equal(watched_run(0.0, false, &messages), SELAS_OK);
+    assert_null(messages.text);
+}
+
+static void growth_is_found(void **state)
+{
+    (void)state;
+    struct messages messages = {0};
+    assert_int_equal(watched_run(1.5, false, &messages), SELAS_UNSTABLE);
+    assert_non_null(strstr(messages.text, "went unstable at t = "));
+    double time = 0.0, x[3] = {0};
+    assert_int_equal(sscanf(strstr(messages.text, "t = "), "t = %lf", &time), 1);
+    assert_int_equal(
+        sscanf(strstr(messages.text, "fastest at"), "fastest at (%lf, %lf, %lf)", x, x + 1, x + 2), 3);
+    const double there = fabs(fake_truth(x, 2, time, 1));
+    for (size_t i = 0; i < line[0]; i++) {
+        const double other[3] = {0.25 * (double)i, 0.0, 0.0};
+        assert_true(fabs(fake_truth(other, 2, time, 1)) <= there * (1.0 + 1e-6));
+    }
+    messages_free(&messages);
+}
+
+static void nan_is_found(void **state)
+{
+    (void)state;
+    struct messages messages = {0};
+    assert_int_equal(watched_run(0.0, true, &messages), SELAS_UNSTABLE);
+    assert_non_null(strstr(messages.text, "not finite"));
+    messages_free(&messages);
+}
+
+/* An oscillator-like body that is pushed: the model tells 1 unit of power; its energy may not exceed that. */
+static double energy_factor;
+
+static void known_energy(struct model *model, const double *y, struct energy *energy)
+{
+    (void)model;
+    *energy = (struct energy){.kinetic = energy_factor * y[0]};
+}
+
+static void known_power(struct model *model, const struct drive *drive, const double *y, double *load,
+                        double *absorbed)
+{
+    (void)model;
+    (void)y;
+    *load = drive->time < 10.0 ? 1.0 : 0.0;
+    *absorbed = drive->time < 10.0 ? 0.25 : 0.0;
+}
+
+static selas_status worked_run(double factor, struct recorder **recorder, struct fake *fake,
+                               struct messages *messages)
+{
+    static struct model_class class;
+    class = fake_class;
+    class.energy = known_energy;
+    class.power = known_power;
+    energy_factor = factor;
+    fake_build(fake, 3, line, 0.25, 0.01, 20.0);
+    fake->model.class = &class;
+    assert_int_equal(recorder_create(&fake->scene, &fake->model, &fake->stepper, recorder, messages),
+                     SELAS_OK);
+    selas_status status = SELAS_OK;
+    for (unsigned long step = 0; step <= 2000 && status == SELAS_OK; step++) {
+        fake_state(&fake->model, &fake->state, 0.01, step);
+        fake->state.y[0] = fmin(fake->state.time, 10.0); /* the work so far */
+        status = recorder_observe(*recorder, &fake->state, messages);
+    }
+    return status;
+}
+
+static void energy_against_work(void **state)
+{
+    (void)state;
+    struct messages messages = {0};
+    struct recorder *recorder = NULL;
+    struct fake fake;
+    assert_int_equal(worked_run(0.75, &recorder, &fake, &messages), SELAS_OK);
+    assert_true(fabs(recorder->watch.work - 10.0) < 0.011); /* the jump at t = 10: half a step */
+    assert_true(fabs(recorder->watch.absorbed - 2.5) < 0.003);
+    assert_true(recorder->watch.largest_defect < 0.01);
+    recorder_free(&recorder);
+    fake_clear(&fake);
+    assert_int_equal(worked_run(12.0, &recorder, &fake, &messages), SELAS_UNSTABLE);
+    assert_non_null(strstr(messages.text, "but was given only"));
+    messages_free(&messages);
+    recorder_free(&recorder);
+    fake_clear(&fake);
+}
+
+static void steps_in_order(void **state)
+{
+    (void)state;
+    struct fake fake;
+    fake_build(&fake, 3, line, 0.25, 0.1, 1.0);
+    struct messages messages = {0};
+    struct recorder *recorder = NULL;
+    assert_int_equal(recorder_create(&fake.scene, &fake.model, &fake.stepper, &recorder, &messages),
+                     SELAS_OK);
+    fake_state(&fake.model, &fake.state, 0.1, 0);
+    assert_int_equal(recorder_observe(recorder, &fake.state, &messages), SELAS_OK);
+    fake_state(&fake.model, &fake.state, 0.1, 2);
+    assert_int_equal(recorder_observe(recorder, &fake.state, &messages), SELAS_BAD_ARGUMENT);
+    messages_free(&messages);
+    recorder_free(&recorder);
+    fake_clear(&fake);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(rows_on_steps_are_exact, reset),
+        cmocka_unit_test_setup(rows_between_steps, reset),
+        cmocka_unit_test_setup(profile_between_steps, reset),
+        cmocka_unit_test(low_pass_of_tones),
+        cmocka_unit_test(low_pass_of_a_slow_pulse),
+        cmocka_unit_test_setup(low_passed_history, reset),
+        cmocka_unit_test_setup(quiet_run_is_left_alone, reset),
+        cmocka_unit_test_setup(growth_is_found, reset),
+        cmocka_unit_test_setup(nan_is_found, reset),
+        cmocka_unit_test_setup(energy_against_work, reset),
+        cmocka_unit_test_setup(steps_in_order, reset),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
