@@ -22,7 +22,7 @@ static struct tl_model *of(struct model *model)
 struct tl_options tl_default_options(void)
 {
     return (struct tl_options){
-        .degree = 2, .hourglass = 0.05, .kernel = kernel_find("cubic"), .law = LAW_SAINT_VENANT_KIRCHHOFF};
+        .degree = 2, .hourglass = 0.1, .kernel = kernel_find("cubic"), .law = LAW_SAINT_VENANT_KIRCHHOFF};
 }
 
 static void destroy(struct model *model)
@@ -148,7 +148,10 @@ static selas_status probe(struct model *model, const double position[3], struct 
     memcpy(probe->index, index, count * sizeof *index);
     memcpy(probe->weight, weight, count * sizeof *weight);
     memcpy(probe->gradient, gradient, 3 * count * sizeof *gradient);
-    probe->material = tl->material[neighbours_nearest(&tl->near, place)];
+    size_t heaviest = 0;
+    for (size_t k = 1; k < count; k++)
+        if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
+    probe->material = tl->material[index[heaviest]];
     return SELAS_OK;
 }
 
@@ -191,6 +194,8 @@ static bool is_vector(selas_field field)
     return field == SELAS_DISPLACEMENT || field == SELAS_VELOCITY || field == SELAS_ACCELERATION;
 }
 
+/* Stress and strain at a place: from H of the points around, interpolated. (The gradient of the interpolated
+ * displacements would do for smooth ones, but it magnifies what is left of hourglass modes.) */
 static void observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                     const double *a, double *value)
 {
@@ -202,13 +207,14 @@ static void observe(struct model *model, const struct probe *probe, selas_field 
     }
     double H[9] = {0};
     double velocity[3] = {0};
-    for (size_t k = 0; k < probe->count; k++)
-        for (size_t c = 0; c < d; c++) {
-            const size_t at = d * probe->index[k] + c;
-            velocity[c] += probe->weight[k] * y[model->unknowns + at];
-            for (size_t b = 0; b < d; b++)
-                H[c * d + b] += probe->gradient[3 * k + b] * y[at];
-        }
+    for (size_t k = 0; k < probe->count; k++) {
+        double point[9];
+        tl_gradient_at(tl, y, probe->index[k], point);
+        for (size_t c = 0; c < d * d; c++)
+            H[c] += probe->weight[k] * point[c];
+        for (size_t c = 0; c < d; c++)
+            velocity[c] += probe->weight[k] * y[model->unknowns + d * probe->index[k] + c];
+    }
     const struct elastic elastic = elastic_of(probe->material, tl->options.law, (int)d, model->scene->plane);
     nonlinear_field(model, probe->material, &elastic, H, velocity, field, value);
 }
@@ -371,7 +377,7 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
         tl->mass[i] = tl->material[i]->density * tl->cloud->volume[i];
         body_to_deck(&scene->body, x, tl->deck_position + 3 * i);
     }
-    return neighbours_find(&tl->near, scene->dimension, n, tl->cloud->position, 1.5 * tl_radius(tl), false,
+    return neighbours_find(&tl->near, scene->dimension, n, tl->cloud->position, tl_search_radius(tl), false,
                            messages);
 }
 

@@ -84,7 +84,8 @@ struct tl_model {
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
 /* total_lagrangian_setup.c: gradient weights, hourglass pairs, viscosity pairs. */
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
-double tl_radius(const struct tl_model *tl); /* of the weights, in length */
+double tl_radius(const struct tl_model *tl);        /* of the weights, in length */
+double tl_search_radius(const struct tl_model *tl); /* the largest a point's weights may take */
 /* total_lagrangian_loads.c */
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
@@ -97,6 +98,8 @@ void tl_sites(struct tl_model *tl, const double *u, const double *v, const doubl
               const double *velocity);
 void tl_gradients(struct tl_model *tl);
 void tl_forces(struct tl_model *tl);
+/* H of one point for displacements u (ghosts by the amplitudes of the last drive). */
+void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double H[9]);
 void tl_viscosity(struct tl_model *tl);
 double tl_strain_energy(struct tl_model *tl);
 

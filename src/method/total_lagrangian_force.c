@@ -14,18 +14,22 @@
 #include <math.h>
 #include <string.h>
 
+static double ghost_value(const struct tl_model *tl, const double *u, size_t g, size_t c,
+                          const double *amplitude)
+{
+    const struct tl_ghost *ghost = &tl->ghost[g];
+    double value = ghost->sign[c] * u[(size_t)tl->cloud->dimension * ghost->source + c];
+    for (size_t f = 0; amplitude != NULL && tl->moving && f < FACES; f++)
+        value += ghost->motion[c][f] * amplitude[f];
+    return value;
+}
+
 static void fill_ghosts(const struct tl_model *tl, double *site, const double *amplitude)
 {
     const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t g = 0; g < tl->ghosts; g++) {
-        const struct tl_ghost *ghost = &tl->ghost[g];
-        double *out = site + d * (tl->cloud->points + g);
-        for (size_t c = 0; c < d; c++) {
-            out[c] = ghost->sign[c] * site[d * ghost->source + c];
-            for (size_t f = 0; amplitude != NULL && tl->moving && f < FACES; f++)
-                out[c] += ghost->motion[c][f] * amplitude[f];
-        }
-    }
+    for (size_t g = 0; g < tl->ghosts; g++)
+        for (size_t c = 0; c < d; c++)
+            site[d * (tl->cloud->points + g) + c] = ghost_value(tl, site, g, c, amplitude);
 }
 
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
@@ -166,6 +170,21 @@ static inline __attribute__((always_inline)) void forces(struct tl_model *tl, co
             }
             for (size_t a = 0; a < d; a++)
                 tl->force[d * i + a] = force[a];
+        }
+    }
+}
+
+void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double H[9])
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t n = tl->cloud->points;
+    memset(H, 0, sizeof(double[9]));
+    for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++) {
+        const size_t j = tl->gradient.index[k];
+        for (size_t a = 0; a < d; a++) {
+            const double other = j < n ? u[d * j + a] : ghost_value(tl, u, j - n, a, tl->displacement);
+            for (size_t b = 0; b < d; b++)
+                H[a * d + b] += (other - u[d * i + a]) * tl->gradient.weight[d * k + b];
         }
     }
 }

@@ -1,9 +1,11 @@
 /* Loads, dampers and probes of total-Lagrangian SPH.
  *
- * A traction does the work of its patch on the displacement extrapolated to the face: f_i = sum over surface
- * elements of w_i(x_e) t A_e with the moving-least-squares weights w_i of the element's middle. Force and
- * moment are exact because the weights reproduce linear fields. A point force works on u(x), a moment tensor
- * M on the gradient: f_i = M grad w_i(x). */
+ * A uniform stress t x n in the body pulls at the points with f_j = -sum_i V_i (t x n) G_ij + ..., the
+ * discrete form of the integral of t phi_j over the surface; so these forces, taken from the points near the
+ * loaded face and weighed with the part of their footprint that the patch covers, are the consistent load:
+ * under it a uniform stress is in equilibrium to the last layer. Forces at a place and moment tensors work on
+ * the moving-least-squares value and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force
+ * and moment. */
 #include "method/total_lagrangian.h"
 
 #include "base/memory.h"
@@ -49,21 +51,17 @@ static double overlap(double a, double half, double b, double wide)
     return fmax(0, fmin(a + half, b + wide) - fmax(a - half, b - wide));
 }
 
-/* Part of a surface element that a patch covers. */
-static double covered(const struct load *load, const struct face_element *element, const double centre[3])
+/* Part of the rectangle about `place` (edges `width`, across `axis`) that a patch covers. */
+static double covered(const struct load *load, int axis, const double place[3], const double width[3],
+                      const double centre[3], int dimension)
 {
     enum { CUTS = 16 };
-    const int axis = element->face < BOX_FACES ? element->face / 2 : 0;
-    if (load->shape == LOAD_FACE || element->face >= BOX_FACES) return 1;
-    double part = 1;
+    if (load->shape == LOAD_FACE || dimension == 1) return 1;
     if (load->shape == LOAD_SQUARE) {
-        for (int c = 0, edge = 0; c < 3; c++) {
+        double part = 1;
+        for (int c = 0, edge = 0; c < dimension; c++) {
             if (c == axis) continue;
-            if (element->width[c] > 0)
-                part *= overlap(element->position[c], 0.5 * element->width[c], centre[c],
-                                0.5 * load->size[edge]) /
-                        element->width[c];
-            edge++;
+            part *= overlap(place[c], 0.5 * width[c], centre[c], 0.5 * load->size[edge++]) / width[c];
         }
         return part;
     }
@@ -72,9 +70,9 @@ static double covered(const struct load *load, const struct face_element *elemen
         for (int j = 0; j < CUTS; j++) {
             const double cut[2] = {(i + 0.5) / CUTS - 0.5, (j + 0.5) / CUTS - 0.5};
             double square = 0;
-            for (int c = 0, k = 0; c < 3; c++) {
+            for (int c = 0, k = 0; c < dimension; c++) {
                 if (c == axis) continue;
-                const double away = element->position[c] + cut[k++] * element->width[c] - centre[c];
+                const double away = place[c] + cut[k++] * width[c] - centre[c];
                 square += away * away;
             }
             inside += square <= 0.25 * load->size[0] * load->size[0];
@@ -141,15 +139,90 @@ static void moment_in_body(const struct scene *scene, const struct load *load, d
         body_direction_from_deck(&scene->body, half + 3 * a, moment + 3 * a);
 }
 
+/* Area of the patch on the surface. */
+static double patch_area(const struct tl_model *tl, const struct load *load, const double centre[3])
+{
+    double area = 0;
+    for (size_t e = 0; e < tl->cloud->elements; e++) {
+        const struct face_element *element = &tl->cloud->element[e];
+        if (element->face == (int)load->face)
+            area += element->area * covered(load, face_axis(load->face), element->position, element->width,
+                                            centre, tl->cloud->dimension);
+    }
+    return area;
+}
+
+/* Forces of the uniform stress -direction x normal, into tl->force. */
+static void uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t axis = (size_t)face_axis(face);
+    memset(tl->H, 0, d * d * tl->cloud->points * sizeof *tl->H);
+    memset(tl->A, 0, d * d * tl->cloud->points * sizeof *tl->A);
+    memset(tl->site_u, 0, d * tl->sites * sizeof *tl->site_u);
+    for (size_t i = 0; i < tl->cloud->points; i++)
+        for (size_t a = 0; a < d; a++)
+            tl->A[d * d * i + d * a + axis] = -tl->cloud->volume[i] * direction[a] * face_sign(face);
+    tl_forces(tl);
+}
+
+static selas_status traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
+                                    const double direction[3], struct gather *gather)
+{
+    const struct body *body = &tl->model.scene->body;
+    const size_t d = (size_t)tl->cloud->dimension;
+    const int axis = face_axis(load->face);
+    const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+    const double reach = fmin(tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
+    double sum = 0;
+    uniform_stress(tl, direction, load->face);
+    for (size_t i = 0; i < tl->cloud->points; i++) {
+        const double *x = tl->cloud->position + 3 * i;
+        if (fabs(x[axis] - plane) > reach) continue;
+        const double wide = pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
+        const double width[3] = {wide, wide, wide};
+        const double part = covered(load, axis, x, width, centre, tl->cloud->dimension);
+        for (size_t a = 0; a < d; a++) {
+            gather->force[d * i + a] = part * tl->force[d * i + a];
+            sum += gather->force[d * i + a] * direction[a];
+        }
+    }
+    /* what patches that cut points and scattered points lose or win */
+    const double area = patch_area(tl, load, centre);
+    if (!(sum > 0.5 * area) || !(sum < 2 * area))
+        return fail(
+            gather->messages, SELAS_BAD_SCENE,
+            "a load's patch is too small for the spacing: make it a point load, or the spacing smaller");
+    for (size_t k = 0; k < d * tl->cloud->points; k++)
+        gather->force[k] *= load->amplitude * area / sum;
+    return SELAS_OK;
+}
+
+/* Tractions on the hole or on surfaces from a file, element by element. */
+static selas_status traction_on_elements(struct tl_model *tl, const struct load *load,
+                                         const double direction[3], struct gather *gather)
+{
+    for (size_t e = 0; e < tl->cloud->elements; e++) {
+        const struct face_element *element = &tl->cloud->element[e];
+        double force[3];
+        if (element->face != (int)load->face) continue;
+        for (int c = 0; c < 3; c++)
+            force[c] = direction[c] * load->amplitude * element->area;
+        const selas_status status = add_at(tl, element->position, force, NULL, gather);
+        if (status != SELAS_OK) return status;
+    }
+    return SELAS_OK;
+}
+
 static selas_status collect_load(struct tl_model *tl, const struct load *load, struct gather *gather)
 {
     const struct scene *scene = tl->model.scene;
     const size_t d = (size_t)scene->dimension;
     double centre[3];
     double direction[3];
+    double force[3];
     body_from_deck(&scene->body, load->centre, centre);
     body_direction_from_deck(&scene->body, load->direction, direction);
-    double force[3];
     const double part = carried(scene, centre) * load->amplitude;
     for (int c = 0; c < 3; c++)
         force[c] = direction[c] * part;
@@ -165,17 +238,12 @@ static selas_status collect_load(struct tl_model *tl, const struct load *load, s
                 gather->force[d * i + a] = tl->cloud->volume[i] * load->amplitude * direction[a];
         return SELAS_OK;
     }
-    for (size_t e = 0; e < tl->cloud->elements; e++) {
-        const struct face_element *element = &tl->cloud->element[e];
-        if (element->face != (int)load->face) continue;
-        const double area = covered(load, element, centre) * element->area;
-        if (!(area > 0)) continue;
-        for (int c = 0; c < 3; c++)
-            force[c] = direction[c] * load->amplitude * area;
-        const selas_status status = add_at(tl, element->position, force, NULL, gather);
-        if (status != SELAS_OK) return status;
-    }
-    return SELAS_OK;
+    if (load->face != FACE_HOLE && (scene->body.shape != BODY_POINTS || load->shape == LOAD_FACE))
+        return traction_on_box(tl, load, centre, direction, gather);
+    if (load->shape != LOAD_FACE)
+        return fail(gather->messages, SELAS_UNSUPPORTED, "a load on face '%s' needs shape = 'face'",
+                    face_name(load->face));
+    return traction_on_elements(tl, load, direction, gather);
 }
 
 static selas_status compress(struct tl_model *tl, const double *force, struct tl_load *load,

@@ -218,13 +218,14 @@ static double distance(const double *a, const double *b)
     return sqrt(square);
 }
 
-/* Pairs of nearest points (8 in a plane lattice, 26 in space): k_ij = hourglass * (lambda + 2 mu) * volume /
- * (neighbours * |X_ij|^2), so that the penalty's strain counts like the modulus times `hourglass`. */
+/* Pairs of nearest points (8 in a plane lattice, 18 in space): k_ij = hourglass * (lambda + 2 mu) * volume /
+ * (2 dimension |X_ij|^2), so that what the gradients miss of the strain e_ij / |X_ij| counts as a strain with
+ * about `hourglass` times the modulus. */
 static selas_status hourglass_pairs(struct tl_model *tl, const struct neighbours *near,
                                     struct messages *messages)
 {
     const size_t n = tl->cloud->points;
-    const double usual = pow(3, tl->cloud->dimension) - 1;
+    const double usual = 2 * tl->cloud->dimension;
     tl->extra = array_new((size_t)tl->cloud->dimension * n, sizeof(double));
     if (tl->extra == NULL || tl_rows_allocate(&tl->pair, n, near->start[n], 1) != SELAS_OK)
         return fail(messages, SELAS_NO_MEMORY, "no memory for hourglass pairs");
@@ -234,7 +235,7 @@ static selas_status hourglass_pairs(struct tl_model *tl, const struct neighbours
             const size_t j = near->index[k];
             if (j >= n || j == i) continue;
             const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
-            if (r > 1.8 * fmax(spacing_at(tl, i), spacing_at(tl, j))) continue;
+            if (r > 1.6 * fmax(spacing_at(tl, i), spacing_at(tl, j))) continue;
             double stiffness = 0;
             const size_t both[2] = {i, j};
             for (int e = 0; e < 2; e++) {
@@ -282,7 +283,7 @@ static size_t longest_row(const struct neighbours *near, size_t n)
     return longest;
 }
 
-static double search_radius(const struct tl_model *tl)
+double tl_search_radius(const struct tl_model *tl)
 {
     double largest = 0;
     for (size_t i = 0; i < tl->cloud->points; i++)
@@ -296,10 +297,10 @@ selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
     const size_t d = (size_t)tl->cloud->dimension;
     struct neighbours near = {0};
     struct work work = {0};
-    selas_status status = tl_make_ghosts(tl, search_radius(tl), messages);
+    selas_status status = tl_make_ghosts(tl, tl_search_radius(tl), messages);
     if (status == SELAS_OK)
-        status =
-            neighbours_find(&near, (int)d, tl->sites, tl->site_position, search_radius(tl), true, messages);
+        status = neighbours_find(&near, (int)d, tl->sites, tl->site_position, tl_search_radius(tl), true,
+                                 messages);
     if (status == SELAS_OK) {
         tl->row_sum = array_new(d * n, sizeof(double));
         if (!work_allocate(&work, longest_row(&near, n)) || tl->row_sum == NULL ||

@@ -128,8 +128,7 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
     if (status != SELAS_OK) return status;
     (*cloud)->spacing = body->spacing;
     if (body->jitter > 0) jitter(*cloud, body);
-    if (body->jitter > 0 || body->shape == BODY_PLATE_WITH_HOLE)
-        status = cloud_cells(*cloud, body, body->arrangement == ARRANGEMENT_CONFORMAL ? 40 : 0, messages);
+    if (body->jitter > 0 || body->shape == BODY_PLATE_WITH_HOLE) status = cloud_cells(*cloud, body, messages);
     if (status == SELAS_OK) status = cloud_surface(*cloud, body, messages);
     if (status != SELAS_OK) cloud_free(cloud);
     return status;

@@ -49,8 +49,7 @@ selas_status cloud_surface(struct cloud *cloud, const struct body *body, struct 
 selas_status cloud_plate(const struct body *body, struct cloud **cloud, struct messages *messages);
 /* points/points_file.c: text or HDF5. */
 selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages);
-/* points/cells.c: volumes of the Voronoi cells inside the body; `relax` sweeps of moving each point to the
- * centroid of its cell before (0: points stay). Dimensions 1 and 2; in 3D boxes without relaxation. */
-selas_status cloud_cells(struct cloud *cloud, const struct body *body, int relax, struct messages *messages);
+/* points/cells.c: volumes of the Voronoi cells inside the body (3D: boxes only). */
+selas_status cloud_cells(struct cloud *cloud, const struct body *body, struct messages *messages);
 
 #endif

@@ -5,8 +5,7 @@
  *   radial          rings one spacing apart, the same number of points on each (rays)
  *   equally radial  rings one spacing apart, points one spacing apart on each
  *   conformal       rings r(s) = R + s (D - R), 0 < s < 1, where D(angle) is the distance to the box: circles
- *                   at the hole, the box's edges outside; points evenly spaced along each ring, then relaxed
- *                   by Lloyd's iteration (points/cells.c) */
+ *                   at the hole, the box's edges outside; points evenly spaced along each ring */
 #include "points/cloud.h"
 
 #include <math.h>
