@@ -30,8 +30,8 @@ const struct item *group_item(const struct deck_group *group, const char *name, 
 
 size_t group_values(const struct deck_group *group, size_t word)
 {
-    const size_t given = group->item[word].values, defaults = group->defaults[word].values;
-    return given > defaults ? given : defaults;
+    const size_t given = group->item[word].values;
+    return given > 0 ? given : group->defaults[word].values;
 }
 
 const struct value *group_value(const struct deck_group *group, size_t word, size_t i)
@@ -73,10 +73,34 @@ static bool is_text(enum word_type type)
     return type >= WORD_TEXT;
 }
 
+static bool same_value(enum word_type type, const struct value *one, const struct value *other)
+{
+    switch (type) {
+    case WORD_REAL:
+        return one->as.real == other->as.real;
+    case WORD_INTEGER:
+        return one->as.integer == other->as.integer;
+    case WORD_LOGICAL:
+        return one->as.logical == other->as.logical;
+    case WORD_TEXT:
+    case WORD_FILE:
+    case WORD_CHOICE:
+        return strcmp(one->as.text, other->as.text) == 0;
+    }
+    return false;
+}
+
 bool deck_given(const struct deck_group *group, const char *name)
 {
     size_t word;
-    return group_item(group, name, &word)->values > 0;
+    const struct item *item = group_item(group, name, &word), *defaults = &group->defaults[word];
+    for (size_t i = 0; i < item->values; i++) {
+        if (!item->value[i].given) continue;
+        if (i >= defaults->values ||
+            !same_value(group->kind->word[word].type, &item->value[i], &defaults->value[i]))
+            return true;
+    }
+    return false;
 }
 
 size_t deck_values(const struct deck_group *group, const char *name)

@@ -31,7 +31,8 @@ size_t deck_count(const struct deck *deck, const char *group);
 /* Occurrence `index` (from 0) of a group. */
 const struct deck_group *deck_get(const struct deck *deck, const char *group, size_t index);
 
-/* True if the deck or an override gave the name (its first value), not just its default. */
+/* True if the deck or an override gave the name a value other than its default (the echo of a deck writes all
+ * defaults and must mean the same). */
 bool deck_given(const struct deck_group *group, const char *name);
 /* Number of values: given ones or defaults; 0 if neither. Nulls among given values keep the default there. */
 size_t deck_values(const struct deck_group *group, const char *name);

@@ -24,11 +24,11 @@ enum {
 struct word {
     const char *name;
     enum word_type type;
-    size_t count;         /* most values */
-    const char *defaults; /* as written in a deck; NULL: none. The echo of a deck gives every default as if
-                             the user had: where it matters whether a name was given, let it have none */
-    const char *range;    /* numbers: an interval such as "(0, inf)" or "[0, 1)", NULL: any;
-                             choices: "one|two|three" */
+    size_t count; /* most values */
+    const char
+        *defaults;     /* as written in a deck; NULL: none. To give a name its default is as not to give it */
+    const char *range; /* numbers: an interval such as "(0, inf)" or "[0, 1)", NULL: any;
+                          choices: "one|two|three" */
     bool obligatory;
     const char *gloss; /* one line with the unit in brackets */
 };
