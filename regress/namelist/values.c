@@ -4,8 +4,10 @@
  *   values fortran TABLE        prints the Fortran program
  *   values read TABLE FILE...   prints "== FILE", then per group "& NAME" and per value given "NAME(I)
  * VALUE", or "refused" and the messages
+ *   values echo deck FILE       prints the echo of a deck
  *
  * TABLE is "sample" (a group of every type) or "deck". Reals and logicals are printed as bits. */
+#include "deck/deck.h"
 #include "deck/namelist.h"
 
 #include <inttypes.h>
@@ -132,11 +134,24 @@ static void read_file(const struct word_table *table, const char *path)
     messages_free(&messages);
 }
 
+static int echo(const char *path)
+{
+    struct messages messages = {0};
+    struct deck *deck;
+    selas_status status = deck_read_file(path, 0, NULL, &deck, &messages);
+    if (status == SELAS_OK) status = deck_write(deck, stdout, &messages);
+    if (messages.text != NULL) fputs(messages.text, stderr);
+    deck_free(&deck);
+    messages_free(&messages);
+    return status == SELAS_OK ? 0 : 1;
+}
+
 int main(int count, char **argument)
 {
     if (count < 3) return 2;
     const struct word_table *table = strcmp(argument[2], "sample") == 0 ? &sample : deck_words();
     if (strcmp(argument[1], "fortran") == 0) write_fortran(table);
+    if (strcmp(argument[1], "echo") == 0) return count == 4 ? echo(argument[3]) : 2;
     for (int i = 3; i < count; i++)
         read_file(table, argument[i]);
     return 0;
