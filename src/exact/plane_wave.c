@@ -333,7 +333,7 @@ static void describe(const struct exact *exact,
 {
     const struct plane_wave *wave = (const struct plane_wave *)exact;
     const struct scene *scene = exact->scene;
-    char text[128];
+    char text[192];
     double until = INFINITY;
     size_t first = 0;
     tell(context, "exact solution",

@@ -80,8 +80,8 @@ static bool check_definite(struct builder *builder, const struct deck_group *gro
                            const struct material *material)
 {
     const double lambda = material->lambda, mu = material->mu;
-    if (!isfinite(lambda) || !isfinite(mu)) {
-        complain(builder, group, pairs[pair][0], "the elastic constants are not finite");
+    if (!isfinite(3 * lambda + 2 * mu) || !isfinite((lambda + 2 * mu) / material->density)) {
+        complain(builder, group, pairs[pair][0], "the elastic constants are too large to be computed with");
         return false;
     }
     if (mu > 0 && 3 * lambda + 2 * mu > 0) return true;
@@ -106,11 +106,11 @@ static bool check_definite(struct builder *builder, const struct deck_group *gro
 static void complete(const struct scene *scene, struct material *material)
 {
     const double lambda = material->lambda, mu = material->mu;
-    material->young = mu * (3 * lambda + 2 * mu) / (lambda + mu);
+    material->young = (3 * lambda + 2 * mu) / (lambda + mu) * mu;
     material->poisson = lambda / (2 * (lambda + mu));
     material->plane_lambda = lambda;
     if (scene->plane == PLANE_STRESS && scene->dimension == 2)
-        material->plane_lambda = 2 * lambda * mu / (lambda + 2 * mu);
+        material->plane_lambda = 2 * mu / (lambda + 2 * mu) * lambda;
     if (scene->plane == PLANE_STRESS && scene->dimension == 1)
         material->plane_lambda = material->young - 2 * mu;
     material->p_speed = sqrt((material->plane_lambda + 2 * mu) / material->density);
