@@ -7,9 +7,9 @@
  *
  * In any other direction, and beside faces that disturb, the wave of an infinite solid is right at a place
  * until the fastest wave from the nearest disturbing face can have arrived: distance / p_speed. */
+#include "exact/plane_wave.h"
 #include "base/memory.h"
 #include "exact/dalembert.h"
-#include "exact/plane_wave.h"
 #include "scene/initial.h"
 
 #include <math.h>
