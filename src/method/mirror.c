@@ -130,7 +130,9 @@ static void observe(struct model *model, const struct probe *probe, selas_field 
                     const double *a, double *value)
 {
     struct mirror *mirror = (struct mirror *)model;
-    probe_observe(mirror->part, probe, field, y, a, value);
+    struct probe inside = *probe; /* methods may go by the position, which must lie in the part */
+    fold(mirror, probe->position, inside.position);
+    model_observe(mirror->part, &inside, field, y, a, value);
     double h[3][3];
     if (probe->mirrored == 0) return;
     reflection(mirror, probe->mirrored, h);

@@ -129,7 +129,11 @@ void probe_free(struct probe *probe);
  * material in the scene's dimension and plane (out-of-plane strain and stress included). */
 void field_from_values(const struct model *model, const struct material *material,
                        const struct point_values *values, selas_field field, double *value);
+/* The linear standard (methods without an `observe` of their own). */
 void probe_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                   const double *a, double *value);
+/* Value of a field at a probe by the method's own `observe` or the standard: what everybody else calls. */
+void model_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                    const double *a, double *value);
 int field_components(selas_field field); /* 3, 6 or 1 */
 const char *field_name(selas_field field);

@@ -204,3 +204,12 @@ void probe_observe(struct model *model, const struct probe *probe, selas_field f
     }
     field_from_values(model, probe->material, &values, field, value);
 }
+
+void model_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                   const double *a, double *value)
+{
+    if (model->class->observe != NULL)
+        model->class->observe(model, probe, field, y, a, value);
+    else
+        probe_observe(model, probe, field, y, a, value);
+}

@@ -86,7 +86,7 @@ static void add_point(struct model *model, const struct state *state, const stru
     for (int field = 0; field <= LAST_FIELD; field++) {
         if ((record->profile->fields >> field & 1U) == 0) continue;
         double value[6] = {0};
-        probe_observe(model, &record->probe[point], (selas_field)field, state->y, state->a, value);
+        model_observe(model, &record->probe[point], (selas_field)field, state->y, state->a, value);
         const int components = field_components((selas_field)field);
         for (int c = 0; c < components; c++)
             sum[c] += weight * value[c];

@@ -65,7 +65,7 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
 void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
                     double *value)
 {
-    probe_observe(recorder->model, &recorder->trace[receiver].probe, field, state->y, state->a, value);
+    model_observe(recorder->model, &recorder->trace[receiver].probe, field, state->y, state->a, value);
 }
 
 static selas_status write_deck(const struct recorder *recorder, struct messages *messages)

@@ -61,7 +61,7 @@ selas_status trace_observe(struct recorder *recorder, const struct state *state,
         bool finite = true;
         for (size_t k = 0; k < 3; k++) {
             double value[6] = {0};
-            probe_observe(model, &trace->probe, field[k], state->y, state->a, value);
+            model_observe(model, &trace->probe, field[k], state->y, state->a, value);
             memcpy(part[k] + 3 * trace->rows, value, 3 * sizeof *value);
             finite = finite && three_finite(value);
         }
