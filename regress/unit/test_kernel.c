@@ -76,8 +76,8 @@ static void test_derivatives(void **state)
         for (int dimension = 1; dimension <= 3; dimension++) {
             const struct kernel *kernel = kernel_find(kernel_name(i));
             const double size = kernel_value(kernel, dimension, 0, h);
-            for (double q = .07; q < kernel->support + .2; q += .13) {
-                const double r = q * h;
+            for (int k = 0; .07 + .13 * k < kernel->support + .2; k++) {
+                const double r = (.07 + .13 * k) * h;
                 const double up = kernel_value(kernel, dimension, r + step, h);
                 const double down = kernel_value(kernel, dimension, r - step, h);
                 const double slope = kernel_derivative(kernel, dimension, r, h);

@@ -93,9 +93,10 @@ static void test_lattice_stencil(void **state)
     enum { N = 6 };
     static double position[3 * N * N * N];
     for (size_t i = 0; i < N * N * N; i++) {
+        const size_t row = i / N, layer = row / N;
         position[3 * i] = .5 * (double)(i % N);
-        position[3 * i + 1] = .5 * (double)(i / N % N);
-        position[3 * i + 2] = .5 * (double)(i / (N * N));
+        position[3 * i + 1] = .5 * (double)(row % N);
+        position[3 * i + 2] = .5 * (double)layer;
     }
     struct neighbours neighbours = {0};
     struct messages messages = {0};

@@ -1,26 +1,10 @@
 /* The operator of the published smoothed point method: statistical volumes and areas, row sums, symmetry and
  * its loss, patch tests where they hold and how far they fail where they do not, rotation, threads. */
 #include "base/memory.h"
-#include "box_scene.h"
-#include "method/paper.h"
+#include "paper_box.h"
 
 #include <omp.h>
 #include <string.h>
-
-static struct paper *create(struct box_scene *box, const struct paper_options *options)
-{
-    struct messages messages = {0};
-    struct model *model;
-    const selas_status status = paper_create(&box->scene, options, &model, &messages);
-    if (status != SELAS_OK) print_error("%s", messages.text);
-    assert_int_equal(status, SELAS_OK);
-    return (struct paper *)model;
-}
-
-static void destroy(struct paper *paper)
-{
-    paper->model.class->destroy(&paper->model);
-}
 
 /* Acceleration of a displacement field without loads and dampers. */
 static void accelerate(struct paper *paper, const double *u, double *a)

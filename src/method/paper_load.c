@@ -171,21 +171,19 @@ static selas_status make_traction(struct paper *paper, const struct load *load, 
 }
 
 /* Force per volume at a point that sees the source at d = x_a - centre: a force F gives F W, a moment tensor
- * (body force -M_ij delta_,j) gives M_ij W_,j. */
+ * (body force -M_ij delta_,j) gives
+ * -M_ij W_,j. */
 static void push_of_source(const struct paper *paper, const struct load *load, const double d[3],
                            double *push)
 {
     static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    double square = 0;
-    for (int c = 0; c < paper->dimension; c++)
-        square += d[c] * d[c];
-    const double r = sqrt(square);
+    const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double value = kernel_value(paper->options.kernel, paper->dimension, r, paper->h);
     const double slope = kernel_derivative_over_r(paper->options.kernel, paper->dimension, r, paper->h);
     for (int i = 0; i < paper->dimension; i++) {
         push[i] = load->kind == LOAD_BODY_FORCE ? load->amplitude * load->direction[i] * value : 0;
-        for (int j = 0; j < paper->dimension && load->kind == LOAD_MOMENT_TENSOR; j++)
-            push[i] += load->amplitude * load->moment[place[i][j]] * slope * d[j];
+        for (int j = 0; j < 3 && load->kind == LOAD_MOMENT_TENSOR; j++)
+            push[i] -= load->amplitude * load->moment[place[i][j]] * slope * d[j];
     }
 }
 
@@ -280,10 +278,9 @@ static selas_status make_rows(struct paper *paper, struct messages *messages)
 selas_status paper_make_loads(struct paper *paper, struct messages *messages)
 {
     const struct scene *scene = paper->model.scene;
-    selas_status status = make_rows(paper, messages);
     paper->load = array_new(scene->loads, sizeof *paper->load);
-    if (status == SELAS_OK && paper->load == NULL)
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+    if (paper->load == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+    selas_status status = make_rows(paper, messages);
     for (size_t k = 0; k < scene->loads && status == SELAS_OK; k++)
         status = scene->load[k].kind == LOAD_TRACTION
                      ? make_traction(paper, &scene->load[k], &paper->load[k], messages)

@@ -71,7 +71,7 @@ static void add_surface_term(const struct paper *paper, const struct kernel_slop
 /* Takes the sum of a row of blocks off its diagonal: the same as K (u_b - u_a). */
 static void zero_row_sum(struct paper *paper, size_t a)
 {
-    const size_t size = (size_t)(paper->dimension * paper->dimension);
+    const size_t dimension = (size_t)paper->dimension, size = dimension * dimension;
     double sum[9] = {0}, *diagonal = NULL;
     for (size_t p = paper->near.start[a]; p < paper->near.start[a + 1]; p++) {
         double *block = paper->block + size * p;
@@ -86,7 +86,7 @@ static void zero_row_sum(struct paper *paper, size_t a)
 selas_status paper_make_operator(struct paper *paper, struct messages *messages)
 {
     const struct neighbours *near = &paper->near;
-    const size_t size = (size_t)(paper->dimension * paper->dimension);
+    const size_t dimension = (size_t)paper->dimension, size = dimension * dimension;
     paper->block = array_new(size * near->start[near->points], sizeof *paper->block);
     if (paper->block == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the operator: %zu pairs of points",
