@@ -335,6 +335,41 @@ static void steps_in_order(void **state)
     fake_clear(&fake);
 }
 
+/* Seen through the method's own function where it has one. */
+static void own_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                        const double *a, double *value)
+{
+    probe_observe(model, probe, field, y, a, value);
+    for (int c = 0; c < field_components(field); c++)
+        value[c] = 7.0 - value[c];
+}
+
+static void own_observe_is_asked(void **state)
+{
+    (void)state;
+    static struct model_class class;
+    class = fake_class;
+    class.observe = own_observe;
+    struct fake fake;
+    fake_build(&fake, 3, line, 0.25, 0.1, 1.0);
+    fake.model.class = &class;
+    fake.scene.receivers = 1;
+    struct messages messages = {0};
+    struct recorder *recorder = NULL;
+    assert_int_equal(recorder_create(&fake.scene, &fake.model, &fake.stepper, &recorder, &messages),
+                     SELAS_OK);
+    assert_int_equal(fake_run(&fake, recorder, &messages), SELAS_OK);
+    assert_int_equal(recorder_finish(recorder, &messages), SELAS_OK);
+    const struct history_rows history = recorder_history(recorder, 0);
+    const double origin[3] = {0.0, 0.0, 0.0};
+    assert_true(fabs(history.value[6 * 10 + 5] - (7.0 - fake_truth(origin, 2, 1.0, 1))) < 1e-14);
+    double value[6];
+    recorder_value(recorder, 0, SELAS_VELOCITY, &fake.state, value);
+    assert_true(fabs(value[2] - (7.0 - fake_truth(origin, 2, 1.1, 1))) < 1e-14);
+    recorder_free(&recorder);
+    fake_clear(&fake);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -349,6 +384,7 @@ int main(void)
         cmocka_unit_test_setup(nan_is_found, reset),
         cmocka_unit_test_setup(energy_against_work, reset),
         cmocka_unit_test_setup(steps_in_order, reset),
+        cmocka_unit_test_setup(own_observe_is_asked, reset),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

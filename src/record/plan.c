@@ -112,7 +112,7 @@ void plan_tell(const struct recorder *recorder,
     const struct teller teller = {tell, context};
     const struct scene *scene = recorder->scene;
     const struct model *model = recorder->model;
-    say(&teller, "title", "%s", scene->title);
+    if (scene->title[0] != '\0') say(&teller, "title", "%s", scene->title);
     if (scene->deck != NULL) say(&teller, "deck", "%s", deck_name(scene->deck));
     say(&teller, "dimension", "%d", scene->dimension);
     say(&teller, "method", "%s", model->class->method);

@@ -1,0 +1,85 @@
+#!/bin/sh
+# What a run leaves, read back by others' programs: h5dump, awk. Argument: the build folder. Prints TAP.
+build=${1:-build}
+selas=$PWD/$build/selas
+work=$(mktemp -d "${TMPDIR:-/tmp}/selas-results-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+failures=0
+check() { # check WHAT COMMAND...: ok if the command succeeds
+    what=$1
+    shift
+    if "$@" >"$work/said" 2>&1; then
+        echo "ok - $what"
+    else
+        echo "not ok - $what"
+        sed 's/^/# /' "$work/said"
+        failures=$((failures + 1))
+    fi
+}
+cat >"$work/small.nml" <<'END'
+&scene title = 'A small half-space', dimension = 3, end_time = 3.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body name = 'ground', material = 'rock', shape = 'box', low = 0, 0, 0, high = 5, 5, 5, spacing = 0.5 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting' /
+&load face = 'z-', shape = 'square', centre = 2.5, 2.5, 0.0, size = 1.0, 1.0
+  direction = 0, 0, 1, history = 'triangle', duration = 2.0 /
+&receiver name = 'centre', position = 2.5, 2.5, 0.0 /
+&receiver name = 'side', position = 3.3, 2.1, 0.4 /
+&profile name = 'depth', from = 2.5, 2.5, 0.0, to = 2.5, 2.5, 5.0, points = 11, times = 1.0, 2.0, fields = 'velocity', 'stress' /
+&snapshot every = 1.0, fields = 'velocity', 'pressure' /
+&snapshot times = 1.5, fields = 'displacement', region = 0, 0, 0, 2, 5, 1 /
+&output plots = .false., history_step = 0.1 /
+END
+cd "$work" || exit 1
+check "the deck runs" "$selas" small.nml output%directory=out
+for name in deck.nml centre.dat side.dat depth.dat run.h5 run.xdmf report.txt; do
+    check "there is $name" test -s "out/$name"
+done
+check "no temporary file is left" sh -c '! ls out | grep -q "\.part$"'
+check "h5dump reads all of run.h5" h5dump -o /dev/null out/run.h5
+extent() { h5dump -H -d "$1" out/run.h5 | grep -q "SIMPLE { ( $2 ) /"; }
+check "histories are rows x 7" extent /histories/side "31, 7"
+check "a snapshot has 11^3 points x 3" extent /snapshots/0001/velocity "1331, 3"
+check "a pressure has one component" extent /snapshots/0001/pressure "1331, 1"
+check "a region has its own points" extent /snapshots/0002/displacement "165, 3"
+check "the region's positions fit" extent /points/region_2/position "165, 3"
+check "a setting is an attribute" sh -c 'h5dump -a /settings/body_1/spacing out/run.h5 | grep -q "(0): 0.5"'
+check "the deck is in run.h5" sh -c 'h5dump -a /provenance/deck out/run.h5 | grep -q "A small half-space"'
+same_numbers() { # histories in run.h5 and in the text file are the same numbers
+    h5dump -y -w 0 -m %.17g -d /histories/side -o table out/run.h5 >/dev/null && tr -d ', \n' <table >a &&
+        grep -v '^#' out/side.dat | tr -d ' \n' >b && cmp a b
+}
+check "run.h5 and side.dat hold the same numbers" same_numbers
+in_the_file() { # every data set that run.xdmf names is in run.h5
+    sed -n 's/.*run\.h5:\([^<]*\)<.*/\1/p' out/run.xdmf | sort -u >named
+    test "$(wc -l <named)" -ge 9 || return 1
+    while read -r set; do h5dump -H -d "$set" out/run.h5 >/dev/null || return 1; done <named
+}
+check "run.xdmf names data sets that are there" in_the_file
+check "run.xdmf closes what it opens" awk '
+    { while (match($0, /<\/?[A-Za-z]+[^>]*>/)) {
+          tag = substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH)
+          if (tag ~ /\/>$/) continue
+          name = tag; gsub(/[<>\/]| .*/, "", name)
+          if (tag ~ /^<\//) { if (open[depth--] != name) exit 1 } else open[++depth] = name } }
+    END { if (depth != 0) exit 1 }' out/run.xdmf
+check "the profile has two blocks of 11 rows of 4 + 3 + 6 columns" awk '
+    !/^#/ && NF { rows++; if (NF != 13) bad = 1 } /^# t = / { blocks++ } END { exit !(rows == 22 && blocks == 2 && !bad) }' out/depth.dat
+check "report.txt has a key and a value on every line" awk '!/^[^:]+: ./ { print; bad = 1 } END { exit bad }' out/report.txt
+check "the energy balance closes" awk -F': ' '$1 == "energy balance defect" { seen = 1; split($2, w, " "); if (w[1] > 0.02) exit 1 } END { if (!seen) exit 1 }' out/report.txt
+check "the echoed deck runs" "$selas" out/deck.nml output%directory=again
+grep -v '^#' out/side.dat >first
+grep -v '^#' again/side.dat >second
+check "... to the same bits" cmp first second
+mkdir killed
+echo older >killed/run.h5
+"$selas" small.nml output%directory=killed body%spacing=0.25 scene%end_time=6000 >/dev/null 2>&1 &
+run=$!
+sleep 1
+kill -9 $run 2>/dev/null
+wait $run 2>/dev/null
+check "a killed run leaves the older run.h5" grep -qx older killed/run.h5
+check "... and no half files" sh -c '! ls killed | grep -qE "\.(dat|png|xdmf|txt)$"'
+touch file
+check "a folder that cannot be made is told, exit 1" sh -c '"$0" small.nml output%directory=file/out; test $? -eq 1' "$selas"
+exit $((failures > 0))
