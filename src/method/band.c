@@ -110,35 +110,36 @@ bool band_factorise(const struct band *band, double *factor)
     return true;
 }
 
+/* row -= factor * other */
+static void subtract(double factor, const double *restrict other, size_t lanes, double *restrict row)
+{
+#pragma omp simd
+    for (size_t lane = 0; lane < lanes; lane++)
+        row[lane] -= factor * other[lane];
+}
+
+static void scale(double factor, size_t lanes, double *row)
+{
+#pragma omp simd
+    for (size_t lane = 0; lane < lanes; lane++)
+        row[lane] *= factor;
+}
+
 void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
     for (size_t i = 0; i < n; i++) {
-        const size_t reach = smaller(i, half);
-        double *restrict row = x + i * stride;
-        const double scale = factor[i];
-#pragma omp simd
-        for (size_t lane = 0; lane < lanes; lane++) {
-            double sum = row[lane];
-            for (size_t d = 1; d <= reach; d++)
-                sum -= factor[d * n + i] * x[(i - d) * stride + lane];
-            row[lane] = sum * scale;
-        }
+        for (size_t d = 1; d <= smaller(i, half); d++)
+            subtract(factor[d * n + i], x + (i - d) * stride, lanes, x + i * stride);
+        scale(factor[i], lanes, x + i * stride);
     }
 }
 
 void band_backward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
     for (size_t i = n; i-- > 0;) {
-        const size_t reach = smaller(n - 1 - i, half);
-        double *restrict row = x + i * stride;
-        const double scale = factor[i];
-#pragma omp simd
-        for (size_t lane = 0; lane < lanes; lane++) {
-            double sum = row[lane];
-            for (size_t d = 1; d <= reach; d++)
-                sum -= factor[d * n + i + d] * x[(i + d) * stride + lane];
-            row[lane] = sum * scale;
-        }
+        for (size_t d = 1; d <= smaller(n - 1 - i, half); d++)
+            subtract(factor[d * n + i + d], x + (i + d) * stride, lanes, x + i * stride);
+        scale(factor[i], lanes, x + i * stride);
     }
 }
 

@@ -26,9 +26,10 @@ static void basis(const struct spline *s, size_t first, double t, double *value,
 {
     const size_t p = (size_t)s->degree;
     const double *knot = s->knot + first; /* the element lies between knot[p] and knot[p + 1] */
-    value[0] = 1;
+    for (size_t j = 0; j <= p; j++)
+        value[j] = slope[j] = j == 0;
     for (size_t degree = 1; degree <= p; degree++) {
-        double below[SPLINE_MAX_LOCAL];
+        double below[SPLINE_MAX_LOCAL] = {0};
         for (size_t j = 0; j < degree; j++)
             below[j] = value[j];
         for (size_t j = 0; j <= degree; j++) {
@@ -135,9 +136,10 @@ static double *inner_knots_mapped(const struct spline_choice *choice, size_t cel
     double *inner = array_new(cells + 1, sizeof *inner);
     *count = 0;
     if (inner == NULL) return NULL;
-    double at = choice->degree % 2 == 0 ? .5 : 0;
-    for (; at < domain[1] - .25; at += 1)
-        if (at > domain[0] + .25) inner[(*count)++] = at;
+    for (size_t i = 0; i <= cells; i++) {
+        const double at = (double)i + (choice->degree % 2 == 0 ? .5 : 0);
+        if (at > domain[0] + .25 && at < domain[1] - .25) inner[(*count)++] = at;
+    }
     return inner;
 }
 

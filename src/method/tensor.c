@@ -6,7 +6,7 @@
 #include <omp.h>
 #include <string.h>
 
-enum { ALIGN = 8 }; /* doubles a cache line */
+enum { ALIGN = 8, MAX_TAPS = 64 }; /* doubles a cache line */
 
 struct z_item {
     int in;
@@ -138,38 +138,74 @@ size_t tensor_plan_bytes(const struct tensor_plan *plan)
     return (size_t)plan->threads * plan->thread_size * sizeof(double);
 }
 
-/* out[i] (+)= factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n. */
-static void pass_across(const struct band *matrix, size_t at, double factor, const double *in, size_t stride,
-                        size_t n, bool add, double *restrict out)
+/* out[i] += sum over d of weight[d] * in[d * stride + i]; inlined with a constant number of taps, so that the
+ * inner loop is unrolled, the sum stays in registers and the loop over i becomes a vector loop. */
+static inline __attribute__((always_inline)) void taps_across(size_t taps, const double *restrict weight,
+                                                              const double *restrict in, size_t stride,
+                                                              size_t n, double *restrict out)
 {
-    const size_t half = matrix->half;
-    const size_t from = at < half ? half - at : 0;
-    const size_t end = matrix->n - at + half < 2 * half + 1 ? matrix->n - at + half : 2 * half + 1;
-    const double *first = in + (at + from) * stride - half * stride;
-    double weight[64];
-    const size_t taps = end - from;
-    for (size_t d = 0; d < taps; d++)
-        weight[d] = factor * matrix->value[(from + d) * matrix->n + at];
-#pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        double sum = add ? out[i] : 0;
+        double sum = out[i];
         for (size_t d = 0; d < taps; d++)
-            sum += weight[d] * first[d * stride + i];
+            sum += weight[d] * in[d * stride + i];
         out[i] = sum;
     }
 }
 
-/* out[i] += factor * (A in)[i] along a row; in has zeros on both sides. */
-static void pass_along(const struct band *matrix, double factor, const double *in, double *restrict out)
+/* out[i] += factor * sum over d of value[d * n + i] * in[d + i]. */
+static inline __attribute__((always_inline)) void taps_along(size_t taps, const double *restrict value,
+                                                             double factor, const double *restrict in,
+                                                             size_t n, double *restrict out)
 {
-    const size_t n = matrix->n, half = matrix->half;
-    const double *value = matrix->value, *first = in - half;
-#pragma omp simd
     for (size_t i = 0; i < n; i++) {
         double sum = 0;
-        for (size_t d = 0; d <= 2 * half; d++)
-            sum += value[d * n + i] * first[d + i];
+        for (size_t d = 0; d < taps; d++)
+            sum += value[d * n + i] * in[d + i];
         out[i] += factor * sum;
+    }
+}
+
+/* Numbers of taps of the usual degrees and masses. */
+#define USUAL_TAPS(CASE) CASE(3) CASE(5) CASE(7) CASE(9) CASE(13) CASE(17)
+
+/* out[i] += factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n. */
+static void pass_across(const struct band *matrix, size_t at, double factor, const double *in, size_t stride,
+                        size_t n, double *out)
+{
+    const size_t half = matrix->half;
+    const size_t from = at < half ? half - at : 0;
+    const size_t end = matrix->n - at + half < 2 * half + 1 ? matrix->n - at + half : 2 * half + 1;
+    const double *first = in + (at + from - half) * stride;
+    double weight[MAX_TAPS] = {0};
+    for (size_t d = from; d < end; d++)
+        weight[d - from] = factor * matrix->value[d * matrix->n + at];
+    switch (end - from) {
+#define CASE(taps)                                                                                           \
+    case taps:                                                                                               \
+        taps_across(taps, weight, first, stride, n, out);                                                    \
+        break;
+        USUAL_TAPS(CASE)
+#undef CASE
+    default:
+        for (size_t d = 0; d < end - from; d++)
+            taps_across(1, weight + d, first + d * stride, stride, n, out);
+    }
+}
+
+/* out[i] += factor * (A in)[i] along a row; in has zeros on both sides. */
+static void pass_along(const struct band *matrix, double factor, const double *in, double *out)
+{
+    const size_t n = matrix->n, half = matrix->half;
+    switch (2 * half + 1) {
+#define CASE(taps)                                                                                           \
+    case taps:                                                                                               \
+        taps_along(taps, matrix->value, factor, in - half, n, out);                                          \
+        break;
+        USUAL_TAPS(CASE)
+#undef CASE
+    default:
+        for (size_t d = 0; d <= 2 * half; d++)
+            taps_along(1, matrix->value + d * n, factor, in + d - half, n, out);
     }
 }
 
@@ -188,9 +224,10 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
     double *row = buffer + plan->z_items * step + plan->pad;
     for (size_t i = 0; i < plan->z_items; i++) {
         const double *in = u + (size_t)plan->z[i].in * plan->volume;
-        if (plan->z[i].matrix != NULL)
-            pass_across(plan->z[i].matrix, k, 1, in, plane, plane, false, buffer + i * step);
-        else
+        if (plan->z[i].matrix != NULL) {
+            memset(buffer + i * step, 0, plane * sizeof *buffer);
+            pass_across(plan->z[i].matrix, k, 1, in, plane, plane, buffer + i * step);
+        } else
             memcpy(buffer + i * step, in + k * plane, plane * sizeof *in);
     }
     for (size_t x = 0, y = 0; x < plan->x_items; x++) {
@@ -200,17 +237,18 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
             y_end++;
         for (size_t j = 0; j < plan->n[1]; j++) {
             double *result = out[target->out] + j * nx;
-            double *sum = target->matrix != NULL ? row : result;
-            const double scale = target->matrix != NULL ? 1 : factor;
-            if (sum == row) memset(row, 0, nx * sizeof *row);
+            const bool along = target->matrix != NULL;
+            double *sum = along ? row : result;
+            const double scale = along ? 1 : factor;
+            if (along) memset(row, 0, nx * sizeof *row);
             for (size_t i = y; i < y_end; i++) {
                 const double *in = buffer + plan->y[i].source * step;
                 if (plan->y[i].matrix != NULL)
-                    pass_across(plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, true, sum);
+                    pass_across(plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum);
                 else
                     add_row(scale * plan->y[i].factor, in + j * nx, nx, sum);
             }
-            if (sum == row) pass_along(target->matrix, factor, row, result);
+            if (along) pass_along(target->matrix, factor, row, result);
         }
         y = y_end;
     }
