@@ -129,7 +129,10 @@ static void print_summary(const selas_simulation *simulation)
     FILE *report = fopen(path, "r");
     if (report == NULL) return;
     while (fgets(line, sizeof line, report) != NULL)
-        if (strncmp(line, "speed.", 6) == 0 || strncmp(line, "error.", 6) == 0) fputs(line, stdout);
+        if (strncmp(line, "point-steps", 11) == 0 || strncmp(line, "CPU seconds", 11) == 0 ||
+            (strncmp(line, "error", 5) == 0 &&
+             (strstr(line, "velocity") != NULL || strstr(line, " vz:") != NULL)))
+            fputs(line, stdout);
     fclose(report);
     printf("results in %s/\n", selas_output_directory(simulation));
 }
