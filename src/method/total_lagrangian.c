@@ -93,7 +93,7 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     const size_t d = (size_t)tl->cloud->dimension;
     all_forces(tl, drive, u, v);
     const bool damped = tl->damper != NULL && v != NULL;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (tl->cloud->points > TL_SERIAL)
     for (size_t i = 0; i < tl->cloud->points; i++)
         for (size_t k = d * i; k < d * (i + 1); k++) {
             const double damper = damped ? tl->damper[k] : 0;

@@ -92,6 +92,9 @@ selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
 enum { TL_PROBE_ROOM = 256 };
+/* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
+ * hundred points, much more on a busy machine). */
+enum { TL_SERIAL = 3000 };
 /* total_lagrangian_force.c: internal forces of displacements u into tl->force (points), H and A on the way.
  */
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,

@@ -69,7 +69,7 @@ static inline __attribute__((always_inline)) void gradient_of(const struct tl_mo
 static inline __attribute__((always_inline)) void gradients(struct tl_model *tl, const size_t d)
 {
     const size_t n = tl->cloud->points;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > TL_SERIAL)
     for (size_t i = 0; i < n; i++) {
         double P[9];
         double *H = tl->H + d * d * i;
@@ -102,7 +102,7 @@ static inline __attribute__((always_inline)) void mismatch(const struct tl_model
 static inline __attribute__((always_inline)) void hourglass(struct tl_model *tl, const size_t d)
 {
     const size_t n = tl->cloud->points;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > TL_SERIAL)
     for (size_t i = 0; i < n; i++) {
         double force[3] = {0};
         double moment[9] = {0};
@@ -145,7 +145,7 @@ static inline __attribute__((always_inline)) void adjoint(const struct tl_model 
 static inline __attribute__((always_inline)) void forces(struct tl_model *tl, const size_t d)
 {
     const size_t n = tl->cloud->points;
-#pragma omp parallel
+#pragma omp parallel if (n > TL_SERIAL)
     {
 #pragma omp for schedule(static)
         for (size_t s = n; s < tl->sites; s++) {
@@ -257,7 +257,7 @@ void tl_viscosity(struct tl_model *tl)
     const size_t n = tl->cloud->points;
     const size_t d = (size_t)tl->cloud->dimension;
     const double h = tl_radius(tl) / tl->options.kernel->support;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n > TL_SERIAL)
     for (size_t i = 0; i < n; i++) {
         const double speed = tl->material[i]->p_speed;
         for (size_t k = tl->viscous.start[i]; k < tl->viscous.start[i + 1]; k++) {

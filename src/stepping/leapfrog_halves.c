@@ -3,6 +3,9 @@
 
 #include <string.h>
 
+/* Below this a parallel region costs more than it saves. */
+enum { SERIAL = 20000 };
+
 void leapfrog_drift(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
@@ -13,7 +16,7 @@ void leapfrog_drift(struct stepper *stepper, struct state *state)
     const double *restrict a = state->a;
     const bool filters = model->class->after_step != NULL;
     if (filters) memcpy(stepper->work[0], u, n * sizeof *u);
-#pragma omp parallel for simd schedule(static)
+#pragma omp parallel for simd schedule(static) if (n > SERIAL)
     for (size_t i = 0; i < n; i++) {
         v[i] += 0.5 * dt * a[i];
         u[i] += dt * v[i];
@@ -29,7 +32,7 @@ void leapfrog_kick(struct stepper *stepper, struct state *state)
     double *restrict v = state->y + n;
     const double *restrict a = state->a;
     const double half = 0.5 * stepper->dt;
-#pragma omp parallel for simd schedule(static)
+#pragma omp parallel for simd schedule(static) if (n > SERIAL)
     for (size_t i = 0; i < n; i++)
         v[i] += half * a[i];
 }
