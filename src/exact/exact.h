@@ -20,6 +20,11 @@ struct exact_class {
     /* Lines for the report: how accurate, how it was computed. */
     void (*describe)(const struct exact *exact,
                      void (*tell)(void *context, const char *key, const char *value), void *context);
+    /* Lines for the report on a receiver's computed history (rows as history() gives them), e.g. its
+     * frequency; NULL: none. */
+    void (*judge)(const struct exact *exact, const struct receiver *receiver, size_t rows, const double *time,
+                  const double *value, void (*tell)(void *context, const char *key, const char *value),
+                  void *context);
 };
 
 struct exact {

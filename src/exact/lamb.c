@@ -288,4 +288,4 @@ static void describe(const struct exact *exact,
     tell(context, "exact period and decay", text);
 }
 
-const struct exact_class exact_lamb = {"lamb", create, destroy, history, describe};
+const struct exact_class exact_lamb = {"lamb", create, destroy, history, describe, NULL};

@@ -129,6 +129,9 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     if (exact != NULL) {
         fprintf(out, "reference: %s\n", exact->class->kind);
         if (exact->class->describe != NULL) exact->class->describe(exact, tell_line, out);
+        for (size_t r = 0; exact->class->judge != NULL && r < recorder->scene->receivers; r++)
+            exact->class->judge(exact, &recorder->scene->receiver[r], recorder->rows, recorder->time,
+                                recorder->trace[r].value, tell_line, out);
     }
     write_energy(out, recorder);
     write_cost(out, recorder, figures);
