@@ -103,10 +103,10 @@ double beam_plane(const struct scene *scene)
     static const struct {
         enum plane plane;
         double ratio, poisson, frequency;
-    } known[] = {{PLANE_STRESS, 5, .35, 2008.3 * .5 / 5088.4239},
-                 {PLANE_STRESS, 10, .35, 1026.2 * .5 / 5088.4239},
-                 {PLANE_STRAIN, 5, .35, 2144.7 * .5 / 5088.4239},
-                 {PLANE_STRAIN, 10, .35, 1096.7 * .5 / 5088.4239},
+    } known[] = {{PLANE_STRESS, 5, .35, 2008.3 * .5 / 5088.401487},
+                 {PLANE_STRESS, 10, .35, 1026.2 * .5 / 5088.401487},
+                 {PLANE_STRAIN, 5, .35, 2144.7 * .5 / 5088.401487},
+                 {PLANE_STRAIN, 10, .35, 1096.7 * .5 / 5088.401487},
                  {PLANE_STRESS, 10, .3975, 22.55 * .2 / 44.721360}};
     const struct material *material = &scene->material[scene->body.material];
     const struct beam beam = beam_of(scene);
