@@ -73,9 +73,12 @@ selas_status record_exact(const struct scene *scene, struct exact *exact, struct
     if (status != SELAS_OK) return status;
     double *time = array_new(rows, sizeof *time);
     double *value = array_new(6 * rows, sizeof *value);
-    if (time == NULL || value == NULL)
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for histories of %zu rows", rows);
-    for (size_t i = 0; status == SELAS_OK && i < rows; i++)
+    if (time == NULL || value == NULL) {
+        array_free(time);
+        array_free(value);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for histories of %zu rows", rows);
+    }
+    for (size_t i = 0; i < rows; i++)
         time[i] = (double)i * step;
     const struct history_rows history = {rows, time, value};
     for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++) {

@@ -151,8 +151,8 @@ selas_status trace_finish(struct recorder *recorder, struct messages *messages)
         if (status == SELAS_OK && recorder->scene->output.low_pass > 0.0)
             status = filter_trace(recorder, trace, messages);
         trace->value = array_new(6 * recorder->rows, sizeof *trace->value);
-        if (status == SELAS_OK && trace->value == NULL)
-            status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu rows", recorder->rows);
+        if (trace->value == NULL)
+            return fail(messages, SELAS_NO_MEMORY, "no memory for %zu rows", recorder->rows);
         if (status == SELAS_OK) make_rows(recorder, trace);
     }
     return status;
