@@ -123,8 +123,9 @@ static void smoothing_change(const struct paper *paper, size_t point, const doub
         change[c] = weight > 0 ? sum[c] / weight - field[dimension * point + c] : 0;
 }
 
-/* Eq 35. On displacements at every step it is dissipation that grows as the step shrinks; on the increment
- * u(n+1) - u(n) it is not. Prescribed components stay. */
+/* Eq 35 after each step. With s = strength * (1 - mean over the neighbours): on the increment it is a
+ * friction s v / dt; on the displacement as printed it is that and a spring s u / dt^2 besides. Both grow as
+ * the step shrinks. Prescribed components stay. */
 static void filter(struct model *model, double dt, const double *u_before, double *u, double *v)
 {
     struct paper *paper = (struct paper *)model;
@@ -204,6 +205,13 @@ static selas_status check(const struct scene *scene, const struct paper_options 
             return fail(messages, SELAS_UNSUPPORTED,
                         "method%%variant = 'paper' has no absorbing layer: boundary%%layer = 'lysmer' (%s)",
                         face_name((enum face)face));
+    for (int face = 0; face < BOX_FACES; face++)
+        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY)
+            warn(
+                messages,
+                "method%%variant = 'paper' only holds the normal component on the symmetry face %s, its sums "
+                "end there; the whole body is more accurate",
+                face_name((enum face)face));
     if (options->kernel == NULL || !(options->smoothing_length > 0))
         return fail(messages, SELAS_BAD_ARGUMENT, "the method needs a kernel and a smoothing length > 0");
     return SELAS_OK;
