@@ -2,13 +2,16 @@
 #include "exact/exact.h"
 #include "exact/beam.h"
 #include "exact/hole.h"
+
+#include "exact/bar.h"
 #include "exact/lamb.h"
 #include "exact/plane_wave.h"
 
 #include <string.h>
 
 static const struct exact_class *const kinds[] = {
-    &exact_beam, &exact_hole, &exact_lamb, &exact_plane_wave, NULL,
+    &exact_beam, &exact_hole,       &exact_lamb, &exact_plane_wave, NULL, &exact_bar,
+    &exact_lamb, &exact_plane_wave, NULL,
 };
 
 const struct exact_class *exact_find(const char *kind)

@@ -225,7 +225,7 @@ static bool logical_or(const struct deck_group *group, const char *name, bool st
 
 struct updated_options updated_lagrangian_published(void)
 {
-    return (struct updated_options){.kernel = kernel_find("cubic-spline"),
+    return (struct updated_options){.kernel = kernel_find("cubic"),
                                     .smoothing_length = 1.5,
                                     .alpha = 2.5,
                                     .beta = 2.5,
@@ -245,7 +245,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
         options.alpha = real_or(group, "viscosity_alpha", options.alpha);
         options.beta = real_or(group, "viscosity_beta", options.beta);
         options.artificial_stress = real_or(group, "artificial_stress", options.artificial_stress);
-        options.correction = logical_or(group, "correction", options.correction);
+        options.correction = logical_or(group, "gradient_correction", options.correction);
         options.jaumann = logical_or(group, "jaumann", options.jaumann);
     }
     struct cloud *cloud = NULL;

@@ -71,6 +71,7 @@ static void build_stepping(struct builder *builder)
         snprintf(stepping->scheme, sizeof stepping->scheme, "%s", deck_text(group, "scheme", 0));
     if (deck_values(group, "stages") > 0) stepping->stages = deck_integer(group, "stages", 0);
     if (deck_values(group, "max_stages") > 0) stepping->max_stages = deck_integer(group, "max_stages", 0);
+    stepping->paper_rule = deck_choice(group, "rule", 0) == 1;
     if (stepping->stages > 0 && stepping->max_stages > 0)
         complain(builder, group, "max_stages", "give stages or max_stages, not both");
     stepping->unwarp_given = deck_given(group, "unwarp");

@@ -25,9 +25,10 @@ void runge_kutta_add(size_t n, double *out, const double *x, double factor, cons
 /* stepping/stability.c: R(z) of a scheme with the given number of stages: y_(n+1) = R(dt lambda) y_n. */
 typedef double complex stability_polynomial(double complex z, long stages);
 
-/* Largest dt for which every mode stays bounded: the waves, whose damping is taken as proportional to their
- * stiffness (Kelvin-Voigt, which is what an artificial viscosity is), lambda^2 + d lambda + w^2 = 0,   w =
- * theta omega,   d = theta^2 wave_damping,   0 < theta <= 1, and the mode with the largest damping, lambda =
+/* Largest dt for which every mode stays bounded: the waves, lambda^2 + d lambda + w^2 = 0 with
+ *     w = omega sin(pi theta / 2),   d = theta^2 wave_damping,   0 < theta <= 1,
+ * theta being the wave number over that of the fastest wave (a discrete gradient bends over as the sine does,
+ * a viscosity grows with the square of the wave number), and the mode with the largest damping, lambda =
  * -viscous. 0 if no dt is stable (|R| > 1 + 1e-9 however small dt), INFINITY if omega = viscous = 0. */
 double stability_limit(stability_polynomial *polynomial, long stages, const struct spectrum *spectrum);
 /* True if every such mode stays bounded with this dt. */

@@ -17,7 +17,7 @@ bool stability_bounded(stability_polynomial *polynomial, long stages, const stru
         return false;
     for (int k = modes; k > 0; k--) {
         const double theta = (double)k / modes;
-        const double frequency = theta * spectrum->omega * dt,
+        const double frequency = sin(M_PI / 2 * theta) * spectrum->omega * dt,
                      damping = theta * theta * spectrum->wave_damping * dt;
         const double complex root = csqrt(damping * damping / 4 - frequency * frequency);
         if (cabs(polynomial(-damping / 2 - root, stages)) > 1 + tolerance) return false;

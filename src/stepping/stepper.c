@@ -178,13 +178,13 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     const struct scene *scene = stepper->model->scene;
     const struct model_class *class = stepper->model->class;
     const char *name = scene->stepping.scheme;
-    if (name[0] == '\0') name = class->accelerate != NULL ? "leapfrog" : "rk4"; /* the defaults */
+    if (name[0] == '\0') /* the defaults */
+        name = class->accelerate != NULL ? "leapfrog" : stepper->model->damped ? "rkc" : "rk4";
     stepper->scheme = scheme_find(name);
     if (stepper->scheme == NULL) return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", name);
     if (stepper->scheme->needs_acceleration && class->accelerate == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
                     stepper->scheme->name, class->method, class->variant);
-    stepper->stages = scene->stepping.stages;
     selas_status status = choose_step(stepper, messages);
     if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
     if (status != SELAS_OK) return status;
