@@ -365,10 +365,9 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
     tl->material = array_new(n, sizeof *tl->material);
     tl->elastic = array_new(n, sizeof *tl->elastic);
     tl->deck_position = array_new(3 * n, sizeof *tl->deck_position);
-    tl->H = array_new(d * d * n, sizeof *tl->H);
     tl->A = array_new(d * d * n, sizeof *tl->A);
     if (tl->mass == NULL || tl->material == NULL || tl->elastic == NULL || tl->deck_position == NULL ||
-        tl->H == NULL || tl->A == NULL)
+        tl->A == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
     for (size_t i = 0; i < n; i++) {
         const double *x = tl->cloud->position + 3 * i;
@@ -407,8 +406,9 @@ static void fill_model(struct tl_model *tl)
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
     model->bytes = sizeof *tl + rows_bytes(&tl->gradient, n, d) + rows_bytes(&tl->transposed, tl->sites, d) +
                    rows_bytes(&tl->pair, n, 1) + rows_bytes(&tl->viscous, n, 1) +
-                   neighbours_bytes(&tl->near) + tl->sites * (3 + (viscous ? 3 : 2) * d) * sizeof(double) +
-                   n * (9 + 2 * d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
+                   neighbours_bytes(&tl->near) +
+                   tl->sites * (3 + (viscous ? 3 : 2) * d + d * d) * sizeof(double) +
+                   n * (9 + d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
                    tl->ghosts * sizeof(struct tl_ghost);
 }
 
@@ -428,7 +428,8 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
         const size_t d = (size_t)scene->dimension;
         tl->site_u = array_new(d * tl->sites, sizeof(double));
         tl->force = array_new(d * tl->sites, sizeof(double));
-        if (tl->site_u == NULL || tl->force == NULL)
+        tl->H = array_new(d * d * tl->sites, sizeof(double));
+        if (tl->site_u == NULL || tl->force == NULL || tl->H == NULL)
             status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu sites", tl->sites);
     }
     if (status == SELAS_OK) status = tl_make_loads(tl, messages);

@@ -37,7 +37,9 @@ struct tl_rows {
 /* A ghost repeats a point mirrored in one or more faces: u = sign * u_source + prescribed motion. */
 struct tl_ghost {
     size_t source;
-    double sign[3];
+    double sign[3];          /* of the displacement */
+    double mirror[3];        /* of the position: d u_a / d X_b changes its sign by sign[a] * mirror[b] */
+    bool curved;             /* mirrored in the hole: no isometry, takes no part in hourglass control */
     double motion[3][FACES]; /* displacement = sum over faces of motion * amplitude of the face's history */
     double volume;
 };
@@ -72,7 +74,7 @@ struct tl_model {
     struct tl_load *load;             /* [scene->loads] */
     struct neighbours near;           /* of the points, for probes */
     double *site_u, *site_v;          /* [dimension * sites]; site_v NULL without viscosity */
-    double *H;                        /* [dimension^2 * points] */
+    double *H;                        /* [dimension^2 * sites] */
     double *A;                        /* [dimension^2 * points] V P (and the hourglass part) */
     double *force;                    /* [dimension * sites] */
     double *extra;                    /* [dimension * points] hourglass forces */

@@ -83,6 +83,20 @@ static inline __attribute__((always_inline)) void gradients(struct tl_model *tl,
     }
 }
 
+/* H of the ghosts, for hourglass control: T H R with the reflection R. */
+static void ghost_gradients(struct tl_model *tl)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (size_t g = 0; g < tl->ghosts; g++) {
+        const struct tl_ghost *ghost = &tl->ghost[g];
+        const double *from = tl->H + d * d * ghost->source;
+        double *to = tl->H + d * d * (tl->cloud->points + g);
+        for (size_t a = 0; a < d; a++)
+            for (size_t b = 0; b < d; b++)
+                to[a * d + b] = ghost->sign[a] * ghost->mirror[b] * from[a * d + b];
+    }
+}
+
 /* Non-affine part of the pair i, j: X_ij and e_ij. */
 static inline __attribute__((always_inline)) void mismatch(const struct tl_model *tl, size_t i, size_t j,
                                                            const size_t d, double X[3], double e[3])
@@ -102,6 +116,7 @@ static inline __attribute__((always_inline)) void mismatch(const struct tl_model
 static inline __attribute__((always_inline)) void hourglass(struct tl_model *tl, const size_t d)
 {
     const size_t n = tl->cloud->points;
+    ghost_gradients(tl);
 #pragma omp parallel for schedule(static) if (n > TL_SERIAL)
     for (size_t i = 0; i < n; i++) {
         double force[3] = {0};
@@ -221,7 +236,9 @@ void tl_forces(struct tl_model *tl)
     }
 }
 
-/* Hourglass energy of a point's pairs; each pair stands in two rows. */
+/* Hourglass energy of a point's pairs; each pair stands in two rows. A pair with a ghost has its mirror image
+ * in the row of the ghost's source: together they are half of the two pairs of the whole body, as it should
+ * be, and their forces on a point are those of one full pair, so nothing goes back by T^T. */
 static double hourglass_energy(const struct tl_model *tl, size_t i)
 {
     const size_t d = (size_t)tl->cloud->dimension;
@@ -240,6 +257,7 @@ double tl_strain_energy(struct tl_model *tl)
 {
     const size_t d = (size_t)tl->cloud->dimension;
     double sum = 0;
+    if (tl->extra != NULL) ghost_gradients(tl);
     for (size_t i = 0; i < tl->cloud->points; i++) {
         struct elastic elastic = tl->elastic[i];
         if (tl->linear) elastic.law = LAW_LINEAR;

@@ -111,6 +111,10 @@ static bool add_mirror(const struct tl_model *tl, struct sites *sites, int face,
         memcpy(x, sites->position[s], sizeof x);
         struct tl_ghost ghost = sites->ghost[s];
         if (!mirrored(&tl->model.scene->body, face, radius, x, &ghost.volume)) continue;
+        if (face < BOX_FACES)
+            ghost.mirror[face / 2] *= -1;
+        else
+            ghost.curved = true;
         for (int c = 0; c < 3; c++) {
             if (slips && c != face / 2) continue;
             ghost.sign[c] *= -1;
@@ -143,7 +147,8 @@ selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages 
     selas_status status = SELAS_OK;
     bool room = true;
     for (size_t i = 0; i < tl->cloud->points && room; i++) {
-        const struct tl_ghost plain = {.source = i, .sign = {1, 1, 1}, .volume = tl->cloud->volume[i]};
+        const struct tl_ghost plain = {
+            .source = i, .sign = {1, 1, 1}, .mirror = {1, 1, 1}, .volume = tl->cloud->volume[i]};
         room = add(&sites, tl->cloud->position + 3 * i, &plain);
     }
     for (int face = 0; face < FACES && status == SELAS_OK; face++) {

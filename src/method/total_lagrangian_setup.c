@@ -233,11 +233,12 @@ static selas_status hourglass_pairs(struct tl_model *tl, const struct neighbours
     for (size_t i = 0; i < n; i++) {
         for (size_t k = near->start[i]; k < near->start[i + 1]; k++) {
             const size_t j = near->index[k];
-            if (j >= n || j == i) continue;
+            if (j == i || (j >= n && tl->ghost[j - n].curved)) continue;
+            const size_t source = j < n ? j : tl->ghost[j - n].source;
             const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
-            if (r > 1.6 * fmax(spacing_at(tl, i), spacing_at(tl, j))) continue;
+            if (r > 1.6 * fmax(spacing_at(tl, i), spacing_at(tl, source))) continue;
             double stiffness = 0;
-            const size_t both[2] = {i, j};
+            const size_t both[2] = {i, source};
             for (int e = 0; e < 2; e++) {
                 const struct elastic *elastic = &tl->elastic[both[e]];
                 stiffness += 0.5 * (elastic->plane_lambda + 2 * elastic->mu) * tl->cloud->volume[both[e]];
