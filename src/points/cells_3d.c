@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIDES = 64, CORNERS = 32 };
+enum { SIDES = 64, CORNERS = 48 };
 
 struct side {
     size_t corners;
@@ -31,23 +31,37 @@ static void cross(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Clips one polygon by p . normal <= level; corners made on the plane go into `rim`. */
-static void clip_side(struct side *side, const double normal[3], double level, struct side *rim)
+static void put(struct side *side, const double corner[3])
 {
+    if (side->corners < CORNERS) memcpy(side->corner[side->corners++], corner, sizeof(double[3]));
+}
+
+/* Clips one polygon by p . normal <= level; its corners on the plane go into `rim`. Corners within
+ * `tolerance` of the plane lie on it, so that all polygons that share one agree. */
+static void clip_side(struct side *side, const double normal[3], double level, double tolerance,
+                      struct side *rim)
+{
+    double over[CORNERS];
+    bool cut = false;
+    for (size_t k = 0; k < side->corners; k++) {
+        over[k] = dot(side->corner[k], normal) - level;
+        if (fabs(over[k]) <= tolerance) over[k] = 0;
+        cut = cut || over[k] > 0;
+    }
+    if (!cut) return;
     struct side kept = {0};
     for (size_t k = 0; k < side->corners; k++) {
+        const size_t next = (k + 1) % side->corners;
         const double *a = side->corner[k];
-        const double *b = side->corner[(k + 1) % side->corners];
-        const double over_a = dot(a, normal) - level;
-        const double over_b = dot(b, normal) - level;
-        if (over_a <= 0 && kept.corners < CORNERS) memcpy(kept.corner[kept.corners++], a, sizeof(double[3]));
-        if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0)) {
-            const double t = over_a / (over_a - over_b);
-            double p[3];
-            for (int c = 0; c < 3; c++)
-                p[c] = a[c] + t * (b[c] - a[c]);
-            if (kept.corners < CORNERS) memcpy(kept.corner[kept.corners++], p, sizeof p);
-            if (rim->corners < CORNERS) memcpy(rim->corner[rim->corners++], p, sizeof p);
+        const double *b = side->corner[next];
+        if (over[k] <= 0) put(&kept, a);
+        if (over[k] == 0) put(rim, a);
+        if ((over[k] < 0 && over[next] > 0) || (over[k] > 0 && over[next] < 0)) {
+            const double t = over[k] / (over[k] - over[next]);
+            const double p[3] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]),
+                                 a[2] + t * (b[2] - a[2])};
+            put(&kept, p);
+            put(rim, p);
         }
     }
     *side = kept;
@@ -90,7 +104,7 @@ static void clip(struct polyhedron *cell, const double normal[3], double level)
     struct side rim = {0};
     size_t kept = 0;
     for (size_t s = 0; s < cell->sides; s++) {
-        clip_side(&cell->side[s], normal, level, &rim);
+        clip_side(&cell->side[s], normal, level, 1e-11 * level, &rim);
         if (cell->side[s].corners < 3) continue;
         if (kept != s) cell->side[kept] = cell->side[s];
         kept++;
@@ -158,7 +172,7 @@ selas_status cells_3d(struct cloud *cloud, const struct body *body, struct messa
 {
     struct neighbours near = {0};
     const selas_status status =
-        neighbours_find(&near, 3, cloud->points, cloud->position, 3 * cloud->spacing, false, messages);
+        neighbours_find(&near, 3, cloud->points, cloud->position, 3 * body->spacing, false, messages);
     if (status != SELAS_OK) return status;
 #pragma omp parallel for schedule(dynamic, 16)
     for (size_t i = 0; i < cloud->points; i++) {
