@@ -27,7 +27,8 @@ static void set_material(struct material *material, double lambda, double mu, do
 }
 
 /* Box [0, size]^dimension with lambda = 1.5, mu = 0.8, density = 1.3 and no loads. */
-static void make_box(struct box_scene *box, int dimension, double size, double spacing)
+static __attribute__((unused)) void make_box(struct box_scene *box, int dimension, double size,
+                                             double spacing)
 {
     *box = (struct box_scene){.scene = {.dimension = dimension, .materials = 1, .end_time = 1}};
     set_material(&box->material, 1.5, .8, 1.3);

@@ -189,18 +189,17 @@ void elastic_observe(const struct elastic *elastic, const double *H, double stre
                     sum += P[a * d + c] * H[b * d + c];
             sigma[a * d + b] = sum / J;
         }
-    double stretch = 1; /* across a thin body */
-    if (elastic->law == LAW_NEO_HOOKEAN && elastic->thin) stretch = exp(across(elastic, log(J)));
-    if (elastic->law == LAW_NEO_HOOKEAN)
-        for (int k = 0; k < d * d; k++)
-            sigma[k] /= pow(stretch, 3 - d);
     to_six(d, sigma, stress);
-    /* across: a thin body strains, a thick one is stressed */
+    /* across: a thin body strains (and its section shrinks), a thick one is stressed */
+    const bool neo = elastic->law == LAW_NEO_HOOKEAN;
+    for (int c = d; c < 3 && !elastic->thin; c++)
+        stress[c] = elastic->lambda * (neo ? log(J) : dilatation) / J;
+    if (!elastic->thin) return;
     const double contraction = -elastic->lambda / (elastic->lambda * (3 - d) + 2 * elastic->mu) * dilatation;
+    const double across_strain = neo ? 0.5 * expm1(2 * across(elastic, log(J))) : contraction;
     for (int c = d; c < 3; c++)
-        if (elastic->thin)
-            strain[c] = elastic->law == LAW_NEO_HOOKEAN ? 0.5 * (stretch * stretch - 1) : contraction;
-        else
-            stress[c] = elastic->law == LAW_NEO_HOOKEAN ? elastic->lambda * log(J) / J
-                                                        : elastic->lambda * dilatation / J;
+        strain[c] = across_strain;
+    const double section = elastic->law == LAW_LINEAR ? 1 : pow(1 + 2 * across_strain, 0.5 * (3 - d));
+    for (int k = 0; k < 6; k++)
+        stress[k] /= section;
 }
