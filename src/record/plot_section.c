@@ -262,23 +262,46 @@ bool film_create(const struct recorder *recorder, size_t group, struct film *fil
     return false;
 }
 
-/* Pixels of a regular section: bilinear between the points. */
+/* Weights of the four points around a place s in [0, 1] between the middle two (Keys 1981, cubic
+ * convolution).
+ */
+static void cubic_weights(double s, double weight[4])
+{
+    weight[0] = 0.5 * s * (s * (2.0 - s) - 1.0);
+    weight[1] = 0.5 * (s * s * (3.0 * s - 5.0) + 2.0);
+    weight[2] = 0.5 * s * (s * (4.0 - 3.0 * s) + 1.0);
+    weight[3] = 0.5 * s * s * (s - 1.0);
+}
+
+/* The four points around pixel i of an axis, repeated at the ends, and their weights. */
+static void around(size_t i, size_t factor, size_t points, size_t index[4], double weight[4])
+{
+    const size_t low = i / factor < points - 1 ? i / factor : points - 2;
+    cubic_weights((double)i / (double)factor - (double)low, weight);
+    index[0] = low > 0 ? low - 1 : 0;
+    index[1] = low;
+    index[2] = low + 1;
+    index[3] = low + 2 < points ? low + 2 : points - 1;
+}
+
+/* Pixels of a regular section: cubic between the points. */
 static bool write_image(const struct section *section, const double *value, size_t components, FILE *data)
 {
-    const size_t along = section->along;
-    const size_t factor = (section->fine[0] - 1) / (along - 1);
-    for (size_t j = 0; j < section->fine[1]; j++)
+    const size_t factor = (section->fine[0] - 1) / (section->along - 1);
+    for (size_t j = 0; j < section->fine[1]; j++) {
+        size_t row[4], column[4];
+        double up[4], across[4];
+        around(j, factor, section->across, row, up);
         for (size_t i = 0; i < section->fine[0]; i++) {
-            const size_t low[2] = {i / factor < along - 1 ? i / factor : along - 2,
-                                   j / factor < section->across - 1 ? j / factor : section->across - 2};
-            const double s = (double)i / (double)factor - (double)low[0];
-            const double t = (double)j / (double)factor - (double)low[1];
-            const double *corner = value + components * (low[1] * along + low[0]);
-            const double *above = corner + components * along;
-            const float pixel = (float)((1.0 - t) * ((1.0 - s) * corner[0] + s * corner[components]) +
-                                        t * ((1.0 - s) * above[0] + s * above[components]));
+            around(i, factor, section->along, column, across);
+            double sum = 0.0;
+            for (size_t k = 0; k < 4; k++)
+                for (size_t l = 0; l < 4; l++)
+                    sum += up[k] * across[l] * value[components * (row[k] * section->along + column[l])];
+            const float pixel = (float)sum;
             if (fwrite(&pixel, sizeof pixel, 1, data) != 1) return false;
         }
+    }
     return true;
 }
 
@@ -290,6 +313,31 @@ static bool write_points(const struct section *section, const double *value, siz
         if (fwrite(row, sizeof row, 1, data) != 1) return false;
     }
     return true;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* One scale for all frames: curves get the largest value; maps half as much again as the median of the
+ * frames' largest, so that late and faint waves still show while the few strongest frames saturate. */
+static void choose_scale(struct film *film)
+{
+    double *sorted = array_new(film->frames, sizeof *sorted);
+    for (size_t s = 0; s < film->sections; s++) {
+        for (size_t f = 0; f < film->frames; f++) {
+            film->largest[s] = fmax(film->largest[s], film->frame[f].largest[s]);
+            if (sorted != NULL) sorted[f] = film->frame[f].largest[s];
+        }
+        film->scale[s] = film->largest[s];
+        if (sorted == NULL) continue;
+        qsort(sorted, film->frames, sizeof *sorted, ascending);
+        const double moderate = 1.5 * sorted[film->frames / 2];
+        if (moderate > 0.0) film->scale[s] = fmin(film->largest[s], moderate);
+    }
+    array_free(sorted);
 }
 
 bool film_write(const struct recorder *recorder, struct film *film, FILE *data, struct messages *messages)
@@ -306,8 +354,8 @@ bool film_write(const struct recorder *recorder, struct film *film, FILE *data, 
                 return false;
             for (size_t k = 0; k < section->points; k++)
                 frame->largest[s] = fmax(frame->largest[s], fabs(value[components * k]));
-            film->largest[s] = fmax(film->largest[s], frame->largest[s]);
         }
+    choose_scale(film);
     return true;
 }
 

@@ -17,7 +17,7 @@ struct section {
     float *coordinate;                  /* [2 * points] */
     double low[2], high[2];
     bool regular;   /* equal spacings along the axes: drawn as an image ... */
-    size_t fine[2]; /* ... of this many pixels, values in between bilinear */
+    size_t fine[2]; /* ... of this many pixels, values in between cubic */
 };
 
 struct frame {
@@ -37,6 +37,7 @@ struct film {
     size_t sections;
     struct section section[2];
     double largest[2]; /* over all frames */
+    double scale[2];   /* for maps that share one scale */
 };
 
 /* Chooses sections, field and component; false if there is nothing to draw. */

@@ -18,6 +18,7 @@
 
 enum { PANEL = 640, HEIGHT = 620, FRAME_DELAY = 10 /* hundredths of a second */ };
 static const double axis_slack = 1e-9;
+static const double quiet = 1e-4;
 
 static bool is_curve(const struct section *section)
 {
@@ -59,9 +60,10 @@ static void draw_map(FILE *script, const struct film *film, size_t s, const stru
     const struct section *section = &film->section[s];
     char label[64];
     label_of(film, label, sizeof label);
-    fprintf(script, "set xlabel '%c'\nset ylabel '%c'\nset cblabel '%s (units of the deck)' offset 1.5,0\n",
-            axis_name[section->axis[0]], axis_name[section->axis[1]], label);
-    fprintf(script, "set title '%s' noenhanced\n", section->title);
+    fprintf(script, "set xlabel '%c'\nset ylabel '%c'\n", axis_name[section->axis[0]],
+            axis_name[section->axis[1]]);
+    fprintf(script, "set title '%s%s%s (units of the deck)'\n", label, section->title[0] != '\0' ? ", " : "",
+            section->title);
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", section->low[1], section->high[1], section->downwards);
     set_scale(script, film, largest);
@@ -142,7 +144,8 @@ static void draw_still(FILE *script, const struct recorder *recorder, const stru
         for (size_t s = 0; s < film->sections; s++) {
             const double width = 1.0 / (double)film->sections;
             fprintf(script, "set origin %.4f,0\nset size ratio -1 %.4f,0.95\n", (double)s * width, width);
-            draw_map(script, film, s, frame, frame->largest[s]);
+            /* a body that is still at rest shows rest, not its rounding */
+            draw_map(script, film, s, frame, fmax(frame->largest[s], quiet * film->largest[s]));
             fprintf(script, "unset label 1\n");
         }
     }
@@ -173,7 +176,7 @@ static void draw_animation(FILE *script, const struct recorder *recorder, const 
             draw_curve(script, film, &film->frame[f], film->largest[0]);
         } else {
             fprintf(script, "set size ratio -1 1,0.95\n");
-            draw_map(script, film, 0, &film->frame[f], film->largest[0]);
+            draw_map(script, film, 0, &film->frame[f], film->scale[0]);
         }
     }
     fprintf(script, "unset output\n");

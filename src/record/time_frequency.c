@@ -144,9 +144,9 @@ selas_status correlation_shift(size_t n, const double *a, const double *b, doubl
     size_t best = 0;
     for (size_t i = 1; i < length; i++)
         if (creal(spectra.line_a[i]) > creal(spectra.line_a[best])) best = i;
-    const double left = creal(spectra.line_a[(best + length - 1) % length]);
+    const double left = creal(spectra.line_a[best == 0 ? length - 1 : best - 1]);
     const double middle = creal(spectra.line_a[best]);
-    const double right = creal(spectra.line_a[(best + 1) % length]);
+    const double right = creal(spectra.line_a[best + 1 == length ? 0 : best + 1]);
     const double bend = left - 2.0 * middle + right;
     *shift = best < length / 2 ? (double)best : (double)best - (double)length;
     if (bend < 0.0) *shift += 0.5 * (left - right) / bend;
