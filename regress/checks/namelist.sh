@@ -7,6 +7,7 @@ work=$build/test/namelist
 rm -rf "$work"
 mkdir -p "$work"
 
+# shellcheck disable=SC2046 # the words of pkg-config
 ${CC:-cc} -std=c17 -D_GNU_SOURCE -Isrc -o "$work/values" $here/values.c "$build/libselas.a" -fopenmp \
     $(pkg-config --libs gsl fftw3 hdf5) -lm || exit 1
 for table in sample deck; do
@@ -34,9 +35,9 @@ for title in "$work"/*.title; do
     printf '\n\n' >>"$file"
     "$work/sample" "$file" >"$file.gfortran"
     "$work/values" read sample "$file" >"$file.ours"
-    theirs=read
+    theirs='read'
     grep -q '^refused' "$file.gfortran" && theirs=refused
-    ours=read
+    ours='read'
     grep -q '^refused' "$file.ours" && ours=refused
     same=different
     cmp -s "$file.gfortran" "$file.ours" && same=same

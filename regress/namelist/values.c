@@ -128,7 +128,7 @@ static void read_file(const struct word_table *table, const char *path)
     } else {
         for (size_t k = 0; k < table->groups; k++)
             for (size_t i = 0; i < list.groups; i++)
-                if (list.group[i]->kind == &table->group[k]) show_group(list.group[i]);
+                if (list.group[i].kind == &table->group[k]) show_group(&list.group[i]);
     }
     namelist_free(&list);
     messages_free(&messages);

@@ -293,14 +293,14 @@ static void hostile_files_end_in_messages(void **state)
                   "folder/case.nml:2:11: error: too many values for 'times': at most 1000\n");
 }
 
-/* Ten million bytes of each of these end in a bounded number of errors. */
+/* A million bytes of each of these end in a bounded number of errors. */
 static void junk_ends_quickly(void **state)
 {
     (void)state;
     static const char *const pieces[] = {
         "&scene x = 'a' (((,,,=\n",     "'\"", "&a ", "&load\n", "&load/", "((((", "a=", "\n",
         "\377\376 &body name = \201 /", "1*",  "!",   "&",       "T ! x\n"};
-    const size_t length = 10000000;
+    const size_t length = 1000000;
     char *text = malloc(length);
     assert_non_null(text);
     for (size_t i = 0; i < sizeof pieces / sizeof *pieces; i++) {
@@ -311,7 +311,7 @@ static void junk_ends_quickly(void **state)
         struct deck *deck;
         struct messages messages = {0};
         assert_int_equal(deck_read_text("junk", text, length, 0, NULL, &deck, &messages), SELAS_BAD_DECK);
-        assert_true(messages.errors > 0);
+        assert_in_range(messages.errors, 1, 1000);
         messages_free(&messages);
     }
     free(text);

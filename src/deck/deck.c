@@ -18,7 +18,7 @@ const struct deck_group *deck_get(const struct deck *deck, const char *group, si
 {
     assert(index < deck_count(deck, group));
     const size_t kind = words_find_group(deck->list.table, group, strlen(group));
-    return deck->list.group[deck->first[kind] + index];
+    return &deck->list.group[deck->first[kind] + index];
 }
 
 const struct item *group_item(const struct deck_group *group, const char *name, size_t *index)

@@ -80,8 +80,15 @@ static void check_item(const struct deck *deck, const struct deck_group *group, 
 
 void deck_check(const struct deck *deck, struct messages *messages)
 {
+    enum { MOST_ERRORS = 100 };
+    const size_t errors = messages->errors;
     for (size_t i = 0; i < deck->list.groups; i++) {
-        const struct deck_group *group = deck->list.group[i];
+        if (messages->errors >= errors + MOST_ERRORS) {
+            namelist_message(messages, deck->path, deck->list.group[i].place, true,
+                             "too many errors: from here on nothing is checked");
+            return;
+        }
+        const struct deck_group *group = &deck->list.group[i];
         for (size_t j = 0; j < group->kind->words; j++)
             check_item(deck, group, j, messages);
     }

@@ -99,7 +99,7 @@ static struct deck_group *find(struct deck *deck, size_t kind, long number, cons
                          number, count);
         return NULL;
     }
-    if (index < count) return deck->list.group[first + index];
+    if (index < count) return &deck->list.group[first + index];
     struct deck_group *group = namelist_add(&deck->list, kind, place);
     if (group == NULL) fail(messages, SELAS_NO_MEMORY, "not enough memory for the override");
     return group;

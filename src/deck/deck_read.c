@@ -8,7 +8,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { MOST_BYTES = 16 << 20 };
+enum {
+    MOST_BYTES = 16 << 20,
+    MOST_REPEATED = 10 /* occurrences of a group too many that are reported */
+};
 
 static char *copy_bytes(const char *text, size_t length)
 {
@@ -37,7 +40,7 @@ static bool sort_groups(struct deck *deck)
 {
     struct namelist *list = &deck->list;
     const size_t kinds = list->table->groups;
-    struct deck_group **sorted = array_new(list->groups, sizeof *sorted);
+    struct deck_group *sorted = array_new(list->groups, sizeof *sorted);
     if (deck->first == NULL) deck->first = array_new(kinds + 1, sizeof *deck->first);
     if (sorted == NULL || deck->first == NULL) {
         array_free(sorted);
@@ -47,7 +50,7 @@ static bool sort_groups(struct deck *deck)
     for (size_t kind = 0; kind < kinds; kind++) {
         deck->first[kind] = used;
         for (size_t i = 0; i < list->groups; i++)
-            if (list->group[i]->kind == &list->table->group[kind]) sorted[used++] = list->group[i];
+            if (list->group[i].kind == &list->table->group[kind]) sorted[used++] = list->group[i];
     }
     deck->first[kinds] = used;
     array_free(list->group);
@@ -63,10 +66,10 @@ static bool complete_groups(struct deck *deck, struct messages *messages)
     for (size_t kind = 0; kind < table->groups; kind++) {
         const struct word_group *words = &table->group[kind];
         const size_t first = deck->first[kind], count = deck->first[kind + 1] - first;
-        for (size_t i = 1; words->occurrence != GROUP_MANY && i < count; i++)
-            namelist_message(messages, deck->path, deck->list.group[first + i]->place, true,
+        for (size_t i = 1; words->occurrence != GROUP_MANY && i < count && i < MOST_REPEATED; i++)
+            namelist_message(messages, deck->path, deck->list.group[first + i].place, true,
                              "&%s is given twice (first on line %zu); it may occur once", words->name,
-                             deck->list.group[first]->place.line);
+                             deck->list.group[first].place.line);
     }
     for (size_t kind = 0; kind < table->groups; kind++)
         if (table->group[kind].occurrence == GROUP_ALWAYS && deck->first[kind + 1] == deck->first[kind] &&

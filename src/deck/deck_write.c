@@ -22,8 +22,9 @@ char *deck_resolve(const struct deck *deck, const char *file)
 {
     const bool here = *file == '/' || strcmp(deck->directory, ".") == 0;
     if (!here) return join(deck->directory, file);
-    char *path = array_new(strlen(file) + 1, 1);
-    if (path != NULL) memcpy(path, file, strlen(file));
+    const size_t size = strlen(file) + 1;
+    char *path = array_new(size, 1);
+    if (path != NULL) memcpy(path, file, size);
     return path;
 }
 
@@ -100,7 +101,7 @@ selas_status deck_write(const struct deck *deck, FILE *file, struct messages *me
     const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
     bool good = true;
     for (size_t i = 0; i < deck->list.groups && good; i++)
-        good = write_group(deck, deck->list.group[i], file);
+        good = write_group(deck, &deck->list.group[i], file);
     if (plain != (locale_t)0) {
         uselocale(host);
         freelocale(plain);

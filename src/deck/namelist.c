@@ -22,21 +22,16 @@ static void free_texts(const struct word_group *kind, struct item *item)
             array_free(item[i].value[j].as.text);
 }
 
-static void free_group(struct deck_group *group)
-{
-    free_texts(group->kind, group->item);
-    free_items(group->item, group->kind->words);
-    array_free(group);
-}
-
 void namelist_free(struct namelist *list)
 {
-    for (size_t i = 0; i < list->groups; i++)
-        free_group(list->group[i]);
+    for (size_t i = 0; i < list->groups; i++) {
+        free_texts(list->group[i].kind, list->group[i].item);
+        free_items(list->group[i].item, list->group[i].kind->words);
+    }
     array_free(list->group);
     for (size_t i = 0; list->defaults != NULL && i < list->table->groups; i++) {
-        free_texts(&list->table->group[i], list->defaults[i]);
-        free_items(list->defaults[i], list->table->group[i].words);
+        free_texts(&list->table->group[i], list->defaults[i].item);
+        free_items(list->defaults[i].item, list->table->group[i].words);
     }
     array_free(list->defaults);
     *list = (struct namelist){0};
@@ -128,22 +123,17 @@ struct deck_group *namelist_add(struct namelist *list, size_t kind, struct place
 {
     if (list->groups == list->room) {
         const size_t room = list->room == 0 ? 16 : 2 * list->room;
-        struct deck_group **larger = array_new(room, sizeof *larger);
+        struct deck_group *larger = array_new(room, sizeof *larger);
         if (larger == NULL) return NULL;
         if (list->groups > 0) memcpy(larger, list->group, list->groups * sizeof *larger);
         array_free(list->group);
         list->group = larger;
         list->room = room;
     }
-    struct deck_group *group = array_new(1, sizeof *group);
     struct item *item = array_new(list->table->group[kind].words, sizeof *item);
-    if (group == NULL || item == NULL) {
-        array_free(group);
-        array_free(item);
-        return NULL;
-    }
-    *group = (struct deck_group){&list->table->group[kind], place, item, list->defaults[kind]};
-    list->group[list->groups++] = group;
+    if (item == NULL) return NULL;
+    struct deck_group *group = &list->group[list->groups++];
+    *group = (struct deck_group){&list->table->group[kind], place, item, list->defaults[kind].item};
     return group;
 }
 
@@ -255,18 +245,17 @@ selas_status namelist_assign(struct deck_group *group, const char *text, size_t 
 static bool read_defaults(struct namelist *list, size_t kind, struct messages *messages)
 {
     const struct word_group *words = &list->table->group[kind];
-    list->defaults[kind] = array_new(words->words, sizeof **list->defaults);
-    if (list->defaults[kind] == NULL) return false;
+    struct item *items = array_new(words->words, sizeof *items);
+    if (items == NULL) return false;
+    list->defaults[kind].item = items;
     const struct item none = {0};
     for (size_t i = 0; i < words->words; i++) {
         const struct word *word = &words->word[i];
         if (word->defaults == NULL) continue;
         struct scanner scanner = {
             .text = word->defaults, .length = strlen(word->defaults), .messages = messages};
-        const struct target target = {.word = word,
-                                      .item = &list->defaults[kind][i],
-                                      .defaults = &none,
-                                      .section = {1, (long)word->count, 1, false}};
+        const struct target target = {
+            .word = word, .item = &items[i], .defaults = &none, .section = {1, (long)word->count, 1, false}};
         if (!scan_values(&scanner, &target)) return false;
     }
     return true;

@@ -46,11 +46,16 @@ struct deck_group {
     const struct item *defaults; /* likewise: the table's defaults; owned by the list */
 };
 
+/* The table's defaults for one kind of group, shared by all its occurrences. */
+struct group_defaults {
+    struct item *item; /* one per word */
+};
+
 struct namelist {
     const struct word_table *table;
     size_t groups, room;
-    struct deck_group **group; /* in the order of the text */
-    struct item **defaults;    /* per kind of group */
+    struct deck_group *group;        /* in the order of the text; moves when one is added */
+    struct group_defaults *defaults; /* per kind of group */
 };
 
 /* Reads all groups of a text and adds them to the list; errors as "NAME:LINE:COLUMN: error: ...". Returns

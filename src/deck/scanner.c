@@ -180,7 +180,7 @@ const char *scan_quote(const struct scanner *scanner, size_t at, size_t length, 
     }
     while (i > 0 && i == room && ((unsigned char)quoted[i - 1] & 0x80) != 0)
         i--; /* no half characters */
-    strcpy(quoted + i, i < length && i + 4 >= room ? "..." : "");
+    memcpy(quoted + i, i < length && i + 4 >= room ? "...\0" : "\0\0\0", 4);
     return quoted;
 }
 
