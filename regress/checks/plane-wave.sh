@@ -1,0 +1,43 @@
+#!/bin/sh
+# Runs input/plane-wave.nml in its variants against d'Alembert: P in a bar and a box, S in a rectangle, askew in
+# a box; held, free and absorbing ends; the observed order of the whole chain (start, operator, step, recording).
+build=${1:-build}
+out=$build/test/plane-wave
+rm -rf "$out"
+OMP_NUM_THREADS=1
+export OMP_NUM_THREADS
+
+# Runs the deck with overrides; prints the error of the worst receiver.
+largest() {
+    "$build/selas" -q input/plane-wave.nml output%plots=F output%directory="$out" "$@" >"$out.log" 2>&1 || cat "$out.log" >&2
+    sed -n 's/^error largest: \([^ ]*\).*/\1/p' "$out/report.txt"
+    rm -rf "$out"
+}
+# below TITLE ERROR LIMIT
+below() {
+    if awk -v e="$2" -v l="$3" 'BEGIN { exit !(e != "" && e + 0 <= l + 0 && e + 0 > 0) }'; then
+        echo "ok - $1: $2 (at most $3)"
+    else
+        echo "not ok - $1: '$2' (at most $3)"
+    fi
+}
+rollers="boundary%face='y-','y+','z-','z+'"
+coarse=$(largest)
+fine=$(largest body%spacing=0.01)
+below "P pulse in a bar, free ends" "$coarse" 1.2e-4
+below "order at least 3.7 between spacings .02 and .01: error ratio times 13" \
+    "$(awk -v c="$coarse" -v f="$fine" 'BEGIN { print f / c * 13 }')" 1
+below "held end" "$(largest boundary%kind=fixed)" 1.2e-4
+below "thin bar" "$(largest scene%plane=stress)" 1.2e-4
+below "absorbing end, leapfrog" "$(largest boundary%kind=transmitting stepping%scheme=leapfrog)" 1.5e-2
+below "P pulse in a box with rollers" "$(largest scene%dimension=3 body%low=0,0,0 body%high=4,0.4,0.4 \
+    body%spacing=0.05 initial%direction=1,0,0 initial%centre=1,0,0 initial%width=0.2 "$rollers" \
+    boundary%kind=roller 'receiver(1)%position=2,0.2,0.2' 'receiver(2)%position=3.5,0.4,0.2')" 5e-5
+below "S pulse in a rectangle" "$(largest scene%dimension=2 body%low=0,0 body%high=4,0.4 body%spacing=0.04 \
+    initial%wave=s initial%direction=1,0 initial%centre=1,0 initial%width=0.2 "boundary%face='y-','y+'" \
+    boundary%kind=displacement boundary%direction=1,0 boundary%slip=T boundary%amplitude=0 \
+    boundary%history=step 'receiver(1)%position=2,0.2' 'receiver(2)%position=3.5,0.4')" 5e-5
+below "S pulse askew in a box" "$(largest scene%dimension=3 scene%end_time=1 body%low=0,0,0 body%high=4,4,4 \
+    body%spacing=0.2 initial%wave=s initial%direction=2,3,6 initial%polarisation=3,-2,0 \
+    initial%centre=1.86,1.79,1.57 initial%width=0.5 'receiver(1)%position=2,2,2' \
+    'receiver(2)%position=2.1,1.9,2')" 1e-3
