@@ -99,12 +99,44 @@ static void test_rotation(void **state)
     messages_free(&messages);
 }
 
+/* Given points: a turned, jittered lattice comes back with its faces; a hole in a face or a stray point do
+ * not pass. */
+static void test_given_points(void **state)
+{
+    (void)state;
+    struct box_scene box;
+    struct messages messages = {0};
+    struct point_set set, given;
+    make_box(&box, 3, 2, .5);
+    rotate_box(&box, .1, .2, .3);
+    box.scene.body.jitter = .3;
+    assert_int_equal(lattice_create(&box.scene.body, 3, &set, &messages), SELAS_OK);
+    assert_int_equal(
+        point_set_from_positions(&box.scene.body, 3, set.points, set.own_position, &given, &messages),
+        SELAS_OK);
+    assert_memory_equal(given.faces, set.faces, set.points);
+    assert_memory_equal(given.position, set.position, 3 * set.points * sizeof *set.position);
+    assert_int_equal(given.grid[0], 0);
+    point_set_free(&given);
+    assert_int_equal(
+        point_set_from_positions(&box.scene.body, 3, set.points - 25, set.own_position, &given, &messages),
+        SELAS_BAD_SCENE); /* the layer z+ is missing */
+    set.own_position[0] = -.01;
+    assert_int_equal(
+        point_set_from_positions(&box.scene.body, 3, set.points, set.own_position, &given, &messages),
+        SELAS_BAD_SCENE);
+    assert_int_equal(messages.errors, 2);
+    point_set_free(&set);
+    messages_free(&messages);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_faces_and_spacing),
         cmocka_unit_test(test_jitter),
         cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_given_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

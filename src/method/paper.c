@@ -4,6 +4,7 @@
 #include "method/paper.h"
 
 #include "base/memory.h"
+#include "points/cloud.h"
 
 #include <string.h>
 
@@ -195,10 +196,11 @@ static selas_status check(const struct scene *scene, const struct paper_options 
                           struct messages *messages)
 {
     const struct body *body = &scene->body;
-    if (body->shape != BODY_BOX || body->layers > 0)
+    if ((body->shape != BODY_BOX && body->shape != BODY_POINTS) || body->layers > 0)
         return fail(
             messages, SELAS_UNSUPPORTED,
-            "method%%variant = 'paper' computes boxes of one material (body%%shape = 'box', no &layer)");
+            "method%%variant = 'paper' computes boxes of one material (body%%shape = 'box' or 'points' "
+            "that fill a box, no &layer)");
     for (int face = 0; face < BOX_FACES; face++)
         if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING &&
             scene->boundary[face].absorber != ABSORBER_LYSMER)
@@ -228,10 +230,23 @@ static size_t bytes_of(const struct paper *paper)
            paper->dampers * sizeof *paper->damper + paper->constraints * sizeof *paper->constraint;
 }
 
-static selas_status fill(struct paper *paper, struct messages *messages)
+static selas_status make_points(struct paper *paper, struct messages *messages)
 {
     const struct scene *scene = paper->model.scene;
-    selas_status status = lattice_create(&scene->body, paper->dimension, &paper->set, messages);
+    if (scene->body.shape == BODY_BOX)
+        return lattice_create(&scene->body, paper->dimension, &paper->set, messages);
+    struct cloud *cloud;
+    selas_status status = cloud_read(scene, &cloud, messages);
+    if (status != SELAS_OK) return status;
+    status = point_set_from_positions(&scene->body, paper->dimension, cloud->points, cloud->position,
+                                      &paper->set, messages);
+    cloud_free(&cloud);
+    return status;
+}
+
+static selas_status fill(struct paper *paper, struct messages *messages)
+{
+    selas_status status = make_points(paper, messages);
     if (status != SELAS_OK) return status;
     double spacing = 1;
     for (int c = 0; c < paper->dimension; c++)

@@ -1,4 +1,4 @@
-/* Points of a box on a lattice that includes its faces, with jitter and rotation. */
+/* Points of a box that include points on its faces: on a lattice, with jitter and rotation, or given ones. */
 #include "points/lattice.h"
 
 #include "base/memory.h"
@@ -44,6 +44,28 @@ static double place(const struct body *body, const struct point_set *set, int ax
     return x;
 }
 
+static selas_status allocate(struct point_set *set, struct messages *messages)
+{
+    set->position = array_new(3 * set->points, sizeof *set->position);
+    set->own_position = array_new(3 * set->points, sizeof *set->own_position);
+    set->faces = array_new(set->points, sizeof *set->faces);
+    if (set->position != NULL && set->own_position != NULL && set->faces != NULL) return SELAS_OK;
+    const size_t points = set->points;
+    point_set_free(set);
+    return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", points);
+}
+
+/* Fills the positions in deck coordinates. */
+static void turn(const struct body *body, struct point_set *set)
+{
+    for (size_t i = 0; i < set->points; i++)
+        if (body->rotated)
+            body_to_deck(body, set->own_position + 3 * i, set->position + 3 * i);
+        else
+            for (size_t c = 0; c < 3; c++)
+                set->position[3 * i + c] = set->own_position[3 * i + c];
+}
+
 selas_status lattice_create(const struct body *body, int dimension, struct point_set *set,
                             struct messages *messages)
 {
@@ -60,14 +82,8 @@ selas_status lattice_create(const struct body *body, int dimension, struct point
         set->spacing[c] = length / intervals;
         set->points *= set->grid[c];
     }
-    set->position = array_new(3 * set->points, sizeof *set->position);
-    set->own_position = array_new(3 * set->points, sizeof *set->own_position);
-    set->faces = array_new(set->points, sizeof *set->faces);
-    if (set->position == NULL || set->own_position == NULL || set->faces == NULL) {
-        const size_t points = set->points;
-        point_set_free(set);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", points);
-    }
+    const selas_status status = allocate(set, messages);
+    if (status != SELAS_OK) return status;
     size_t i = 0, k[3];
     for (k[2] = 0; k[2] < set->grid[2]; k[2]++)
         for (k[1] = 0; k[1] < set->grid[1]; k[1]++)
@@ -75,12 +91,43 @@ selas_status lattice_create(const struct body *body, int dimension, struct point
                 double *own = set->own_position + 3 * i;
                 for (int c = 0; c < dimension; c++)
                     own[c] = place(body, set, c, k[c], i, &set->faces[i]);
-                if (body->rotated)
-                    body_to_deck(body, own, set->position + 3 * i);
-                else
-                    for (size_t c = 0; c < 3; c++)
-                        set->position[3 * i + c] = own[c];
             }
+    turn(body, set);
+    return SELAS_OK;
+}
+
+selas_status point_set_from_positions(const struct body *body, int dimension, size_t points,
+                                      const double *own_position, struct point_set *set,
+                                      struct messages *messages)
+{
+    *set = (struct point_set){.dimension = dimension, .points = points};
+    const selas_status status = allocate(set, messages);
+    if (status != SELAS_OK) return status;
+    const double near = 1e-6 * body->spacing;
+    unsigned seen = 0;
+    for (int c = 0; c < dimension; c++)
+        set->spacing[c] = body->spacing;
+    for (size_t i = 0; i < points; i++)
+        for (int c = 0; c < dimension; c++) {
+            const double x = set->own_position[3 * i + (size_t)c] = own_position[3 * i + (size_t)c];
+            if (!(x > body->low[c] - near && x < body->high[c] + near)) {
+                point_set_free(set);
+                return fail(messages, SELAS_BAD_SCENE,
+                            "point %zu lies outside the box low .. high of the body (%c = %g)", i + 1,
+                            "xyz"[c], x);
+            }
+            if (x < body->low[c] + near) set->faces[i] |= (unsigned char)(1u << (2 * c));
+            if (x > body->high[c] - near) set->faces[i] |= (unsigned char)(1u << (2 * c + 1));
+            seen |= set->faces[i];
+        }
+    for (enum face face = FACE_X_LOW; (int)face < 2 * dimension; face++)
+        if ((seen >> face & 1) == 0) {
+            point_set_free(set);
+            return fail(messages, SELAS_BAD_SCENE,
+                        "the method needs points on all faces of the body; there is none on %s",
+                        face_name(face));
+        }
+    turn(body, set);
     return SELAS_OK;
 }
 
