@@ -71,6 +71,11 @@ check "the echoed deck runs" "$selas" out/deck.nml output%directory=again
 grep -v '^#' out/side.dat >first
 grep -v '^#' again/side.dat >second
 check "... to the same bits" cmp first second
+check "selas diff finds the runs the same" "$selas" diff out again
+awk '/^#/ || $1 < 1.45 || $1 > 1.55 { print; next } { $7 += 1e-4; print }' again/side.dat >other
+check "... and a changed value, exit 1" sh -c '"$0" diff out/side.dat other; test $? -eq 1' "$selas"
+check "... unless it is allowed" "$selas" diff --atol=0.01 out/side.dat other
+check "... and wants two names, exit 2" sh -c '"$0" diff out; test $? -eq 2' "$selas"
 mkdir killed
 echo older >killed/run.h5
 "$selas" small.nml output%directory=killed body%spacing=0.25 scene%end_time=6000 >/dev/null 2>&1 &

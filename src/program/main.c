@@ -2,6 +2,7 @@
  * the run or the comparison failed, 2 bad deck or usage. */
 #include "selas.h"
 
+#include "program/commands.h"
 #include "record/progress.h"
 
 #include <argp.h>
@@ -10,13 +11,12 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2 };
-
 const char *argp_program_version = "selas " SELAS_VERSION;
 
 static const char usage[] = "DECK [GROUP%NAME=VALUE ...]\n"
                             "check DECK [GROUP%NAME=VALUE ...]\n"
-                            "exact DECK [GROUP%NAME=VALUE ...]";
+                            "exact DECK [GROUP%NAME=VALUE ...]\n"
+                            "diff A B";
 
 static const char documentation[] =
     "Computes elastic waves in solids on points instead of a mesh.\n"
@@ -25,6 +25,7 @@ static const char documentation[] =
     "                      output/DECKNAME/ (or &output directory)\n"
     "  selas check DECK    prints the plan (points, memory, time step, resolution), runs nothing\n"
     "  selas exact DECK    writes just the exact histories that &reference asks for\n"
+    "  selas diff A B      compares two histories or the receivers of two run folders\n"
     "\v"
     "Overrides change any name of the deck: body%spacing=0.25, load(2)%amplitude=3,\n"
     "method%variant=paper. The deck is explained in doc/deck.md.\n"
@@ -160,6 +161,7 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
 
 int main(int count, char **words)
 {
+    if (count > 1 && strcmp(words[1], "diff") == 0) return diff_command(count - 1, words + 1);
     const struct argp parser = {options, parse_option, usage, documentation, NULL, NULL, NULL};
     struct arguments arguments = {.command = ""};
     arguments.override = calloc((size_t)count + 1, sizeof *arguments.override);

@@ -111,19 +111,21 @@ static double range_of(const struct pair *pair, size_t channel)
     return high - low;
 }
 
-/* Norms and the tolerance rule; all comparisons are written so that NaN differs. */
-static void compare_values(const struct pair *pair, size_t c, double range, const struct tolerance *tolerance,
-                           struct channel_difference *result)
+/* Norms (relative to those of channel `of` in a) and the tolerance rule; all comparisons are written so that
+ * NaN differs. */
+static void compare_values(const struct pair *pair, size_t c, size_t of, double range,
+                           const struct tolerance *tolerance, struct channel_difference *result)
 {
     double l2 = 0.0, l2_of = 0.0, linf = 0.0, linf_of = 0.0;
     for (size_t i = 0; i < pair->rows; i++) {
         const double a = pair->a[CHANNELS * i + c], away = fabs(pair->b[CHANNELS * i + c] - a);
+        const double size = fabs(pair->a[CHANNELS * i + of]);
         const double before = i > 0 ? pair->time[i] - pair->time[i - 1] : 0.0;
         const double after = i + 1 < pair->rows ? pair->time[i + 1] - pair->time[i] : 0.0;
         l2 += 0.5 * (before + after) * away * away; /* trapezoid */
-        l2_of += 0.5 * (before + after) * a * a;
+        l2_of += 0.5 * (before + after) * size * size;
         linf = fmax(linf, away);
-        linf_of = fmax(linf_of, fabs(a));
+        linf_of = fmax(linf_of, size);
         const double allowed = tolerance->absolute * range + tolerance->relative * fabs(a);
         if (away <= allowed && !(away > 0.0)) continue;
         const double excess = isfinite(away) && allowed > 0.0 ? away / allowed : INFINITY;
@@ -185,13 +187,13 @@ selas_status diff_histories(const struct history_file *a, const struct history_f
     const bool spans =
         fabs(a->time[0] - b->time[0]) <= close && fabs(a->time[a->rows - 1] - b->time[b->rows - 1]) <= close;
     for (size_t c = 0; c < CHANNELS && status == SELAS_OK; c++) {
-        double largest = 0.0; /* of the three components of this kind */
-        for (size_t k = 0; k < 3; k++)
-            largest = fmax(largest, range_of(&pair, c / 3 * 3 + k));
-        compare_values(&pair, c, fmax(range_of(&pair, c), rounding * largest), tolerance, &difference[c]);
+        size_t widest = c / 3 * 3; /* of the three components of this kind */
+        for (size_t k = widest; k < c / 3 * 3 + 3; k++)
+            if (range_of(&pair, k) > range_of(&pair, widest)) widest = k;
+        const double range = range_of(&pair, c), least = rounding * range_of(&pair, widest);
+        compare_values(&pair, c, range > least ? c : widest, fmax(range, least), tolerance, &difference[c]);
         difference[c].differs = difference[c].differs || !spans;
-        if (range_of(&pair, c) > rounding * largest)
-            status = compare_waves(a, b, &pair, c, &difference[c], messages);
+        if (range > least) status = compare_waves(a, b, &pair, c, &difference[c], messages);
     }
     pair_free(&pair);
     return status;
