@@ -37,14 +37,20 @@ void namelist_free(struct namelist *list)
     *list = (struct namelist){0};
 }
 
-/* True if '&' or '$' at a position begins a line (after blanks) and has a letter after it. */
-static bool begins_group(const struct scanner *scanner, size_t at, size_t earliest)
+/* True if only blanks stand before a position on its line, or after `earliest`. */
+static bool begins_line(const struct scanner *scanner, size_t at, size_t earliest)
 {
-    const int c = scan_peek(scanner, at);
-    if ((c != '&' && c != '$') || scan_name_length(scanner, at + 1) == 0) return false;
     while (at > earliest && (scanner->text[at - 1] == ' ' || scanner->text[at - 1] == '\t'))
         at--;
     return at == 0 || at == earliest || scanner->text[at - 1] == '\n';
+}
+
+/* True if '&' or '$' at a position begins a line and has a name after it. */
+static bool begins_group(const struct scanner *scanner, size_t at, size_t earliest)
+{
+    const int c = scan_peek(scanner, at);
+    return (c == '&' || c == '$') && scan_name_length(scanner, at + 1) > 0 &&
+           begins_line(scanner, at, earliest);
 }
 
 /* &end or $end, which close a group as '/' does. */
@@ -194,6 +200,14 @@ static bool find_group(struct namelist *list, struct scanner *scanner, size_t at
         unknown_group(scanner, list->table, at);
         scanner->at = at + 1 + length;
         skip_group(scanner, at);
+    } else if (length == 0 && begins_line(scanner, at, earliest)) {
+        size_t name = at + 1;
+        while (scan_peek(scanner, name) == ' ' || scan_peek(scanner, name) == '\t')
+            name++;
+        const size_t name_length = scan_name_length(scanner, name);
+        if (words_find_group(list->table, scanner->text + name, name_length) < list->table->groups)
+            scan_error(scanner, at, "no blank may stand between '%c' and the group's name",
+                       scan_peek(scanner, at));
     }
     return true;
 }
