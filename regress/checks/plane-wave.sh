@@ -37,7 +37,7 @@ below "S pulse in a rectangle" "$(largest scene%dimension=2 body%low=0,0 body%hi
     initial%wave=s initial%direction=1,0 initial%centre=1,0 initial%width=0.2 "boundary%face='y-','y+'" \
     boundary%kind=displacement boundary%direction=1,0 boundary%slip=T boundary%amplitude=0 \
     boundary%history=step 'receiver(1)%position=2,0.2' 'receiver(2)%position=3.5,0.4')" 5e-5
-below "S pulse askew in a box" "$(largest scene%dimension=3 scene%end_time=1 body%low=0,0,0 body%high=4,4,4 \
-    body%spacing=0.2 initial%wave=s initial%direction=2,3,6 initial%polarisation=3,-2,0 \
+below "S pulse askew in a box" "$(largest scene%dimension=3 scene%end_time=0.5 body%low=0,0,0 body%high=4,4,4 \
+    body%spacing=0.1 initial%wave=s initial%direction=2,3,6 initial%polarisation=3,-2,0 \
     initial%centre=1.86,1.79,1.57 initial%width=0.5 'receiver(1)%position=2,2,2' \
-    'receiver(2)%position=2.1,1.9,2')" 1e-3
+    'receiver(2)%position=2.1,1.9,2')" 4e-4
