@@ -65,6 +65,36 @@ static void test_statistics(void **state)
     destroy(paper);
 }
 
+/* In 2D the sum of the spline along a line is 1 at h = dx, so that areas (lengths) of faces are dx, half at
+ * corners; in 1D the area is 1, the inner volume dx and the operator the central difference. */
+static void test_plane_and_bar(void **state)
+{
+    (void)state;
+    struct box_scene box;
+    const struct paper_options options = paper_options_default();
+    make_box(&box, 2, 3, .5);
+    struct paper *paper = create(&box, &options);
+    const size_t edge = 3, corner = 6;
+    assert_near(paper->element[paper->first_element[edge]].area, .5, 1e-14);
+    assert_int_equal(paper->first_element[corner + 1] - paper->first_element[corner], 2);
+    assert_near(paper->element[paper->first_element[corner]].area, .5 / 2 / (2.0 / 3 + 1.0 / 6), 1e-14);
+    destroy(paper);
+    make_box(&box, 1, 3, .5);
+    paper = create(&box, &options);
+    assert_int_equal(paper->elements, 2);
+    assert_near(paper->element[0].area, 1, 1e-14);
+    assert_near(paper->element[0].normal[0], -1, 0);
+    assert_near(paper->volume[3], .5, 1e-14);
+    assert_near(paper->volume[0], .5 / 2 / (2.0 / 3 + 1.0 / 6), 1e-14);
+    const double stiffness = (box.material.lambda + 2 * box.material.mu) / .25;
+    const double *row = paper->block + paper->near.start[3];
+    assert_int_equal(paper->near.start[4] - paper->near.start[3], 3);
+    assert_near(row[0], stiffness, 1e-12);
+    assert_near(row[1], -2 * stiffness, 1e-12);
+    assert_near(row[2], stiffness, 1e-12);
+    destroy(paper);
+}
+
 /* Interior row sums of the Laplacian's weights, numerics A1: -2.5, -.50, -.034, -.59, -.31, +.038, +.065 per
  * dx^2 for h/dx = .8 ... 1.4 (lambda = -mu leaves mu times the Laplacian). */
 static void test_row_sums(void **state)
@@ -314,13 +344,10 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_statistics),
-        cmocka_unit_test(test_row_sums),
-        cmocka_unit_test(test_symmetry_and_its_loss),
-        cmocka_unit_test(test_patches),
-        cmocka_unit_test(test_quadratic_field),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_statistics), cmocka_unit_test(test_plane_and_bar),
+        cmocka_unit_test(test_row_sums),   cmocka_unit_test(test_symmetry_and_its_loss),
+        cmocka_unit_test(test_patches),    cmocka_unit_test(test_quadratic_field),
+        cmocka_unit_test(test_rotation),   cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
