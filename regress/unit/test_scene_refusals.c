@@ -164,7 +164,7 @@ static void faces(void **unused)
                                                                            "kind='fixed' /\n",
          "t.nml:4:24: error:",
          {"hole can only be free"}},
-        {BOX "&boundary face='x-', kind='fixed', amplitude=1 /\n",
+        {BOX "&boundary face='x-', kind='fixed', amplitude=2 /\n",
          "t.nml:4:36: error:",
          {"'amplitude' does not belong to kind 'fixed'"}},
         {BOX "&boundary face='x-', kind='fixed', slip=T /\n",

@@ -117,10 +117,7 @@ void refuse(struct builder *builder, const struct deck_group *group, const char 
 
 char *deck_path(struct builder *builder, const char *path)
 {
-    const char *folder = path[0] == '/' ? "" : deck_directory(builder->deck);
-    const size_t room = strlen(folder) + strlen(path) + 2;
-    char *whole = scene_array(builder, room, 1);
-    if (whole == NULL) return NULL;
-    snprintf(whole, room, "%s%s%s", folder, folder[0] == '\0' ? "" : "/", path);
+    char *whole = deck_resolve(builder->deck, path);
+    if (whole == NULL) complain_of_memory(builder);
     return whole;
 }
