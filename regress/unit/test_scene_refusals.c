@@ -176,7 +176,7 @@ static void faces(void **unused)
         {BOX "&boundary face='x-', kind='transmitting', layer_points=8 /\n",
          "t.nml:4:43: error:",
          {"'lysmer', which has no thickness"}},
-        {BOX "&boundary face='x-', kind='transmitting', layer='pml', normal_factor=1 /\n",
+        {BOX "&boundary face='x-', kind='transmitting', layer='pml', normal_factor=2 /\n",
          "t.nml:4:56: error:",
          {"does not belong to layer 'pml'"}},
         {BOX "&boundary face='x-', kind='transmitting', layer='pml', layer_points=8, layer_reflection=.1 /\n",
