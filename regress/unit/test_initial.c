@@ -5,7 +5,7 @@
 #define SOLID "&material name='rock', density=2, lambda=3, mu=5 /\n"
 #define BOX                                                                                                  \
     "&scene dimension=3, end_time=6 /\n" SOLID "&body material='rock', low=0,0,0, high=7,7,7, spacing=.5 "   \
-                                               "/\n"
+    "/\n"
 
 static void rest_and_uniform(void **unused)
 {

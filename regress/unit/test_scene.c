@@ -1,6 +1,7 @@
 /* The scene: what a right deck becomes, and that overrides reach it. */
 #include "from_deck.h"
 
+#include <glob.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -387,6 +388,40 @@ static void overrides_reach_the_scene(void **unused)
     from_deck_free(&d);
 }
 
+/* The decks of input/ are right, and so are their echoes, which have every default written out. */
+static void decks_and_their_echoes(void **unused)
+{
+    (void)unused;
+    glob_t found;
+    assert_int_equal(glob("input/*.nml", 0, NULL, &found), 0);
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        struct from_deck d = {0}, echo = {0};
+        char *text = NULL;
+        size_t length = 0;
+        FILE *file = open_memstream(&text, &length);
+        assert_non_null(file);
+        d.status = deck_read_file(found.gl_pathv[i], 0, NULL, &d.deck, &d.messages);
+        if (d.status == SELAS_OK) d.status = scene_build(d.deck, &d.scene, &d.messages);
+        if (d.scene == NULL) print_error("%s", d.messages.text);
+        assert_non_null(d.scene);
+        assert_int_equal(deck_write(d.deck, file, &d.messages), SELAS_OK);
+        assert_int_equal(fclose(file), 0);
+        echo = right_scene(text);
+        assert_int_equal(echo.scene->loads, d.scene->loads);
+        assert_int_equal(echo.scene->receivers, d.scene->receivers);
+        assert_memory_equal(echo.scene->material, d.scene->material,
+                            d.scene->materials * sizeof *d.scene->material);
+        assert_memory_equal(&echo.scene->initial, &d.scene->initial, sizeof d.scene->initial);
+        for (int face = 0; face < FACES; face++)
+            assert_int_equal(echo.scene->boundary[face].kind, d.scene->boundary[face].kind);
+        from_deck_free(&d);
+        from_deck_free(&echo);
+        free(text);
+    }
+    assert_true(found.gl_pathc >= 4);
+    globfree(&found);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -403,6 +438,7 @@ int main(void)
         cmocka_unit_test(choices_are_the_enums),
         cmocka_unit_test(warnings),
         cmocka_unit_test(overrides_reach_the_scene),
+        cmocka_unit_test(decks_and_their_echoes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

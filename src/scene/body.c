@@ -37,9 +37,10 @@ static double nearest_spacing(const struct body *body, int dimension, double wan
     double shortest = INFINITY, best = 0;
     for (int c = 0; c < dimension; c++)
         shortest = fmin(shortest, body->high[c] - body->low[c]);
-    const double most = fmin(ceil(4 * shortest / wanted), 1e6);
-    for (double n = fmax(1, floor(shortest / wanted / 4)); n <= most; n++) {
-        const double spacing = shortest / n;
+    const long first = (long)fmin(fmax(1, floor(shortest / wanted / 4)), 1e6);
+    const long last = (long)fmin(ceil(4 * shortest / wanted), 1e6);
+    for (long n = first; n <= last; n++) {
+        const double spacing = shortest / (double)n;
         bool all = true;
         for (int c = 0; c < dimension; c++)
             all = all && divides(spacing, body->high[c] - body->low[c]);

@@ -114,7 +114,7 @@ bool body_holds(const struct body *body, int dimension, const double position[3]
     double place[3];
     bool inside = true;
     body_from_deck(body, position, place);
-    for (int c = 0; c < dimension; c++) {
+    for (int c = 0; c < 3 && c < dimension; c++) {
         if (place[c] < body->low[c] - tolerance || place[c] > body->high[c] + tolerance) inside = false;
         place[c] = fmin(fmax(place[c], body->low[c]), body->high[c]);
     }

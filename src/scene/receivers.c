@@ -1,6 +1,7 @@
 /* What the user wants to see: receivers, profiles, snapshots. */
 #include "scene/build.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -51,7 +52,10 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
     double nearest[3];
     if (!need_vector(builder, group, name, what, position) || !builder->body_known) return;
     if (body_holds(body, dimension, position, nearest)) return;
-    if (body->shape == BODY_PLATE_WITH_HOLE && memcmp(nearest, position, sizeof nearest) == 0)
+    double off = 0; /* the box is missed by this much */
+    for (int c = 0; c < 3; c++)
+        off = fmax(off, fabs(nearest[c] - position[c]));
+    if (body->shape == BODY_PLATE_WITH_HOLE && off <= body_tolerance(body))
         complain(builder, group, name, "%s at %s lies in the hole", what,
                  vector_text(given, position, dimension));
     else
