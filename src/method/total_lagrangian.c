@@ -8,7 +8,7 @@
 #include "method/total_lagrangian.h"
 
 #include "base/memory.h"
-#include "method/initial.h"
+#include "scene/initial.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* What users see of updated-Lagrangian SPH: initial state, point values, fields, energies. */
 #include "base/memory.h"
-#include "method/initial.h"
 #include "method/updated_lagrangian.h"
 #include "points/least_squares.h"
+#include "scene/initial.h"
 
 #include <math.h>
 #include <stdio.h>
