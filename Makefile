@@ -47,6 +47,8 @@ $(BUILD)/libselas.a: $(OBJECTS)
 	@rm -f $@
 	$(Q)ar rcs $@ $^
 
+$(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"'
+
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")

@@ -4,6 +4,7 @@
 #include "record/safe_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,6 +100,14 @@ void gnuplot_quote(FILE *script, const char *text)
         fputc((unsigned char)*text < ' ' ? ' ' : *text, script);
     }
     fputc('\'', script);
+}
+
+double gnuplot_tic_step(double range, double wanted)
+{
+    const double rough = range / wanted;
+    const double power = pow(10.0, floor(log10(rough)));
+    const double lead = rough / power;
+    return power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
 }
 
 void gnuplot_output(FILE *script, const char *folder, const char *name)

@@ -23,6 +23,8 @@ void gnuplot_discard(struct gnuplot *plot);
 
 /* A file name or text as a gnuplot string in single quotes. */
 void gnuplot_quote(FILE *script, const char *text);
+/* Step between tics: 1, 2 or 5 times a power of ten, about `wanted` of them in a range > 0. */
+double gnuplot_tic_step(double range, double wanted);
 /* `set output` to the temporary name of folder/name; after gnuplot_run(): give it its name (or remove it). */
 void gnuplot_output(FILE *script, const char *folder, const char *name);
 void gnuplot_keep(const char *folder, const char *name, bool good, struct messages *messages);

@@ -34,6 +34,22 @@ struct misfit misfit_of(size_t rows, const double *time, const double *value, co
     return misfit;
 }
 
+void misfits_of(size_t rows, const double *time, const double *value, const double *reference,
+                struct misfit misfit[3], struct misfit *largest)
+{
+    *largest = (struct misfit){0};
+    for (size_t c = 0; c < 3; c++) {
+        misfit[c] = misfit_of(rows, time, value + c, reference + c, 6, 1);
+        largest->l2_of = fmax(largest->l2_of, misfit[c].l2_of);
+        largest->linf_of = fmax(largest->linf_of, misfit[c].linf_of);
+    }
+}
+
+bool misfit_is_small(const struct misfit *misfit, const struct misfit *largest)
+{
+    return misfit->l2_of <= 1e-3 * largest->l2_of;
+}
+
 void file_name_of(const char *name, const char *ending, char *text, size_t size)
 {
     snprintf(text, size, "%s%s", name, ending);

@@ -156,6 +156,15 @@ struct misfit {
 };
 struct misfit misfit_of(size_t rows, const double *time, const double *value, const double *reference,
                         size_t stride, size_t components);
+/* The three components of displacement or velocity (stride 6); the norms of the largest reference. */
+void misfits_of(size_t rows, const double *time, const double *value, const double *reference,
+                struct misfit misfit[3], struct misfit *largest);
+/* A component whose reference is below 1e-3 of the largest one is as good as zero: its own norm says nothing,
+ * the error is then told relative to the largest component. */
+bool misfit_is_small(const struct misfit *misfit, const struct misfit *largest);
+
+/* provenance.c: name and version of the compiler that built the library */
+const char *compiler_name(void);
 
 /* names of files and data sets from names of the deck: '/' and control characters become '_' */
 void file_name_of(const char *name, const char *ending, char *text, size_t size);

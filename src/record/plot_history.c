@@ -62,7 +62,7 @@ static void write_data(FILE *script, const struct recorder *recorder, size_t rec
 static void set_margins(FILE *script, int height, int top, int bottom)
 {
     fprintf(script, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", 130.0 / WIDTH,
-            (WIDTH - 30.0) / WIDTH);
+            (WIDTH - 50.0) / WIDTH);
     fprintf(script, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
             1.0 - (double)top / (double)height, 1.0 - (double)bottom / (double)height);
 }
@@ -75,21 +75,12 @@ static void last_panel(FILE *script, bool last)
         fprintf(script, "unset xlabel\nset format x ''\n");
 }
 
-/* Step between tics: 1, 2 or 5 times a power of ten, about `wanted` of them in a range. */
-static double tic_step(double range, int wanted)
-{
-    const double rough = range / wanted;
-    const double power = pow(10.0, floor(log10(rough)));
-    const double lead = rough / power;
-    return power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
-}
-
 /* A flat curve needs a range of its own: gnuplot refuses an empty one. */
 static void set_range(FILE *script, double low, double high, int tics)
 {
     const double room = high > low ? 0.08 * (high - low) : fmax(fabs(high), 1.0);
     fprintf(script, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", low - room, high + room,
-            tic_step(high - low + 2.0 * room, tics));
+            gnuplot_tic_step(high - low + 2.0 * room, tics));
 }
 
 static void range_of(const double *a, const double *b, size_t rows, size_t column, bool difference,
@@ -101,6 +92,22 @@ static void range_of(const double *a, const double *b, size_t rows, size_t colum
         range[0] = fmin(range[0], difference ? x - y : fmin(x, y));
         range[1] = fmax(range[1], difference ? x - y : fmax(x, y));
     }
+}
+
+/* The error in words, as in report.txt. */
+static void write_error(const struct recorder *recorder, const double *value, const double *exact,
+                        size_t column, char *text, size_t size)
+{
+    struct misfit misfit[3];
+    struct misfit largest;
+    misfits_of(recorder->rows, recorder->time, value + 3, exact + 3, misfit, &largest);
+    const struct misfit *own = &misfit[column - 3];
+    const struct misfit *of = misfit_is_small(own, &largest) ? &largest : own;
+    if (!(of->l2_of > 0.0) || !(of->linf_of > 0.0))
+        snprintf(text, size, "exact is zero");
+    else
+        snprintf(text, size, "L2 %.3g %%, L∞ %.3g %%%s", 100.0 * own->l2 / of->l2_of,
+                 100.0 * own->linf / of->linf_of, of == own ? "" : " of the largest component");
 }
 
 static void write_panels(FILE *script, const struct recorder *recorder, size_t receiver, size_t column,
@@ -126,18 +133,15 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     *top += MAIN + GAP;
     if (exact == NULL) return;
     fprintf(script, "unset label 1\n"); /* the title is drawn once */
-    const struct misfit misfit =
-        misfit_of(recorder->rows, recorder->time, value + column, exact + column, 6, 1);
+    char error[128];
+    write_error(recorder, value, exact, column, error, sizeof error);
     range_of(value, exact, recorder->rows, column, true, range);
     set_margins(script, height, *top, *top + DIFFERENCE);
     last_panel(script, last);
     set_range(script, range[0], range[1], DIFFERENCE_TICS);
     fprintf(script, "set ylabel 'difference'\n");
-    fprintf(script,
-            "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t "
-            "'computed - exact: relative L2 %.3g %%, L{/Symbol \\245} %.3g %%'\n",
-            6 + 2 * c, misfit.l2_of > 0.0 ? 100.0 * misfit.l2 / misfit.l2_of : NAN,
-            misfit.linf_of > 0.0 ? 100.0 * misfit.linf / misfit.linf_of : NAN);
+    fprintf(script, "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t 'computed - exact: %s'\n", 6 + 2 * c,
+            error);
     *top += DIFFERENCE + GAP;
 }
 

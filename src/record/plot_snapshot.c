@@ -16,7 +16,17 @@
     "set palette defined (0 '#ffffff', 0.2 '#fde3a7', 0.45 '#f59b3c', 0.7 '#c0392b', 1 '#4a0d1e')\n"
 #define GIF_FONT "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
-enum { PANEL = 640, HEIGHT = 620, FRAME_DELAY = 10 /* hundredths of a second */ };
+enum {
+    PANEL = 640,       /* pixels of a page with two sections, each */
+    AREA = 445,        /* of which the map gets so many, */
+    SINGLE = 800,      /* of a page with one section, */
+    SINGLE_AREA = 560, /* likewise */
+    AROUND = 175,      /* above and below a map */
+    LOWEST = 300,
+    HIGHEST = 900,
+    CURVE_HEIGHT = 620,
+    FRAME_DELAY = 10 /* hundredths of a second */
+};
 static const double axis_slack = 1e-9;
 static const double quiet = 1e-4;
 
@@ -53,8 +63,39 @@ static void set_scale(FILE *script, const struct film *film, double largest)
     fprintf(script, "set cbrange [%.6g:%.6g]\n", positive ? 0.0 : -size, size);
 }
 
-static void draw_map(FILE *script, const struct film *film, size_t s, const struct frame *frame,
+/* Pixels that the taller of the first `sections` maps needs. */
+static int map_height(const struct film *film, size_t sections)
+{
+    double aspect = 0.0;
+    for (size_t s = 0; s < sections; s++) {
+        const struct section *section = &film->section[s];
+        const double width = section->high[0] - section->low[0], height = section->high[1] - section->low[1];
+        aspect = fmax(aspect, width > 0.0 ? height / width : 1.0);
+    }
+    const double wanted = aspect * (sections > 1 ? AREA : SINGLE_AREA);
+    return (int)fmin(fmax(wanted, LOWEST - AROUND), HIGHEST - AROUND);
+}
+
+static int page_height(const struct film *film, size_t sections)
+{
+    return is_curve(&film->section[0]) ? CURVE_HEIGHT : map_height(film, sections) + AROUND;
+}
+
+/* As many tics as the map has room for. */
+static void set_tics(FILE *script, const struct film *film, const struct section *section, size_t sections,
                      double largest)
+{
+    const double width = section->high[0] - section->low[0], height = section->high[1] - section->low[1];
+    const double area = sections > 1 ? AREA : SINGLE_AREA;
+    const double pixels = width > 0.0 ? fmin(area * height / width, map_height(film, sections)) : area;
+    if (width > 0.0) fprintf(script, "set xtics %.9g\n", gnuplot_tic_step(width, 7.0));
+    if (height > 0.0) fprintf(script, "set ytics %.9g\n", gnuplot_tic_step(height, fmax(pixels / 60.0, 3.5)));
+    const double scale = (film->field == SELAS_ENERGY ? 1.0 : 2.0) * (largest > 0.0 ? largest : 1.0);
+    fprintf(script, "set cbtics %.9g\n", gnuplot_tic_step(scale, fmax(pixels / 60.0, 3.5)));
+}
+
+static void draw_map(FILE *script, const struct film *film, size_t s, size_t sections,
+                     const struct frame *frame, double largest)
 {
     static const char axis_name[3] = {'x', 'y', 'z'};
     const struct section *section = &film->section[s];
@@ -67,6 +108,7 @@ static void draw_map(FILE *script, const struct film *film, size_t s, const stru
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", section->low[1], section->high[1], section->downwards);
     set_scale(script, film, largest);
+    set_tics(script, film, section, sections, largest);
     if (section->regular) {
         const double step[2] = {(section->high[0] - section->low[0]) / (double)(section->fine[0] - 1),
                                 (section->high[1] - section->low[1]) / (double)(section->fine[1] - 1)};
@@ -106,13 +148,13 @@ static void draw_curve(FILE *script, const struct film *film, const struct frame
             frame->skip[0], section->points);
 }
 
-static void frame_title(FILE *script, const struct recorder *recorder, const struct frame *frame)
+static void frame_title(FILE *script, const struct recorder *recorder, const struct frame *frame, int height)
 {
     char title[400];
     snprintf(title, sizeof title, "%s    t = %.4g", recorder->scene->title, frame->time);
     fprintf(script, "set label 1 ");
     gnuplot_quote(script, title);
-    fprintf(script, " at screen 0.5, screen 0.965 center noenhanced\n");
+    fprintf(script, " at screen 0.5, screen %.4f center noenhanced\n", 1.0 - 22.0 / height);
 }
 
 static void set_look(FILE *script)
@@ -131,12 +173,12 @@ static void draw_still(FILE *script, const struct recorder *recorder, const stru
 {
     char name[48];
     still_name(frame, name, sizeof name);
-    fprintf(script, "reset\nset terminal pngcairo size %zu,%d font 'DejaVu Sans,13'\n",
-            film->sections * PANEL + (film->sections == 1 ? 160 : 0), HEIGHT);
+    fprintf(script, "reset\nset terminal pngcairo size %d,%d font 'DejaVu Sans,13'\n",
+            film->sections > 1 ? 2 * PANEL : SINGLE, page_height(film, film->sections));
     gnuplot_output(script, recorder->scene->output.directory, name);
     fprintf(script, "set multiplot\n");
     set_look(script);
-    frame_title(script, recorder, frame);
+    frame_title(script, recorder, frame, page_height(film, film->sections));
     if (is_curve(&film->section[0])) {
         fprintf(script, "set size noratio 1,0.93\n");
         draw_curve(script, film, frame, film->largest[0]);
@@ -145,7 +187,8 @@ static void draw_still(FILE *script, const struct recorder *recorder, const stru
             const double width = 1.0 / (double)film->sections;
             fprintf(script, "set origin %.4f,0\nset size ratio -1 %.4f,0.95\n", (double)s * width, width);
             /* a body that is still at rest shows rest, not its rounding */
-            draw_map(script, film, s, frame, fmax(frame->largest[s], quiet * film->largest[s]));
+            draw_map(script, film, s, film->sections, frame,
+                     fmax(frame->largest[s], quiet * film->largest[s]));
             fprintf(script, "unset label 1\n");
         }
     }
@@ -164,19 +207,20 @@ static void draw_animation(FILE *script, const struct recorder *recorder, const 
 {
     char name[48];
     animation_name(film, name, sizeof name);
-    fprintf(script, "reset\nset terminal gif animate delay %d loop 0 optimize size 720,640", FRAME_DELAY);
+    fprintf(script, "reset\nset terminal gif animate delay %d loop 0 optimize size %d,%d", FRAME_DELAY,
+            SINGLE, page_height(film, 1));
     if (access(GIF_FONT, R_OK) == 0) fprintf(script, " font '" GIF_FONT ",12'");
     fprintf(script, "\n");
     gnuplot_output(script, recorder->scene->output.directory, name);
     set_look(script);
     for (size_t f = 0; f < film->frames; f++) {
-        frame_title(script, recorder, &film->frame[f]);
+        frame_title(script, recorder, &film->frame[f], page_height(film, 1));
         if (is_curve(&film->section[0])) {
             fprintf(script, "set size noratio 1,0.95\n");
             draw_curve(script, film, &film->frame[f], film->largest[0]);
         } else {
             fprintf(script, "set size ratio -1 1,0.95\n");
-            draw_map(script, film, 0, &film->frame[f], film->scale[0]);
+            draw_map(script, film, 0, 1, &film->frame[f], film->scale[0]);
         }
     }
     fprintf(script, "unset output\n");

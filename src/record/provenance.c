@@ -12,6 +12,15 @@
 #define SELAS_FLAGS "not recorded"
 #endif
 
+const char *compiler_name(void)
+{
+#ifdef __clang__
+    return __VERSION__; /* says its own name */
+#else
+    return "gcc " __VERSION__;
+#endif
+}
+
 /* Text attributes are kept in the object header, which holds at most 64 KiB: longer texts become data sets.
  */
 static bool write_long_text(hid_t place, const char *name, const char *text)
@@ -89,7 +98,7 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
     const double threads = figures != NULL ? (double)figures->threads : 0.0;
     const struct stepper *stepper = recorder->stepper;
     const double steps = (double)recorder->last_step;
-    return hdf_text(place, "version", selas_version()) && hdf_text(place, "compiler", __VERSION__) &&
+    return hdf_text(place, "version", selas_version()) && hdf_text(place, "compiler", compiler_name()) &&
            hdf_text(place, "flags", SELAS_FLAGS) && hdf_text(place, "host", host) &&
            hdf_text(place, "date", date) && hdf_text(place, "hdf5", hdf) &&
            hdf_text(place, "fftw", fftw_version) && hdf_numbers(place, "threads", 1, &threads) &&

@@ -6,10 +6,6 @@
 #include <math.h>
 #include <sys/resource.h>
 
-/* A component smaller than this part of the receiver's largest one is as good as zero: its own norm says
- * nothing, the error is then told relative to the largest component. */
-static const double nearly_zero = 1e-3;
-
 static void tell_line(void *context, const char *key, const char *value)
 {
     fprintf(context, "%s: %s\n", key, value);
@@ -57,16 +53,15 @@ static void write_cost(FILE *out, const struct recorder *recorder, const struct 
 }
 
 static void write_misfit(FILE *out, const char *receiver, const char *component, const struct misfit *misfit,
-                         double largest_l2, double largest_linf)
+                         const struct misfit *largest)
 {
-    const bool small = misfit->l2_of <= nearly_zero * largest_l2;
-    if (!small)
+    if (!misfit_is_small(misfit, largest))
         fprintf(out, "error %s %s: L2 %.4e Linf %.4e", receiver, component, per(misfit->l2, misfit->l2_of),
                 per(misfit->linf, misfit->linf_of));
     else
         fprintf(out, "error %s %s: L2 - Linf - (the component is nearly zero)", receiver, component);
-    fprintf(out, "; of the largest component: L2 %.4e Linf %.4e\n", per(misfit->l2, largest_l2),
-            per(misfit->linf, largest_linf));
+    fprintf(out, "; of the largest component: L2 %.4e Linf %.4e\n", per(misfit->l2, largest->l2_of),
+            per(misfit->linf, largest->linf_of));
 }
 
 static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r)
@@ -76,16 +71,10 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
     const double *exact = recorder->exact + r * recorder->rows * 6;
     const char *receiver = recorder->scene->receiver[r].name;
     for (size_t kind = 0; kind < 2; kind++) { /* displacement, velocity */
-        struct misfit misfit[3];
-        double largest_l2 = 0.0, largest_linf = 0.0;
-        for (size_t c = 0; c < 3; c++) {
-            const size_t column = 3 * kind + c;
-            misfit[c] = misfit_of(recorder->rows, recorder->time, value + column, exact + column, 6, 1);
-            largest_l2 = fmax(largest_l2, misfit[c].l2_of);
-            largest_linf = fmax(largest_linf, misfit[c].linf_of);
-        }
+        struct misfit misfit[3], largest;
+        misfits_of(recorder->rows, recorder->time, value + 3 * kind, exact + 3 * kind, misfit, &largest);
         for (size_t c = 0; c < (size_t)recorder->scene->dimension; c++)
-            write_misfit(out, receiver, name[3 * kind + c], &misfit[c], largest_l2, largest_linf);
+            write_misfit(out, receiver, name[3 * kind + c], &misfit[c], &largest);
         const struct misfit vector =
             misfit_of(recorder->rows, recorder->time, value + 3 * kind, exact + 3 * kind, 6, 3);
         fprintf(out, "error %s %s: L2 %.4e Linf %.4e\n", receiver, kind == 0 ? "displacement" : "velocity",
@@ -123,7 +112,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
         safe_file_open(recorder->scene->output.directory, "report.txt", &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
-    fprintf(out, "version: %s\ncompiler: %s\n", selas_version(), __VERSION__);
+    fprintf(out, "version: %s\ncompiler: %s\n", selas_version(), compiler_name());
     plan_tell(recorder, tell_line, out);
     fprintf(out, "steps done: %lu\ntime reached: %.9g\n", recorder->last_step, recorder->last_time);
     if (exact != NULL) {
