@@ -173,7 +173,7 @@ static selas_status traction_on_box(struct tl_model *tl, const struct load *load
     const size_t d = (size_t)tl->cloud->dimension;
     const int axis = face_axis(load->face);
     const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
-    const double reach = fmin(tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
+    const double reach = fmin(2 * tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
     double sum = 0;
     uniform_stress(tl, direction, load->face);
     for (size_t i = 0; i < tl->cloud->points; i++) {
