@@ -66,7 +66,7 @@ struct range {
 static struct range wavenumbers(const struct work *work, double angular_frequency)
 {
     const double slowest = angular_frequency / work->problem->ground.rayleigh_speed;
-    const double flat = 1.15 * slowest + 48 / work->scales.edge;
+    const double flat = 1.15 * slowest + (work->scales.kinks ? 48 : 160) / work->scales.edge;
     /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading */
     const double buried = hypot(26 / work->scales.depth, slowest);
     return buried < flat ? (struct range){buried, buried} : (struct range){flat, flat / .6};
@@ -486,7 +486,9 @@ static selas_status prepare(struct work *work, double end_time, struct messages 
     }
     work->period = (kinks ? 4 : 2.2) * end_time;
     work->decay = (kinks ? 14 : 16) / work->period;
-    work->panel = fmin(2 * work->decay / problem->ground.s_speed, 12 / reach);
+    /* poles and branch points lie decay/speed off the real axis of k */
+    work->panel =
+        fmin(12 / reach, work->decay * fmin(2 / problem->ground.s_speed, 6 / problem->ground.p_speed));
     return SELAS_OK;
 }
 
