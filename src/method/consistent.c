@@ -4,7 +4,7 @@
  *   M a + C v + K u = F.
  *
  * Here: the model's making, its acceleration and energies. */
-#include "method/consistent.h"
+#include "method/hform.h"
 
 #include "base/memory.h"
 
@@ -16,6 +16,7 @@
 static void destroy(struct model *model)
 {
     struct consistent *c = consistent_of(model);
+    hform_free(c);
     forces_free(c);
     mass_free(c);
     tensor_plan_free(c->stiffness);
@@ -58,7 +59,6 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
 static void residual_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
                            const double *u, const double *v, double *a)
 {
-    const struct scene *scene = c->model.scene;
     double *out[3] = {NULL, NULL, NULL};
     for (int component = 0; component < c->dimension; component++) {
         out[component] = a + (size_t)component * c->volume + k * c->plane;
@@ -67,13 +67,7 @@ static void residual_plane(const struct consistent *c, const struct drive *drive
     tensor_plane(c->stiffness, thread, k, -1, u, out);
     if (v != NULL && c->model.damped) dampers_subtract(c, thread, k, v, out);
     for (int component = 0; component < c->dimension; component++) {
-        for (size_t l = 0; drive->load != NULL && l < scene->loads; l++)
-            if (drive->load[l] != 0)
-                sparse_add(c, &c->load[l], component, k, drive->load[l] * scene->load[l].amplitude,
-                           out[component]);
-        for (int face = 0; drive->motion != NULL && face < 2 * c->dimension; face++)
-            if (c->moving[face])
-                sparse_add(c, &c->inertia[face], component, k, -drive->motion[face], out[component]);
+        add_forces(c, drive, c->load, c->inertia, component, k, out[component]);
         consistent_clear_held(c, component, k, out[component]);
     }
 }
@@ -89,10 +83,9 @@ static void set_moving(const struct consistent *c, const struct drive *drive, do
     }
 }
 
-static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
-                       const double *v, double *a)
+static void exact_accelerate(struct consistent *c, const struct drive *drive, double half_step,
+                             const double *u, const double *v, double *a)
 {
-    struct consistent *c = consistent_of(model);
     const struct mass_factors *factors = mass_factors_for(c, half_step);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t k = 0; k < c->n[DEPTH]; k++) {
@@ -101,6 +94,16 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
         mass_solve_plane(c, factors, thread, k, a);
     }
     mass_solve_depth(c, factors, a);
+}
+
+static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
+                       const double *v, double *a)
+{
+    struct consistent *c = consistent_of(model);
+    if (c->hform != NULL)
+        hform_accelerate(c, drive, half_step, u, v, a);
+    else
+        exact_accelerate(c, drive, half_step, u, v, a);
     set_moving(c, drive, a);
     model->evaluations++;
 }
@@ -109,6 +112,13 @@ static void energy(struct model *model, const double *y, struct energy *energy)
 {
     struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
+    bool moving = false;
+    for (int face = 0; face < BOX_FACES; face++)
+        moving = moving || c->moving[face];
+    if (c->hform != NULL && !moving) {
+        hform_energy(c, y, energy);
+        return;
+    }
     energy->kinetic = tensor_form(c->mass, v, v) / 2;
     energy->strain = tensor_form(c->stiffness, y, y) / 2;
 }
@@ -122,7 +132,7 @@ static void power(struct model *model, const struct drive *drive, const double *
     for (size_t l = 0; drive->load != NULL && l < model->scene->loads; l++)
         if (drive->load[l] != 0)
             *load += drive->load[l] * model->scene->load[l].amplitude * sparse_dot(c, &c->load[l], v);
-    *absorbed = dampers_power(c, v);
+    *absorbed = c->hform != NULL ? hform_damper_power(c, v) : dampers_power(c, v);
 }
 
 static void describe(const struct model *model,
@@ -133,7 +143,8 @@ static void describe(const struct model *model,
     snprintf(text, sizeof text, "B-splines of degree %d, %s ends", c->options.degree,
              c->options.mapped ? "mapped" : "open");
     tell(context, "basis", text);
-    tell(context, "mass", "exact (banded Cholesky per axis)");
+    snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form)", c->options.sweeps);
+    tell(context, "mass", c->options.sweeps == 0 ? "exact (banded Cholesky per axis)" : text);
     size_t control[3] = {1, 1, 1};
     for (int axis = 0; axis < c->dimension; axis++)
         control[axis] = c->spline[axis]->count;
@@ -222,6 +233,7 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
     array_free(interface);
     c->plane = c->n[0] * c->n[1];
     c->volume = c->plane * c->n[2];
+    c->model.unknowns = (size_t)c->dimension * c->volume;
     return status;
 }
 
@@ -275,7 +287,9 @@ static selas_status build(struct consistent *c, struct messages *messages)
     if (!lay_material(c) || !consistent_plans(c) || !mass_allocate(c) || !dampers_allocate(c) ||
         !observe_create(c) || !collocation_create(c))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
-    return forces_create(c, messages);
+    status = forces_create(c, messages);
+    if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
+    return status;
 }
 
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
@@ -297,7 +311,6 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
         destroy(&c->model);
         return status;
     }
-    c->model.unknowns = (size_t)c->dimension * c->volume;
     c->model.state_size = 2 * c->model.unknowns;
     c->model.component_stride = c->volume;
     c->model.point_stride = 1;
@@ -315,6 +328,10 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     struct consistent_options options = {.degree = 3};
     if (group != NULL && deck_values(group, "degree") > 0)
         options.degree = (int)deck_integer(group, "degree", 0);
+    if (group != NULL && deck_values(group, "mass") > 0) {
+        const char *mass = deck_text(group, "mass", 0);
+        options.sweeps = strcmp(mass, "exact") == 0 ? 0 : mass[2] - '0'; /* vc1, vc2, vc3 */
+    }
     if (group != NULL && deck_values(group, "ends") > 0)
         options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     return consistent_create_with(scene, &options, model, messages);

@@ -66,6 +66,7 @@ struct consistent {
     double *lane_buffer;     /* [threads * n[0] * LANES] */
     double *line_buffer;     /* [threads * (n[0] + n[1])] */
     double *face_buffer;     /* [dimension * plane] */
+    struct hform *hform;     /* NULL: exact mass */
     int threads;
     double *position;
     struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
@@ -75,6 +76,20 @@ struct consistent {
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages);
 extern const struct model_class consistent_class;
+
+/* Lines of control values along a slot: `lanes` neighbouring lines may be worked on at once. */
+struct line_set {
+    size_t lines, lanes, length, stride;
+};
+static inline struct line_set line_set(const struct consistent *c, int slot)
+{
+    const size_t stride = slot == 0 ? 1 : slot == 1 ? c->n[0] : c->plane;
+    return (struct line_set){c->volume / c->n[slot], stride, c->n[slot], stride};
+}
+static inline size_t line_start(const struct line_set *set, size_t line)
+{
+    return line / set->stride * set->stride * set->length + line % set->stride;
+}
 
 static inline struct consistent *consistent_of(struct model *model)
 {
@@ -97,6 +112,11 @@ void mass_solve_depth(struct consistent *c, const struct mass_factors *factors, 
 /* consistent_forces.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
 void forces_free(struct consistent *c);
+bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
+void sparse_free(struct sparse *sparse);
+/* Adds loads and the pull of moving faces, as vectors given, in plane k. */
+void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
+                const struct sparse *pull, int component, size_t k, double *plane);
 void sparse_add(const struct consistent *c, const struct sparse *sparse, int component, size_t k,
                 double factor, double *plane);
 double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field);

@@ -42,7 +42,7 @@ static void workspace_free(struct workspace *w)
 }
 
 /* Keeps the entries of a dense field that are not zero. */
-static bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse)
+bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse)
 {
     const size_t planes = (size_t)c->dimension * c->n[DEPTH];
     size_t count = 0;
@@ -65,7 +65,7 @@ static bool sparse_from(const struct consistent *c, const double *field, struct 
     return true;
 }
 
-static void sparse_free(struct sparse *sparse)
+void sparse_free(struct sparse *sparse)
 {
     array_free(sparse->start);
     array_free(sparse->index);
@@ -78,6 +78,17 @@ void sparse_add(const struct consistent *c, const struct sparse *sparse, int com
     const size_t at = (size_t)component * c->n[DEPTH] + k;
     for (size_t e = sparse->start[at]; e < sparse->start[at + 1]; e++)
         plane[sparse->index[e]] += factor * sparse->value[e];
+}
+
+void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
+                const struct sparse *pull, int component, size_t k, double *plane)
+{
+    const struct scene *scene = c->model.scene;
+    for (size_t l = 0; drive->load != NULL && l < scene->loads; l++)
+        if (drive->load[l] != 0)
+            sparse_add(c, &load[l], component, k, drive->load[l] * scene->load[l].amplitude, plane);
+    for (int face = 0; drive->motion != NULL && face < 2 * c->dimension; face++)
+        if (c->moving[face]) sparse_add(c, &pull[face], component, k, -drive->motion[face], plane);
 }
 
 double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field)

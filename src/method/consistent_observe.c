@@ -186,10 +186,9 @@ static void interpolate(struct consistent *c, int component, double *field)
 {
     for (int axis = 0; axis < c->dimension; axis++) {
         const struct band *lu = c->collocation[axis][axis == component];
-        const int slot = c->slot[axis];
-        const size_t stride = slot == 0 ? 1 : slot == 1 ? c->n[0] : c->plane, length = stride * c->n[slot];
-        for (size_t line = 0; line < c->volume / c->n[slot]; line++)
-            band_lu_solve(lu, field + line / stride * length + line % stride, stride);
+        const struct line_set set = line_set(c, c->slot[axis]);
+        for (size_t line = 0; line < set.lines; line++)
+            band_lu_solve(lu, field + line_start(&set, line), set.stride);
     }
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         consistent_clear_held(c, component, k, field + k * c->plane);

@@ -1,0 +1,361 @@
+/* The H-form (manual, sections 8 and 9): making, acceleration, energies.
+ *
+ *   N = sum over j <= m of (I - D^-1 M)^j D^-1,  D = row sums of M,  H = N^-1 in place of M everywhere:
+ *   rho a_i = -[(lambda + 2 mu) A_i + mu sum A_j] u_i + (lambda + mu) sum over j != i of C2_i C1_j u_j -
+ * edges, A = N S,  C1 = N (G - mu / (lambda + mu) E),  C2 = N (G - lambda / (lambda + mu) E),  E = G + G^T.
+ */
+#include "method/hform.h"
+
+#include "base/memory.h"
+
+#include <omp.h>
+#include <string.h>
+
+/* N of one component's axis; rows and columns of held control values are 0. */
+static struct band *van_cittert(const struct consistent *c, int component, int axis)
+{
+    const struct spline *spline = c->spline[axis];
+    const struct band *mass = c->mass_band[component][axis];
+    const struct band *even =
+        consistent_matrix((struct consistent *)c, axis, 0, false, 0, false, WEIGHT_DENSITY);
+    const size_t n = spline->count;
+    struct band *rest = band_new(n, mass->half), *diagonal = band_new(n, 0), *sum = band_new(n, 0);
+    if (rest == NULL || diagonal == NULL || sum == NULL || even == NULL) return NULL;
+    const bool *held = &c->held[component][2 * axis];
+    for (size_t i = 0; i < n; i++) {
+        if ((held[0] && i == 0) || (held[1] && i == n - 1)) continue;
+        double row_sum = 0;
+        for (size_t j = 0; j < n; j++)
+            if (!((held[0] && j == 0) || (held[1] && j == n - 1))) row_sum += band_get(even, i, j);
+        band_add(diagonal, i, i, 1 / row_sum);
+        band_add(sum, i, i, 1 / row_sum);
+        for (size_t j = 0; j < n; j++)
+            if (band_get(mass, i, j) != 0) band_add(rest, i, j, -band_get(mass, i, j) / row_sum);
+        band_add(rest, i, i, 1);
+    }
+    for (int sweep = 0; sweep < c->options.sweeps && sum != NULL; sweep++) {
+        struct band *product = band_product(rest, sum);
+        band_free(sum);
+        sum = product == NULL ? NULL : band_sum(product, 1, diagonal);
+        band_free(product);
+    }
+    band_free(rest);
+    band_free(diagonal);
+    return sum;
+}
+
+static bool same_space(const struct consistent *c, int one, int other, int axis)
+{
+    const bool mirrored = c->spline[axis]->mirror[0] || c->spline[axis]->mirror[1];
+    if (mirrored && (one == axis) != (other == axis)) return false;
+    return c->held[one][2 * axis] == c->held[other][2 * axis] &&
+           c->held[one][2 * axis + 1] == c->held[other][2 * axis + 1];
+}
+
+/* Cholesky factor of N with 1 on the diagonal where it is 0; the ends' columns. */
+static bool lay_factor(struct consistent *c, int component, int axis)
+{
+    struct hform *h = c->hform;
+    const struct band *inverse = h->inverse[component][axis];
+    struct band *full = band_sum(inverse, 0, inverse);
+    double *factor = array_new(inverse->n * (inverse->half + 1), sizeof *factor);
+    h->factor[component][axis] = factor;
+    if (full == NULL || factor == NULL) return false;
+    for (size_t i = 0; i < inverse->n; i++)
+        if (band_get(full, i, i) == 0) band_add(full, i, i, 1);
+    const bool good = band_factorise(full, factor);
+    band_free(full);
+    for (int end = 0; end < 2; end++) {
+        double *column = array_new(inverse->n, sizeof *column);
+        h->column[component][axis][end] = column;
+        if (column == NULL) return false;
+        for (size_t i = 0; i < inverse->n; i++)
+            column[i] = band_get(inverse, i, end == 0 ? 0 : inverse->n - 1);
+    }
+    h->reach[axis] = inverse->half + 1 < inverse->n ? inverse->half + 1 : inverse->n;
+    return good;
+}
+
+static bool lay_inverses(struct consistent *c)
+{
+    struct hform *h = c->hform;
+    for (int axis = 0; axis < c->dimension; axis++)
+        for (int component = 0; component < c->dimension; component++) {
+            for (int other = 0; other < component; other++)
+                if (same_space(c, component, other, axis))
+                    h->inverse[component][axis] = h->inverse[other][axis];
+            if (h->inverse[component][axis] == NULL) {
+                h->inverse[component][axis] = van_cittert(c, component, axis);
+                h->owns_inverse[component][axis] = true;
+            }
+            if (h->inverse[component][axis] == NULL || !lay_factor(c, component, axis)) return false;
+        }
+    return true;
+}
+
+/* left * (right - share E), E = -1 and 1 at the low and the high end unless that is a mirror. */
+static const struct band *multiply(struct consistent *c, int axis, const struct band *left,
+                                   const struct band *right, double share)
+{
+    struct hform *h = c->hform;
+    if (left == NULL || right == NULL || h->products == MAX_PRODUCTS) return NULL;
+    struct band *inner = band_sum(right, 0, right);
+    if (inner == NULL) return NULL;
+    const size_t last = inner->n - 1;
+    if (!c->spline[axis]->mirror[0]) band_add(inner, 0, 0, share);
+    if (!c->spline[axis]->mirror[1]) band_add(inner, last, last, -share);
+    struct band *product = band_product(left, inner);
+    band_free(inner);
+    if (product == NULL) return NULL;
+    for (size_t i = 0; i < h->products; i++) { /* equal ones are shared, so that plans share passes */
+        const struct band *known = h->product[i];
+        if (known->n != product->n || known->half != product->half ||
+            memcmp(known->value, product->value, (2 * known->half + 1) * known->n * sizeof(double)) != 0)
+            continue;
+        band_free(product);
+        return known;
+    }
+    h->product[h->products++] = product;
+    return product;
+}
+
+/* Term of -M^-1 K with derivatives of the test and trial functions along the axes given. */
+static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *count, int out, int in,
+                     int test, int trial, enum weighting weight)
+{
+    const bool varies = c->weighted[weight] != NULL;
+    struct tensor_term *term = &terms[(*count)++];
+    *term = (struct tensor_term){.out = out, .in = in, .factor = -1};
+    if (!varies) term->factor = -c->property[weight] / c->property[WEIGHT_DENSITY];
+    for (int axis = 0; axis < c->dimension; axis++) {
+        if (axis != test && axis != trial && !(varies && c->slot[axis] == DEPTH)) continue;
+        const struct band *band =
+            consistent_matrix(c, axis, axis == test, axis == out, axis == trial, axis == in, weight);
+        term->matrix[c->slot[axis]] = multiply(c, axis, c->hform->inverse[out][axis], band, 0);
+        if (term->matrix[c->slot[axis]] == NULL) return false;
+    }
+    return true;
+}
+
+/* Both products of K_ij in one, and what that leaves where two faces meet. */
+static bool add_mixed(struct consistent *c, struct tensor_term *terms, size_t *count, int out, int in)
+{
+    struct hform *h = c->hform;
+    const double lambda = c->property[WEIGHT_LAMBDA], mu = c->property[WEIGHT_MU];
+    const double density = c->property[WEIGHT_DENSITY];
+    struct tensor_term *term = &terms[(*count)++];
+    *term = (struct tensor_term){.out = out, .in = in, .factor = (lambda + mu) / density};
+    for (int i = 0; i < 2; i++) {
+        const int axis = i == 0 ? out : in;
+        const struct band *gradient = consistent_matrix(c, axis, 0, axis == out, 1, axis == in, WEIGHT_NONE);
+        term->matrix[c->slot[axis]] =
+            multiply(c, axis, h->inverse[out][axis], gradient, (axis == out ? lambda : mu) / (lambda + mu));
+        if (term->matrix[c->slot[axis]] == NULL) return false;
+    }
+    for (int ends = 0; ends < 4; ends++) {
+        const int end[2] = {ends % 2, ends / 2}, axes[2] = {out, in};
+        if (c->spline[out]->mirror[end[0]] || c->spline[in]->mirror[end[1]]) continue;
+        struct edge *edge = &h->edge[h->edges++];
+        *edge = (struct edge){.out = out, .in = in, .to = {c->n[0], c->n[1], c->n[2]}};
+        edge->factor = (end[0] == end[1] ? -1 : 1) * lambda * mu / ((lambda + mu) * density);
+        for (int i = 0; i < 2; i++) {
+            const int axis = axes[i], slot = c->slot[axis];
+            const size_t n = c->n[slot];
+            edge->at[slot] = end[i] == 0 ? 0 : n - 1;
+            edge->from[slot] = end[i] == 0 ? 0 : n - h->reach[axis];
+            edge->to[slot] = end[i] == 0 ? h->reach[axis] : n;
+            edge->column[slot] = h->column[out][axis][end[i]];
+        }
+    }
+    return true;
+}
+
+static bool lay_plan(struct consistent *c)
+{
+    struct tensor_term terms[32];
+    size_t count = 0;
+    bool good = true;
+    for (int i = 0; i < c->dimension; i++)
+        for (int j = 0; j < c->dimension; j++) {
+            good = good && add_term(c, terms, &count, i, i, j, j, i == j ? WEIGHT_P : WEIGHT_MU);
+            if (i == j) continue;
+            if (c->weighted[WEIGHT_MU] == NULL)
+                good = good && add_mixed(c, terms, &count, i, j);
+            else
+                good = good && add_term(c, terms, &count, i, j, i, j, WEIGHT_LAMBDA) &&
+                       add_term(c, terms, &count, i, j, j, i, WEIGHT_MU);
+        }
+    if (!good) return false;
+    c->hform->acceleration = tensor_plan_new(c->n, c->dimension, terms, count, c->threads);
+    return c->hform->acceleration != NULL;
+}
+
+/* field := M^-1 field (N along each axis, over the density where that is the same everywhere). */
+static void divide_by_mass(const struct consistent *c, double *field, double *line)
+{
+    const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    for (int component = 0; component < c->dimension; component++)
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const struct band *inverse = c->hform->inverse[component][axis];
+            const struct line_set set = line_set(c, c->slot[axis]);
+            for (size_t l = 0; l < set.lines; l++) {
+                double *first = field + (size_t)component * c->volume + line_start(&set, l);
+                for (size_t i = 0; i < set.length; i++)
+                    line[i] = band_row(inverse, i, first, set.stride) / (axis == 0 ? density : 1);
+                for (size_t i = 0; i < set.length; i++)
+                    first[i * set.stride] = line[i];
+            }
+        }
+}
+
+static bool widen(const struct consistent *c, const struct sparse *sparse, double *field, double *line,
+                  struct sparse *wide)
+{
+    memset(field, 0, c->model.unknowns * sizeof *field);
+    for (int component = 0; component < c->dimension; component++)
+        for (size_t k = 0; k < c->n[DEPTH]; k++)
+            sparse_add(c, sparse, component, k, 1, field + (size_t)component * c->volume + k * c->plane);
+    divide_by_mass(c, field, line);
+    return sparse_from(c, field, wide);
+}
+
+static bool lay_forces(struct consistent *c)
+{
+    struct hform *h = c->hform;
+    const size_t loads = c->model.scene->loads;
+    double *line = array_new(c->n[0] + c->n[1] + c->n[2], sizeof *line);
+    h->load = array_new(loads, sizeof *h->load);
+    bool good = line != NULL && h->load != NULL;
+    for (size_t l = 0; good && l < loads; l++)
+        good = widen(c, &c->load[l], h->work, line, &h->load[l]);
+    for (int face = 0; good && face < 2 * c->dimension; face++)
+        if (c->moving[face]) good = widen(c, &c->inertia[face], h->work, line, &h->pulled[face]);
+    array_free(line);
+    return good;
+}
+
+selas_status hform_create(struct consistent *c, struct messages *messages)
+{
+    size_t largest = c->plane;
+    for (int slot = 0; slot < 2; slot++)
+        if (c->n[1 - slot] * c->n[DEPTH] > largest) largest = c->n[1 - slot] * c->n[DEPTH];
+    for (int face = 0; face < 2 * c->dimension; face++)
+        for (int one = 0; one < c->dimension; one++)
+            for (int other = 0; other < one; other++)
+                if (one != face / 2 && other != face / 2 && c->held[one][face] != c->held[other][face])
+                    return fail(messages, SELAS_UNSUPPORTED,
+                                "face %s moves along itself and slips across: that needs method%%mass = "
+                                "'exact'",
+                                face_name((enum face)face));
+    struct hform *h = array_new(1, sizeof *h);
+    c->hform = h;
+    if (h == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
+    h->work = array_new(c->model.unknowns, sizeof *h->work);
+    h->face[0] = array_new(largest, sizeof(double));
+    h->face[1] = array_new(largest, sizeof(double));
+    if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) || !lay_plan(c) ||
+        !lay_forces(c))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
+    return SELAS_OK;
+}
+
+void hform_free(struct consistent *c)
+{
+    struct hform *h = c->hform;
+    if (h == NULL) return;
+    for (int component = 0; component < 3; component++)
+        for (int axis = 0; axis < 3; axis++) {
+            if (h->owns_inverse[component][axis]) band_free(h->inverse[component][axis]);
+            array_free(h->factor[component][axis]);
+            array_free(h->column[component][axis][0]);
+            array_free(h->column[component][axis][1]);
+        }
+    for (size_t i = 0; i < h->products; i++)
+        band_free(h->product[i]);
+    tensor_plan_free(h->acceleration);
+    for (size_t l = 0; h->load != NULL && l < c->model.scene->loads; l++)
+        sparse_free(&h->load[l]);
+    array_free(h->load);
+    for (int face = 0; face < BOX_FACES; face++)
+        sparse_free(&h->pulled[face]);
+    array_free(h->face[0]);
+    array_free(h->face[1]);
+    array_free(h->work);
+    array_free(h);
+}
+
+static void acceleration_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
+                               const double *u, double *a)
+{
+    const struct hform *h = c->hform;
+    double *out[3] = {NULL, NULL, NULL};
+    for (int component = 0; component < c->dimension; component++) {
+        out[component] = a + (size_t)component * c->volume + k * c->plane;
+        memset(out[component], 0, c->plane * sizeof *a);
+    }
+    tensor_plane(h->acceleration, thread, k, 1, u, out);
+    hform_edges(c, k, u, out);
+    for (int component = 0; component < c->dimension; component++) {
+        add_forces(c, drive, h->load, h->pulled, component, k, out[component]);
+        consistent_clear_held(c, component, k, out[component]);
+    }
+}
+
+void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
+                      const double *v, double *a)
+{
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        acceleration_plane(c, drive, omp_get_thread_num(), k, u, a);
+    if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
+}
+
+/* field := H (x) H (x) H field. */
+static void multiply_by_mass(const struct consistent *c, double *field)
+{
+    for (int component = 0; component < c->dimension; component++)
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const double *factor = c->hform->factor[component][axis];
+            const size_t half = c->hform->inverse[component][axis]->half;
+            const struct line_set set = line_set(c, c->slot[axis]);
+            for (size_t l = 0; l < set.lines; l += set.lanes) {
+                double *first = field + (size_t)component * c->volume + line_start(&set, l);
+                band_forward(factor, set.length, half, first, set.stride, set.lanes);
+                band_backward(factor, set.length, half, first, set.stride, set.lanes);
+            }
+        }
+}
+
+static bool all_zero(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (x[i] != 0) return false;
+    return true;
+}
+
+static double product(size_t n, const double *x, const double *y)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+/* v.Mv / 2 with M = rho H (x) H (x) H, and u.Ku / 2 = -u.M(-M^-1 K u) / 2. */
+void hform_energy(struct consistent *c, const double *y, struct energy *energy)
+{
+    const size_t n = c->model.unknowns;
+    const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    double *work = c->hform->work;
+    *energy = (struct energy){0};
+    if (!all_zero(n, y + n)) {
+        memcpy(work, y + n, n * sizeof *work);
+        multiply_by_mass(c, work);
+        energy->kinetic = density * product(n, work, y + n) / 2;
+    }
+    if (!all_zero(n, y)) {
+        hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
+        multiply_by_mass(c, work);
+        energy->strain = -density * product(n, work, y) / 2;
+    }
+}

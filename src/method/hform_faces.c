@@ -1,0 +1,147 @@
+/* Faces of the H-form (manual, sections 8 and 9): the correction where two faces meet, and transmitting
+ * faces.
+ *
+ * Dampers, one face: (M + h C)^-1 M = I - (h c / (1 + h c n_e)) n e^T on the axis across, n = N e, so that
+ *   a := a - c n v_e;   a := a - h c n a_e',   a_e' = a_e / (1 + h c n_e),
+ * only the planes that N reaches from the face. Faces of several axes: all velocities first, then the factors
+ * one after the other, as in the exact-mass form. */
+#include "method/hform.h"
+
+#include <string.h>
+
+void hform_edges(const struct consistent *c, size_t k, const double *u, double *const *out)
+{
+    const struct hform *h = c->hform;
+    for (size_t e = 0; e < h->edges; e++) {
+        const struct edge *edge = &h->edge[e];
+        if (k < edge->from[2] || k >= edge->to[2]) continue;
+        const double *in =
+            u + (size_t)edge->in * c->volume + (edge->column[2] == NULL ? k : edge->at[2]) * c->plane;
+        const double over_depth = edge->factor * (edge->column[2] == NULL ? 1 : edge->column[2][k]);
+        for (size_t j = edge->from[1]; j < edge->to[1]; j++) {
+            const double factor = over_depth * (edge->column[1] == NULL ? 1 : edge->column[1][j]);
+            const double *row = in + (edge->column[1] == NULL ? j : edge->at[1]) * c->n[0];
+            double *sum = out[edge->out] + j * c->n[0];
+            if (edge->column[0] == NULL)
+                for (size_t i = 0; i < c->n[0]; i++)
+                    sum[i] += factor * row[i];
+            else
+                for (size_t i = edge->from[0]; i < edge->to[0]; i++)
+                    sum[i] += factor * edge->column[0][i] * row[edge->at[0]];
+        }
+    }
+}
+
+/* Points of a face across a slot: position of point p at index `at` across. */
+struct face_points {
+    size_t count, row, skip, across; /* points; points a row; step between rows; step across */
+};
+
+static struct face_points face_points(const struct consistent *c, int slot)
+{
+    if (slot == 0) return (struct face_points){c->n[1] * c->n[2], 1, c->n[0], 1};
+    if (slot == 1) return (struct face_points){c->n[0] * c->n[2], c->n[0], c->plane, c->n[0]};
+    return (struct face_points){c->plane, c->plane, 0, c->plane};
+}
+
+static size_t face_point(const struct face_points *face, size_t p, size_t at)
+{
+    return p / face->row * face->skip + p % face->row + at * face->across;
+}
+
+/* field -= column (x) face values, over the column's reach. */
+static void spread(const struct consistent *c, int axis, int end, const double *column, const double *values,
+                   double *field)
+{
+    const struct face_points face = face_points(c, c->slot[axis]);
+    const size_t n = c->n[c->slot[axis]], reach = c->hform->reach[axis];
+    const size_t from = end == 0 ? 0 : n - reach;
+    for (size_t p = 0; p < face.count; p++)
+        for (size_t i = from; i < from + reach; i++)
+            field[face_point(&face, p, i)] -= column[i] * values[p];
+}
+
+/* Speed of a damped face's component, 0 if the face is not damped. */
+static double damping(const struct consistent *c, int axis, int end, int component)
+{
+    return c->damped[2 * axis + end] ? c->damping[2 * axis + end][component] : 0;
+}
+
+static void subtract_velocities(struct consistent *c, int axis, int component, const double *v, double *a)
+{
+    const struct face_points face = face_points(c, c->slot[axis]);
+    for (int end = 0; end < 2; end++) {
+        const double speed = damping(c, axis, end, component);
+        if (speed == 0) continue;
+        double *values = c->hform->face[0];
+        for (size_t p = 0; p < face.count; p++)
+            values[p] = speed * v[face_point(&face, p, end == 0 ? 0 : c->n[c->slot[axis]] - 1)];
+        spread(c, axis, end, c->hform->column[component][axis][end], values, a);
+    }
+}
+
+/* Solves the 2 x 2 equations of both ends' values, then takes h c n a_e' off. */
+static void implicit_part(struct consistent *c, int axis, int component, double half_step, double *a)
+{
+    double *const *column = c->hform->column[component][axis];
+    const struct face_points face = face_points(c, c->slot[axis]);
+    const size_t last = c->n[c->slot[axis]] - 1;
+    const double low = half_step * damping(c, axis, 0, component);
+    const double high = half_step * damping(c, axis, 1, component);
+    const double m00 = 1 + low * column[0][0], m01 = high * column[1][0];
+    const double m10 = low * column[0][last], m11 = 1 + high * column[1][last];
+    const double determinant = m00 * m11 - m01 * m10;
+    for (size_t p = 0; p < face.count; p++) {
+        const double a0 = a[face_point(&face, p, 0)], a1 = a[face_point(&face, p, last)];
+        c->hform->face[0][p] = low * (m11 * a0 - m01 * a1) / determinant;
+        c->hform->face[1][p] = high * (m00 * a1 - m10 * a0) / determinant;
+    }
+    if (low != 0) spread(c, axis, 0, column[0], c->hform->face[0], a);
+    if (high != 0) spread(c, axis, 1, column[1], c->hform->face[1], a);
+}
+
+void hform_dampers(struct consistent *c, double half_step, const double *v, double *a)
+{
+    for (int component = 0; component < c->dimension; component++) {
+        const size_t from = (size_t)component * c->volume;
+        for (int axis = 0; v != NULL && axis < c->dimension; axis++)
+            subtract_velocities(c, axis, component, v + from, a + from);
+        for (int axis = 0; half_step != 0 && axis < c->dimension; axis++)
+            implicit_part(c, axis, component, half_step, a + from);
+    }
+}
+
+/* rho c v_e.(H (x) H) v_e: the masses of the face's own axes, one banded solve each. */
+double hform_damper_power(struct consistent *c, const double *v)
+{
+    double power = 0;
+    double *values = c->hform->face[0], *weighed = c->hform->face[1];
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        if (!c->damped[face]) continue;
+        const int slot = c->slot[face / 2], across = slot == 0 ? 1 : 0, outer = slot == DEPTH ? 1 : DEPTH;
+        const struct face_points points = face_points(c, slot);
+        const size_t inner = c->n[across], rows = c->n[outer];
+        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        for (int component = 0; component < c->dimension; component++) {
+            for (size_t p = 0; p < points.count; p++)
+                weighed[p] = values[p] = v[(size_t)component * c->volume + face_point(&points, p, at)];
+            for (int axis = 0; axis < c->dimension; axis++) {
+                const double *factor = c->hform->factor[component][axis];
+                const size_t half = c->hform->inverse[component][axis]->half;
+                if (c->slot[axis] == outer) {
+                    band_forward(factor, rows, half, weighed, inner, inner);
+                    band_backward(factor, rows, half, weighed, inner, inner);
+                } else if (c->slot[axis] == across)
+                    for (size_t row = 0; row < rows; row++) {
+                        band_forward(factor, inner, half, weighed + row * inner, 1, 1);
+                        band_backward(factor, inner, half, weighed + row * inner, 1, 1);
+                    }
+            }
+            double sum = 0;
+            for (size_t p = 0; p < points.count; p++)
+                sum += values[p] * weighed[p];
+            power += c->property[WEIGHT_DENSITY] * c->damping[face][component] * sum;
+        }
+    }
+    return power;
+}
