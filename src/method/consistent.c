@@ -325,7 +325,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
 static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     const struct deck_group *group = scene->method.group;
-    struct consistent_options options = {.degree = 3};
+    struct consistent_options options = {.degree = 2, .sweeps = 3};
     if (group != NULL && deck_values(group, "degree") > 0)
         options.degree = (int)deck_integer(group, "degree", 0);
     if (group != NULL && deck_values(group, "mass") > 0) {

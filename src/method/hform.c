@@ -21,12 +21,16 @@ static struct band *van_cittert(const struct consistent *c, int component, int a
     const size_t n = spline->count;
     struct band *rest = band_new(n, mass->half), *diagonal = band_new(n, 0), *sum = band_new(n, 0);
     if (rest == NULL || diagonal == NULL || sum == NULL || even == NULL) return NULL;
-    const bool *held = &c->held[component][2 * axis];
+    bool held[2], cut[2]; /* cut: the even functions of a mirror plane keep what odd ones have not */
+    for (int end = 0; end < 2; end++) {
+        held[end] = c->held[component][2 * axis + end];
+        cut[end] = held[end] && !spline->mirror[end];
+    }
     for (size_t i = 0; i < n; i++) {
         if ((held[0] && i == 0) || (held[1] && i == n - 1)) continue;
         double row_sum = 0;
         for (size_t j = 0; j < n; j++)
-            if (!((held[0] && j == 0) || (held[1] && j == n - 1))) row_sum += band_get(even, i, j);
+            if (!((cut[0] && j == 0) || (cut[1] && j == n - 1))) row_sum += band_get(even, i, j);
         band_add(diagonal, i, i, 1 / row_sum);
         band_add(sum, i, i, 1 / row_sum);
         for (size_t j = 0; j < n; j++)
