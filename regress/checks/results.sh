@@ -32,7 +32,7 @@ cat >"$work/small.nml" <<'END'
 END
 cd "$work" || exit 1
 check "the deck runs" "$selas" small.nml output%directory=out
-for name in deck.nml centre.dat side.dat depth.dat run.h5 run.xdmf report.txt; do
+for name in deck.nml centre.dat side.dat depth.dat run.h5 run.xdmf run_2.xdmf report.txt; do
     check "there is $name" test -s "out/$name"
 done
 check "no temporary file is left" sh -c '! ls out | grep -q "\.part$"'
@@ -51,11 +51,11 @@ same_numbers() { # histories in run.h5 and in the text file are the same numbers
 }
 check "run.h5 and side.dat hold the same numbers" same_numbers
 in_the_file() { # every data set that run.xdmf names is in run.h5
-    sed -n 's/.*run\.h5:\([^<]*\)<.*/\1/p' out/run.xdmf | sort -u >named
+    sed -n 's/.*run\.h5:\([^<]*\)<.*/\1/p' out/run.xdmf out/run_2.xdmf | sort -u >named
     test "$(wc -l <named)" -ge 9 || return 1
     while read -r set; do h5dump -H -d "$set" out/run.h5 >/dev/null || return 1; done <named
 }
-check "run.xdmf names data sets that are there" in_the_file
+check "run.xdmf and run_2.xdmf name data sets that are there" in_the_file
 check "run.xdmf closes what it opens" awk '
     { while (match($0, /<\/?[A-Za-z]+[^>]*>/)) {
           tag = substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH)

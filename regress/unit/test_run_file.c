@@ -205,6 +205,9 @@ static void layout_for_paraview(void **state)
         assert_non_null(strstr(text, "<Time Value=\"4\"/>"));
         assert_non_null(strstr(text, "run.h5:/snapshots/0004/velocity</DataItem>"));
         assert_non_null(strstr(text, "A wave &amp; its &lt;record&gt;"));
+        assert_null(strstr(text, "/snapshots/0001/")); /* that is the other group's */
+        text = text_of("run_2.xdmf");
+        assert_non_null(strstr(text, "run.h5:/snapshots/0001/displacement</DataItem>"));
         if (kind == 0) /* the region is a lattice too */
             assert_non_null(strstr(text, "\"3DCoRectMesh\" Dimensions=\"4 3 3\""));
         end();

@@ -1,4 +1,5 @@
-/* run.xdmf: tells ParaView how run.h5 is laid out (XDMF 2, temporal collection of the snapshots).
+/* run.xdmf (run_2.xdmf ... for further groups of snapshots): tells ParaView how run.h5 is laid out (XDMF 2,
+ * temporal collection of the snapshots).
  *
  * A lattice along the axes is a 3DCoRectMesh (2DCoRectMesh), any other lattice a 3DSMesh, loose points a
  * Polyvertex. XDMF counts the slowest axis first. */
@@ -78,33 +79,46 @@ static void write_field(FILE *out, const struct snapshot_record *record, size_t 
             number, field_name(field));
 }
 
-selas_status xdmf_write(const struct recorder *recorder, struct messages *messages)
+static size_t count_entries(const struct recorder *recorder, size_t group)
 {
-    if (recorder->entries == 0) return SELAS_OK;
+    size_t count = 0;
+    for (size_t k = 0; k < recorder->entries; k++)
+        count += recorder->entry[k].group == group;
+    return count;
+}
+
+/* One file for each group: ParaView wants the times of a file in order. */
+static selas_status write_group(const struct recorder *recorder, size_t group, struct messages *messages)
+{
+    const struct snapshot_record *record = &recorder->snapshot[group];
+    char name[40] = "run.xdmf";
+    if (group > 0) snprintf(name, sizeof name, "run_%zu.xdmf", group + 1);
     struct safe_file file;
-    const selas_status status =
-        safe_file_open(recorder->scene->output.directory, "run.xdmf", &file, messages);
+    const selas_status status = safe_file_open(recorder->scene->output.directory, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
-    fprintf(out, "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n <Domain>\n");
-    for (size_t group = 0; group < recorder->scene->snapshots; group++) {
-        const struct snapshot_record *record = &recorder->snapshot[group];
-        fprintf(out, "  <Grid Name=\"");
-        write_escaped(out, recorder->scene->title[0] != '\0' ? recorder->scene->title : "selas");
-        fprintf(out, " (snapshots %zu)\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", group + 1);
-        for (size_t k = 0; k < recorder->entries; k++) {
-            const struct snapshot_entry *entry = &recorder->entry[k];
-            if (entry->group != group) continue;
-            fprintf(out, "   <Grid Name=\"%04zu\" GridType=\"Uniform\">\n    <Time Value=\"%.17g\"/>\n",
-                    entry->number, entry->time);
-            write_geometry(out, record);
-            for (int field = 0; field <= SELAS_ENERGY; field++)
-                if ((record->snapshot->fields >> field & 1U) != 0)
-                    write_field(out, record, entry->number, (selas_field)field);
-            fprintf(out, "   </Grid>\n");
-        }
-        fprintf(out, "  </Grid>\n");
+    fprintf(out, "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n <Domain>\n  <Grid Name=\"");
+    write_escaped(out, recorder->scene->title[0] != '\0' ? recorder->scene->title : "selas");
+    fprintf(out, "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
+    for (size_t k = 0; k < recorder->entries; k++) {
+        const struct snapshot_entry *entry = &recorder->entry[k];
+        if (entry->group != group) continue;
+        fprintf(out, "   <Grid Name=\"%04zu\" GridType=\"Uniform\">\n    <Time Value=\"%.17g\"/>\n",
+                entry->number, entry->time);
+        write_geometry(out, record);
+        for (int field = 0; field <= SELAS_ENERGY; field++)
+            if ((record->snapshot->fields >> field & 1U) != 0)
+                write_field(out, record, entry->number, (selas_field)field);
+        fprintf(out, "   </Grid>\n");
     }
-    fprintf(out, " </Domain>\n</Xdmf>\n");
+    fprintf(out, "  </Grid>\n </Domain>\n</Xdmf>\n");
     return safe_file_close(&file, SELAS_OK, messages);
+}
+
+selas_status xdmf_write(const struct recorder *recorder, struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    for (size_t group = 0; group < recorder->scene->snapshots && status == SELAS_OK; group++)
+        if (count_entries(recorder, group) > 0) status = write_group(recorder, group, messages);
+    return status;
 }
