@@ -88,10 +88,11 @@ static void set_tics(FILE *script, const struct film *film, const struct section
     const double width = section->high[0] - section->low[0], height = section->high[1] - section->low[1];
     const double area = sections > 1 ? AREA : SINGLE_AREA;
     const double pixels = width > 0.0 ? fmin(area * height / width, map_height(film, sections)) : area;
-    if (width > 0.0) fprintf(script, "set xtics %.9g\n", gnuplot_tic_step(width, 7.0));
+    const double wide = height > 0.0 ? fmin(area, pixels * width / height) : area;
+    if (width > 0.0) fprintf(script, "set xtics %.9g\n", gnuplot_tic_step(width, fmax(wide / 65.0, 2.5)));
     if (height > 0.0) fprintf(script, "set ytics %.9g\n", gnuplot_tic_step(height, fmax(pixels / 60.0, 3.5)));
     const double scale = (film->field == SELAS_ENERGY ? 1.0 : 2.0) * (largest > 0.0 ? largest : 1.0);
-    fprintf(script, "set cbtics %.9g\n", gnuplot_tic_step(scale, fmax(pixels / 60.0, 3.5)));
+    fprintf(script, "set cbtics %.9g\n", gnuplot_tic_step(scale, fmin(fmax(pixels / 60.0, 3.5), 8.0)));
 }
 
 static void draw_map(FILE *script, const struct film *film, size_t s, size_t sections,
