@@ -43,7 +43,8 @@ struct probe {
 /* What limits an explicit time step, about the body at rest. */
 struct spectrum {
     double omega;        /* largest frequency of the undamped waves [rad/time] */
-    double wave_damping; /* mean damping rate of those fastest waves [1/time]; 0 if interior waves are undamped */
+    double wave_damping; /* mean damping rate of those fastest waves [1/time]; 0 if interior waves are
+                            undamped */
     double viscous;      /* largest damping rate of any motion [1/time] */
 };
 
