@@ -122,7 +122,7 @@ static const double receivers[10][3] = {{.25, .1, 0},  {.5, .2, 0},   {.45, -.45
 static void compare_closed(double nu, const struct patch *patch, const struct history *history, size_t from,
                            size_t until, double most)
 {
-    enum { ROWS = 32 };
+    enum { ROWS = 24 };
     const double end = 5;
     struct messages messages = {0};
     struct lamb_closed closed;
@@ -160,7 +160,7 @@ static void kinked_pulse_meets_closed_form(void **state)
     compare_closed(.1, &square, &triangle, 0, 5, 1e-4);
     compare_closed(.25, &square, &triangle, 0, 10, 1e-4);
     compare_closed(.4, &square, &triangle, 5, 10, 1e-4);
-    compare_closed(.45, &square, &triangle, 0, 5, 1e-4);
+    compare_closed(.45, &square, &triangle, 1, 4, 1e-4);
 }
 
 static void smooth_pulse_meets_closed_form(void **state)
@@ -168,7 +168,7 @@ static void smooth_pulse_meets_closed_form(void **state)
     (void)state;
     compare_closed(.1, &square, &gaussian, 0, 2, 1e-5);
     compare_closed(.25, &square, &gaussian, 3, 4, 1e-5);
-    compare_closed(.4, &square, &gaussian, 4, 6, 1e-5);
+    compare_closed(.4, &square, &gaussian, 5, 6, 1e-5);
     compare_closed(.45, &square, &gaussian, 7, 8, 1e-5);
 }
 

@@ -46,8 +46,8 @@ static inline struct pair root(struct pair a)
 }
 static inline struct pair decay(struct pair rate, double z)
 {
-    const double size = exp(-rate.re * z);
-    return (struct pair){size * cos(rate.im * z), -size * sin(rate.im * z)};
+    const double size = exp(-rate.re * z), cosine = cos(rate.im * z), sine = sin(rate.im * z);
+    return (struct pair){size * cosine, -size * sine};
 }
 /* exp(x) - 1 */
 static inline struct pair exp_minus_one(struct pair x)

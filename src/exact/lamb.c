@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 struct lamb {
     struct exact exact;
@@ -246,8 +245,8 @@ static selas_status history(struct exact *exact, const double position[3], size_
     position_in_ground(exact->scene, position, own.position);
     for (size_t i = 0; i < lamb->signals; i++) {
         const struct lamb_signal *signal = &lamb->signal[i];
-        if (memcmp(signal->position, own.position, sizeof own.position) == 0 &&
-            time[n - 1] <= signal->end_time) {
+        if (signal->position[0] == own.position[0] && signal->position[1] == own.position[1] &&
+            signal->position[2] == own.position[2] && time[n - 1] <= signal->end_time) {
             evaluate(lamb, signal, n, time, value);
             return SELAS_OK;
         }

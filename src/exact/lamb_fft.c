@@ -100,8 +100,10 @@ static bool extend_nodes(struct work *work, double largest)
         const size_t room = until + until / 2;
         double *k = array_new(room, sizeof *k), *k_weight = array_new(room, sizeof *k_weight);
         if (k == NULL || k_weight == NULL) return false;
-        memcpy(k, work->k, work->nodes * sizeof *k);
-        memcpy(k_weight, work->k_weight, work->nodes * sizeof *k);
+        if (work->nodes > 0) {
+            memcpy(k, work->k, work->nodes * sizeof *k);
+            memcpy(k_weight, work->k_weight, work->nodes * sizeof *k);
+        }
         array_free(work->k);
         array_free(work->k_weight);
         work->k = k;
@@ -109,11 +111,11 @@ static bool extend_nodes(struct work *work, double largest)
         for (size_t p = 0; p < work->paths; p++) {
             double *weight = array_new(COMPONENTS * KERNELS * room, sizeof *weight);
             if (weight == NULL) return false;
-            for (size_t c = 0; c < COMPONENTS * KERNELS; c++)
+            for (size_t c = 0; c < COMPONENTS * KERNELS && work->nodes > 0; c++)
                 memcpy(weight + c * room, work->path[p].weight + c * work->room,
                        work->nodes * sizeof *weight);
             double *statics = array_new(COMPONENTS * room, sizeof *statics);
-            for (size_t c = 0; statics != NULL && c < COMPONENTS; c++)
+            for (size_t c = 0; statics != NULL && work->nodes > 0 && c < COMPONENTS; c++)
                 memcpy(statics + c * room, work->path[p].statics + c * work->room,
                        work->nodes * sizeof *statics);
             array_free(work->path[p].weight);
@@ -125,8 +127,8 @@ static bool extend_nodes(struct work *work, double largest)
         work->room = room;
     }
     for (size_t i = work->nodes; i < until; i++) {
-        const size_t in_panel = i % 12;
-        work->k[i] = work->panel * ((double)(i / 12) + .5 + .5 * gauss12_node[in_panel]);
+        const size_t in_panel = i % 12, panel = i / 12;
+        work->k[i] = work->panel * ((double)panel + .5 + .5 * gauss12_node[in_panel]);
         work->k_weight[i] = .5 * work->panel * gauss12_weight[in_panel];
     }
     for (size_t p = 0; p < work->paths; p++) {
@@ -408,6 +410,9 @@ static void find_scales(const struct work *work, struct scales *scales)
     scales->least = fmin(fmax(scales->least, 20 * speed / scales->edge), scales->most);
 }
 
+/* Compliances that are worth evaluating once the estimated error is small, and at all. */
+static const double SOME_EVALUATIONS = 4e7, MOST_EVALUATIONS = 1.2e8;
+
 static selas_status work_off_bands(struct work *work, struct messages *messages)
 {
     find_scales(work, &work->scales);
@@ -415,7 +420,6 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
     const double tolerance = work->problem->tolerance > 0 ? work->problem->tolerance
                              : scales.kinks               ? 2e-5
                                                           : 5e-7;
-    const double most_evaluations = 4e7;
     double cutoff = scales.start;
     double *last = array_new(work->receivers, sizeof *last);
     if (last == NULL)
@@ -447,7 +451,8 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
         const double next = fmin(cutoff * M_SQRT2, scales.most);
         const double more =
             (next - cutoff) * work->period / (2 * M_PI) * 12 * wavenumbers(work, next).end / work->panel;
-        if (work->evaluations + more > most_evaluations && cutoff >= scales.least) break;
+        const double most = worst > 3e-5 ? MOST_EVALUATIONS : SOME_EVALUATIONS;
+        if (work->evaluations + more > most && cutoff >= scales.least) break;
         cutoff = next;
     }
     array_free(last);
@@ -520,44 +525,4 @@ selas_status lamb_fft(const struct lamb_problem *problem, double end_time, size_
         for (size_t i = 0; i < n; i++)
             lamb_signal_free(&signal[i]);
     return status;
-}
-
-void lamb_signal_free(struct lamb_signal *signal)
-{
-    array_free(signal->value);
-    array_free(signal->statics);
-    signal->value = signal->statics = NULL;
-}
-
-/* Lagrange interpolation on 12 rows of the grid (band limit an eighth of its own). */
-static double interpolate(const double *line, size_t rows, double at)
-{
-    enum { POINTS = 12 };
-    const double place = fmin(fmax(floor(at) - POINTS / 2 + 1, 0), (double)(rows - POINTS));
-    const size_t first = (size_t)place;
-    const double x = at - place;
-    double sum = 0;
-    for (int i = 0; i < POINTS; i++) {
-        double weight = 1;
-        for (int j = 0; j < POINTS; j++)
-            if (j != i) weight *= (x - j) / (i - j);
-        sum += weight * line[first + (size_t)i];
-    }
-    return sum;
-}
-
-void lamb_signal_value(const struct lamb_problem *problem, const struct lamb_signal *signal, double t,
-                       double value[6])
-{
-    for (size_t c = 0; c < 6; c++)
-        value[c] = 0;
-    if (t <= 0) return;
-    const double growth = exp(signal->decay * t);
-    for (size_t c = 0; c < 6; c++)
-        value[c] = growth * interpolate(signal->value + c * signal->rows, signal->rows, t / signal->step);
-    for (size_t l = 0; l < problem->loads; l++) {
-        const struct lamb_load *load = &problem->load[l];
-        lamb_split_value(&problem->ground, load, signal->position[0] - load->patch.centre[0],
-                         signal->position[1] - load->patch.centre[1], signal->position[2], t, value);
-    }
 }
