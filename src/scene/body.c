@@ -170,7 +170,9 @@ static bool read_shape(struct builder *builder, const struct deck_group *group)
     struct body *body = &builder->scene->body;
     body->shape = (enum body_shape)deck_choice(group, "shape", 0);
     const char *purpose = purposes[body->shape];
-    bool right = read_box(builder, group, purpose);
+    const bool fitted = body->shape == BODY_HALF_SPACE && deck_values(group, "low") == 0 &&
+                        deck_values(group, "high") == 0 && builder->scene->dimension > 1;
+    bool right = fitted ? choose_half_space(builder, group) : read_box(builder, group, purpose);
     if (body->shape == BODY_PLATE_WITH_HOLE)
         right = read_hole(builder, group) && right;
     else

@@ -59,6 +59,9 @@ void build_receivers(struct builder *builder);
 void build_profiles(struct builder *builder);
 void build_snapshots(struct builder *builder);
 
+/* half_space.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */
+bool choose_half_space(struct builder *builder, const struct deck_group *group);
+
 /* frame.c: sets body->frame, pivot and rotated from rotation, low and high. */
 void body_set_frame(struct body *body);
 

@@ -56,6 +56,9 @@ struct body {
     char *file; /* points from a file: path, already resolved; NULL */
     size_t layers;
     struct layer *layer;
+    bool chosen;    /* half-space: low and high were chosen by the program (scene/half_space.c) ... */
+    bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
+    char choice[200]; /* ... which box and why, for the plan */
 };
 
 enum boundary_kind {
