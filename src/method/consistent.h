@@ -17,7 +17,7 @@ struct consistent_options {
     int sweeps;  /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
 };
 
-enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 2, LANES = 8 };
+enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };
 
 /* Material property that weights an integral over depth. */
 enum weighting { WEIGHT_DENSITY, WEIGHT_LAMBDA, WEIGHT_MU, WEIGHT_P, WEIGHT_NONE };

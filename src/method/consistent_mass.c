@@ -78,7 +78,7 @@ static void factorise(struct consistent *c, double half_step, int component, int
 
 const struct mass_factors *mass_factors_for(struct consistent *c, double half_step)
 {
-    struct mass_factors *set = &c->factors[half_step == 0 ? 0 : 1];
+    struct mass_factors *set = &c->factors[half_step == 0 ? 0 : half_step < DAMPERS_HOLD ? 1 : 2];
     if (set->half_step == half_step) return set;
     for (int component = 0; component < c->dimension; component++)
         for (int axis = 0; axis < c->dimension; axis++)

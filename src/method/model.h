@@ -46,7 +46,11 @@ struct spectrum {
     double wave_damping; /* mean damping rate of those fastest waves [1/time]; 0 if interior waves are
                             undamped */
     double viscous;      /* largest damping rate of any motion [1/time] */
+    bool dampers;        /* transmitting faces have dampers, which the scheme takes implicitly */
 };
+
+/* As half_step of accelerate(): so large that components with dampers do not accelerate. */
+#define DAMPERS_HOLD 1e30
 
 struct model;
 

@@ -26,6 +26,7 @@ static selas_status measure_spectrum(struct stepper *stepper, struct messages *m
     if (class->spectrum != NULL) return class->spectrum(model, spectrum, messages);
     selas_status status = largest_frequency(model, &spectrum->omega, &stepper->frequency_error, messages);
     spectrum->omega *= 1.0 + stepper->frequency_error;
+    spectrum->dampers = model->damped;
     const bool explicit_damping = !stepper->scheme->needs_acceleration || class->linearise != NULL;
     if (status == SELAS_OK && model->damped && explicit_damping)
         status = largest_damping(model, fastest_speed(model->scene), &spectrum->viscous, messages);
