@@ -69,6 +69,7 @@ static selas_status choose_wall(struct updated *updated, enum face face, struct 
     if (wall != WALL_NONE && face == FACE_HOLE)
         return fail(messages, SELAS_UNSUPPORTED, "%s leaves the hole free", NAME);
     updated->wall[face] = wall;
+    updated->pressed = updated->pressed || wall == WALL_TRACTION;
     return SELAS_OK;
 }
 
@@ -91,7 +92,8 @@ static void choose_layout(struct updated *updated)
     struct updated_layout *layout = &updated->layout;
     layout->velocity = dimension;
     layout->volume = 2 * dimension;
-    layout->mass = layout->volume + 1;
+    layout->span = layout->volume + 1;
+    layout->mass = layout->span + 1;
     layout->tension = layout->mass + 1;
     layout->repulsion = layout->tension + stresses;
     layout->size = layout->repulsion + stresses;

@@ -33,9 +33,10 @@ struct updated_ghost {
 /* What a face does to its ghosts. */
 enum updated_wall { WALL_NONE, WALL_STICK, WALL_SLIP, WALL_TRACTION };
 
-/* Components of a packed particle: place, velocity, volume, mass, stress / density^2, artificial stress. */
+/* Components of a packed particle: place, velocity, volume, span (the volume, or 0 for ghosts that carry a
+ * traction but do not deform with the body), mass, stress / density^2, artificial stress. */
 struct updated_layout {
-    size_t velocity, volume, mass, tension, repulsion, size;
+    size_t velocity, volume, span, mass, tension, repulsion, size;
 };
 
 struct updated {
@@ -45,6 +46,7 @@ struct updated {
     int stresses;   /* components of the stress */
     bool repulsive; /* artificial stress is on; off while the spectrum is measured */
     double alpha, beta;
+    bool pressed;    /* some face has ghosts that carry a traction */
     bool both_sides; /* viscosity between receding pairs too: while the spectrum is measured */
     struct cloud *cloud;
     const struct material *material;

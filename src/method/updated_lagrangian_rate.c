@@ -16,7 +16,8 @@
 
 /* Sums over the neighbours of one particle. */
 struct sums {
-    double matrix[6];      /* V grad W (x_j - x_i), symmetric */
+    double matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
+    double full[6];        /* the same over all: with the ghosts of loaded faces */
     double velocity[3][3]; /* V (v_j - v_i) grad W */
     double mass[3];        /* m grad W */
     double tension[6][3];  /* m (s_j/rho_j^2 + f^4 R_j) grad W */
@@ -43,6 +44,7 @@ __attribute__((always_inline)) static inline void gather(const struct updated *u
     double scale = kernel->normalisation[dimension - 1] / (h * h);
     for (int a = 0; a < dimension; a++)
         scale /= h;
+    const bool pressed = updated->pressed;
     const double *own = updated->record + layout.size * i;
     for (size_t k = updated->neighbours.start[i]; k < updated->neighbours.start[i + 1]; k++) {
         const double *other = updated->record + layout.size * updated->neighbours.index[k];
@@ -54,7 +56,8 @@ __attribute__((always_inline)) static inline void gather(const struct updated *u
         if (square >= reach * reach) continue;
         const double q = sqrt(square) / h;
         const double slope = scale * kernel->slope_over_q(dimension, q);
-        const double volume = other[layout.volume] * slope, mass = other[layout.mass] * slope;
+        const double span = other[layout.span] * slope, mass = other[layout.mass] * slope;
+        const double volume = pressed ? other[layout.volume] * slope : span;
         double change[3], approach = 0;
         for (int a = 0; a < dimension; a++) {
             change[a] = other[layout.velocity + (size_t)a] - own[layout.velocity + (size_t)a];
@@ -63,9 +66,12 @@ __attribute__((always_inline)) static inline void gather(const struct updated *u
         for (int a = 0; a < dimension; a++) {
             sums->mass[a] += mass * d[a];
             for (int b = 0; b < dimension; b++)
-                sums->velocity[a][b] += volume * change[a] * d[b];
+                sums->velocity[a][b] += span * change[a] * d[b];
             for (int b = a; b < dimension; b++)
-                sums->matrix[updated_component[dimension][a][b]] -= volume * d[a] * d[b];
+                sums->matrix[updated_component[dimension][a][b]] -= span * d[a] * d[b];
+            if (pressed)
+                for (int b = a; b < dimension; b++)
+                    sums->full[updated_component[dimension][a][b]] -= volume * d[a] * d[b];
         }
         double repulsion = 0;
         if (repulsive) {
@@ -156,7 +162,10 @@ __attribute__((always_inline)) static inline void rates(struct updated *updated,
         struct sums sums = {0};
         gather(updated, dimension, viscous, repulsive, i, &sums);
         double inverse[3][3];
-        if (!updated->options.correction) memset(sums.matrix, 0, sizeof sums.matrix);
+        if (!updated->options.correction) {
+            memset(sums.matrix, 0, sizeof sums.matrix);
+            memset(sums.full, 0, sizeof sums.full);
+        }
         invert(dimension, sums.matrix, inverse);
         double gradient[3][3] = {{0}}, trace = 0;
         for (int a = 0; a < dimension; a++) {
@@ -166,6 +175,7 @@ __attribute__((always_inline)) static inline void rates(struct updated *updated,
             trace += gradient[a][a];
         }
         const double *own = updated->record + layout.size * i;
+        if (updated->pressed) invert(dimension, sums.full, inverse);
         for (int a = 0; a < dimension; a++) {
             double sum = 0;
             for (int c = 0; c < dimension; c++) {
