@@ -107,6 +107,10 @@ static void choose_lengths(struct updated *updated)
     updated->reach = options->kernel->support * updated->smoothing_length;
     updated->skin = .15 * spacing;
     updated->repulsion_scale = 1 / options->kernel->shape(updated->dimension, 1 / options->smoothing_length);
+    const double h = updated->smoothing_length;
+    updated->slope_scale =
+        options->kernel->normalisation[updated->dimension - 1] / pow(h, updated->dimension + 2);
+    updated->cubic = options->kernel == kernel_find("cubic");
     updated->sound_speed = sqrt(updated->material->young / updated->material->density); /* Eq 18 */
     updated->alpha = options->alpha;
     updated->beta = options->beta;

@@ -52,6 +52,8 @@ struct updated {
     const struct material *material;
     double sound_speed, smoothing_length, reach;
     double repulsion_scale; /* 1 over the kernel's shape at one spacing */
+    double slope_scale;     /* W'/r over w'(q)/q */
+    bool cubic;             /* the kernel is the cubic spline */
     double *mass;
     size_t ghosts;
     struct updated_ghost *ghost;
@@ -67,6 +69,8 @@ struct updated {
     struct neighbours neighbours;
     bool search_failed; /* no memory: rates become NaN, which the run notices */
 };
+
+enum { UPDATED_PARALLEL = 1000 }; /* fewer particles run on one thread */
 
 static inline struct updated *updated_of(struct model *model)
 {

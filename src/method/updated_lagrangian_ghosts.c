@@ -209,7 +209,7 @@ static void search_if_needed(struct updated *updated)
     const size_t places = updated->cloud->points + updated->ghosts;
     const double limit = updated->skin * updated->skin / 4;
     bool moved = false;
-#pragma omp parallel for schedule(static) reduction(|| : moved)
+#pragma omp parallel for schedule(static) reduction(|| : moved) if (places >= UPDATED_PARALLEL)
     for (size_t i = 0; i < places; i++) {
         double square = 0;
         for (size_t a = 0; a < dimension; a++) {
@@ -232,13 +232,13 @@ static void search_if_needed(struct updated *updated)
 void updated_fill(struct updated *updated, const struct drive *drive, const double *y)
 {
     const size_t points = updated->cloud->points;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t i = 0; i < points; i++) {
         struct image image = {.pressed = false};
         load_particle(updated, y, i, &image);
         pack(updated, i, updated->mass[i], &image);
     }
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t g = 0; g < updated->ghosts; g++) {
         const struct updated_ghost *ghost = &updated->ghost[g];
         struct image image = {.pressed = false};

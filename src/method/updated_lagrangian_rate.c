@@ -8,11 +8,21 @@
  *
  * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
  * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
- * threads. */
+ * threads. Pairs within reach are packed into batches, component by component, so that the arithmetic runs in
+ * vectors; a batch is full when it holds BATCH pairs within reach, so that it does not depend on when the
+ * lists were made either. */
 #include "method/updated_lagrangian.h"
 
 #include <math.h>
 #include <string.h>
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
+#else
+#define VECTOR_CLONES
+#endif
+
+enum { BATCH = 64, BLOCK = 32 };
 
 /* Sums over the neighbours of one particle. */
 struct sums {
@@ -25,76 +35,167 @@ struct sums {
     double repulsive[3];   /* m f^4 grad W */
 };
 
-/* Eq 17 with r_ij read as a vector; acts on pairs that approach each other. */
-static inline double viscosity(const struct updated *updated, double approach, double square, double density)
+/* Pairs of one particle that are within reach. After weigh() span, volume and mass carry the factor W'/r, so
+ * that times d they are V grad W, m grad W. */
+struct batch {
+    int count;
+    double d[3][BATCH], change[3][BATCH]; /* x_i - x_j, v_j - v_i */
+    double square[BATCH], span[BATCH], volume[BATCH], mass[BATCH];
+    double tension[6][BATCH], repulsion[6][BATCH];
+    double pressure[BATCH], strength[BATCH]; /* m Pi W'/r, m f^4 W'/r */
+};
+
+/* The cubic spline by truncated powers, w = ((2 - q)^3 - 4 (1 - q)^3) / 6, each where positive: no branch. */
+static inline double cubic_slope_over_q(double q)
 {
-    const double h = updated->smoothing_length;
-    const double phi = h * approach / (square + .01 * h * h);
-    return (-updated->alpha * updated->sound_speed * phi + updated->beta * phi * phi) / density;
+    const double outer = q < 2 ? 2 - q : 0, inner = q < 1 ? 1 - q : 0;
+    return (2 * inner * inner - outer * outer / 2) / q;
+}
+
+static inline double cubic_shape(double q)
+{
+    const double outer = q < 2 ? 2 - q : 0, inner = q < 1 ? 1 - q : 0;
+    return (outer * outer * outer - 4 * inner * inner * inner) / 6;
+}
+
+/* Monaghan's viscosity, Eq 17 with r_ij read as a vector, between pairs that approach each other. */
+__attribute__((always_inline)) static inline void
+add_viscosity(const struct updated *updated, const int dimension, double density, struct batch *batch)
+{
+    const double h = updated->smoothing_length, alpha = updated->alpha * updated->sound_speed,
+                 beta = updated->beta;
+    const bool both_sides = updated->both_sides;
+#pragma omp simd
+    for (int n = 0; n < batch->count; n++) {
+        double approach = 0;
+        for (int a = 0; a < dimension; a++)
+            approach -= batch->change[a][n] * batch->d[a][n];
+        const double phi = h * approach / (batch->square[n] + .01 * h * h);
+        const double mean = (density + batch->mass[n] / batch->volume[n]) / 2;
+        const double viscosity = batch->mass[n] * (beta * phi * phi - alpha * phi) / mean;
+        batch->pressure[n] = both_sides || approach < 0 ? viscosity : 0;
+    }
+}
+
+/* Kernel factors of a batch. */
+__attribute__((always_inline)) static inline void weigh(const struct updated *updated, const int dimension,
+                                                        const bool viscous, const bool repulsive,
+                                                        struct batch *batch)
+{
+    const struct kernel *kernel = updated->options.kernel;
+    const double h = updated->smoothing_length, scale = updated->slope_scale;
+    double slope[BATCH], shape[BATCH];
+    if (updated->cubic) {
+#pragma omp simd
+        for (int n = 0; n < batch->count; n++) {
+            const double q = sqrt(batch->square[n]) / h;
+            slope[n] = scale * cubic_slope_over_q(q);
+            if (repulsive) shape[n] = cubic_shape(q);
+        }
+    } else {
+        for (int n = 0; n < batch->count; n++) {
+            const double q = sqrt(batch->square[n]) / h;
+            slope[n] = scale * kernel->slope_over_q(dimension, q);
+            if (repulsive) shape[n] = kernel->shape(dimension, q);
+        }
+    }
+    const int stresses = dimension * (dimension + 1) / 2;
+#pragma omp simd
+    for (int n = 0; n < batch->count; n++) {
+        batch->span[n] *= slope[n];
+        batch->volume[n] *= slope[n];
+        batch->mass[n] *= slope[n];
+        if (viscous) batch->pressure[n] *= slope[n];
+        if (repulsive) {
+            const double f = updated->repulsion_scale * shape[n], power = f * f * f * f;
+            batch->strength[n] = batch->mass[n] * power;
+            for (int s = 0; s < stresses; s++)
+                batch->tension[s][n] += power * batch->repulsion[s][n];
+        }
+    }
+}
+
+__attribute__((always_inline)) static inline double dot(const struct batch *batch, const double *weight,
+                                                        const double *x)
+{
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (int n = 0; n < batch->count; n++)
+        sum += weight[n] * x[n];
+    return sum;
+}
+
+__attribute__((always_inline)) static inline void add_batch(const struct updated *updated,
+                                                            const int dimension, const bool viscous,
+                                                            const bool repulsive, double density,
+                                                            struct batch *batch, struct sums *sums)
+{
+    if (viscous) add_viscosity(updated, dimension, density, batch);
+    weigh(updated, dimension, viscous, repulsive, batch);
+    const int stresses = dimension * (dimension + 1) / 2;
+    double product[BATCH];
+    for (int a = 0; a < dimension; a++) {
+        const double *d = batch->d[a];
+        sums->mass[a] += dot(batch, batch->mass, d);
+        if (viscous) sums->viscous[a] += dot(batch, batch->pressure, d);
+        if (repulsive) sums->repulsive[a] += dot(batch, batch->strength, d);
+#pragma omp simd
+        for (int n = 0; n < batch->count; n++)
+            product[n] = batch->mass[n] * d[n];
+        for (int s = 0; s < stresses; s++)
+            sums->tension[s][a] += dot(batch, batch->tension[s], product);
+#pragma omp simd
+        for (int n = 0; n < batch->count; n++)
+            product[n] = batch->span[n] * d[n];
+        for (int b = 0; b < dimension; b++)
+            sums->velocity[b][a] += dot(batch, batch->change[b], product);
+        for (int b = a; b < dimension; b++)
+            sums->matrix[updated_component[dimension][a][b]] -= dot(batch, batch->d[b], product);
+        if (!updated->pressed) continue;
+#pragma omp simd
+        for (int n = 0; n < batch->count; n++)
+            product[n] = batch->volume[n] * d[n];
+        for (int b = a; b < dimension; b++)
+            sums->full[updated_component[dimension][a][b]] -= dot(batch, batch->d[b], product);
+    }
+    batch->count = 0;
 }
 
 __attribute__((always_inline)) static inline void gather(const struct updated *updated, const int dimension,
                                                          const bool viscous, const bool repulsive, size_t i,
                                                          struct sums *sums)
 {
-    const struct kernel *kernel = updated->options.kernel;
     const struct updated_layout layout = updated->layout;
     const int stresses = dimension * (dimension + 1) / 2;
-    const double h = updated->smoothing_length, reach = kernel->support * h;
-    double scale = kernel->normalisation[dimension - 1] / (h * h);
-    for (int a = 0; a < dimension; a++)
-        scale /= h;
-    const bool pressed = updated->pressed;
+    const double reach = updated->reach * updated->reach;
     const double *own = updated->record + layout.size * i;
+    const double density = own[layout.mass] / own[layout.volume];
+    struct batch batch;
+    batch.count = 0;
     for (size_t k = updated->neighbours.start[i]; k < updated->neighbours.start[i + 1]; k++) {
         const double *other = updated->record + layout.size * updated->neighbours.index[k];
-        double d[3], square = 0;
+        const int n = batch.count;
+        double square = 0;
         for (int a = 0; a < dimension; a++) {
-            d[a] = own[a] - other[a];
-            square += d[a] * d[a];
+            const double d = own[a] - other[a];
+            batch.d[a][n] = d;
+            square += d * d;
         }
-        if (square >= reach * reach) continue;
-        const double q = sqrt(square) / h;
-        const double slope = scale * kernel->slope_over_q(dimension, q);
-        const double span = other[layout.span] * slope, mass = other[layout.mass] * slope;
-        const double volume = pressed ? other[layout.volume] * slope : span;
-        double change[3], approach = 0;
-        for (int a = 0; a < dimension; a++) {
-            change[a] = other[layout.velocity + (size_t)a] - own[layout.velocity + (size_t)a];
-            approach -= change[a] * d[a];
-        }
-        for (int a = 0; a < dimension; a++) {
-            sums->mass[a] += mass * d[a];
-            for (int b = 0; b < dimension; b++)
-                sums->velocity[a][b] += span * change[a] * d[b];
-            for (int b = a; b < dimension; b++)
-                sums->matrix[updated_component[dimension][a][b]] -= span * d[a] * d[b];
-            if (pressed)
-                for (int b = a; b < dimension; b++)
-                    sums->full[updated_component[dimension][a][b]] -= volume * d[a] * d[b];
-        }
-        double repulsion = 0;
-        if (repulsive) {
-            const double f = updated->repulsion_scale * kernel->shape(dimension, q);
-            repulsion = f * f * f * f;
-        }
-        for (int s = 0; s < stresses; s++) {
-            double tension = other[layout.tension + (size_t)s];
-            if (repulsive) tension += repulsion * other[layout.repulsion + (size_t)s];
-            for (int a = 0; a < dimension; a++)
-                sums->tension[s][a] += mass * tension * d[a];
-        }
+        if (!(square < reach)) continue;
+        batch.square[n] = square;
+        batch.volume[n] = other[layout.volume];
+        batch.span[n] = other[layout.span];
+        batch.mass[n] = other[layout.mass];
+        for (int a = 0; a < dimension; a++)
+            batch.change[a][n] = other[layout.velocity + (size_t)a] - own[layout.velocity + (size_t)a];
+        for (int s = 0; s < stresses; s++)
+            batch.tension[s][n] = other[layout.tension + (size_t)s];
         if (repulsive)
-            for (int a = 0; a < dimension; a++)
-                sums->repulsive[a] += mass * repulsion * d[a];
-        if (viscous && (approach < 0 || updated->both_sides)) {
-            const double density =
-                (own[layout.mass] / own[layout.volume] + other[layout.mass] / other[layout.volume]) / 2;
-            const double pressure = mass * viscosity(updated, approach, square, density);
-            for (int a = 0; a < dimension; a++)
-                sums->viscous[a] += pressure * d[a];
-        }
+            for (int s = 0; s < stresses; s++)
+                batch.repulsion[s][n] = other[layout.repulsion + (size_t)s];
+        if (++batch.count == BATCH) add_batch(updated, dimension, viscous, repulsive, density, &batch, sums);
     }
+    add_batch(updated, dimension, viscous, repulsive, density, &batch, sums);
 }
 
 /* Inverse of L; the identity where the neighbours do not span the space. */
@@ -147,9 +248,11 @@ static inline void stress_rate(const struct updated *updated, const int dimensio
         }
 }
 
-__attribute__((always_inline)) static inline void rates(struct updated *updated, const int dimension,
+/* Rates of the particles first ... last - 1. */
+__attribute__((always_inline)) static inline void rates(const struct updated *updated, const int dimension,
                                                         const bool viscous, const bool repulsive,
-                                                        const double *y, double *dydt)
+                                                        size_t first, size_t last, const double *y,
+                                                        double *dydt)
 {
     const size_t points = updated->cloud->points, unknowns = updated->model.unknowns;
     const size_t dim = (size_t)dimension, stresses = dim * (dim + 1) / 2;
@@ -157,8 +260,7 @@ __attribute__((always_inline)) static inline void rates(struct updated *updated,
     const double *density = y + 2 * unknowns, *stress = density + points;
     double *acceleration = dydt + unknowns, *density_rate = dydt + 2 * unknowns,
            *stresses_rate = density_rate + points;
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < points; i++) {
+    for (size_t i = first; i < last; i++) {
         struct sums sums = {0};
         gather(updated, dimension, viscous, repulsive, i, &sums);
         double inverse[3][3];
@@ -195,26 +297,39 @@ __attribute__((always_inline)) static inline void rates(struct updated *updated,
 }
 
 /* Instances with constant dimension and switches: what is off is not there. */
-static void rates_of_dimension(struct updated *updated, const double *y, double *dydt)
-{
-    const bool viscous = updated->alpha > 0 || updated->beta > 0, repulsive = updated->repulsive;
-#define SELAS_RATES(dimension)                                                                               \
-    if (viscous && repulsive)                                                                                \
-        rates(updated, dimension, true, true, y, dydt);                                                      \
-    else if (viscous)                                                                                        \
-        rates(updated, dimension, true, false, y, dydt);                                                     \
-    else if (repulsive)                                                                                      \
-        rates(updated, dimension, false, true, y, dydt);                                                     \
-    else                                                                                                     \
-        rates(updated, dimension, false, false, y, dydt);
-    if (updated->dimension == 1) {
-        SELAS_RATES(1)
-    } else if (updated->dimension == 2) {
-        SELAS_RATES(2)
-    } else {
-        SELAS_RATES(3)
+#define RATES(dimension)                                                                                     \
+    VECTOR_CLONES static void rates_##dimension(const struct updated *updated, size_t first, size_t last,    \
+                                                const double *y, double *dydt)                               \
+    {                                                                                                        \
+        const bool viscous = updated->alpha > 0 || updated->beta > 0;                                        \
+        if (viscous && updated->repulsive)                                                                   \
+            rates(updated, dimension, true, true, first, last, y, dydt);                                     \
+        else if (viscous)                                                                                    \
+            rates(updated, dimension, true, false, first, last, y, dydt);                                    \
+        else if (updated->repulsive)                                                                         \
+            rates(updated, dimension, false, true, first, last, y, dydt);                                    \
+        else                                                                                                 \
+            rates(updated, dimension, false, false, first, last, y, dydt);                                   \
     }
-#undef SELAS_RATES
+RATES(1)
+RATES(2)
+RATES(3)
+#undef RATES
+
+static void all_rates(const struct updated *updated, const double *y, double *dydt)
+{
+    const size_t points = updated->cloud->points, blocks = (points + BLOCK - 1) / BLOCK;
+#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
+    for (size_t block = 0; block < blocks; block++) {
+        const size_t first = BLOCK * block;
+        const size_t last = first + BLOCK < points ? first + BLOCK : points;
+        if (updated->dimension == 1)
+            rates_1(updated, first, last, y, dydt);
+        else if (updated->dimension == 2)
+            rates_2(updated, first, last, y, dydt);
+        else
+            rates_3(updated, first, last, y, dydt);
+    }
 }
 
 static void add_body_forces(const struct updated *updated, const struct drive *drive, const double *y,
@@ -245,6 +360,6 @@ void updated_rate(struct model *model, const struct drive *drive, const double *
             dydt[i] = NAN;
         return;
     }
-    rates_of_dimension(updated, y, dydt);
+    all_rates(updated, y, dydt);
     add_body_forces(updated, drive, y, dydt + unknowns);
 }

@@ -13,7 +13,7 @@ static double positive(double x)
 /* Eigenvalues mean +- radius with the eigentensors (I +- D / radius) / 2, D the deviator. */
 static void in_the_plane(double epsilon, const double *t, double *r)
 {
-    const double mean = (t[0] + t[1]) / 2, half = (t[0] - t[1]) / 2, radius = hypot(half, t[2]);
+    const double mean = (t[0] + t[1]) / 2, half = (t[0] - t[1]) / 2, radius = sqrt(half * half + t[2] * t[2]);
     const double first = positive(mean + radius), second = positive(mean - radius);
     const double sum = -epsilon * (first + second) / 2;
     const double difference = radius > 0 ? -epsilon * (first - second) / (2 * radius) : 0;
