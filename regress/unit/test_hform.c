@@ -372,5 +372,6 @@ int main(void)
         cmocka_unit_test(test_long_runs),     cmocka_unit_test(test_symmetry_planes),
         cmocka_unit_test(test_prescribed),
     };
+    omp_set_num_threads(1); /* small models */
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,6 +143,15 @@ void band_backward(const double *factor, size_t n, size_t half, double *x, size_
     }
 }
 
+void band_lower_multiply(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
+{
+    for (size_t i = n; i-- > 0;) {
+        scale(1 / factor[i], lanes, x + i * stride);
+        for (size_t d = 1; d <= smaller(i, half); d++)
+            subtract(-factor[d * n + i], x + (i - d) * stride, lanes, x + i * stride);
+    }
+}
+
 bool band_lu(struct band *band)
 {
     for (size_t i = 0; i < band->n; i++) {

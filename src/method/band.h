@@ -50,6 +50,9 @@ bool band_factorise(const struct band *band, double *factor);
 void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes);
 void band_backward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes);
 
+/* x := L x, in place, as above. */
+void band_lower_multiply(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes);
+
 /* LU factors in place, without pivoting (for matrices that need none: totally positive ones such as spline
  * collocation, or the identity plus what is not negative); the factors keep the band. Returns false at a zero
  * pivot. Solves in place for x[i * stride]. */

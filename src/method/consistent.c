@@ -32,6 +32,11 @@ static void destroy(struct model *model)
     }
     for (int weight = 0; weight < WEIGHT_NONE; weight++)
         array_free(c->weighted[weight]);
+    for (int face = 0; face < BOX_FACES; face++)
+        for (int component = 0; component < 3; component++)
+            array_free(c->speed[face][component]);
+    array_free(c->plane_class);
+    array_free(c->class_plane);
     array_free(c->line_buffer);
     array_free(c->face_buffer);
     array_free(c->position);
@@ -88,12 +93,9 @@ static void exact_accelerate(struct consistent *c, const struct drive *drive, do
 {
     const struct mass_factors *factors = mass_factors_for(c, half_step);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < c->n[DEPTH]; k++) {
-        const int thread = omp_get_thread_num();
-        residual_plane(c, drive, thread, k, u, v, a);
-        mass_solve_plane(c, factors, thread, k, a);
-    }
-    mass_solve_depth(c, factors, a);
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        residual_plane(c, drive, omp_get_thread_num(), k, u, v, a);
+    mass_solve(c, factors, a);
 }
 
 static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
@@ -162,7 +164,6 @@ static selas_status lay_faces(struct consistent *c, struct messages *messages)
         const struct boundary *boundary = &scene->boundary[face];
         const int axis = face / 2;
         const struct spline *spline = c->spline[axis];
-        const struct material *material = &scene->material[scene->body.material];
         double direction[3];
         memcpy(direction, boundary->direction, sizeof direction);
         if (scene->body.rotated) body_direction_from_deck(&scene->body, boundary->direction, direction);
@@ -181,9 +182,6 @@ static selas_status lay_faces(struct consistent *c, struct messages *messages)
             if (boundary->kind == BOUNDARY_SYMMETRY)
                 *held = normal && (!spline->mirror[face % 2] || spline->centred[face % 2]);
             if (c->moving[face]) *held = !boundary->slip || fabs(direction[component]) > 1e-9;
-            if (c->damped[face])
-                c->damping[face][component] = normal ? boundary->normal_factor * material->p_speed
-                                                     : boundary->shear_factor * material->s_speed;
         }
     }
     return SELAS_OK;
@@ -266,6 +264,39 @@ static bool lay_material(struct consistent *c)
     return true;
 }
 
+/* Planes of control values by their material, and the damped faces' speeds there. */
+static bool lay_planes(struct consistent *c)
+{
+    const struct scene *scene = c->model.scene;
+    const size_t n = c->n[DEPTH];
+    c->plane_class = array_new(n, sizeof *c->plane_class);
+    c->class_plane = array_new(n, sizeof *c->class_plane);
+    if (c->plane_class == NULL || c->class_plane == NULL) return false;
+    for (int face = 0; face < 2 * c->dimension; face++)
+        for (int component = 0; component < c->dimension; component++) {
+            c->speed[face][component] = array_new(n, sizeof(double));
+            if (c->speed[face][component] == NULL) return false;
+        }
+    const struct material *before = NULL;
+    for (size_t k = 0; k < n; k++) {
+        const struct spline *spline = c->layout[DEPTH];
+        const struct material *material = scene->body.layers == 0
+                                              ? &scene->material[scene->body.material]
+                                              : scene_material_at(scene, spline->greville[k] - spline->low);
+        if (material != before) c->class_plane[c->classes++] = k;
+        before = material;
+        c->plane_class[k] = c->classes - 1;
+        for (int face = 0; face < 2 * c->dimension; face++)
+            for (int component = 0; component < c->dimension; component++) {
+                const struct boundary *boundary = &scene->boundary[face];
+                c->speed[face][component][k] = component == face / 2
+                                                   ? boundary->normal_factor * material->p_speed
+                                                   : boundary->shear_factor * material->s_speed;
+            }
+    }
+    return true;
+}
+
 static selas_status check_options(const struct scene *scene, const struct consistent_options *options,
                                   struct messages *messages)
 {
@@ -284,8 +315,8 @@ static selas_status build(struct consistent *c, struct messages *messages)
     selas_status status = lay_axes(c, messages);
     if (status == SELAS_OK) status = lay_faces(c, messages);
     if (status != SELAS_OK) return status;
-    if (!lay_material(c) || !consistent_plans(c) || !mass_allocate(c) || !dampers_allocate(c) ||
-        !observe_create(c) || !collocation_create(c))
+    if (!lay_material(c) || !lay_planes(c) || !consistent_plans(c) || !mass_allocate(c) ||
+        !dampers_allocate(c) || !observe_create(c) || !collocation_create(c))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);

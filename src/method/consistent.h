@@ -35,10 +35,11 @@ struct sparse {
     double *value;
 };
 
-/* Factors of M + half_step C, product form (section 5 of the manual). */
+/* Factors of M + half_step C, product form (section 5 of the manual); NULL for slots that are not used. */
 struct mass_factors {
     double half_step;
-    double *factor[3][3]; /* [component][slot]: band_factorise's; NULL for slots that are not used */
+    double *depth[3];      /* [component] */
+    double *(*side)[3][2]; /* [class][component][slot] */
 };
 
 struct consistent {
@@ -58,8 +59,11 @@ struct consistent {
     bool moving[BOX_FACES];
     double motion[BOX_FACES][3]; /* amplitude and direction in the body's frame */
     bool damped[BOX_FACES];
-    double damping[BOX_FACES][3]; /* velocity (factor times wave speed) by component */
-    struct sparse *load;          /* [scene->loads] */
+    double *speed[BOX_FACES][3]; /* of a damped face's component at each plane: factor times wave speed */
+    size_t classes;              /* kinds of planes by material; 1 without layers */
+    size_t *plane_class, *class_plane; /* [n[2]]; [classes]: the first plane of a class */
+    struct band *side[BOX_FACES][3];   /* layers: matrix over depth of a damped face across x or y */
+    struct sparse *load;               /* [scene->loads] */
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
     struct mass_factors factors[FACTOR_SETS];
     struct band *scratch[3]; /* [axis]: matrix to be factorised */
@@ -105,9 +109,8 @@ bool consistent_plans(struct consistent *c);
 bool mass_allocate(struct consistent *c);
 void mass_free(struct consistent *c);
 const struct mass_factors *mass_factors_for(struct consistent *c, double half_step);
-void mass_solve_plane(struct consistent *c, const struct mass_factors *factors, int thread, size_t k,
-                      double *a);
-void mass_solve_depth(struct consistent *c, const struct mass_factors *factors, double *a);
+/* a := (M + half_step C)^-1 a */
+void mass_solve(struct consistent *c, const struct mass_factors *factors, double *a);
 
 /* consistent_forces.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);

@@ -23,21 +23,25 @@ static const struct band *slot_mass(const struct consistent *c, int component, i
     return NULL;
 }
 
+/* Density at a face across depth, or of the whole body. */
 static double face_density(const struct consistent *c, int face)
 {
     const double *density = c->weighted[WEIGHT_DENSITY];
     if (density == NULL) return c->property[WEIGHT_DENSITY];
-    if (c->slot[face / 2] != DEPTH) return 1; /* the depth axis's mass has it */
     return density[face % 2 == 0 ? 0 : c->spline[face / 2]->elements - 1];
 }
 
 /* Face across slot x or y in plane k: first over depth into a line, then along the line. */
-static void subtract_side(const struct consistent *c, int slot, int component, size_t at, size_t k,
-                          double factor, const double *v, double *line, double *out)
+static void subtract_side(const struct consistent *c, int face, int component, size_t at, size_t k,
+                          const double *v, double *line, double *out)
 {
+    const int slot = c->slot[face / 2];
     const size_t step = slot == 0 ? c->n[0] : 1, length = slot == 0 ? c->n[1] : c->n[0];
     const size_t from = slot == 0 ? at : at * c->n[0];
-    const struct band *along = slot_mass(c, component, 1 - slot), *depth = slot_mass(c, component, DEPTH);
+    const struct band *side = c->side[face][component]; /* has density and speed in it */
+    const struct band *along = slot_mass(c, component, 1 - slot);
+    const struct band *depth = side != NULL ? side : slot_mass(c, component, DEPTH);
+    const double factor = side != NULL ? 1 : c->property[WEIGHT_DENSITY] * c->speed[face][component][k];
     for (size_t j = 0; j < length; j++)
         line[j] = band_row(depth, k, v + from + j * step, c->plane);
     for (size_t j = 0; j < length; j++)
@@ -66,12 +70,12 @@ void dampers_subtract(const struct consistent *c, int thread, size_t k, const do
         const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
         if (slot == DEPTH && k != at) continue;
         for (int component = 0; component < c->dimension; component++) {
-            const double factor = face_density(c, face) * c->damping[face][component];
             const double *field = v + (size_t)component * c->volume;
             if (slot == DEPTH)
-                subtract_end(c, component, factor, field + k * c->plane, line, out[component]);
+                subtract_end(c, component, face_density(c, face) * c->speed[face][component][k],
+                             field + k * c->plane, line, out[component]);
             else
-                subtract_side(c, slot, component, at, k, factor, field, line, out[component]);
+                subtract_side(c, face, component, at, k, field, line, out[component]);
         }
     }
 }

@@ -80,6 +80,28 @@ static bool lay_factor(struct consistent *c, int component, int axis)
     return good;
 }
 
+/* N = U U^T over depth: the Cholesky factor of N with its rows and columns in the opposite order. */
+static bool lay_upper(struct consistent *c, int component)
+{
+    const int axis = c->dimension - 1;
+    if (c->weighted[WEIGHT_DENSITY] == NULL) return true;
+    const struct band *inverse = c->hform->inverse[component][axis];
+    struct band *turned = band_new(inverse->n, inverse->half);
+    double *factor = array_new(inverse->n * (inverse->half + 1), sizeof *factor);
+    c->hform->upper[component] = factor;
+    c->hform->upper_half = inverse->half;
+    if (turned == NULL || factor == NULL) return false;
+    const size_t last = inverse->n - 1;
+    for (size_t i = 0; i <= last; i++)
+        for (size_t j = i < inverse->half ? 0 : i - inverse->half; j <= last && j <= i + inverse->half; j++)
+            band_add(turned, i, j, band_get(inverse, last - i, last - j));
+    for (size_t i = 0; i <= last; i++)
+        if (band_get(turned, i, i) == 0) band_add(turned, i, i, 1);
+    const bool good = band_factorise(turned, factor);
+    band_free(turned);
+    return good;
+}
+
 static bool lay_inverses(struct consistent *c)
 {
     struct hform *h = c->hform;
@@ -93,6 +115,7 @@ static bool lay_inverses(struct consistent *c)
                 h->owns_inverse[component][axis] = true;
             }
             if (h->inverse[component][axis] == NULL || !lay_factor(c, component, axis)) return false;
+            if (axis == c->dimension - 1 && !lay_upper(c, component)) return false;
         }
     return true;
 }
@@ -267,6 +290,8 @@ void hform_free(struct consistent *c)
 {
     struct hform *h = c->hform;
     if (h == NULL) return;
+    for (int component = 0; component < 3; component++)
+        array_free(h->upper[component]);
     for (int component = 0; component < 3; component++)
         for (int axis = 0; axis < 3; axis++) {
             if (h->owns_inverse[component][axis]) band_free(h->inverse[component][axis]);

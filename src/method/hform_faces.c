@@ -61,21 +61,71 @@ static void spread(const struct consistent *c, int axis, int end, const double *
             field[face_point(&face, p, i)] -= column[i] * values[p];
 }
 
-/* Speed of a damped face's component, 0 if the face is not damped. */
-static double damping(const struct consistent *c, int axis, int end, int component)
+/* Rows of a face across x or y in the order of the other end. */
+static void turn_rows(size_t rows, size_t lanes, double *values)
 {
-    return c->damped[2 * axis + end] ? c->damping[2 * axis + end][component] : 0;
+    for (size_t row = 0; row < rows / 2; row++)
+        for (size_t i = 0; i < lanes; i++) {
+            const double value = values[row * lanes + i];
+            values[row * lanes + i] = values[(rows - 1 - row) * lanes + i];
+            values[(rows - 1 - row) * lanes + i] = value;
+        }
+}
+
+/* With layers the speeds of a face across x or y vary over depth. With N = U U^T over depth, U upper
+ * triangular, C = (e e^T) (x) H (x) U^-T diag(c) U^-1 is symmetric and positive, and everything is pointwise
+ * in U^-1 v. The factor is that of the matrix turned round (lower), hence the turned rows. */
+static void to_diagonal(const struct consistent *c, int slot, int component, double *values)
+{
+    const double *upper = c->hform->upper[component];
+    if (upper == NULL || slot == DEPTH) return;
+    const size_t n = c->n[DEPTH], lanes = c->n[1 - slot];
+    turn_rows(n, lanes, values);
+    band_forward(upper, n, c->hform->upper_half, values, lanes, lanes);
+    turn_rows(n, lanes, values);
+}
+
+static void from_diagonal(const struct consistent *c, int slot, int component, double *values)
+{
+    const double *upper = c->hform->upper[component];
+    if (upper == NULL || slot == DEPTH) return;
+    const size_t n = c->n[DEPTH], lanes = c->n[1 - slot];
+    turn_rows(n, lanes, values);
+    band_lower_multiply(upper, n, c->hform->upper_half, values, lanes, lanes);
+    turn_rows(n, lanes, values);
+}
+
+/* Speed of a damped face's component in plane k, 0 if the face is not damped; over depth the columns of N
+ * have the density in them. */
+static double damping(const struct consistent *c, int axis, int end, int component, size_t k)
+{
+    const int face = 2 * axis + end;
+    if (!c->damped[face]) return 0;
+    const double *density = c->slot[axis] == DEPTH ? c->weighted[WEIGHT_DENSITY] : NULL;
+    if (c->slot[axis] == DEPTH) k = end == 0 ? 0 : c->n[DEPTH] - 1;
+    return c->speed[face][component][k] *
+           (density == NULL ? 1 : density[end == 0 ? 0 : c->spline[axis]->elements - 1]);
+}
+
+/* Plane of a face's point. */
+static size_t face_plane(const struct consistent *c, int slot, size_t p)
+{
+    return slot == DEPTH ? 0 : p / c->n[1 - slot];
 }
 
 static void subtract_velocities(struct consistent *c, int axis, int component, const double *v, double *a)
 {
-    const struct face_points face = face_points(c, c->slot[axis]);
+    const int slot = c->slot[axis];
+    const struct face_points face = face_points(c, slot);
     for (int end = 0; end < 2; end++) {
-        const double speed = damping(c, axis, end, component);
-        if (speed == 0) continue;
+        if (!c->damped[2 * axis + end]) continue;
         double *values = c->hform->face[0];
         for (size_t p = 0; p < face.count; p++)
-            values[p] = speed * v[face_point(&face, p, end == 0 ? 0 : c->n[c->slot[axis]] - 1)];
+            values[p] = v[face_point(&face, p, end == 0 ? 0 : c->n[slot] - 1)];
+        to_diagonal(c, slot, component, values);
+        for (size_t p = 0; p < face.count; p++)
+            values[p] *= damping(c, axis, end, component, face_plane(c, slot, p));
+        from_diagonal(c, slot, component, values);
         spread(c, axis, end, c->hform->column[component][axis][end], values, a);
     }
 }
@@ -83,21 +133,32 @@ static void subtract_velocities(struct consistent *c, int axis, int component, c
 /* Solves the 2 x 2 equations of both ends' values, then takes h c n a_e' off. */
 static void implicit_part(struct consistent *c, int axis, int component, double half_step, double *a)
 {
-    double *const *column = c->hform->column[component][axis];
-    const struct face_points face = face_points(c, c->slot[axis]);
-    const size_t last = c->n[c->slot[axis]] - 1;
-    const double low = half_step * damping(c, axis, 0, component);
-    const double high = half_step * damping(c, axis, 1, component);
-    const double m00 = 1 + low * column[0][0], m01 = high * column[1][0];
-    const double m10 = low * column[0][last], m11 = 1 + high * column[1][last];
-    const double determinant = m00 * m11 - m01 * m10;
+    double *const *column = c->hform->column[component][axis], *const *value = c->hform->face;
+    const int slot = c->slot[axis];
+    const struct face_points face = face_points(c, slot);
+    const size_t last = c->n[slot] - 1;
+    if (!c->damped[2 * axis] && !c->damped[2 * axis + 1]) return;
     for (size_t p = 0; p < face.count; p++) {
-        const double a0 = a[face_point(&face, p, 0)], a1 = a[face_point(&face, p, last)];
-        c->hform->face[0][p] = low * (m11 * a0 - m01 * a1) / determinant;
-        c->hform->face[1][p] = high * (m00 * a1 - m10 * a0) / determinant;
+        value[0][p] = a[face_point(&face, p, 0)];
+        value[1][p] = a[face_point(&face, p, last)];
     }
-    if (low != 0) spread(c, axis, 0, column[0], c->hform->face[0], a);
-    if (high != 0) spread(c, axis, 1, column[1], c->hform->face[1], a);
+    to_diagonal(c, slot, component, value[0]);
+    to_diagonal(c, slot, component, value[1]);
+    for (size_t p = 0; p < face.count; p++) {
+        const size_t k = face_plane(c, slot, p);
+        const double low = half_step * damping(c, axis, 0, component, k);
+        const double high = half_step * damping(c, axis, 1, component, k);
+        const double m00 = 1 + low * column[0][0], m01 = high * column[1][0];
+        const double m10 = low * column[0][last], m11 = 1 + high * column[1][last];
+        const double determinant = m00 * m11 - m01 * m10, a0 = value[0][p], a1 = value[1][p];
+        value[0][p] = low * (m11 * a0 - m01 * a1) / determinant;
+        value[1][p] = high * (m00 * a1 - m10 * a0) / determinant;
+    }
+    for (int end = 0; end < 2; end++) {
+        if (!c->damped[2 * axis + end]) continue;
+        from_diagonal(c, slot, component, value[end]);
+        spread(c, axis, end, column[end], value[end], a);
+    }
 }
 
 void hform_dampers(struct consistent *c, double half_step, const double *v, double *a)
@@ -124,10 +185,14 @@ double hform_damper_power(struct consistent *c, const double *v)
         const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
         for (int component = 0; component < c->dimension; component++) {
             for (size_t p = 0; p < points.count; p++)
-                weighed[p] = values[p] = v[(size_t)component * c->volume + face_point(&points, p, at)];
+                values[p] = v[(size_t)component * c->volume + face_point(&points, p, at)];
+            to_diagonal(c, slot, component, values);
+            const bool diagonal = c->hform->upper[component] != NULL && slot != DEPTH;
+            memcpy(weighed, values, points.count * sizeof *values);
             for (int axis = 0; axis < c->dimension; axis++) {
                 const double *factor = c->hform->factor[component][axis];
                 const size_t half = c->hform->inverse[component][axis]->half;
+                if (c->slot[axis] == DEPTH && diagonal) continue;
                 if (c->slot[axis] == outer) {
                     band_forward(factor, rows, half, weighed, inner, inner);
                     band_backward(factor, rows, half, weighed, inner, inner);
@@ -139,8 +204,9 @@ double hform_damper_power(struct consistent *c, const double *v)
             }
             double sum = 0;
             for (size_t p = 0; p < points.count; p++)
-                sum += values[p] * weighed[p];
-            power += c->property[WEIGHT_DENSITY] * c->damping[face][component] * sum;
+                sum += damping(c, face / 2, face % 2, component, face_plane(c, slot, p)) * values[p] *
+                       weighed[p];
+            power += (c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1) * sum;
         }
     }
     return power;
