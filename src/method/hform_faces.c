@@ -35,13 +35,14 @@ void hform_edges(const struct consistent *c, size_t k, const double *u, double *
 /* Points of a face across a slot: position of point p at index `at` across. */
 struct face_points {
     size_t count, row, skip, across; /* points; points a row; step between rows; step across */
+    size_t lanes;                    /* points of each plane */
 };
 
 static struct face_points face_points(const struct consistent *c, int slot)
 {
-    if (slot == 0) return (struct face_points){c->n[1] * c->n[2], 1, c->n[0], 1};
-    if (slot == 1) return (struct face_points){c->n[0] * c->n[2], c->n[0], c->plane, c->n[0]};
-    return (struct face_points){c->plane, c->plane, 0, c->plane};
+    if (slot == 0) return (struct face_points){c->n[1] * c->n[2], 1, c->n[0], 1, c->n[1]};
+    if (slot == 1) return (struct face_points){c->n[0] * c->n[2], c->n[0], c->plane, c->n[0], c->n[0]};
+    return (struct face_points){c->plane, c->plane, 0, c->plane, c->plane};
 }
 
 static size_t face_point(const struct face_points *face, size_t p, size_t at)
@@ -107,12 +108,6 @@ static double damping(const struct consistent *c, int axis, int end, int compone
            (density == NULL ? 1 : density[end == 0 ? 0 : c->spline[axis]->elements - 1]);
 }
 
-/* Plane of a face's point. */
-static size_t face_plane(const struct consistent *c, int slot, size_t p)
-{
-    return slot == DEPTH ? 0 : p / c->n[1 - slot];
-}
-
 static void subtract_velocities(struct consistent *c, int axis, int component, const double *v, double *a)
 {
     const int slot = c->slot[axis];
@@ -124,7 +119,7 @@ static void subtract_velocities(struct consistent *c, int axis, int component, c
             values[p] = v[face_point(&face, p, end == 0 ? 0 : c->n[slot] - 1)];
         to_diagonal(c, slot, component, values);
         for (size_t p = 0; p < face.count; p++)
-            values[p] *= damping(c, axis, end, component, face_plane(c, slot, p));
+            values[p] *= damping(c, axis, end, component, p / face.lanes);
         from_diagonal(c, slot, component, values);
         spread(c, axis, end, c->hform->column[component][axis][end], values, a);
     }
@@ -145,7 +140,7 @@ static void implicit_part(struct consistent *c, int axis, int component, double 
     to_diagonal(c, slot, component, value[0]);
     to_diagonal(c, slot, component, value[1]);
     for (size_t p = 0; p < face.count; p++) {
-        const size_t k = face_plane(c, slot, p);
+        const size_t k = p / face.lanes;
         const double low = half_step * damping(c, axis, 0, component, k);
         const double high = half_step * damping(c, axis, 1, component, k);
         const double m00 = 1 + low * column[0][0], m01 = high * column[1][0];
@@ -204,8 +199,7 @@ double hform_damper_power(struct consistent *c, const double *v)
             }
             double sum = 0;
             for (size_t p = 0; p < points.count; p++)
-                sum += damping(c, face / 2, face % 2, component, face_plane(c, slot, p)) * values[p] *
-                       weighed[p];
+                sum += damping(c, face / 2, face % 2, component, p / points.lanes) * values[p] * weighed[p];
             power += (c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1) * sum;
         }
     }
