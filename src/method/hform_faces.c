@@ -198,8 +198,11 @@ double hform_damper_power(struct consistent *c, const double *v)
                     }
             }
             double sum = 0;
-            for (size_t p = 0; p < points.count; p++)
-                sum += damping(c, face / 2, face % 2, component, p / points.lanes) * values[p] * weighed[p];
+            for (size_t k = 0; k * points.lanes < points.count; k++) {
+                const double speed = damping(c, face / 2, face % 2, component, k);
+                for (size_t p = k * points.lanes; p < (k + 1) * points.lanes; p++)
+                    sum += speed * values[p] * weighed[p];
+            }
             power += (c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1) * sum;
         }
     }
