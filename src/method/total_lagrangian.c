@@ -53,7 +53,8 @@ static void destroy(struct model *model)
                             tl->H,
                             tl->A,
                             tl->force,
-                            tl->extra};
+                            tl->extra,
+                            tl->found};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         array_free(arrays[k]);
     array_free(tl);
@@ -258,11 +259,13 @@ static void energy(struct model *model, const double *y, struct energy *energy)
         }
 }
 
-/* Work done at moving faces: minus the force on each ghost times its prescribed velocity. */
-static double motion_power(const struct tl_model *tl, const double *velocity)
+/* Work done at moving faces: minus the force on each ghost, hourglass control's too, times its prescribed
+ * velocity. */
+static double motion_power(struct tl_model *tl, const double *velocity)
 {
     const size_t d = (size_t)tl->cloud->dimension;
     double power = 0;
+    tl_ghost_hourglass(tl);
     for (size_t g = 0; g < tl->ghosts; g++)
         for (size_t c = 0; c < d; c++)
             for (size_t f = 0; f < FACES; f++)
@@ -366,8 +369,9 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
     tl->elastic = array_new(n, sizeof *tl->elastic);
     tl->deck_position = array_new(3 * n, sizeof *tl->deck_position);
     tl->A = array_new(d * d * n, sizeof *tl->A);
+    tl->found = array_new(n, sizeof *tl->found);
     if (tl->mass == NULL || tl->material == NULL || tl->elastic == NULL || tl->deck_position == NULL ||
-        tl->A == NULL)
+        tl->A == NULL || tl->found == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
     for (size_t i = 0; i < n; i++) {
         const double *x = tl->cloud->position + 3 * i;

@@ -73,6 +73,7 @@ struct tl_model {
     struct elastic *elastic;          /* [points] */
     struct tl_load *load;             /* [scene->loads] */
     struct neighbours near;           /* of the points, for probes */
+    uint32_t *found;                  /* [points] for tl_probe */
     double *site_u, *site_v;          /* [dimension * sites]; site_v NULL without viscosity */
     double *H;                        /* [dimension^2 * sites] */
     double *A;                        /* [dimension^2 * points] V P (and the hourglass part) */
@@ -86,14 +87,15 @@ struct tl_model {
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
 /* total_lagrangian_setup.c: gradient weights, hourglass pairs, viscosity pairs. */
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
-double tl_radius(const struct tl_model *tl);        /* of the weights, in length */
-double tl_search_radius(const struct tl_model *tl); /* the largest a point's weights may take */
+double tl_spacing_at(const struct tl_model *tl, size_t i); /* of the points around point i */
+double tl_radius(const struct tl_model *tl);               /* of the weights, in length */
+double tl_search_radius(const struct tl_model *tl);        /* the largest a point's weights may take */
 /* total_lagrangian_loads.c */
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
-enum { TL_PROBE_ROOM = 256 };
+enum { TL_PROBE_ROOM = 512 };
 /* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
  * hundred points, much more on a busy machine). */
 enum { TL_SERIAL = 3000 };
@@ -103,6 +105,8 @@ void tl_sites(struct tl_model *tl, const double *u, const double *v, const doubl
               const double *velocity);
 void tl_gradients(struct tl_model *tl);
 void tl_forces(struct tl_model *tl);
+/* Adds to tl->force of the ghosts what the hourglass pairs pull at them. */
+void tl_ghost_hourglass(struct tl_model *tl);
 /* H of one point for displacements u (ghosts by the amplitudes of the last drive). */
 void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double H[9]);
 void tl_viscosity(struct tl_model *tl);

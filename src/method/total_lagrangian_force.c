@@ -267,6 +267,22 @@ double tl_strain_energy(struct tl_model *tl)
     return sum;
 }
 
+/* Minus the derivative of the hourglass energy by the displacement of each ghost. */
+void tl_ghost_hourglass(struct tl_model *tl)
+{
+    const size_t n = tl->cloud->points;
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (size_t i = 0; tl->extra != NULL && i < n; i++)
+        for (size_t k = tl->pair.start[i]; k < tl->pair.start[i + 1]; k++) {
+            double X[3];
+            double e[3];
+            if (tl->pair.index[k] < n) continue;
+            mismatch(tl, i, tl->pair.index[k], d, X, e);
+            for (size_t a = 0; a < d; a++)
+                tl->force[d * tl->pair.index[k] + a] -= 0.5 * tl->pair.weight[k] * e[a];
+        }
+}
+
 /* Monaghan's viscosity (He & Seaid 2016, Eqs 16 and 17, r_ij a vector) along the line of each approaching
  * pair in its present position, added to tl->force: m_i m_j Pi_ij |W'(X_ij)|, so momentum and angular
  * momentum stay. A mirrored point pushes as its source would; the reaction falls on the mirror image. */

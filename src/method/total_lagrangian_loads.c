@@ -17,26 +17,27 @@
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages)
 {
-    uint32_t found[TL_PROBE_ROOM];
     double offset[3 * TL_PROBE_ROOM];
     double kernel[TL_PROBE_ROOM];
     double work[FIT_TERMS * TL_PROBE_ROOM];
     const int d = tl->cloud->dimension;
-    const size_t near = neighbours_at(&tl->near, body_position, TL_PROBE_ROOM, found);
-    for (double radius = tl_radius(tl); near <= TL_PROBE_ROOM && radius <= tl->near.radius * (1 + 1e-9);
+    const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);
+    const size_t nearest = neighbours_nearest(&tl->near, body_position);
+    const double spacing = nearest < tl->cloud->points ? tl_spacing_at(tl, nearest) : tl->cloud->spacing;
+    for (double radius = tl_radius(tl) * spacing / tl->cloud->spacing; radius <= tl->near.radius * (1 + 1e-9);
          radius *= 1.05) {
         *count = 0;
-        for (size_t k = 0; k < near; k++) {
+        for (size_t k = 0; k < near && *count < TL_PROBE_ROOM; k++) {
             double square = 0;
             for (size_t c = 0; c < 3; c++) {
-                offset[3 * *count + c] = tl->cloud->position[3 * found[k] + c] - body_position[c];
+                offset[3 * *count + c] = tl->cloud->position[3 * tl->found[k] + c] - body_position[c];
                 square += offset[3 * *count + c] * offset[3 * *count + c];
             }
             kernel[*count] =
                 kernel_value(tl->options.kernel, d, sqrt(square), radius / tl->options.kernel->support);
-            kernel[*count] *= tl->cloud->volume[found[k]];
+            kernel[*count] *= tl->cloud->volume[tl->found[k]];
             if (!(kernel[*count] > 0)) continue;
-            index[(*count)++] = found[k];
+            index[(*count)++] = tl->found[k];
         }
         const struct fit fit = {d, tl->options.degree, radius, *count, offset, kernel, work};
         if (fit_free(&fit, weight, gradient)) return SELAS_OK;

@@ -25,9 +25,9 @@ void tl_rows_free(struct tl_rows *rows)
     *rows = (struct tl_rows){0};
 }
 
-static double spacing_at(const struct tl_model *tl, size_t i)
+double tl_spacing_at(const struct tl_model *tl, size_t i)
 {
-    return fmax(tl->cloud->spacing, pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension));
+    return pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
 }
 
 double tl_radius(const struct tl_model *tl)
@@ -132,7 +132,7 @@ static size_t fit_point(const struct tl_model *tl, const struct neighbours *near
     const double reach = tl_radius(tl) / tl->cloud->spacing;
     const bool quadratic = tl->options.degree == 2;
     const size_t wanted = quadratic ? lattice_neighbours(tl->cloud->dimension, reach) : 0;
-    double radius = reach * spacing_at(tl, i);
+    double radius = reach * tl_spacing_at(tl, i);
     size_t count = 0;
     bool done = false;
     bool cut = false;
@@ -249,7 +249,7 @@ static selas_status hourglass_pairs(struct tl_model *tl, const struct neighbours
             if (j == i || (j >= n && tl->ghost[j - n].curved)) continue;
             const size_t source = j < n ? j : tl->ghost[j - n].source;
             const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
-            if (r > 1.6 * fmax(spacing_at(tl, i), spacing_at(tl, source))) continue;
+            if (r > 1.6 * fmax(tl_spacing_at(tl, i), tl_spacing_at(tl, source))) continue;
             double stiffness = 0;
             const size_t both[2] = {i, source};
             for (int e = 0; e < 2; e++) {
@@ -301,7 +301,7 @@ double tl_search_radius(const struct tl_model *tl)
 {
     double largest = 0;
     for (size_t i = 0; i < tl->cloud->points; i++)
-        largest = fmax(largest, spacing_at(tl, i));
+        largest = fmax(largest, tl_spacing_at(tl, i));
     return 1.5 * tl_radius(tl) / tl->cloud->spacing * largest;
 }
 
