@@ -30,6 +30,7 @@ below "order at least 3.7 between spacings .02 and .01: error ratio times 13" \
 below "held end" "$(largest boundary%kind=fixed)" 1.2e-4
 below "thin bar" "$(largest scene%plane=stress)" 1.2e-4
 below "absorbing end, leapfrog" "$(largest boundary%kind=transmitting stepping%scheme=leapfrog)" 1.5e-2
+below "absorbing end, modified equation" "$(largest boundary%kind=transmitting)" 1e-3
 below "P pulse in a box with rollers" "$(largest scene%dimension=3 body%low=0,0,0 body%high=4,0.4,0.4 \
     body%spacing=0.05 initial%direction=1,0,0 initial%centre=1,0,0 initial%width=0.2 "$rollers" \
     boundary%kind=roller 'receiver(1)%position=2,0.2,0.2' 'receiver(2)%position=3.5,0.4,0.2')" 5e-5

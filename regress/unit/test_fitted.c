@@ -1,0 +1,165 @@
+/* What the program finds out about a scene by itself: the box of a half-space and mirror planes. */
+#include "scene/symmetry.h"
+
+#include "from_deck.h"
+
+#define ROCK "&material name='rock', density=1, lambda=1, mu=1 /\n"
+#define GROUND(end, spacing)                                                                                 \
+    "&scene dimension=3, end_time=" end " /\n" ROCK                                                          \
+    "&body material='rock', shape='half-space', spacing=" spacing " /\n"
+#define PATCH                                                                                                \
+    "&load face='z-', shape='square', centre=3, 2, 0, size=1, 1, direction=0, 0, 1, history='triangle', "    \
+    "duration=2 /\n"
+#define RECEIVER "&receiver name='far', position=5, 2, 0 /\n"
+
+/* Late end: layers. The box ends four points beyond load and receiver, is even about the load, twelve points
+ * deep at least. */
+static void small_box_with_layers(void **unused)
+{
+    (void)unused;
+    struct from_deck d = right_scene(GROUND("60", ".125") PATCH RECEIVER);
+    const struct body *body = &d.scene->body;
+    assert_true(body->chosen && body->absorbing);
+    assert_near(body->high[0], 5.5, 1e-12);
+    assert_near(body->low[0], 0.5, 1e-12);
+    assert_near(body->low[1], 1.0, 1e-12);
+    assert_near(body->high[1], 3.0, 1e-12);
+    assert_near(body->low[2], 0.0, 0);
+    assert_near(body->high[2], 1.5, 1e-12);
+    for (int face = 0; face < BOX_FACES; face++)
+        assert_int_equal(d.scene->boundary[face].kind,
+                         face == FACE_Z_LOW ? BOUNDARY_FREE : BOUNDARY_TRANSMITTING);
+    assert_int_equal(scene_mirror_axes(d.scene), 3);
+    assert_non_null(strstr(body->choice, "absorbing layers"));
+    from_deck_free(&d);
+}
+
+/* Early end: a box from which nothing returns: every path load - face - receiver takes at least end_time at
+ * c_p. */
+static void large_box_without_layers(void **unused)
+{
+    (void)unused;
+    struct from_deck d = right_scene(GROUND("1", ".5") PATCH RECEIVER);
+    const struct body *body = &d.scene->body;
+    assert_true(body->chosen && !body->absorbing);
+    const double reach = sqrt(3.0) * 1.0;
+    assert_true((body->high[0] - 3.5) + (body->high[0] - 5.0) >= reach);
+    assert_true((2.5 - body->low[0]) + (5.0 - body->low[0]) >= reach);
+    assert_true((body->high[1] - 2.5) + (body->high[1] - 2.0) >= reach);
+    assert_true(2.0 * body->high[2] >= reach);
+    for (int face = 0; face < BOX_FACES; face++)
+        assert_int_equal(d.scene->boundary[face].kind, BOUNDARY_FREE);
+    from_deck_free(&d);
+}
+
+/* What the deck says of a side stays. */
+static void named_sides_are_kept(void **unused)
+{
+    (void)unused;
+    struct from_deck d =
+        right_scene(GROUND("60", ".125") PATCH RECEIVER "&boundary face='z+', kind='fixed' /\n");
+    assert_int_equal(d.scene->boundary[FACE_Z_HIGH].kind, BOUNDARY_FIXED);
+    assert_int_equal(d.scene->boundary[FACE_X_LOW].kind, BOUNDARY_TRANSMITTING);
+    from_deck_free(&d);
+}
+
+#define BOX                                                                                                  \
+    "&scene dimension=3, end_time=6 /\n" ROCK "&body material='rock', low=0,0,0, high=8,6,4, spacing=.5 /\n"
+#define LOAD(words) "&load face='z-', history='triangle', duration=2, " words " /\n"
+
+static void mirror_planes(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        unsigned axes;
+    } cases[] = {
+        {BOX, 7}, /* nothing acts: everything is symmetric */
+        {BOX LOAD("shape='square', centre=4,3,0, size=1,1, direction=0,0,1"), 3},
+        {BOX LOAD("shape='square', centre=4,3,0, size=1,1, direction=0,0,1, amplitude=-2"), 3},
+        {BOX LOAD("shape='disc', centre=4,2.5,0, size=1, direction=0,0,1"), 1},
+        {BOX LOAD("shape='square', centre=4,3,0, size=1,1, direction=1,0,0"), 2}, /* odd across x */
+        {BOX LOAD("shape='square', centre=4,3,0, size=1,1, direction=1,0,1"), 2},
+        /* a pair of loads is symmetric if the images match in place, direction, size and history */
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=0,0,1")
+             LOAD("shape='square', centre=5,3,0, size=1,1, direction=0,0,1"),
+         3},
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=1,0,0")
+             LOAD("shape='square', centre=5,3,0, size=1,1, direction=-1,0,0"),
+         3},
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=1,0,0")
+             LOAD("shape='square', centre=5,3,0, size=1,1, direction=1,0,0"),
+         2},
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=0,0,1")
+             LOAD("shape='square', centre=5,3,0, size=1,1, direction=0,0,1, amplitude=2"),
+         2},
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=0,0,1")
+             LOAD("shape='square', centre=5,3,0, size=1,2, direction=0,0,1"),
+         2},
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=0,0,1") "&load face='z-', "
+                                                                             "shape='square', centre=5,3,0, "
+                                                                             "size=1,1, direction=0,0,1, "
+                                                                             "history='triangle', "
+                                                                             "duration=1 /\n",
+         2},
+        /* two equal loads in one place do not make up for one on the other side */
+        {BOX LOAD("shape='square', centre=3,3,0, size=1,1, direction=0,0,1")
+             LOAD("shape='square', centre=3,3,0, size=1,1, direction=0,0,1")
+                 LOAD("shape='square', centre=5,3,0, size=1,1, direction=0,0,1"),
+         2},
+        /* faces */
+        {BOX "&boundary face='x-', kind='fixed' /\n", 6},
+        {BOX "&boundary face='x-', 'x+', kind='fixed' /\n", 7},
+        {BOX "&boundary face='x-', kind='transmitting' /\n&boundary face='x+', kind='transmitting', "
+             "shear_factor=.8 /\n",
+         6},
+        {BOX "&boundary face='z+', kind='velocity', direction=0,1,0, history='step' /\n", 1},
+        {BOX "&initial kind='uniform-velocity', velocity=1,0,0 /\n", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct from_deck d = right_scene(cases[i].text);
+        if (scene_mirror_axes(d.scene) != cases[i].axes) print_error("case %zu\n", i);
+        assert_int_equal(scene_mirror_axes(d.scene), cases[i].axes);
+        from_deck_free(&d);
+    }
+}
+
+/* A plane between points is none that the lattice could be cut at. */
+static void odd_numbers_of_cells_have_no_mirror(void **unused)
+{
+    (void)unused;
+    struct from_deck d = right_scene("&scene dimension=3, end_time=6 /\n" ROCK
+                                     "&body material='rock', low=0,0,0, high=7,8,9, spacing=1 /\n");
+    assert_int_equal(scene_mirror_axes(d.scene), 2);
+    from_deck_free(&d);
+}
+
+/* The load turns with nothing: in a turned body it must be symmetric about the body's own planes. */
+static void turned_bodies(void **unused)
+{
+    (void)unused;
+    struct from_deck d =
+        right_scene("&scene dimension=3, end_time=6 /\n" ROCK
+                    "&body material='rock', low=0,0,0, high=8,6,4, spacing=.5, rotation=0,0,30 /\n" LOAD(
+                        "shape='square', centre=4,3,0, size=1,1, direction=0,0,1"));
+    assert_int_equal(scene_mirror_axes(d.scene), 3);
+    from_deck_free(&d);
+    d = right_scene("&scene dimension=3, end_time=6 /\n" ROCK
+                    "&body material='rock', low=0,0,0, high=8,6,4, spacing=.5, rotation=0,0,30 /\n" LOAD(
+                        "shape='square', centre=4,3,0, size=1,1, direction=1,0,0"));
+    assert_int_equal(scene_mirror_axes(d.scene), 0);
+    from_deck_free(&d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_box_with_layers),
+        cmocka_unit_test(large_box_without_layers),
+        cmocka_unit_test(named_sides_are_kept),
+        cmocka_unit_test(mirror_planes),
+        cmocka_unit_test(odd_numbers_of_cells_have_no_mirror),
+        cmocka_unit_test(turned_bodies),
+    };
+    return cmocka_run_group_tests_name("fitted", tests, NULL, NULL);
+}
