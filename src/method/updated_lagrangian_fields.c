@@ -49,80 +49,76 @@ void updated_initialise(struct model *model, double *y)
     }
 }
 
-/* The particle nearest to a place of the undeformed body, and those around it. */
+/* Particles of the undeformed body within a radius of a place: how many, and with `index` which and where. */
 static size_t around(const struct updated *updated, const double place[3], double radius, size_t *index,
                      double *offset)
 {
-    size_t nearest = 0, count = 0;
-    double best = INFINITY;
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t i = 0; i < updated->cloud->points; i++) {
-            const double *centre = pass == 0 ? place : updated->cloud->position + 3 * nearest;
-            double d[3], square = 0;
-            for (size_t a = 0; a < 3; a++) {
-                d[a] = updated->cloud->position[3 * i + a] - centre[a];
-                square += d[a] * d[a];
-            }
-            if (pass == 0 && square < best) {
-                best = square;
-                nearest = i;
-            } else if (pass == 1 && i != nearest && square < radius * radius) {
-                if (index != NULL) {
-                    index[count + 1] = i;
-                    memcpy(offset + 3 * count, d, sizeof d);
-                }
-                count++;
-            }
+    size_t count = 0;
+    for (size_t i = 0; i < updated->cloud->points; i++) {
+        double d[3], square = 0;
+        for (size_t a = 0; a < 3; a++) {
+            d[a] = updated->cloud->position[3 * i + a] - place[a];
+            square += d[a] * d[a];
         }
-    if (index != NULL) index[0] = nearest;
+        if (!(square < radius * radius)) continue;
+        if (index != NULL) {
+            index[count] = i;
+            memcpy(offset + 3 * count, d, sizeof d);
+        }
+        count++;
+    }
     return count;
 }
 
-/* First-order Taylor step from the nearest particle with a least-squares gradient through its value: a
- * particle's own place gives its own value, places outside the outermost particles are extrapolated. */
+/* Fits a polynomial of the degree to the particles within the radius; SELAS_NOT_CONVERGED if they do not span
+ * it. */
+static selas_status fit_probe(const struct updated *updated, const double place[3], int degree, double radius,
+                              struct probe *probe, struct messages *messages)
+{
+    const size_t count = around(updated, place, radius, NULL, NULL);
+    if (count < fit_terms(updated->dimension, degree)) return SELAS_NOT_CONVERGED;
+    const selas_status status = probe_allocate(probe, count, messages);
+    if (status != SELAS_OK) return status;
+    double *offset = array_new((3 + 1 + FIT_TERMS) * count, sizeof *offset);
+    if (offset == NULL) {
+        probe_free(probe);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the weights of a receiver");
+    }
+    double *weight = offset + 3 * count;
+    around(updated, place, radius, probe->index, offset);
+    for (size_t j = 0; j < count; j++) {
+        const double *d = offset + 3 * j;
+        const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        weight[j] = updated->cloud->volume[probe->index[j]] *
+                    kernel_value(updated->options.kernel, updated->dimension, r,
+                                 radius / updated->options.kernel->support);
+    }
+    const struct fit fit = {updated->dimension, degree, radius, count, offset, weight, weight + count};
+    const bool spans = fit_free(&fit, probe->weight, probe->gradient);
+    array_free(offset);
+    if (spans) return SELAS_OK;
+    probe_free(probe);
+    return SELAS_NOT_CONVERGED;
+}
+
+/* Moving least squares with the method's kernel: a quadratic where the particles span one (it leaves a front
+ * that is several spacings wide as it is, and averages what alternates from particle to particle), else a
+ * straight line. Places outside the outermost particles are extrapolated. */
 selas_status updated_probe(struct model *model, const double position[3], struct probe *probe,
                            struct messages *messages)
 {
     const struct updated *updated = updated_of(model);
-    double place[3], step[3];
+    double place[3];
     body_from_deck(&model->scene->body, position, place);
     selas_status status = SELAS_NOT_CONVERGED;
-    for (double radius = 1.6; radius < 4 && status == SELAS_NOT_CONVERGED; radius *= 1.3) {
-        const double reach = radius * updated->cloud->spacing;
-        const size_t count = around(updated, place, reach, NULL, NULL);
-        double *room = array_new((3 + 1 + FIT_TERMS) * (count + 1), sizeof *room);
-        status = probe_allocate(probe, count + 1, messages);
-        if (status != SELAS_OK || room == NULL) {
-            array_free(room);
-            return fail(messages, SELAS_NO_MEMORY, "no memory for the weights of a receiver");
-        }
-        double *offset = room, *weight = room + 3 * (count + 1);
-        around(updated, place, reach, probe->index, offset);
-        for (size_t j = 0; j < count; j++) {
-            const double *d = offset + 3 * j;
-            const double q = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / reach;
-            weight[j] = (1 - q) * (1 - q) * (1 + q);
-        }
-        const struct fit fit = {updated->dimension, 1, reach, count, offset, weight, weight + count + 1};
-        if (!fit_through_centre(&fit, probe->gradient + 3)) {
-            probe_free(probe);
-            status = SELAS_NOT_CONVERGED;
-        }
-        array_free(room);
-    }
-    if (status != SELAS_OK)
+    for (int degree = 2; degree >= 1 && status == SELAS_NOT_CONVERGED; degree--)
+        for (double factor = 1; factor < 2 && status == SELAS_NOT_CONVERGED; factor *= 1.2)
+            status = fit_probe(updated, place, degree, factor * updated->reach, probe, messages);
+    if (status == SELAS_NOT_CONVERGED)
         return fail(messages, status, "too few particles around a receiver to interpolate");
+    if (status != SELAS_OK) return status;
     memcpy(probe->position, position, sizeof probe->position);
     probe->material = updated->material;
-    for (size_t a = 0; a < 3; a++)
-        step[a] = place[a] - updated->cloud->position[3 * probe->index[0] + a];
-    probe->weight[0] = 1;
-    for (size_t j = 1; j < probe->count; j++)
-        for (size_t a = 0; a < 3; a++) {
-            probe->weight[j] += probe->gradient[3 * j + a] * step[a];
-            probe->weight[0] -= probe->gradient[3 * j + a] * step[a];
-            probe->gradient[a] -= probe->gradient[3 * j + a];
-        }
     return SELAS_OK;
 }
 
