@@ -43,27 +43,37 @@ void tl_sites(struct tl_model *tl, const double *u, const double *v, const doubl
     fill_ghosts(tl, tl->site_v, velocity);
 }
 
+/* Adds (u_j - u_i) x G_ij of entry k. */
+static inline __attribute__((always_inline)) void add_pair(const struct tl_model *tl, size_t k,
+                                                           const size_t d, const double own[3], double sum[9])
+{
+    const double *restrict other = tl->site_u + d * tl->gradient.index[k];
+    const double *restrict g = tl->gradient.weight + d * k;
+    for (size_t a = 0; a < d; a++) {
+        const double difference = other[a] - own[a];
+        for (size_t b = 0; b < d; b++)
+            sum[a * d + b] += difference * g[b];
+    }
+}
+
+/* Rows are summed in two interleaved halves: one sum would wait for each addition before. */
 static inline __attribute__((always_inline)) void gradient_of(const struct tl_model *tl, size_t i,
                                                               const size_t d, double *H)
 {
-    const double *restrict u = tl->site_u;
-    const double *restrict weight = tl->gradient.weight;
-    const uint32_t *restrict index = tl->gradient.index;
+    const size_t end = tl->gradient.start[i + 1];
     double own[3];
-    double sum[9] = {0};
+    double even[9] = {0};
+    double odd[9] = {0};
     for (size_t a = 0; a < d; a++)
-        own[a] = u[d * i + a];
-    for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++) {
-        const double *restrict other = u + d * index[k];
-        const double *restrict g = weight + d * k;
-        for (size_t a = 0; a < d; a++) {
-            const double difference = other[a] - own[a];
-            for (size_t b = 0; b < d; b++)
-                sum[a * d + b] += difference * g[b];
-        }
+        own[a] = tl->site_u[d * i + a];
+    size_t k = tl->gradient.start[i];
+    for (; k + 1 < end; k += 2) {
+        add_pair(tl, k, d, own, even);
+        add_pair(tl, k + 1, d, own, odd);
     }
-    for (size_t k = 0; k < d * d; k++)
-        H[k] = sum[k];
+    if (k < end) add_pair(tl, k, d, own, even);
+    for (size_t c = 0; c < d * d; c++)
+        H[c] = even[c] + odd[c];
 }
 
 static inline __attribute__((always_inline)) void gradients(struct tl_model *tl, const size_t d)
@@ -139,21 +149,34 @@ static inline __attribute__((always_inline)) void hourglass(struct tl_model *tl,
     }
 }
 
+/* Adds A_j G_js of entry k, column by column: sum[b] [a] = A_ab G_b. */
+static inline __attribute__((always_inline)) void add_adjoint(const struct tl_model *tl, size_t k,
+                                                              const size_t d, double sum[9])
+{
+    const double *restrict stress = tl->A + d * d * tl->transposed.index[k];
+    const double *restrict g = tl->transposed.weight + d * k;
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++)
+            sum[a * d + b] += stress[a * d + b] * g[b];
+}
+
 /* Force on site s by the points in whose gradients it stands. */
 static inline __attribute__((always_inline)) void adjoint(const struct tl_model *tl, size_t s, const size_t d,
                                                           double force[3])
 {
-    const double *restrict A = tl->A;
-    const double *restrict weight = tl->transposed.weight;
-    const uint32_t *restrict index = tl->transposed.index;
-    for (size_t a = 0; a < d; a++)
+    const size_t end = tl->transposed.start[s + 1];
+    double even[9] = {0};
+    double odd[9] = {0};
+    size_t k = tl->transposed.start[s];
+    for (; k + 1 < end; k += 2) {
+        add_adjoint(tl, k, d, even);
+        add_adjoint(tl, k + 1, d, odd);
+    }
+    if (k < end) add_adjoint(tl, k, d, even);
+    for (size_t a = 0; a < d; a++) {
         force[a] = 0;
-    for (size_t k = tl->transposed.start[s]; k < tl->transposed.start[s + 1]; k++) {
-        const double *restrict stress = A + d * d * index[k];
-        const double *restrict g = weight + d * k;
-        for (size_t a = 0; a < d; a++)
-            for (size_t b = 0; b < d; b++)
-                force[a] -= stress[a * d + b] * g[b];
+        for (size_t b = 0; b < d; b++)
+            force[a] -= even[a * d + b] + odd[a * d + b];
     }
 }
 
