@@ -43,6 +43,14 @@ void tl_sites(struct tl_model *tl, const double *u, const double *v, const doubl
     fill_ghosts(tl, tl->site_v, velocity);
 }
 
+/* Two numbers handled as one: rows of the 2 x 2 tensors in the plane. */
+typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
+
+static inline two load(const double *from)
+{
+    return *(const two *)from;
+}
+
 /* Adds (u_j - u_i) x G_ij of entry k. */
 static inline __attribute__((always_inline)) void add_pair(const struct tl_model *tl, size_t k,
                                                            const size_t d, const double own[3], double sum[9])
@@ -76,6 +84,26 @@ static inline __attribute__((always_inline)) void gradient_of(const struct tl_mo
         H[c] = even[c] + odd[c];
 }
 
+static inline void gradient_in_plane(const struct tl_model *tl, size_t i, double *H)
+{
+    const size_t end = tl->gradient.start[i + 1];
+    const double *restrict u = tl->site_u;
+    const double *restrict weight = tl->gradient.weight;
+    const uint32_t *restrict index = tl->gradient.index;
+    const two own_x = {u[2 * i], u[2 * i]};
+    const two own_y = {u[2 * i + 1], u[2 * i + 1]};
+    two x[2] = {{0, 0}, {0, 0}};
+    two y[2] = {{0, 0}, {0, 0}};
+    for (size_t k = tl->gradient.start[i]; k < end; k++) {
+        const double *other = u + 2 * (size_t)index[k];
+        const two g = load(weight + 2 * k);
+        x[k % 2] += ((two){other[0], other[0]} - own_x) * g;
+        y[k % 2] += ((two){other[1], other[1]} - own_y) * g;
+    }
+    *(two *)H = x[0] + x[1];
+    *(two *)(H + 2) = y[0] + y[1];
+}
+
 static inline __attribute__((always_inline)) void gradients(struct tl_model *tl, const size_t d)
 {
     const size_t n = tl->cloud->points;
@@ -84,7 +112,10 @@ static inline __attribute__((always_inline)) void gradients(struct tl_model *tl,
         double P[9];
         double *H = tl->H + d * d * i;
         double *A = tl->A + d * d * i;
-        gradient_of(tl, i, d, H);
+        if (d == 2)
+            gradient_in_plane(tl, i, H);
+        else
+            gradient_of(tl, i, d, H);
         struct elastic elastic = tl->elastic[i];
         if (tl->linear) elastic.law = LAW_LINEAR;
         elastic_stress(&elastic, H, P);
@@ -180,6 +211,26 @@ static inline __attribute__((always_inline)) void adjoint(const struct tl_model 
     }
 }
 
+static inline void adjoint_in_plane(const struct tl_model *tl, size_t s, double force[3])
+{
+    const size_t end = tl->transposed.start[s + 1];
+    const double *restrict A = tl->A;
+    const double *restrict weight = tl->transposed.weight;
+    const uint32_t *restrict index = tl->transposed.index;
+    two x[2] = {{0, 0}, {0, 0}};
+    two y[2] = {{0, 0}, {0, 0}};
+    for (size_t k = tl->transposed.start[s]; k < end; k++) {
+        const double *stress = A + 4 * (size_t)index[k];
+        const two g = load(weight + 2 * k);
+        x[k % 2] += load(stress) * g;
+        y[k % 2] += load(stress + 2) * g;
+    }
+    const two sum_x = x[0] + x[1];
+    const two sum_y = y[0] + y[1];
+    force[0] = -(sum_x[0] + sum_x[1]);
+    force[1] = -(sum_y[0] + sum_y[1]);
+}
+
 static inline __attribute__((always_inline)) void forces(struct tl_model *tl, const size_t d)
 {
     const size_t n = tl->cloud->points;
@@ -188,14 +239,20 @@ static inline __attribute__((always_inline)) void forces(struct tl_model *tl, co
 #pragma omp for schedule(static)
         for (size_t s = n; s < tl->sites; s++) {
             double force[3];
-            adjoint(tl, s, d, force);
+            if (d == 2)
+                adjoint_in_plane(tl, s, force);
+            else
+                adjoint(tl, s, d, force);
             for (size_t a = 0; a < d; a++)
                 tl->force[d * s + a] = force[a];
         }
 #pragma omp for schedule(static)
         for (size_t i = 0; i < n; i++) {
             double force[3];
-            adjoint(tl, i, d, force);
+            if (d == 2)
+                adjoint_in_plane(tl, i, force);
+            else
+                adjoint(tl, i, d, force);
             for (size_t a = 0; a < d; a++) {
                 for (size_t b = 0; b < d; b++)
                     force[a] += tl->A[d * d * i + a * d + b] * tl->row_sum[d * i + b];
