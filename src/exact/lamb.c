@@ -13,6 +13,7 @@
 struct lamb {
     struct exact exact;
     struct lamb_problem problem;
+    struct layered *layers; /* NULL: homogeneous */
     struct lamb_load *load; /* patches, images included */
     size_t planes;
     struct lamb_load *plane; /* loads of the whole face */
@@ -39,11 +40,13 @@ static selas_status refuse(struct messages *messages, const char *why)
     return fail(messages, SELAS_BAD_SCENE, "reference 'lamb': %s", why);
 }
 
-static selas_status check_load(const struct load *load, struct messages *messages)
+static selas_status check_load(const struct scene *scene, const struct load *load, struct messages *messages)
 {
     if (load->kind != LOAD_TRACTION)
         return refuse(messages, "only traction loads; body forces and moment tensors have another solution");
     if (load->face != FACE_Z_LOW) return refuse(messages, "loads must act on the free surface, face = 'z-'");
+    if (load->shape == LOAD_FACE && scene->body.layers > 0)
+        return refuse(messages, "a load of the whole face is not offered on layers");
     if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
         return refuse(messages, "a moving patch is not offered");
     return SELAS_OK;
@@ -54,7 +57,6 @@ static selas_status check_scene(const struct scene *scene, struct messages *mess
     if (scene->dimension != 3) return refuse(messages, "the half-space is three-dimensional, dimension = 3");
     if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
         return refuse(messages, "the body must have shape = 'box' or 'half-space'");
-    if (scene->body.layers > 0) return refuse(messages, "the ground must be homogeneous, without &layer");
     if (scene->initial.kind != INITIAL_REST) return refuse(messages, "the ground must start at rest");
     if (scene->loads == 0) return refuse(messages, "there is no &load");
     for (int face = 0; face < BOX_FACES; face++) {
@@ -75,7 +77,7 @@ static selas_status check_scene(const struct scene *scene, struct messages *mess
             return refuse(messages, "opposite symmetry planes repeat the load without end; make one of them "
                                     "'transmitting'");
     for (size_t i = 0; i < scene->loads; i++) {
-        const selas_status status = check_load(&scene->load[i], messages);
+        const selas_status status = check_load(scene, &scene->load[i], messages);
         if (status != SELAS_OK) return status;
     }
     return SELAS_OK;
@@ -187,6 +189,7 @@ static void destroy(struct exact *exact)
     array_free(lamb->signal);
     array_free(lamb->load);
     array_free(lamb->plane);
+    layered_free(&lamb->layers);
     array_free(lamb);
 }
 
@@ -199,9 +202,11 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     if (lamb == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
     lamb->exact.class = &exact_lamb;
     lamb->exact.scene = scene;
-    const struct material *material = &scene->material[scene->body.material];
+    const struct material *material = scene_material_at(scene, 0);
     half_space_set(&lamb->problem.ground, material->density, material->lambda, material->mu);
-    status = set_loads(lamb, scene, messages);
+    if (scene->body.layers > 0) status = layered_create(scene, &lamb->layers, messages);
+    lamb->problem.layers = lamb->layers;
+    if (status == SELAS_OK) status = set_loads(lamb, scene, messages);
     if (status == SELAS_OK) status = compute_receivers(lamb, scene, messages);
     if (status != SELAS_OK) {
         destroy(&lamb->exact);

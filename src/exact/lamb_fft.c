@@ -65,7 +65,9 @@ struct range {
 
 static struct range wavenumbers(const struct work *work, double angular_frequency)
 {
-    const double slowest = angular_frequency / work->problem->ground.rayleigh_speed;
+    const struct lamb_problem *problem = work->problem;
+    const double slowest = angular_frequency / (problem->layers != NULL ? problem->layers->slowest
+                                                                        : problem->ground.rayleigh_speed);
     const double flat = 1.15 * slowest + (work->scales.kinks ? 48 : 160) / work->scales.edge;
     /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading */
     const double buried = hypot(26 / work->scales.depth, slowest);
@@ -230,6 +232,9 @@ static void sum_wavenumbers(const struct work *work, double complex s, struct ra
                 before->without_rayleigh != path->without_rayleigh) {
                 half_space_compliance(&work->problem->ground, s, path->z, count, work->k + from,
                                       path->horizontal, path->without_rayleigh, &compliance);
+                if (work->problem->layers != NULL)
+                    layered_add_difference(work->problem->layers, &work->problem->ground, s, path->z, count,
+                                           work->k + from, path->horizontal, &compliance);
                 for (size_t i = 0; i < count && taper[count - 1] < 1; i++)
                     multiply(taper[i], i, path->horizontal, &compliance);
             }
@@ -492,8 +497,10 @@ static selas_status prepare(struct work *work, double end_time, struct messages 
     work->period = (kinks ? 4 : 2.2) * end_time;
     work->decay = (kinks ? 14 : 16) / work->period;
     /* poles and branch points lie decay/speed off the real axis of k */
-    work->panel =
-        fmin(12 / reach, work->decay * fmin(2 / problem->ground.s_speed, 6 / problem->ground.p_speed));
+    const struct layered *layers = problem->layers;
+    const double p_speed = layers != NULL ? layers->fastest[0] : problem->ground.p_speed;
+    const double s_speed = layers != NULL ? layers->fastest[1] : problem->ground.s_speed;
+    work->panel = fmin(12 / reach, work->decay * fmin(2 / s_speed, 6 / p_speed));
     return SELAS_OK;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/messages.h"
 #include "exact/half_space.h"
+#include "exact/layered.h"
 #include "exact/patch.h"
 #include "scene/history.h"
 
@@ -15,7 +16,8 @@ struct lamb_load {
 };
 
 struct lamb_problem {
-    struct half_space ground;
+    struct half_space ground;     /* of the uppermost material */
+    const struct layered *layers; /* NULL: there is no other */
     size_t loads;
     const struct lamb_load *load;
     double tolerance; /* wanted: L2 error of a velocity component over the L2 of the largest; 0: default */
