@@ -32,22 +32,24 @@ void hform_edges(const struct consistent *c, size_t k, const double *u, double *
     }
 }
 
-/* Points of a face across a slot: position of point p at index `at` across. */
+/* Points of a face across a slot: lane i of plane k, at index `at` across, stands at i * lane + k * plane +
+ * at * across in a component, and at k * lanes + i among face values. */
 struct face_points {
-    size_t count, row, skip, across; /* points; points a row; step between rows; step across */
-    size_t lanes;                    /* points of each plane */
+    size_t planes, lanes, lane, plane, across;
 };
 
 static struct face_points face_points(const struct consistent *c, int slot)
 {
-    if (slot == 0) return (struct face_points){c->n[1] * c->n[2], 1, c->n[0], 1, c->n[1]};
-    if (slot == 1) return (struct face_points){c->n[0] * c->n[2], c->n[0], c->plane, c->n[0], c->n[0]};
-    return (struct face_points){c->plane, c->plane, 0, c->plane, c->plane};
+    if (slot == 0) return (struct face_points){c->n[2], c->n[1], c->n[0], c->plane, 1};
+    if (slot == 1) return (struct face_points){c->n[2], c->n[0], 1, c->plane, c->n[0]};
+    return (struct face_points){1, c->plane, 1, 0, c->plane};
 }
 
-static size_t face_point(const struct face_points *face, size_t p, size_t at)
+static void gather(const struct face_points *face, size_t at, const double *field, double *values)
 {
-    return p / face->row * face->skip + p % face->row + at * face->across;
+    for (size_t k = 0; k < face->planes; k++)
+        for (size_t i = 0; i < face->lanes; i++)
+            values[k * face->lanes + i] = field[i * face->lane + k * face->plane + at * face->across];
 }
 
 /* field -= column (x) face values, over the column's reach. */
@@ -57,9 +59,11 @@ static void spread(const struct consistent *c, int axis, int end, const double *
     const struct face_points face = face_points(c, c->slot[axis]);
     const size_t n = c->n[c->slot[axis]], reach = c->hform->reach[axis];
     const size_t from = end == 0 ? 0 : n - reach;
-    for (size_t p = 0; p < face.count; p++)
-        for (size_t i = from; i < from + reach; i++)
-            field[face_point(&face, p, i)] -= column[i] * values[p];
+    for (size_t k = 0; k < face.planes; k++)
+        for (size_t at = from; at < from + reach; at++)
+            for (size_t i = 0; i < face.lanes; i++)
+                field[i * face.lane + k * face.plane + at * face.across] -=
+                    column[at] * values[k * face.lanes + i];
 }
 
 /* Rows of a face across x or y in the order of the other end. */
@@ -115,11 +119,11 @@ static void subtract_velocities(struct consistent *c, int axis, int component, c
     for (int end = 0; end < 2; end++) {
         if (!c->damped[2 * axis + end]) continue;
         double *values = c->hform->face[0];
-        for (size_t p = 0; p < face.count; p++)
-            values[p] = v[face_point(&face, p, end == 0 ? 0 : c->n[slot] - 1)];
+        gather(&face, end == 0 ? 0 : c->n[slot] - 1, v, values);
         to_diagonal(c, slot, component, values);
-        for (size_t p = 0; p < face.count; p++)
-            values[p] *= damping(c, axis, end, component, p / face.lanes);
+        for (size_t k = 0; k < face.planes; k++)
+            for (size_t i = 0; i < face.lanes; i++)
+                values[k * face.lanes + i] *= damping(c, axis, end, component, k);
         from_diagonal(c, slot, component, values);
         spread(c, axis, end, c->hform->column[component][axis][end], values, a);
     }
@@ -133,21 +137,21 @@ static void implicit_part(struct consistent *c, int axis, int component, double 
     const struct face_points face = face_points(c, slot);
     const size_t last = c->n[slot] - 1;
     if (!c->damped[2 * axis] && !c->damped[2 * axis + 1]) return;
-    for (size_t p = 0; p < face.count; p++) {
-        value[0][p] = a[face_point(&face, p, 0)];
-        value[1][p] = a[face_point(&face, p, last)];
-    }
+    gather(&face, 0, a, value[0]);
+    gather(&face, last, a, value[1]);
     to_diagonal(c, slot, component, value[0]);
     to_diagonal(c, slot, component, value[1]);
-    for (size_t p = 0; p < face.count; p++) {
-        const size_t k = p / face.lanes;
+    for (size_t k = 0; k < face.planes; k++) {
         const double low = half_step * damping(c, axis, 0, component, k);
         const double high = half_step * damping(c, axis, 1, component, k);
         const double m00 = 1 + low * column[0][0], m01 = high * column[1][0];
         const double m10 = low * column[0][last], m11 = 1 + high * column[1][last];
-        const double determinant = m00 * m11 - m01 * m10, a0 = value[0][p], a1 = value[1][p];
-        value[0][p] = low * (m11 * a0 - m01 * a1) / determinant;
-        value[1][p] = high * (m00 * a1 - m10 * a0) / determinant;
+        const double determinant = m00 * m11 - m01 * m10;
+        for (size_t p = k * face.lanes; p < (k + 1) * face.lanes; p++) {
+            const double a0 = value[0][p], a1 = value[1][p];
+            value[0][p] = low * (m11 * a0 - m01 * a1) / determinant;
+            value[1][p] = high * (m00 * a1 - m10 * a0) / determinant;
+        }
     }
     for (int end = 0; end < 2; end++) {
         if (!c->damped[2 * axis + end]) continue;
@@ -179,11 +183,10 @@ double hform_damper_power(struct consistent *c, const double *v)
         const size_t inner = c->n[across], rows = c->n[outer];
         const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
         for (int component = 0; component < c->dimension; component++) {
-            for (size_t p = 0; p < points.count; p++)
-                values[p] = v[(size_t)component * c->volume + face_point(&points, p, at)];
+            gather(&points, at, v + (size_t)component * c->volume, values);
             to_diagonal(c, slot, component, values);
             const bool diagonal = c->hform->upper[component] != NULL && slot != DEPTH;
-            memcpy(weighed, values, points.count * sizeof *values);
+            memcpy(weighed, values, points.planes * points.lanes * sizeof *values);
             for (int axis = 0; axis < c->dimension; axis++) {
                 const double *factor = c->hform->factor[component][axis];
                 const size_t half = c->hform->inverse[component][axis]->half;
@@ -198,7 +201,7 @@ double hform_damper_power(struct consistent *c, const double *v)
                     }
             }
             double sum = 0;
-            for (size_t k = 0; k * points.lanes < points.count; k++) {
+            for (size_t k = 0; k < points.planes; k++) {
                 const double speed = damping(c, face / 2, face % 2, component, k);
                 for (size_t p = k * points.lanes; p < (k + 1) * points.lanes; p++)
                     sum += speed * values[p] * weighed[p];
