@@ -4,9 +4,11 @@
 
 #include "near.h"
 
-#include "method/consistent.h"
+#include "method/hform.h"
 #include "plain_scene.h"
 
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_sort_vector.h>
 #include <stdlib.h>
 
 static inline struct consistent_options plain_options(int degree, bool mapped)
@@ -51,6 +53,60 @@ static inline double dot(size_t n, const double *a, const double *b)
     for (size_t i = 0; i < n; i++)
         sum += a[i] * b[i];
     return sum;
+}
+
+/* Phase speed of interior plane waves from the operators' own symbols: eigenvalues of the 3 x 3 matrix K^(k)
+ * over M^(k); worst relative error of P and S along x, and also (3 directions) along both diagonals. */
+static inline double worst_dispersion(struct model *model, int directions_used, double points, double spacing)
+{
+    static const double directions[3][3] = {
+        {1, 0, 0}, {M_SQRT1_2, M_SQRT1_2, 0}, {.57735027, .57735027, .57735027}};
+    struct consistent *c = consistent_of(model);
+    const struct material *m = &model->scene->material[0];
+    const size_t n = model->unknowns,
+                 middle = c->n[0] / 2 + c->n[0] * (c->n[1] / 2) + c->plane * (c->n[2] / 2);
+    double *u = calloc(n, sizeof *u), *out = calloc(n, sizeof *out), worst = 0;
+    gsl_matrix *symbol = gsl_matrix_alloc(3, 3);
+    gsl_vector *values = gsl_vector_alloc(3);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(3);
+    const double wavenumber = 2 * M_PI / (points * spacing);
+    for (int d = 0; d < directions_used; d++) {
+        double mass = 0;
+        for (int from = 0; from < 3; from++) {
+            memset(u, 0, n * sizeof *u);
+            for (size_t p = 0; p < c->volume; p++) {
+                const double i = (double)(p % c->n[0]) - (double)(c->n[0] / 2);
+                const double j = (double)(p / c->n[0] % c->n[1]) - (double)(c->n[1] / 2);
+                const double k = (double)(p / c->plane) - (double)(c->n[2] / 2);
+                u[(size_t)from * c->volume + p] =
+                    cos(wavenumber * spacing *
+                        (i * directions[d][0] + j * directions[d][1] + k * directions[d][2]));
+            }
+            if (c->hform != NULL) { /* the symbol is real and even: cosines suffice */
+                apply(c, c->hform->acceleration, u, out);
+                for (size_t i = 0; i < n; i++)
+                    out[i] = -out[i];
+            } else
+                apply(c, c->stiffness, u, out);
+            for (size_t to = 0; to < 3; to++)
+                gsl_matrix_set(symbol, to, (size_t)from, out[to * c->volume + middle]);
+            if (c->hform == NULL) apply(c, c->mass, u, out);
+            mass = c->hform != NULL ? 1 : out[(size_t)from * c->volume + middle];
+        }
+        gsl_matrix_scale(symbol, 1 / mass);
+        gsl_eigen_symm(symbol, values, work);
+        gsl_sort_vector(values);
+        for (size_t i = 0; i < 3; i++) {
+            const double speed = i < 2 ? m->s_speed : m->p_speed;
+            worst = fmax(worst, fabs(sqrt(gsl_vector_get(values, i)) / (wavenumber * speed) - 1));
+        }
+    }
+    gsl_matrix_free(symbol);
+    gsl_vector_free(values);
+    gsl_eigen_symm_free(work);
+    free(u);
+    free(out);
+    return worst;
 }
 
 /* u, v, a of a model and a step of leapfrog. */

@@ -28,6 +28,8 @@ static const struct word method_words[] = {
     {"ends", WORD_CHOICE, 1, NULL, "open|mapped", false, "knots at the faces (consistent)"},
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", false,
      "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent)"},
+    {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", false,
+     "mass in the stiffness over depth where the inverse is by sweeps: exact, or the same as elsewhere"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
      "compute half or quarter of a body where the scene has mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", false, "precision of the state"},

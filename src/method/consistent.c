@@ -145,7 +145,8 @@ static void describe(const struct model *model,
     snprintf(text, sizeof text, "B-splines of degree %d, %s ends", c->options.degree,
              c->options.mapped ? "mapped" : "open");
     tell(context, "basis", text);
-    snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form)", c->options.sweeps);
+    snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form%s)", c->options.sweeps,
+             c->options.depth_exact ? ", exact over depth in the stiffness" : "");
     tell(context, "mass", c->options.sweeps == 0 ? "exact (banded Cholesky per axis)" : text);
     size_t control[3] = {1, 1, 1};
     for (int axis = 0; axis < c->dimension; axis++)
@@ -356,13 +357,15 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
 static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     const struct deck_group *group = scene->method.group;
-    struct consistent_options options = {.degree = 2, .sweeps = 3};
+    struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
     if (group != NULL && deck_values(group, "degree") > 0)
         options.degree = (int)deck_integer(group, "degree", 0);
     if (group != NULL && deck_values(group, "mass") > 0) {
         const char *mass = deck_text(group, "mass", 0);
         options.sweeps = strcmp(mass, "exact") == 0 ? 0 : mass[2] - '0'; /* vc1, vc2, vc3 */
     }
+    if (group != NULL && deck_values(group, "depth_mass") > 0)
+        options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
     if (group != NULL && deck_values(group, "ends") > 0)
         options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     return consistent_create_with(scene, &options, model, messages);

@@ -12,9 +12,10 @@
 #include "method/tensor.h"
 
 struct consistent_options {
-    int degree;  /* 1 .. SPLINE_MAX_DEGREE */
-    bool mapped; /* ends mapped instead of open */
-    int sweeps;  /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
+    int degree;       /* 1 .. SPLINE_MAX_DEGREE */
+    bool mapped;      /* ends mapped instead of open */
+    int sweeps;       /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
+    bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
 };
 
 enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };

@@ -146,6 +146,18 @@ static const struct band *multiply(struct consistent *c, int axis, const struct 
     return product;
 }
 
+/* Mass in the stiffness along an axis without derivatives: the identity, since N H = 1, but over depth N M if
+ * M stands there. False: no memory. */
+static bool bare_matrix(struct consistent *c, int axis, int out, int in, enum weighting weight,
+                        const struct band **matrix)
+{
+    *matrix = NULL;
+    if (c->slot[axis] != DEPTH || (c->weighted[weight] == NULL && !c->options.depth_exact)) return true;
+    const struct band *mass = consistent_matrix(c, axis, 0, axis == out, 0, axis == in, weight);
+    *matrix = multiply(c, axis, c->hform->inverse[out][axis], mass, 0);
+    return *matrix != NULL;
+}
+
 /* Term of -M^-1 K with derivatives of the test and trial functions along the axes given. */
 static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *count, int out, int in,
                      int test, int trial, enum weighting weight)
@@ -155,7 +167,10 @@ static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *co
     *term = (struct tensor_term){.out = out, .in = in, .factor = -1};
     if (!varies) term->factor = -c->property[weight] / c->property[WEIGHT_DENSITY];
     for (int axis = 0; axis < c->dimension; axis++) {
-        if (axis != test && axis != trial && !(varies && c->slot[axis] == DEPTH)) continue;
+        if (axis != test && axis != trial) {
+            if (!bare_matrix(c, axis, out, in, weight, &term->matrix[c->slot[axis]])) return false;
+            continue;
+        }
         const struct band *band =
             consistent_matrix(c, axis, axis == test, axis == out, axis == trial, axis == in, weight);
         term->matrix[c->slot[axis]] = multiply(c, axis, c->hform->inverse[out][axis], band, 0);
@@ -179,11 +194,15 @@ static bool add_mixed(struct consistent *c, struct tensor_term *terms, size_t *c
             multiply(c, axis, h->inverse[out][axis], gradient, (axis == out ? lambda : mu) / (lambda + mu));
         if (term->matrix[c->slot[axis]] == NULL) return false;
     }
+    const int across = 3 - out - in; /* the axis that is left, in three dimensions */
+    if (c->dimension == 3 && !bare_matrix(c, across, out, in, WEIGHT_MU, &term->matrix[c->slot[across]]))
+        return false;
     for (int ends = 0; ends < 4; ends++) {
         const int end[2] = {ends % 2, ends / 2}, axes[2] = {out, in};
         if (c->spline[out]->mirror[end[0]] || c->spline[in]->mirror[end[1]]) continue;
         struct edge *edge = &h->edge[h->edges++];
         *edge = (struct edge){.out = out, .in = in, .to = {c->n[0], c->n[1], c->n[2]}};
+        edge->depth = c->dimension == 3 ? term->matrix[c->slot[across]] : NULL;
         edge->factor = (end[0] == end[1] ? -1 : 1) * lambda * mu / ((lambda + mu) * density);
         for (int i = 0; i < 2; i++) {
             const int axis = axes[i], slot = c->slot[axis];

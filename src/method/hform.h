@@ -13,6 +13,7 @@ struct edge {
     double factor;
     size_t at[3], from[3], to[3]; /* by slot: index read (edge slots); range written */
     const double *column[3];      /* by slot: weights; NULL: along the edge */
+    const struct band *depth;     /* edge along depth: applied to what is read; NULL: identity */
 };
 
 struct hform {
