@@ -48,10 +48,11 @@ selas_status fit_frequency(size_t n, const double *time, const double *value, si
     if (n < 8 || !(guess > 0) || !((time[n - 1] - time[0]) * guess > 4 * M_PI))
         return fail(messages, SELAS_BAD_ARGUMENT, "a frequency needs a history of two periods");
     struct series series = {n, stride, time, value};
-    const double step = guess / SCAN;
+    const double step = (1.5 - 1 / 1.5) * guess / SCAN;
     double best = guess;
     double least = INFINITY;
-    for (double w = guess / 1.5; w < guess * 1.5; w += step) {
+    for (int k = 0; k < SCAN; k++) {
+        const double w = guess / 1.5 + k * step;
         const double left = residual(w, &series);
         if (!(left < least)) continue;
         least = left;

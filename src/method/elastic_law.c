@@ -60,7 +60,7 @@ static double trace(int d, const double *A)
 /* Inverse of F = I + H; returns its determinant. */
 static double invert(int d, const double *H, double inverse[9])
 {
-    double F[9];
+    double F[9] = {0};
     for (int k = 0; k < d * d; k++)
         F[k] = H[k] + (k % (d + 1) == 0 ? 1 : 0);
     if (d == 1) {

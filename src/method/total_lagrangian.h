@@ -95,6 +95,12 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
+/* total_lagrangian_observe.c: entries of the model's class. */
+selas_status tl_model_probe(struct model *model, const double position[3], struct probe *probe,
+                            struct messages *messages);
+void tl_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                const double *a, double *value);
+void tl_field(struct model *model, selas_field field, const double *y, const double *a, double *value);
 enum { TL_PROBE_ROOM = 512 };
 /* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
  * hundred points, much more on a busy machine). */

@@ -24,8 +24,8 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
     const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);
     const size_t nearest = neighbours_nearest(&tl->near, body_position);
     const double spacing = nearest < tl->cloud->points ? tl_spacing_at(tl, nearest) : tl->cloud->spacing;
-    for (double radius = tl_radius(tl) * spacing / tl->cloud->spacing; radius <= tl->near.radius * (1 + 1e-9);
-         radius *= 1.05) {
+    double radius = tl_radius(tl) * spacing / tl->cloud->spacing;
+    while (radius <= tl->near.radius * (1 + 1e-9)) {
         *count = 0;
         for (size_t k = 0; k < near && *count < TL_PROBE_ROOM; k++) {
             double square = 0;
@@ -41,6 +41,7 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
         }
         const struct fit fit = {d, tl->options.degree, radius, *count, offset, kernel, work};
         if (fit_free(&fit, weight, gradient)) return SELAS_OK;
+        radius *= 1.05;
     }
     return fail(messages, SELAS_BAD_SCENE, "no points near (%g, %g, %g) to take a value from",
                 body_position[0], body_position[1], body_position[2]);
@@ -60,7 +61,7 @@ static double covered(const struct load *load, int axis, const double place[3], 
     if (load->shape == LOAD_FACE || dimension == 1) return 1;
     if (load->shape == LOAD_SQUARE) {
         double part = 1;
-        for (int c = 0, edge = 0; c < dimension; c++) {
+        for (int c = 0, edge = 0; c < dimension && edge < 2; c++) {
             if (c == axis) continue;
             part *= overlap(place[c], 0.5 * width[c], centre[c], 0.5 * load->size[edge++]) / width[c];
         }
@@ -71,7 +72,7 @@ static double covered(const struct load *load, int axis, const double place[3], 
         for (int j = 0; j < CUTS; j++) {
             const double cut[2] = {(i + 0.5) / CUTS - 0.5, (j + 0.5) / CUTS - 0.5};
             double square = 0;
-            for (int c = 0, k = 0; c < dimension; c++) {
+            for (int c = 0, k = 0; c < dimension && k < 2; c++) {
                 if (c == axis) continue;
                 const double away = place[c] + cut[k++] * width[c] - centre[c];
                 square += away * away;
@@ -93,12 +94,12 @@ static selas_status add_at(struct tl_model *tl, const double place[3], const dou
     const size_t d = (size_t)tl->cloud->dimension;
     size_t count = 0;
     size_t index[TL_PROBE_ROOM];
-    double weight[TL_PROBE_ROOM];
-    double gradient[3 * TL_PROBE_ROOM];
+    double weight[TL_PROBE_ROOM] = {0};
+    double gradient[3 * TL_PROBE_ROOM] = {0};
     const selas_status status = tl_probe(tl, place, &count, index, weight, gradient, gather->messages);
     if (status != SELAS_OK) return status;
     for (size_t k = 0; k < count; k++)
-        for (size_t a = 0; a < d; a++) {
+        for (size_t a = 0; a < d && a < 3; a++) {
             double *out = gather->force + d * index[k] + a;
             if (moment == NULL)
                 *out += weight[k] * force[a];
@@ -287,8 +288,9 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
         const struct load *load = &scene->load[k];
         if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
             status = fail(messages, SELAS_UNSUPPORTED, "total-Lagrangian points take no moving loads");
+        if (status != SELAS_OK || gather.force == NULL) break;
         memset(gather.force, 0, n * sizeof(double));
-        if (status == SELAS_OK) status = collect_load(tl, load, &gather);
+        status = collect_load(tl, load, &gather);
         if (status == SELAS_OK) status = compress(tl, gather.force, &tl->load[k], messages);
     }
     array_free(gather.force);

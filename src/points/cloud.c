@@ -63,18 +63,20 @@ static selas_status box(const struct scene *scene, struct cloud **cloud, struct 
         volume *= step[c];
     }
     const size_t points = grid[0] * grid[1] * grid[2];
-    const selas_status status = cloud_allocate(dimension, points, cloud, messages);
-    if (status != SELAS_OK) return status;
+    struct cloud *made = NULL;
+    const selas_status status = cloud_allocate(dimension, points, &made, messages);
+    if (status != SELAS_OK || made == NULL) return status;
     size_t i = 0;
     for (size_t z = 0; z < grid[2]; z++)
         for (size_t y = 0; y < grid[1]; y++)
             for (size_t x = 0; x < grid[0]; x++, i++) {
                 const size_t at[3] = {x, y, z};
                 for (int c = 0; c < dimension; c++)
-                    (*cloud)->position[3 * i + (size_t)c] = body->low[c] + ((double)at[c] + 0.5) * step[c];
-                (*cloud)->volume[i] = volume;
+                    made->position[3 * i + (size_t)c] = body->low[c] + ((double)at[c] + 0.5) * step[c];
+                made->volume[i] = volume;
             }
-    memcpy((*cloud)->grid, grid, sizeof grid);
+    memcpy(made->grid, grid, sizeof grid);
+    *cloud = made;
     return SELAS_OK;
 }
 
@@ -125,7 +127,7 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
         status = cloud_plate(body, cloud, messages);
     else
         status = box(scene, cloud, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || *cloud == NULL) return status;
     (*cloud)->spacing = body->spacing;
     if (body->jitter > 0) jitter(*cloud, body);
     if (body->jitter > 0 || body->shape == BODY_PLATE_WITH_HOLE) status = cloud_cells(*cloud, body, messages);

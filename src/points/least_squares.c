@@ -90,7 +90,7 @@ static bool solve(const struct fit *fit, size_t first, double *value, double *gr
     if (n < terms) return false;
     double r[FIT_TERMS][FIT_TERMS];
     for (size_t j = 0; j < n; j++) {
-        double p[FIT_TERMS];
+        double p[FIT_TERMS] = {0};
         basis(fit->dimension, fit->degree, fit->offset + 3 * j, fit->scale, p);
         for (size_t k = 0; k < terms; k++)
             fit->work[k * n + j] = sqrt(fit->weight[j]) * p[k + first];

@@ -76,7 +76,7 @@ static selas_status read_text(const char *path, size_t d, struct table *table, s
     char *line = NULL;
     size_t length = 0;
     for (size_t number = 1; status == SELAS_OK && getline(&line, &length, file) >= 0; number++) {
-        double value[COLUMNS];
+        double value[COLUMNS] = {0};
         const int count = numbers(line, value);
         if (count != 0) status = add_row(table, d, count, value, path, number, messages);
     }
@@ -98,7 +98,7 @@ static bool read_dataset(hid_t file, const char *name, size_t columns, size_t at
             make_room(table, (size_t)extent[0]);
     double *values = right ? array_new((size_t)extent[0] * columns, sizeof *values) : NULL;
     right = values != NULL && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-    if (right && table->rows == 0) {
+    if (right && table->row != NULL && table->rows == 0) {
         table->rows = (size_t)extent[0];
         memset(table->row, 0, table->rows * sizeof *table->row);
     }

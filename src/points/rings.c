@@ -93,7 +93,9 @@ static void circles(struct list *list, const struct body *body, bool equally)
         farthest = fmax(farthest, reach(body, first + (last - first) * k / SAMPLES));
     /* as many rays as give the mean spacing half way between hole and box */
     const double middle = 0.5 * (body->hole_radius + farthest / sqrt(2));
-    for (double r = body->hole_radius + 0.5 * body->spacing; r < farthest; r += body->spacing) {
+    const size_t rings = (size_t)ceil((farthest - body->hole_radius) / body->spacing - 0.5);
+    for (size_t ring = 0; ring < rings; ring++) {
+        const double r = body->hole_radius + ((double)ring + 0.5) * body->spacing;
         const size_t points = (size_t)fmax(1, round((last - first) * (equally ? r : middle) / body->spacing));
         for (size_t k = 0; k < points; k++) {
             const double angle = first + (last - first) * ((double)k + 0.5) / (double)points;
@@ -142,7 +144,7 @@ static size_t ring_parts(const struct body *body, struct part part[PARTS])
 {
     double first = 0;
     double last = 0;
-    double kink[4];
+    double kink[4] = {0};
     size_t kinks = 0;
     hole_angles(body, &first, &last);
     const double turn = 2 * acos(-1.0);
