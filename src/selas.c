@@ -3,31 +3,14 @@
 #include "selas.h"
 
 #include "base/memory.h"
-#include "deck/deck.h"
-#include "exact/exact.h"
+#include "host/simulation.h"
 #include "record/progress.h"
-#include "record/record.h"
-#include "scene/scene.h"
-#include "stepping/stepping.h"
 
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct selas_simulation {
-    struct messages messages;
-    struct deck *deck;
-    struct scene *scene;
-    struct model *model;
-    struct stepper *stepper;
-    struct state state;
-    struct recorder *recorder;
-    struct exact *exact;
-    struct run_figures figures;
-    bool prepared, recording, finished;
-};
 
 /* Seconds by the wall clock and of this process's CPUs. */
 struct stopwatch {
@@ -56,9 +39,30 @@ static selas_status new_simulation(selas_simulation **simulation)
     return *simulation != NULL ? SELAS_OK : SELAS_NO_MEMORY;
 }
 
+/* Only the total-Lagrangian method carries materials point by point. */
+static selas_status check_points(selas_simulation *simulation)
+{
+    const struct scene *scene = simulation->scene;
+    if (scene->body.given == NULL || scene->body.given->material == NULL) return SELAS_OK;
+    for (size_t i = 0; i < scene->body.given->count; i++)
+        if (scene->body.given->material[i] >= scene->materials)
+            return fail(&simulation->messages, SELAS_BAD_SCENE, "point %zu has a material that is not there",
+                        i + 1);
+    if (strcmp(scene->method.variant, "total-lagrangian") == 0) return SELAS_OK;
+    return fail(
+        &simulation->messages, SELAS_UNSUPPORTED,
+        "method '%s', variant '%s', has one material for all points; expected 'sph', 'total-lagrangian'",
+        scene->method.name, scene->method.variant);
+}
+
+/* The scene of the deck, with what the host drives put into it. */
 static selas_status build_scene(selas_simulation *simulation)
 {
-    return scene_build(simulation->deck, &simulation->scene, &simulation->messages);
+    selas_status status = scene_build(simulation->deck, &simulation->scene, &simulation->messages);
+    if (status == SELAS_OK) status = check_points(simulation);
+    if (status == SELAS_OK) status = host_prepare_scene(simulation);
+    if (status != SELAS_OK) scene_free(&simulation->scene);
+    return status;
 }
 
 selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
@@ -71,7 +75,7 @@ selas_status selas_open_deck_with(const char *path, size_t count, const char *co
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's path or the overrides are NULL");
     const selas_status read =
         deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
-    return read == SELAS_OK ? build_scene(simulation) : read;
+    return read == SELAS_OK ? simulation_scene(simulation) : read;
 }
 
 selas_status selas_open_deck(const char *path, selas_simulation **simulation)
@@ -88,19 +92,44 @@ selas_status selas_open_text(const char *name, const char *text, selas_simulatio
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's name or text is NULL");
     const selas_status read =
         deck_read_text(name, text, strlen(text), 0, NULL, &simulation->deck, &simulation->messages);
-    return read == SELAS_OK ? build_scene(simulation) : read;
+    return read == SELAS_OK ? simulation_scene(simulation) : read;
 }
 
-void selas_close(selas_simulation **closed)
+selas_status selas_open_new(const char *name, selas_simulation **opened)
 {
-    if (closed == NULL || *closed == NULL) return;
-    selas_simulation *simulation = *closed;
+    const selas_status status = new_simulation(opened);
+    if (status != SELAS_OK) return status;
+    selas_simulation *simulation = *opened;
+    if (name == NULL || name[0] == '\0')
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the scene's name is NULL or empty");
+    return deck_new(name, &simulation->deck, &simulation->messages);
+}
+
+/* Everything behind the deck goes. */
+static void discard(selas_simulation *simulation)
+{
     recorder_free(&simulation->recorder);
     state_free(&simulation->state);
     stepper_free(&simulation->stepper);
     model_free(&simulation->model);
     exact_free(&simulation->exact);
     scene_free(&simulation->scene);
+    array_free(simulation->scratch);
+    array_free(simulation->values);
+    simulation->scratch = simulation->values = NULL;
+    simulation->values_room = 0;
+    simulation->prepared = simulation->dirty = simulation->broken = false;
+}
+
+void selas_close(selas_simulation **closed)
+{
+    if (closed == NULL || *closed == NULL || (*closed)->busy) return;
+    selas_simulation *simulation = *closed;
+    discard(simulation);
+    host_free(simulation);
+    array_free(simulation->point_position);
+    array_free(simulation->point_volume);
+    array_free(simulation->point_material);
     deck_free(&simulation->deck);
     messages_free(&simulation->messages);
     free(simulation);
@@ -110,24 +139,56 @@ void selas_close(selas_simulation **closed)
 /* --- Building and stepping
  * ------------------------------------------------------------------------------------- */
 
-static selas_status check_open(selas_simulation *simulation)
+selas_status simulation_check(selas_simulation *simulation)
 {
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
-    if (simulation->scene == NULL)
+    if (simulation->busy)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "a function of the host may not call its own simulation");
+    if (simulation->deck == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the simulation was not opened successfully");
     return SELAS_OK;
+}
+
+selas_status simulation_change(selas_simulation *simulation)
+{
+    const selas_status status = simulation_check(simulation);
+    if (status != SELAS_OK) return status;
+    if (simulation->state.step > 0 || simulation->failed != SELAS_OK || simulation->finished)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "the scene cannot change after the first step");
+    discard(simulation);
+    return SELAS_OK;
+}
+
+selas_status simulation_scene(selas_simulation *simulation)
+{
+    selas_status status = simulation_check(simulation);
+    if (status != SELAS_OK || simulation->scene != NULL) return status;
+    if (simulation->broken)
+        return fail(&simulation->messages, SELAS_BAD_SCENE, "the scene cannot be built as it is (see above)");
+    status = deck_complete(simulation->deck, &simulation->messages);
+    if (status == SELAS_OK) status = build_scene(simulation);
+    simulation->broken = status != SELAS_OK;
+    return status;
+}
+
+selas_status selas_build(selas_simulation *simulation)
+{
+    return simulation_scene(simulation);
 }
 
 /* Model, time step and recorder, without files. */
 static selas_status prepare(selas_simulation *simulation)
 {
-    selas_status status = check_open(simulation);
+    selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK || simulation->prepared) return status;
     struct messages *messages = &simulation->messages;
     const struct stopwatch watch = start_watch();
     if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
+    if (status == SELAS_OK && simulation->recorder == NULL) status = host_prepare_stepper(simulation);
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
@@ -138,7 +199,7 @@ static selas_status prepare(selas_simulation *simulation)
 }
 
 /* The state at t = 0, seen by the recorder. */
-static selas_status begin(selas_simulation *simulation)
+static selas_status start(selas_simulation *simulation)
 {
     selas_status status = prepare(simulation);
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
@@ -149,21 +210,37 @@ static selas_status begin(selas_simulation *simulation)
         status = recorder_open(simulation->recorder, &simulation->messages);
     if (status == SELAS_OK)
         status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
+    if (status == SELAS_OK) status = host_answer(simulation);
+    if (status != SELAS_STOPPED) simulation->failed = status;
     add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
 
+selas_status simulation_begin(selas_simulation *simulation)
+{
+    const selas_status status = start(simulation);
+    return status == SELAS_OK ? host_refresh(simulation) : status;
+}
+
 static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
 {
-    selas_status status = begin(simulation);
-    if (status == SELAS_OK && simulation->finished)
-        status =
-            fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
+    selas_status status = simulation_begin(simulation);
+    struct messages *messages = &simulation->messages;
+    if (status != SELAS_OK) return status;
+    if (simulation->failed != SELAS_OK)
+        return fail(messages, simulation->failed, "the simulation has failed before; no step can follow");
+    if (simulation->finished && steps > 0)
+        return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
     const struct stopwatch watch = start_watch();
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
         simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
-        status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
+        status = host_answer(simulation);
+        const bool stopped = status == SELAS_STOPPED;
+        if (stopped) status = SELAS_OK;
+        if (status == SELAS_OK) status = recorder_observe(simulation->recorder, &simulation->state, messages);
+        if (status == SELAS_OK && stopped) status = SELAS_STOPPED;
     }
+    if (status != SELAS_STOPPED) simulation->failed = status;
     add_elapsed(watch, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
     return status;
 }
@@ -180,19 +257,19 @@ selas_status selas_advance(selas_simulation *simulation, double time)
     if (!isfinite(time))
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the time to advance to must be finite");
     const double steps = ceil(time / simulation->stepper->dt - 1e-9);
-    if (steps <= (double)simulation->state.step) return begin(simulation);
+    if (steps <= (double)simulation->state.step) return run_steps(simulation, 0);
     if (steps > 9e15) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "time %g is too far away", time);
     return run_steps(simulation, (unsigned long)steps - simulation->state.step);
 }
 
 double selas_time(const selas_simulation *simulation)
 {
-    return simulation != NULL && simulation->scene != NULL ? simulation->state.time : (double)NAN;
+    return simulation != NULL && simulation->deck != NULL ? simulation->state.time : (double)NAN;
 }
 
-double selas_end_time(const selas_simulation *simulation)
+double selas_end_time(selas_simulation *simulation)
 {
-    return simulation != NULL && simulation->scene != NULL ? simulation->scene->end_time : (double)NAN;
+    return simulation_scene(simulation) == SELAS_OK ? simulation->scene->end_time : (double)NAN;
 }
 
 double selas_time_step(selas_simulation *simulation)
@@ -228,7 +305,7 @@ static selas_status find_receiver(selas_simulation *simulation, const char *name
 
 selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field, double *value)
 {
-    selas_status status = begin(simulation);
+    selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ENERGY)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no such field, or no room for its value");
@@ -240,7 +317,7 @@ selas_status selas_receiver(selas_simulation *simulation, const char *name, sela
 
 selas_status selas_finish(selas_simulation *simulation)
 {
-    selas_status status = begin(simulation);
+    selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK || simulation->finished) return status;
     const unsigned long needed = simulation->stepper->steps + simulation->stepper->extra;
     if (simulation->state.step < needed) status = run_steps(simulation, needed - simulation->state.step);
@@ -252,7 +329,7 @@ selas_status selas_finish(selas_simulation *simulation)
 selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows, const double **time,
                            const double **value)
 {
-    selas_status status = check_open(simulation);
+    selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (!simulation->finished || rows == NULL || time == NULL || value == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
@@ -269,7 +346,7 @@ selas_status selas_history(selas_simulation *simulation, const char *name, size_
 
 selas_status selas_record(selas_simulation *simulation)
 {
-    const selas_status status = check_open(simulation);
+    const selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->state.y != NULL && !simulation->recording)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "ask for result files before the first step");
@@ -288,7 +365,7 @@ static selas_status make_exact(selas_simulation *simulation)
 
 selas_status selas_write(selas_simulation *simulation)
 {
-    selas_status status = check_open(simulation);
+    selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (!simulation->recording)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
@@ -303,7 +380,7 @@ selas_status selas_write(selas_simulation *simulation)
 
 selas_status selas_write_exact(selas_simulation *simulation)
 {
-    selas_status status = check_open(simulation);
+    selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->scene->reference.kind[0] == '\0')
         return fail(&simulation->messages, SELAS_BAD_SCENE, "the deck has no &reference");
@@ -329,7 +406,7 @@ const char *selas_message(const selas_simulation *simulation)
     return simulation->messages.text != NULL ? simulation->messages.text : "";
 }
 
-const char *selas_output_directory(const selas_simulation *simulation)
+const char *selas_output_directory(selas_simulation *simulation)
 {
-    return simulation != NULL && simulation->scene != NULL ? simulation->scene->output.directory : "";
+    return simulation_scene(simulation) == SELAS_OK ? simulation->scene->output.directory : "";
 }

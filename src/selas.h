@@ -81,7 +81,7 @@ SELAS_API selas_status selas_step(selas_simulation *simulation, unsigned long st
 /* Time reached, end time of the deck, time step (0 before the first call that needs it), steps done and steps
  * that the finished histories need in all. NaN resp. 0 for a NULL or failed simulation. */
 SELAS_API double selas_time(const selas_simulation *simulation);
-SELAS_API double selas_end_time(const selas_simulation *simulation);
+SELAS_API double selas_end_time(selas_simulation *simulation);
 SELAS_API double selas_time_step(selas_simulation *simulation);
 SELAS_API unsigned long selas_steps(const selas_simulation *simulation);
 SELAS_API unsigned long selas_steps_needed(selas_simulation *simulation);
@@ -118,14 +118,98 @@ SELAS_API selas_status selas_plan(selas_simulation *simulation,
  */
 SELAS_API const char *selas_message(const selas_simulation *simulation);
 /* Folder that selas_write fills; "" if the simulation has none. */
-SELAS_API const char *selas_output_directory(const selas_simulation *simulation);
+SELAS_API const char *selas_output_directory(selas_simulation *simulation);
 
 /* Ends a simulation and sets the handle to NULL; NULL or a pointer to NULL is fine. */
 SELAS_API void selas_close(selas_simulation **simulation);
 
+/* --- Building a scene by calls
+ * ---------------------------------------------------------------------------------
+ * A scene has the words of a deck (doc/deck.md), set one by one; what is not set has the deck's default. Each
+ * call is checked as the deck is; what the words mean together is checked when the scene is first used, or by
+ * selas_build. The calls also change a simulation that was opened from a deck. All of them, and the functions
+ * further below that say so, must come before the first step. */
+
+/* A scene with nothing in it; name is that of a deck: results go to output/NAME. */
+SELAS_API selas_status selas_open_new(const char *name, selas_simulation **simulation);
+/* Adds a group ("material", "load", "receiver", ...; not those that a deck always has: scene, method,
+ * stepping, output); *number is its number, from 1, for words such as "load(2)%amplitude". Errors:
+ * SELAS_BAD_DECK for an unknown group or one that may occur once and is there. */
+SELAS_API selas_status selas_add(selas_simulation *simulation, const char *group, size_t *number);
+/* Sets "group%word" or "group(2)%word" to values[0..count-1], in place of what it had. Errors: SELAS_BAD_DECK
+ * for an unknown group or word, a wrong type or too many values (the word then counts as not set);
+ * SELAS_BAD_ARGUMENT for NaN, infinities, NULL, no values, or after the first step. */
+SELAS_API selas_status selas_set_real(selas_simulation *simulation, const char *word, size_t count,
+                                      const double *values);
+SELAS_API selas_status selas_set_integer(selas_simulation *simulation, const char *word, long value);
+SELAS_API selas_status selas_set_logical(selas_simulation *simulation, const char *word, bool value);
+SELAS_API selas_status selas_set_text(selas_simulation *simulation, const char *word, size_t count,
+                                      const char *const *values);
+/* Gives the body points of the host's own (sets body%shape to 'points', in place of body%file): position[3 *
+ * i] to [3 * i + 2] in the body's frame (unused components 0), volume[i] > 0 (area in 2D, length in 1D), and,
+ * if not NULL, material[i] = number of a &material, from 1 (method 'sph', variant 'total-lagrangian'; others
+ * refuse it). The arrays are copied. */
+SELAS_API selas_status selas_set_points(selas_simulation *simulation, size_t count, const double *position,
+                                        const double *volume, const size_t *material);
+/* Checks the whole scene now. Errors: SELAS_BAD_DECK, SELAS_BAD_SCENE. */
+SELAS_API selas_status selas_build(selas_simulation *simulation);
+
+/* --- Loads that the host drives
+ * ---------------------------------------------------------------------------------
+ * A host that drives anything switches the time-dispersion transform off (stepping%unwarp), because that
+ * needs histories known beforehand. A load is named by its word `name`, or by its number ("1", "2") if it has
+ * none. */
+
+/* A vector at a time and a place (deck coordinates). Returns 0 to go on, > 0 to stop after this step with the
+ * state kept (the advancing call returns SELAS_STOPPED; the next one goes on), < 0 to fail
+ * (SELAS_CALLBACK_FAILED; no step can follow). A value that is not finite counts as a failure. Called in
+ * order of time, once for each step's time and place (Runge-Kutta schemes: once for each stage), and one step
+ * ahead of the state by the scheme 'modified-equation' and for motions. Only the thread that advances the
+ * simulation calls it. It must not call functions of the same simulation (they return SELAS_BAD_ARGUMENT). */
+typedef int (*selas_vector_function)(void *context, double time, const double position[3], double value[3]);
+
+/* Traction [force/area] on a load of kind 'traction' (shape 'square' or 'face'; with 'point' a force; in 1D
+ * the end's), in place of its direction, amplitude and history. The patch is cut into pieces no wider than
+ * the spacing, each with the traction at its centre. Before the first step. Errors: SELAS_BAD_ARGUMENT,
+ * SELAS_UNSUPPORTED (discs, moving patches, more than 100,000 pieces). */
+SELAS_API selas_status selas_set_traction(selas_simulation *simulation, const char *load,
+                                          selas_vector_function traction, void *context);
+/* The same for a load of kind 'body-force': force per volume over the body (boxes), or a force with shape
+ * 'point'. */
+SELAS_API selas_status selas_set_body_force(selas_simulation *simulation, const char *load,
+                                            selas_vector_function force, void *context);
+/* Displacement [length] of a face ("x-", ...) of kind 'displacement' or 'velocity', which moves as one: the
+ * function is asked at the face's middle and its component along boundary%direction counts. */
+SELAS_API selas_status selas_set_motion(selas_simulation *simulation, const char *face,
+                                        selas_vector_function displacement, void *context);
+/* Holds a load at `value` (traction, force per volume or force, along its direction) from the time reached
+ * on, in place of amplitude times history, until it is changed again: the acceleration at the time reached is
+ * made anew with it. The first call for a load must come before the first step, later ones may come at any
+ * time. With Runge-Kutta schemes the value acts from the next step on. */
+SELAS_API selas_status selas_set_load(selas_simulation *simulation, const char *load, double value);
+/* Mean of SELAS_DISPLACEMENT, SELAS_VELOCITY or SELAS_ACCELERATION over the patch of a load (or the body, or
+ * at the point), along the load's direction: that through which the load does work. */
+SELAS_API selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field,
+                                       double *value);
+
+/* --- Whole fields
+ * -------------------------------------------------------------------------------------------------- */
+
+/* The body's own points: mirror images included, points of absorbing layers left out; position[3 * i + c],
+ * deck coordinates. The array belongs to the simulation and stays until it is closed or changed. */
+SELAS_API selas_status selas_points(selas_simulation *simulation, size_t *count, const double **position);
+/* A field at all points at the step reached: value[components * i + c], deck coordinates. The array belongs
+ * to the simulation and stays as it is until the next call of this function. */
+SELAS_API selas_status selas_field_values(selas_simulation *simulation, selas_field field, size_t *count,
+                                          size_t *components, const double **value);
+/* Kinetic and strain energy of the body at the step reached. Errors: SELAS_UNSUPPORTED. */
+SELAS_API selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain);
+
 /* --- Names
  * ----------------------------------------------------------------------------------------------------- */
 
+/* Numbers that a field has at each place: 3, 6 or 1; 0 for no field. */
+SELAS_API int selas_field_components(selas_field field);
 /* Short gloss of a status, e.g. "the deck or an override is wrong"; never NULL. */
 SELAS_API const char *selas_status_gloss(selas_status status);
 /* Name of a status as written in this header, e.g. "SELAS_BAD_DECK"; never NULL. */

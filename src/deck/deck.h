@@ -25,6 +25,27 @@ selas_status deck_read_text(const char *name, const char *text, size_t length, s
                             const char *const *override, struct deck **deck, struct messages *messages);
 void deck_free(struct deck **deck);
 
+/* A deck made by calls (deck/deck_build.c): it begins with the groups that are always there and nothing in
+ * them. */
+selas_status deck_new(const char *name, struct deck **deck, struct messages *messages);
+/* Adds a group; *number is its occurrence, from 1. */
+selas_status deck_add(struct deck *deck, const char *group, size_t *number, struct messages *messages);
+/* "load(2)%amplitude=3": as an override, and once more in place of what was set before. After an error the
+ * name counts as not given. */
+selas_status deck_set(struct deck *deck, const char *text, struct messages *messages);
+/* The checks of the table (ranges, choices, obligatory names) after the last deck_set. */
+selas_status deck_complete(struct deck *deck, struct messages *messages);
+
+/* Points that a host hands over in place of body%file; all arrays stay the caller's. */
+struct given_points {
+    size_t count;
+    const double *position; /* [3 * count], frame of the body */
+    const double *volume;   /* [count] > 0 */
+    const size_t *material; /* [count] index of &material from 0; NULL: the body's */
+};
+void deck_hand_points(struct deck *deck, const struct given_points *points);
+const struct given_points *deck_points(const struct deck *deck); /* NULL: none */
+
 /* Number of times a group occurs; groups that are always there once (scene, method, stepping, output) give 1.
  */
 size_t deck_count(const struct deck *deck, const char *group);

@@ -13,6 +13,7 @@ struct deck {
     size_t length;        /* of source */
     struct namelist list; /* groups sorted by kind in the table's order, else as in the text */
     size_t *first; /* per kind: index of its first group in the list; first[kinds] = number of groups */
+    const struct given_points *points; /* borrowed from the host; NULL: none */
 };
 
 /* The item of a name and the value that holds (given or default), or NULL. */
@@ -22,6 +23,8 @@ size_t group_values(const struct deck_group *group, size_t word);
 
 /* Checks ranges, choices, gaps and obligatory names of all groups. */
 void deck_check(const struct deck *deck, struct messages *messages);
+/* Sorts the groups by kind, those of one kind as they stand in the text, and finds the first of each. */
+bool deck_sort_groups(struct deck *deck);
 /* Applies one override; reports what is wrong. */
 void deck_override(struct deck *deck, const char *text, struct messages *messages);
 

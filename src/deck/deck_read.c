@@ -35,8 +35,7 @@ static char *directory_of(const char *path)
     return copy_bytes(path, slash == path ? 1 : (size_t)(slash - path));
 }
 
-/* Sorts the groups by kind, those of one kind as they stand in the text, and finds the first of each. */
-static bool sort_groups(struct deck *deck)
+bool deck_sort_groups(struct deck *deck)
 {
     struct namelist *list = &deck->list;
     const size_t kinds = list->table->groups;
@@ -75,10 +74,10 @@ static bool complete_groups(struct deck *deck, struct messages *messages)
         if (table->group[kind].occurrence == GROUP_ALWAYS && deck->first[kind + 1] == deck->first[kind] &&
             namelist_add(&deck->list, kind, (struct place){1, 1}) == NULL)
             return false;
-    return sort_groups(deck);
+    return deck_sort_groups(deck);
 }
 
-static selas_status read_all(struct deck *deck, size_t overrides, const char *const *override,
+static selas_status read_all(struct deck *deck, size_t overrides, const char *const *override, bool check,
                              struct messages *messages)
 {
     const size_t errors = messages->errors;
@@ -89,18 +88,19 @@ static selas_status read_all(struct deck *deck, size_t overrides, const char *co
     if (deck->list.groups == 0 && messages->errors == errors)
         namelist_message(messages, deck->path, (struct place){1, 1}, true,
                          "no group of a deck is in this file; expected '&scene ... /' and others");
-    if (!sort_groups(deck) || !complete_groups(deck, messages))
+    if (!deck_sort_groups(deck) || !complete_groups(deck, messages))
         return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
     for (size_t i = 0; i < overrides; i++) {
         deck_override(deck, override[i], messages);
-        if (!sort_groups(deck)) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
+        if (!deck_sort_groups(deck)) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
     }
-    deck_check(deck, messages);
+    if (check) deck_check(deck, messages);
     return messages->errors == errors ? SELAS_OK : SELAS_BAD_DECK;
 }
 
-selas_status deck_read_text(const char *name, const char *text, size_t length, size_t overrides,
-                            const char *const *override, struct deck **deck, struct messages *messages)
+static selas_status read_text(const char *name, const char *text, size_t length, size_t overrides,
+                              const char *const *override, bool check, struct deck **deck,
+                              struct messages *messages)
 {
     *deck = NULL;
     struct deck *made = array_new(1, sizeof *made);
@@ -117,7 +117,7 @@ selas_status deck_read_text(const char *name, const char *text, size_t length, s
         /* numbers have a decimal point whatever the locale of the host */
         const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
         const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
-        status = read_all(made, overrides, override, messages);
+        status = read_all(made, overrides, override, check, messages);
         if (plain != (locale_t)0) {
             uselocale(host);
             freelocale(plain);
@@ -128,6 +128,18 @@ selas_status deck_read_text(const char *name, const char *text, size_t length, s
     else
         deck_free(&made);
     return status;
+}
+
+selas_status deck_read_text(const char *name, const char *text, size_t length, size_t overrides,
+                            const char *const *override, struct deck **deck, struct messages *messages)
+{
+    return read_text(name, text, length, overrides, override, true, deck, messages);
+}
+
+selas_status deck_new(const char *name, struct deck **deck, struct messages *messages)
+{
+    static const char start[] = "&scene /\n";
+    return read_text(name, start, sizeof start - 1, 0, NULL, false, deck, messages);
 }
 
 /* The whole of a file, at most MOST_BYTES. */

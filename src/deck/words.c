@@ -159,6 +159,7 @@ static const struct word initial_words[] = {
 };
 
 static const struct word load_words[] = {
+    {"name", WORD_TEXT, 1, NULL, NULL, false, "name by which a host of the library speaks to it"},
     {"kind", WORD_CHOICE, 1, "'traction'", "traction|body-force|moment-tensor", false, "kind of load"},
     {"face", WORD_CHOICE, 1, NULL, "x-|x+|y-|y+|z-|z+|hole", false, "face on which a traction acts"},
     {"shape", WORD_CHOICE, 1, NULL, "square|disc|face|point", false, "where it acts"},

@@ -160,8 +160,8 @@ static selas_status take(const struct scene *scene, const struct table *table, s
         cloud->volume[i] = row[3];
         if (!(row[3] > 0) || !isfinite(row[0] + row[1] + row[2]))
             return fail(messages, SELAS_BAD_SCENE,
-                        "'%s': point %zu needs a finite position and a volume above 0", scene->body.file,
-                        i + 1);
+                        "'%s': point %zu needs a finite position and a volume above 0",
+                        scene->body.file != NULL ? scene->body.file : "points of the host", i + 1);
         const double length = sqrt(row[4] * row[4] + row[5] * row[5] + row[6] * row[6]);
         if (!(length > 0)) continue;
         const double spacing = pow(row[3], 1.0 / scene->dimension);
@@ -176,13 +176,31 @@ static selas_status take(const struct scene *scene, const struct table *table, s
     return status;
 }
 
+/* Points that the host handed over. */
+static bool take_given(const struct given_points *given, struct table *table)
+{
+    if (!make_room(table, given->count)) return false;
+    memset(table->row, 0, given->count * sizeof *table->row);
+    for (size_t i = 0; i < given->count; i++) {
+        memcpy(table->row[i], given->position + 3 * i, 3 * sizeof(double));
+        table->row[i][3] = given->volume[i];
+    }
+    table->rows = given->count;
+    return true;
+}
+
 selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages)
 {
     const char *path = scene->body.file;
     const size_t d = (size_t)scene->dimension;
     struct table table = {0};
-    selas_status status =
-        is_hdf5(path) ? read_hdf5(path, d, &table, messages) : read_text(path, d, &table, messages);
+    selas_status status = SELAS_OK;
+    if (scene->body.given != NULL)
+        status = take_given(scene->body.given, &table)
+                     ? SELAS_OK
+                     : fail(messages, SELAS_NO_MEMORY, "no memory for the points");
+    else
+        status = is_hdf5(path) ? read_hdf5(path, d, &table, messages) : read_text(path, d, &table, messages);
     if (status == SELAS_OK && table.rows == 0)
         status = fail(messages, SELAS_FILE_ERROR, "'%s' has no points", path);
     if (status == SELAS_OK) status = cloud_allocate(scene->dimension, table.rows, cloud, messages);

@@ -122,7 +122,7 @@ static selas_status run_with_progress(selas_simulation *simulation, bool quiet)
 }
 
 /* The report's last part, speed against error, for the eye. */
-static void print_summary(const selas_simulation *simulation)
+static void print_summary(selas_simulation *simulation)
 {
     char path[4096];
     char line[1024];

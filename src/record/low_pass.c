@@ -50,8 +50,12 @@ selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, siz
         fftw_free(spectrum);
         return fail(messages, SELAS_NO_MEMORY, "no memory to filter a history of %zu rows", rows);
     }
-    fftw_plan forward = fftw_plan_dft_r2c_1d((int)length, line, spectrum, FFTW_ESTIMATE);
-    fftw_plan backward = fftw_plan_dft_c2r_1d((int)length, spectrum, line, FFTW_ESTIMATE);
+    fftw_plan forward;
+#pragma omp critical(selas_fftw_planner)
+    forward = fftw_plan_dft_r2c_1d((int)length, line, spectrum, FFTW_ESTIMATE);
+    fftw_plan backward;
+#pragma omp critical(selas_fftw_planner)
+    backward = fftw_plan_dft_c2r_1d((int)length, spectrum, line, FFTW_ESTIMATE);
     const double unit = two_pi / ((double)length * dt * cutoff);
     for (size_t c = 0; c < columns; c++) {
         for (size_t i = 0; i < length; i++)
@@ -63,7 +67,9 @@ selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, siz
         for (size_t i = 0; i < rows; i++)
             series[i * columns + c] = line[i + pad];
     }
+#pragma omp critical(selas_fftw_planner)
     fftw_destroy_plan(forward);
+#pragma omp critical(selas_fftw_planner)
     fftw_destroy_plan(backward);
     fftw_free(line);
     fftw_free(spectrum);

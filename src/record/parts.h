@@ -76,6 +76,8 @@ struct recorder {
     struct snapshot_entry *entry;
     struct run_file *file;
     struct watch watch;
+    struct watch before; /* as it was before the last step was seen */
+    double before_time;  /* last_time then */
     unsigned long last_step;
     double last_time;
     bool started;
@@ -85,6 +87,8 @@ struct recorder {
 selas_status trace_create(struct recorder *recorder, struct messages *messages);
 selas_status trace_observe(struct recorder *recorder, const struct state *state, struct messages *messages);
 selas_status trace_finish(struct recorder *recorder, struct messages *messages);
+/* Forgets the last row of all receivers. */
+void trace_forget(struct recorder *recorder);
 void trace_free(struct recorder *recorder);
 
 /* Rows 0, step, 2 step, ... up to end (to rounding); SELAS_BAD_SCENE beyond a thousand million. */

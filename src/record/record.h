@@ -34,6 +34,10 @@ selas_status recorder_open(struct recorder *recorder, struct messages *messages)
  */
 selas_status recorder_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
+/* The same step once more after a change of the loads at its time: takes the place of what was seen of it
+ * (receivers, energy; snapshots and profiles keep what they saw). */
+selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
+                                    struct messages *messages);
 /* After the last step: corrects and resamples the histories. */
 selas_status recorder_finish(struct recorder *recorder, struct messages *messages);
 struct history_rows recorder_history(const struct recorder *recorder, size_t receiver);

@@ -39,6 +39,8 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     if (recorder->started && state->step != recorder->last_step + 1)
         return fail(messages, SELAS_BAD_ARGUMENT, "the record has step %lu and was given step %lu",
                     recorder->last_step, state->step);
+    recorder->before = recorder->watch;
+    recorder->before_time = recorder->last_time;
     selas_status status = trace_observe(recorder, state, messages);
     if (status == SELAS_OK) status = watch_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
@@ -47,6 +49,21 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     recorder->last_time = state->time;
     profile_observe(recorder, state);
     return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+}
+
+selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
+                                    struct messages *messages)
+{
+    trace_forget(recorder);
+    recorder->watch = recorder->before;
+    recorder->last_time = recorder->before_time;
+    recorder->started = state->step > 0;
+    const selas_status status = trace_observe(recorder, state, messages);
+    if (status != SELAS_OK) return status;
+    const selas_status watched = watch_observe(recorder, state, messages);
+    recorder->started = true;
+    recorder->last_time = state->time;
+    return watched;
 }
 
 selas_status recorder_finish(struct recorder *recorder, struct messages *messages)

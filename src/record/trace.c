@@ -71,6 +71,12 @@ selas_status trace_observe(struct recorder *recorder, const struct state *state,
     return SELAS_OK;
 }
 
+void trace_forget(struct recorder *recorder)
+{
+    for (size_t r = 0; r < recorder->scene->receivers; r++)
+        if (recorder->trace[r].rows > 0) recorder->trace[r].rows--;
+}
+
 selas_status row_count(double end, double step, size_t *rows, struct messages *messages)
 {
     const double count = floor(end / step * (1.0 + 1e-12) + 1e-9) + 1.0;

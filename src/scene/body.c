@@ -179,6 +179,9 @@ static bool read_shape(struct builder *builder, const struct deck_group *group)
         refuse(builder, group, hole_words, purpose);
     if (body->shape != BODY_POINTS) {
         refuse(builder, group, file_words, purpose);
+    } else if (deck_points(builder->deck) != NULL) {
+        body->given = deck_points(builder->deck);
+        refuse(builder, group, file_words, "a body whose points the host hands over");
     } else if (deck_values(group, "file") == 0) {
         complain(builder, group, NULL, "%s needs file", purpose);
         right = false;
@@ -252,7 +255,8 @@ static void check_materials_used(struct builder *builder)
 {
     const struct scene *scene = builder->scene;
     for (size_t i = 0; i < scene->materials; i++) {
-        bool used = scene->body.material == i;
+        bool used =
+            scene->body.material == i || (scene->body.given != NULL && scene->body.given->material != NULL);
         for (size_t k = 0; k < scene->body.layers; k++)
             used = used || scene->body.layer[k].material == i;
         if (!used)

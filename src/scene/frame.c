@@ -144,3 +144,10 @@ const char *vector_text(char text[VECTOR_TEXT_SIZE], const double *vector, int c
                            vector[c]);
     return text;
 }
+
+const struct material *scene_point_material(const struct scene *scene, size_t index, double depth)
+{
+    const struct given_points *given = scene->body.given;
+    if (given != NULL && given->material != NULL) return &scene->material[given->material[index]];
+    return scene_material_at(scene, depth);
+}

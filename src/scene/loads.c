@@ -203,6 +203,7 @@ static void read_load(struct builder *builder, size_t index, struct load *load)
     static const char *const moment_words[] = {"moment", NULL};
     const struct deck_group *group = deck_get(builder->deck, "load", index);
     load->group = index;
+    take_name(builder, group, "name", load->name);
     load->kind = (enum load_kind)deck_choice(group, "kind", 0);
     load->amplitude = deck_real(group, "amplitude", 0);
     if (load->kind == LOAD_TRACTION) {

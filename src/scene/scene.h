@@ -53,7 +53,8 @@ struct body {
     bool rotated;
     double jitter; /* fraction of the spacing */
     long seed;
-    char *file; /* points from a file: path, already resolved; NULL */
+    char *file;                       /* points from a file: path, already resolved; NULL */
+    const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
     bool chosen;    /* half-space: low and high were chosen by the program (scene/half_space.c) ... */
@@ -91,6 +92,7 @@ enum load_kind { LOAD_TRACTION, LOAD_BODY_FORCE, LOAD_MOMENT_TENSOR };
 enum load_shape { LOAD_SQUARE, LOAD_DISC, LOAD_FACE, LOAD_POINT };
 
 struct load {
+    char name[NAME_SIZE]; /* "" if it has none */
     enum load_kind kind;
     enum load_shape shape;
     enum face face;
@@ -225,5 +227,7 @@ const char *face_name(enum face face); /* "x-" ... "hole" */
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);
+/* Material of point `index`: the one a host gave it, else by depth. */
+const struct material *scene_point_material(const struct scene *scene, size_t index, double depth);
 
 #endif

@@ -1,6 +1,10 @@
 /* What drives a model at one instant: amplitudes of loads and accelerations of prescribed faces. */
 #include "stepping/stepping.h"
 
+#include "base/memory.h"
+
+#include <string.h>
+
 static bool is_motion(const struct boundary *boundary)
 {
     return boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
@@ -23,6 +27,81 @@ static struct drive drive_of(const struct stepper *stepper, double time)
                           .velocity = stepper->motion + FACES};
 }
 
+/* --- A host in the histories' place
+ * ------------------------------------------------------------------------ */
+
+static void deck_row(const struct stepper *stepper, double time, double *load, double *displacement)
+{
+    const struct scene *scene = stepper->model->scene;
+    for (size_t k = 0; k < scene->loads; k++)
+        load[k] = history_value(&scene->load[k].history, time, 0);
+    for (size_t face = 0; face < FACES; face++)
+        displacement[face] = motion_displacement(&scene->boundary[face], time, 0);
+}
+
+/* Amplitudes at step n: loads, then displacements of the faces; before the start everything is at rest. */
+static const double *host_row(struct stepper *stepper, long n)
+{
+    const size_t loads = stepper->model->scene->loads, width = loads + FACES;
+    double *row = stepper->host_row + (size_t)(n & (HOST_ROWS - 1)) * width;
+    if (stepper->host_step[n & (HOST_ROWS - 1)] == n) return row;
+    memset(row, 0, width * sizeof *row);
+    if (n >= 0) {
+        const double time = (double)n * stepper->dt;
+        deck_row(stepper, time, row, row + loads);
+        stepper->host->at(stepper->host->context, time, row, row + loads);
+    }
+    stepper->host_step[n & (HOST_ROWS - 1)] = n;
+    return row;
+}
+
+selas_status drive_by_host(struct stepper *stepper, const struct host_drive *host, struct messages *messages)
+{
+    stepper->host = host;
+    stepper->host_row =
+        array_new(HOST_ROWS * (stepper->model->scene->loads + FACES), sizeof *stepper->host_row);
+    if (stepper->host_row == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the host's loads");
+    for (int i = 0; i < HOST_ROWS; i++)
+        stepper->host_step[i] = -2;
+    return SELAS_OK;
+}
+
+void drive_changed(struct stepper *stepper, unsigned long step)
+{
+    for (int i = 0; i < HOST_ROWS; i++)
+        if (stepper->host_step[i] >= (long)step) stepper->host_step[i] = -2;
+}
+
+void drive_again(struct stepper *stepper, struct state *state)
+{
+    drive_changed(stepper, state->step);
+    if (stepper->scheme->again != NULL) stepper->scheme->again(stepper, state);
+}
+
+/* A host's displacements have no derivatives of their own: differences over half a step. */
+static void host_at(struct stepper *stepper, double time)
+{
+    const size_t loads = stepper->model->scene->loads;
+    const double h = 0.5 * stepper->dt;
+    double *row = stepper->host_row;
+    double *const at[3] = {row, row + loads + FACES, row + 2 * (loads + FACES)};
+    for (int i = 0; i < 3; i++) {
+        const double when = time + (double)(i - 1) * h;
+        memset(at[i], 0, (loads + FACES) * sizeof *at[i]);
+        if (when < 0.0) continue;
+        deck_row(stepper, when, at[i], at[i] + loads);
+        if (i == 1 || stepper->host->moves)
+            stepper->host->at(stepper->host->context, when, at[i], at[i] + loads);
+    }
+    memcpy(stepper->load, at[1], loads * sizeof *stepper->load);
+    for (size_t face = 0; face < FACES; face++) {
+        const double before = at[0][loads + face], now = at[1][loads + face], after = at[2][loads + face];
+        stepper->motion[face] = now;
+        stepper->motion[FACES + face] = (after - before) / (2.0 * h);
+        stepper->motion[2 * FACES + face] = (after - 2.0 * now + before) / (h * h);
+    }
+}
+
 void drive_at(struct stepper *stepper, double time, struct drive *drive)
 {
     const struct scene *scene = stepper->model->scene;
@@ -32,6 +111,7 @@ void drive_at(struct stepper *stepper, double time, struct drive *drive)
         for (int derivative = 0; derivative <= 2; derivative++)
             stepper->motion[(size_t)derivative * FACES + face] =
                 motion_displacement(&scene->boundary[face], time, derivative);
+    if (stepper->host != NULL) host_at(stepper, time);
     *drive = drive_of(stepper, time);
 }
 
@@ -43,15 +123,17 @@ static double warped(const double *table, size_t columns, size_t column, unsigne
     return table[(size_t)n * columns + column];
 }
 
-static double load_amplitude(const struct stepper *stepper, size_t k, long n)
+static double load_amplitude(struct stepper *stepper, size_t k, long n)
 {
     const struct scene *scene = stepper->model->scene;
+    if (stepper->host != NULL) return host_row(stepper, n)[k];
     if (stepper->unwarp) return warped(stepper->warped_load, scene->loads, k, stepper->warped_rows, n);
     return history_value(&scene->load[k].history, (double)n * stepper->dt, 0);
 }
 
-static double motion_amplitude(const struct stepper *stepper, size_t face, long n)
+static double motion_amplitude(struct stepper *stepper, size_t face, long n)
 {
+    if (stepper->host != NULL) return host_row(stepper, n)[stepper->model->scene->loads + face];
     if (stepper->unwarp) return warped(stepper->warped_motion, FACES, face, stepper->warped_rows, n);
     return motion_displacement(&stepper->model->scene->boundary[face], (double)n * stepper->dt, 0);
 }
@@ -62,7 +144,7 @@ void drive_at_step(struct stepper *stepper, unsigned long step, bool corrected, 
     const long n = (long)step;
     for (size_t k = 0; k < scene->loads; k++) {
         double amplitude = load_amplitude(stepper, k, n);
-        if (corrected)
+        if (corrected && !(stepper->host != NULL && stepper->host->held[k]))
             amplitude +=
                 (load_amplitude(stepper, k, n + 1) - 2.0 * amplitude + load_amplitude(stepper, k, n - 1)) /
                 12.0;

@@ -29,4 +29,5 @@ const struct scheme_class scheme_euler = {
     .vectors = 1,
     .start = runge_kutta_start,
     .step = step,
+    .again = runge_kutta_start,
 };

@@ -30,16 +30,32 @@ static void start(struct stepper *stepper, struct state *state)
     model->class->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 
-static void step(struct stepper *stepper, struct state *state)
+/* The second half of a step: from w(n+1/2) to v(n+1). */
+static void close_step(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
     double *u = state->y;
     double *v = state->y + model->unknowns;
-    leapfrog_drift(stepper, state);
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
     model->class->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
     leapfrog_kick(stepper, state);
+}
+
+static void step(struct stepper *stepper, struct state *state)
+{
+    leapfrog_drift(stepper, state);
+    close_step(stepper, state);
+}
+
+static void again(struct stepper *stepper, struct state *state)
+{
+    if (state->step == 0) {
+        start(stepper, state);
+        return;
+    }
+    leapfrog_unkick(stepper, state);
+    close_step(stepper, state);
 }
 
 static selas_status finish(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
@@ -58,5 +74,6 @@ const struct scheme_class scheme_leapfrog = {
     .vectors = 1,
     .start = start,
     .step = step,
+    .again = again,
     .finish = finish,
 };

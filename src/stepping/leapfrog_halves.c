@@ -26,13 +26,22 @@ void leapfrog_drift(struct stepper *stepper, struct state *state)
     state->time = (double)state->step * dt;
 }
 
-void leapfrog_kick(struct stepper *stepper, struct state *state)
+static void add_acceleration(const struct stepper *stepper, struct state *state, double half)
 {
     const size_t n = stepper->model->unknowns;
     double *restrict v = state->y + n;
     const double *restrict a = state->a;
-    const double half = 0.5 * stepper->dt;
 #pragma omp parallel for simd schedule(static) if (n > SERIAL)
     for (size_t i = 0; i < n; i++)
         v[i] += half * a[i];
+}
+
+void leapfrog_kick(struct stepper *stepper, struct state *state)
+{
+    add_acceleration(stepper, state, 0.5 * stepper->dt);
+}
+
+void leapfrog_unkick(struct stepper *stepper, struct state *state)
+{
+    add_acceleration(stepper, state, -0.5 * stepper->dt);
 }

@@ -59,4 +59,5 @@ const struct scheme_class scheme_lsrk54 = {
     .vectors = 2,
     .start = runge_kutta_start,
     .step = step,
+    .again = runge_kutta_start,
 };

@@ -61,6 +61,17 @@ static void step(struct stepper *stepper, struct state *state)
     leapfrog_kick(stepper, state);
 }
 
+static void again(struct stepper *stepper, struct state *state)
+{
+    if (state->step == 0) { /* the start has no half kick */
+        accelerate(stepper, state, 0.0);
+        return;
+    }
+    leapfrog_unkick(stepper, state);
+    accelerate(stepper, state, 0.5 * stepper->dt);
+    leapfrog_kick(stepper, state);
+}
+
 /* v := v - dt^2/6 da/dt, with da/dt by central differences inside and one-sided ones of second order at the
  * ends. */
 static selas_status finish(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
@@ -89,5 +100,6 @@ const struct scheme_class scheme_modified_equation = {
     .vectors = 1,
     .start = start,
     .step = step,
+    .again = again,
     .finish = finish,
 };

@@ -35,4 +35,5 @@ const struct scheme_class scheme_pc2 = {
     .vectors = 2,
     .start = runge_kutta_start,
     .step = step,
+    .again = runge_kutta_start,
 };

@@ -43,4 +43,5 @@ const struct scheme_class scheme_rk4 = {
     .vectors = 3,
     .start = runge_kutta_start,
     .step = step,
+    .again = runge_kutta_start,
 };

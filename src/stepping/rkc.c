@@ -192,4 +192,5 @@ const struct scheme_class scheme_rkc = {
     .vectors = 5,
     .start = runge_kutta_start,
     .step = step,
+    .again = runge_kutta_start,
 };

@@ -15,7 +15,8 @@ extern const struct scheme_class scheme_lsrk54;
 /* v := v + dt/2 a, u := u + dt v, filter of the model if it has one, time and step move on. Needs work[0] if
  * the model filters. */
 void leapfrog_drift(struct stepper *stepper, struct state *state);
-/* v := v + dt/2 a. */
+/* v := v + dt/2 a, and back. */
 void leapfrog_kick(struct stepper *stepper, struct state *state);
+void leapfrog_unkick(struct stepper *stepper, struct state *state);
 
 #endif

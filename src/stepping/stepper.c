@@ -223,6 +223,7 @@ void stepper_free(struct stepper **freed)
     array_free(stepper->motion);
     array_free(stepper->warped_load);
     array_free(stepper->warped_motion);
+    array_free(stepper->host_row);
     free(stepper);
     *freed = NULL;
 }

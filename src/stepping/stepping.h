@@ -14,6 +14,20 @@ struct state {
 
 struct stepper;
 
+/* What a host of the library drives in place of the deck's histories. */
+struct host_drive {
+    void *context;
+    /* Amplitudes of all loads and displacements of all faces (per amplitude) at `time`: come in as the deck
+     * has them; the host changes those that it drives. Called once for each step's time, in order, and for
+     * one step ahead where a scheme takes second differences. */
+    void (*at)(void *context, double time, double *load, double *displacement);
+    bool moves;       /* drives faces */
+    const bool *held; /* [loads] a value that the host holds until it changes it: no differences are taken */
+};
+
+/* Rows of a host's amplitudes at three neighbouring steps. */
+enum { HOST_ROWS = 4 };
+
 struct scheme_class {
     const char *name;
     int order;               /* in time */
@@ -27,6 +41,9 @@ struct scheme_class {
     /* Makes state->a (and what else the scheme keeps) right at the start or after a restart. */
     void (*start)(struct stepper *stepper, struct state *state);
     void (*step)(struct stepper *stepper, struct state *state);
+    /* Makes state->a anew after a change of the loads at the state's own time, and the velocity with it where
+     * that has half a step of a in it. */
+    void (*again)(struct stepper *stepper, struct state *state);
     /* Corrects a receiver's finished history in place; rows 0..n-1 are steps of dt; u, v, a: [3 * n],
      * row-major. NULL: nothing to correct. */
     selas_status (*finish)(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
@@ -51,7 +68,10 @@ struct stepper {
         warped_load; /* [rows * loads] and [rows * FACES] if unwarp: amplitudes of the warped histories ... */
     double *warped_motion; /* ... (motion: of the displacement, not its second derivative) */
     unsigned long warped_rows;
-    void *memory; /* of the scheme */
+    void *memory;                  /* of the scheme */
+    const struct host_drive *host; /* borrowed; NULL: the deck's histories drive */
+    double *host_row;              /* [HOST_ROWS * (loads + FACES)] */
+    long host_step[HOST_ROWS];     /* step of each row, -1: none */
 };
 
 const struct scheme_class *scheme_find(const char *name);
@@ -71,6 +91,12 @@ void drive_at(struct stepper *stepper, double time, struct drive *drive);
  * With `corrected` one twelfth of its own second difference is added to each amplitude (the load term of the
  * modified equation). */
 void drive_at_step(struct stepper *stepper, unsigned long n, bool corrected, struct drive *drive);
+/* Puts a host in the histories' place (the stepper must not unwarp). */
+selas_status drive_by_host(struct stepper *stepper, const struct host_drive *host, struct messages *messages);
+/* The host has changed what it drives: rows from the step given on are asked for again. */
+void drive_changed(struct stepper *stepper, unsigned long step);
+/* Makes the acceleration at the state's own time anew after a change of the loads there. */
+void drive_again(struct stepper *stepper, struct state *state);
 /* Displacement history of a prescribed face (per amplitude): the history or, for a velocity, its integral. */
 double motion_displacement(const struct boundary *boundary, double time, int derivative);
 

@@ -46,8 +46,11 @@ selas_status time_dispersion_warp(const struct history *history, int integrals, 
         if (integrals == 1) f /= s;
         spectrum[k] = 2 * k == length ? creal(f) : f;
     }
-    fftw_plan plan = fftw_plan_dft_1d((int)length, spectrum, spectrum, FFTW_BACKWARD, FFTW_ESTIMATE);
+    fftw_plan plan;
+#pragma omp critical(selas_fftw_planner)
+    plan = fftw_plan_dft_1d((int)length, spectrum, spectrum, FFTW_BACKWARD, FFTW_ESTIMATE);
     fftw_execute(plan);
+#pragma omp critical(selas_fftw_planner)
     fftw_destroy_plan(plan);
     for (size_t i = 0; i < rows; i++)
         value[stride * i] = creal(spectrum[i]) / ((double)length * dt) * exp(eta * (double)i * dt);
@@ -136,12 +139,15 @@ selas_status time_dispersion_unwarp(double dt, size_t n, double *u, double *v, d
         room = room && spectrum[c] != NULL;
     }
     if (room) {
-        fftw_plan plan = fftw_plan_dft_r2c_1d((int)length, padded, spectrum[0], FFTW_ESTIMATE);
+        fftw_plan plan;
+#pragma omp critical(selas_fftw_planner)
+        plan = fftw_plan_dft_r2c_1d((int)length, padded, spectrum[0], FFTW_ESTIMATE);
         for (size_t c = 0; c < 3; c++) {
             for (size_t i = 0; i < length; i++)
                 padded[i] = faded(u, n, c, i);
             fftw_execute_dft_r2c(plan, padded, spectrum[c]);
         }
+#pragma omp critical(selas_fftw_planner)
         fftw_destroy_plan(plan);
         unwarp_rows(&quadrature, n, spectrum, u, v, a);
     }

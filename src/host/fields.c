@@ -1,0 +1,64 @@
+/* Whole fields, points and energies handed out to a host. */
+#include "host/simulation.h"
+
+#include "base/memory.h"
+
+selas_status selas_points(selas_simulation *simulation, size_t *count, const double **position)
+{
+    const selas_status status = simulation_begin(simulation);
+    if (status != SELAS_OK) return status;
+    if (count == NULL || position == NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no room for the count or the positions");
+    *count = simulation->model->points;
+    *position = simulation->model->position;
+    return SELAS_OK;
+}
+
+selas_status selas_field_values(selas_simulation *simulation, selas_field field, size_t *count,
+                                size_t *components, const double **value)
+{
+    const selas_status status = simulation_begin(simulation);
+    if (status != SELAS_OK) return status;
+    const size_t width = (size_t)field_components(field);
+    if (width == 0 || count == NULL || components == NULL || value == NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no such field, or no room for it");
+    struct model *model = simulation->model;
+    if (model->class->field == NULL)
+        return fail(&simulation->messages, SELAS_UNSUPPORTED, "this method has no whole fields");
+    if (simulation->values_room < width * model->points) {
+        array_free(simulation->values);
+        simulation->values_room = width * model->points;
+        simulation->values = array_new(simulation->values_room, sizeof(double));
+        if (simulation->values == NULL) {
+            simulation->values_room = 0;
+            return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a field of %zu points",
+                        model->points);
+        }
+    }
+    model->class->field(model, field, simulation->state.y, simulation->state.a, simulation->values);
+    *count = model->points;
+    *components = width;
+    *value = simulation->values;
+    return SELAS_OK;
+}
+
+selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain)
+{
+    const selas_status status = simulation_begin(simulation);
+    if (status != SELAS_OK) return status;
+    if (kinetic == NULL || strain == NULL)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no room for the energies");
+    struct model *model = simulation->model;
+    if (model->class->energy == NULL)
+        return fail(&simulation->messages, SELAS_UNSUPPORTED, "this method knows no energy");
+    struct energy energy = {0};
+    model->class->energy(model, simulation->state.y, &energy);
+    *kinetic = energy.kinetic;
+    *strain = energy.strain;
+    return SELAS_OK;
+}
+
+int selas_field_components(selas_field field)
+{
+    return field_components(field);
+}

@@ -1,0 +1,86 @@
+/* Inside of a simulation: what selas.c and the rooms behind the library's door share. */
+#ifndef SELAS_SIMULATION_H
+#define SELAS_SIMULATION_H
+
+#include "deck/deck.h"
+#include "exact/exact.h"
+#include "record/record.h"
+#include "scene/scene.h"
+#include "selas.h"
+#include "stepping/stepping.h"
+
+/* A load whose traction, force or body force a function of the host gives, piece by piece. */
+struct driven_load {
+    size_t load; /* in the scene; the pieces are loads of their own behind the deck's */
+    selas_vector_function function;
+    void *context;
+    bool held;    /* no function: the host holds it at `value` */
+    double value; /* along the load's direction */
+    size_t first, pieces;
+};
+
+/* A face whose motion a function of the host gives. */
+struct driven_face {
+    selas_vector_function function;
+    void *context;
+};
+
+struct host {
+    size_t loads, room;
+    struct driven_load *load;
+    struct driven_face face[FACES];
+    size_t pieces;
+    double *centre; /* [3 * pieces] deck coordinates */
+    bool *held;     /* [scene->loads] */
+    struct host_drive drive;
+    int answer;              /* what the callbacks returned since this was last looked at: the worst */
+    char refused[NAME_SIZE]; /* the load or face whose callback it was */
+};
+
+struct selas_simulation {
+    struct messages messages;
+    struct deck *deck;
+    struct scene *scene;
+    struct model *model;
+    struct stepper *stepper;
+    struct state state;
+    struct recorder *recorder;
+    struct exact *exact;
+    struct run_figures figures;
+    bool prepared, recording, finished;
+    bool broken;         /* the scene could not be built from what was set so far */
+    bool busy;           /* a callback of the host is running */
+    bool dirty;          /* loads at the time reached have changed; the acceleration has not yet */
+    selas_status failed; /* why no step can follow */
+    struct host host;
+    struct given_points points;
+    double *point_position, *point_volume;
+    size_t *point_material;
+    double *values; /* fields handed out: [values_room] */
+    size_t values_room;
+    double *scratch; /* [state_size] */
+};
+
+/* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
+selas_status simulation_check(selas_simulation *simulation);
+/* The same, with the scene built. */
+selas_status simulation_scene(selas_simulation *simulation);
+/* The same, with the state at t = 0 or later and the loads as they are now. */
+selas_status simulation_begin(selas_simulation *simulation);
+/* SELAS_OK as long as the scene may still be changed: before the first step; throws the model away. */
+selas_status simulation_change(selas_simulation *simulation);
+
+/* host/drive.c */
+/* Gives the loads and faces that the host drives their pieces: after the scene is built. */
+selas_status host_prepare_scene(selas_simulation *simulation);
+/* Puts the host in the histories' place: after the stepper is made. */
+selas_status host_prepare_stepper(selas_simulation *simulation);
+/* What the callbacks said since the last call: SELAS_OK, SELAS_STOPPED or SELAS_CALLBACK_FAILED. */
+selas_status host_answer(selas_simulation *simulation);
+/* True if the host drives anything. */
+bool host_drives(const selas_simulation *simulation);
+/* Makes the state's acceleration that of the loads as they are now. */
+selas_status host_refresh(selas_simulation *simulation);
+void host_free(selas_simulation *simulation);
+
+#endif
