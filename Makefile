@@ -17,12 +17,18 @@ LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
 SOURCES  = $(filter-out src/program/%,$(wildcard src/*.c src/*/*.c))
 OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
 PROGRAM  = $(wildcard src/program/*.c)
+VERSION  = $(shell sed -n 's/^\#define SELAS_VERSION "\(.*\)"/\1/p' src/selas.h)
+SONAME   = libselas.so.$(firstword $(subst ., ,$(VERSION)))
+FFLAGS  ?= -O2 -g
+ALL_F    = -std=f2018 -fPIC -Wall -Wextra -Wno-compare-reals $(if $(WERROR),-Werror) $(FFLAGS)
+LIBDIR   = $(PREFIX)/lib
+INCLUDE  = $(PREFIX)/include
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace paper-figures test unit check-format check-tidy check-cppcheck install clean help
+.PHONY: all setup halfspace paper-figures test unit check-format check-tidy check-cppcheck install uninstall clean help
 
-all: $(BUILD)/selas ## build the program build/selas and the library
+all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
 setup: ## install what is missing with apt (root or sudo)
 	@sh regress/setup
@@ -38,7 +44,7 @@ paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their error
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
 
-unit: $(BUILD)/selas $(TESTS) ## run the tests without the set-up
+unit: all $(TESTS) ## run the tests without the set-up
 	@sh regress/run-tests $(BUILD)
 
 $(BUILD)/selas: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
@@ -71,10 +77,66 @@ check-tidy: ## clang-tidy
 check-cppcheck: ## cppcheck
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --error-exitcode=1 --inline-suppr -Isrc -j2 src
 
-install: all ## install the program, the library and the header below PREFIX
+# What hosts link. Only names that begin with selas_ are seen outside.
+$(BUILD)/$(SONAME): $(OBJECTS)
+	$(if $(V),,@echo "  link $@")
+	@echo '{ global: selas_*; local: *; };' >$(BUILD)/selas.map
+	$(Q)$(CC) -shared -fopenmp $(LDFLAGS) -Wl,-soname,$(SONAME) -Wl,--version-script=$(BUILD)/selas.map -Wl,--no-undefined -o $@ $^ $(LIBS)
+
+$(BUILD)/whole/libselas.a: $(OBJECTS)
+	@mkdir -p $(@D)
+	@rm -f $@
+	$(Q)ld -r -d -o $(@D)/selas.o $^
+	$(Q)objcopy --wildcard --keep-global-symbol='selas_*' $(@D)/selas.o
+	$(Q)ar rcs $@ $(@D)/selas.o
+
+$(BUILD)/selas.o: src/selas.f90
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(FC) $(ALL_F) -J$(BUILD) -c -o $@ $<
+
+$(BUILD)/selas77.o: src/selas77.f90 $(BUILD)/selas.o
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(FC) $(ALL_F) -J$(BUILD) -c -o $@ $<
+
+$(BUILD)/libselas_fortran.a: $(BUILD)/selas.o $(BUILD)/selas77.o
+	@rm -f $@
+	$(Q)ar rcs $@ $^
+
+# pkg-config files: selas for C, selas-fortran for the module (which needs selas).
+$(BUILD)/selas.pc: Makefile src/selas.h
+	@mkdir -p $(@D)
+	@printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$${prefix}/lib' 'includedir=$${prefix}/include' '' 'Name: selas' \
+	    'Description: smoothed-point elastodynamics' 'Version: $(VERSION)' 'Requires.private: $(PKGS)' \
+	    'Libs: -L$${libdir} -lselas' 'Libs.private: -fopenmp -lm' 'Cflags: -I$${includedir}' >$@
+	@printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$${prefix}/lib' 'includedir=$${prefix}/include' '' 'Name: selas-fortran' \
+	    'Description: smoothed-point elastodynamics, Fortran module' 'Version: $(VERSION)' 'Requires: selas' \
+	    'Libs: -L$${libdir} -lselas_fortran' 'Cflags: -I$${includedir}/selas' >$(BUILD)/selas-fortran.pc
+
+install: all $(BUILD)/selas.pc ## install program, libraries, header, module and manual page below PREFIX (DESTDIR)
 	install -D $(BUILD)/selas $(DESTDIR)$(PREFIX)/bin/selas
-	install -D -m 644 $(BUILD)/libselas.a $(DESTDIR)$(PREFIX)/lib/libselas.a
-	install -D -m 644 src/selas.h $(DESTDIR)$(PREFIX)/include/selas.h
+	install -D $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/libselas.so.$(VERSION)
+	ln -sf libselas.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)
+	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libselas.so
+	install -D -m 644 $(BUILD)/whole/libselas.a $(DESTDIR)$(LIBDIR)/libselas.a
+	install -D -m 644 $(BUILD)/libselas_fortran.a $(DESTDIR)$(LIBDIR)/libselas_fortran.a
+	install -D -m 644 src/selas.h $(DESTDIR)$(INCLUDE)/selas.h
+	install -D -m 644 $(BUILD)/selas.mod $(DESTDIR)$(INCLUDE)/selas/selas.mod
+	install -D -m 644 src/selas.f90 $(DESTDIR)$(INCLUDE)/selas/selas.f90
+	install -D -m 644 src/selas77.f90 $(DESTDIR)$(INCLUDE)/selas/selas77.f90
+	sed 's|^prefix=.*|prefix=$(PREFIX)|' $(BUILD)/selas.pc >$(BUILD)/selas.pc.installed
+	install -D -m 644 $(BUILD)/selas.pc.installed $(DESTDIR)$(LIBDIR)/pkgconfig/selas.pc
+	sed 's|^prefix=.*|prefix=$(PREFIX)|' $(BUILD)/selas-fortran.pc >$(BUILD)/selas.pc.installed
+	install -D -m 644 $(BUILD)/selas.pc.installed $(DESTDIR)$(LIBDIR)/pkgconfig/selas-fortran.pc
+	install -D -m 644 doc/selas.1 $(DESTDIR)$(PREFIX)/share/man/man1/selas.1
+
+uninstall: ## remove what install put there
+	rm -f $(DESTDIR)$(PREFIX)/bin/selas $(DESTDIR)$(LIBDIR)/libselas.so $(DESTDIR)$(LIBDIR)/$(SONAME) \
+	    $(DESTDIR)$(LIBDIR)/libselas.so.$(VERSION) $(DESTDIR)$(LIBDIR)/libselas.a $(DESTDIR)$(LIBDIR)/libselas_fortran.a \
+	    $(DESTDIR)$(INCLUDE)/selas.h $(DESTDIR)$(INCLUDE)/selas/selas.mod $(DESTDIR)$(INCLUDE)/selas/selas.f90 \
+	    $(DESTDIR)$(INCLUDE)/selas/selas77.f90 $(DESTDIR)$(LIBDIR)/pkgconfig/selas.pc \
+	    $(DESTDIR)$(LIBDIR)/pkgconfig/selas-fortran.pc $(DESTDIR)$(PREFIX)/share/man/man1/selas.1
+	-rmdir $(DESTDIR)$(INCLUDE)/selas 2>/dev/null
 
 clean: ## remove build/
 	rm -rf $(BUILD)

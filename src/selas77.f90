@@ -1,0 +1,231 @@
+! A thin layer for hosts in Fortran 77: external subroutines with names of six letters. SIM is an INTEGER*8 that
+! stands for a simulation (0: none); IERR is a status of selas.h (0: success); reals are DOUBLE PRECISION. The
+! table of all of them is in doc/calling.md.
+module selas77
+   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_f_pointer, c_associated, c_loc
+   use, intrinsic :: iso_fortran_env, only: int64, real64
+   use selas
+   implicit none
+contains
+   ! The simulation behind a handle, or an unassociated pointer.
+   function simulation_of(sim) result(found)
+      integer(int64), intent(in) :: sim
+      type(selas_simulation), pointer :: found
+      type(c_ptr) :: address
+      address = transfer(sim, c_null_ptr)
+      found => null()
+      if (c_associated(address)) call c_f_pointer(address, found)
+   end function
+end module selas77
+
+! Opens a deck file.
+subroutine slopen(path, sim, ierr)
+   use selas77
+   implicit none
+   character(*), intent(in) :: path
+   integer(int64), intent(out) :: sim
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: made
+   allocate (made)
+   sim = transfer(c_loc(made), sim)
+   call made%open_deck(path, ierr)
+end subroutine
+
+! Closes a simulation and sets SIM to 0.
+subroutine slclos(sim)
+   use selas77
+   implicit none
+   integer(int64), intent(inout) :: sim
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   if (associated(found)) deallocate (found) ! the final procedure closes it
+   sim = 0
+end subroutine
+
+! All messages so far, cut to the length of TEXT.
+subroutine slmesg(sim, text)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(out) :: text
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   text = 'no simulation (the handle is 0)'
+   if (associated(found)) text = found%message()
+end subroutine
+
+! Time reached, end time and time step; 0 for a handle that is 0.
+subroutine sltime(sim, now, end, dt)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   real(real64), intent(out) :: now, end, dt
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   now = 0
+   end = 0
+   dt = 0
+   if (.not. associated(found)) return
+   now = found%time()
+   end = found%end_time()
+   dt = found%time_step()
+end subroutine
+
+! Sets a word of the deck to N reals (before the first step).
+subroutine slsetr(sim, word, n, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: word
+   integer, intent(in) :: n
+   real(real64), intent(in) :: value(*)
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%set(word, value(:max(n, 0)), ierr)
+end subroutine
+
+! Sets a word of the deck to a text.
+subroutine slsetc(sim, word, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: word, value
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%set(word, value, ierr)
+end subroutine
+
+! Runs to the first step at or past TIME.
+subroutine sladvn(sim, time, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   real(real64), intent(in) :: time
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%advance(time, ierr)
+end subroutine
+
+! Runs N steps.
+subroutine slstep(sim, n, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   integer, intent(in) :: n
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%step(n, ierr)
+end subroutine
+
+! Field (0 displacement, 1 velocity, ...) at a receiver into VALUE(6).
+subroutine slrecv(sim, name, field, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: name
+   integer, intent(in) :: field
+   real(real64), intent(inout) :: value(6)
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%receiver(name, field, value, ierr)
+end subroutine
+
+! Holds a load at VALUE from the time reached on.
+subroutine slload(sim, load, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: load
+   real(real64), intent(in) :: value
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%set_load(load, value, ierr)
+end subroutine
+
+! Mean displacement (0), velocity (1) or acceleration (2) of a load's patch along its direction.
+subroutine slmean(sim, load, field, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: load
+   integer, intent(in) :: field
+   real(real64), intent(out) :: value
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%load_mean(load, field, value, ierr)
+end subroutine
+
+! Finishes the histories.
+subroutine slfini(sim, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%finish(ierr)
+end subroutine
+
+! Asks for result files: before the first step.
+subroutine slreco(sim, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%record(ierr)
+end subroutine
+
+! Writes all results.
+subroutine slwrit(sim, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%write(ierr)
+end subroutine
+
+! Rows of a finished history: N of them, at most ROOM into TIME(ROOM) and VALUE(6, ROOM).
+subroutine slhist(sim, name, room, n, time, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: name
+   integer, intent(in) :: room
+   integer, intent(out) :: n, ierr
+   real(real64), intent(inout) :: time(*), value(6, *)
+   type(selas_simulation), pointer :: found
+   real(real64), pointer :: times(:), values(:, :)
+   integer :: i
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   n = 0
+   if (.not. associated(found)) return
+   call found%history(name, times, values, ierr)
+   if (ierr /= selas_ok) return
+   n = size(times)
+   do i = 1, min(n, room)
+      time(i) = times(i)
+      value(:, i) = values(:, i)
+   end do
+end subroutine
