@@ -39,6 +39,7 @@ struct sparse {
 /* Factors of M + half_step C, product form (section 5 of the manual); NULL for slots that are not used. */
 struct mass_factors {
     double half_step;
+    size_t half[3];        /* [slot]: half-widths */
     double *depth[3];      /* [component] */
     double *(*side)[3][2]; /* [class][component][slot] */
 };

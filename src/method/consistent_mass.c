@@ -97,10 +97,10 @@ static void solve_plane(const struct consistent *c, const struct mass_factors *f
         double *plane = a + (size_t)component * c->volume + k * c->plane;
         double *const *side = factors->side[c->plane_class[k]][component];
         if (side[1] != NULL) {
-            band_forward(side[1], c->n[1], half_width(c, 1), plane, c->n[0], c->n[0]);
-            band_backward(side[1], c->n[1], half_width(c, 1), plane, c->n[0], c->n[0]);
+            band_forward(side[1], c->n[1], factors->half[1], plane, c->n[0], c->n[0]);
+            band_backward(side[1], c->n[1], factors->half[1], plane, c->n[0], c->n[0]);
         }
-        if (side[0] != NULL) solve_rows(side[0], c->n[0], half_width(c, 0), c->n[1], buffer, plane);
+        if (side[0] != NULL) solve_rows(side[0], c->n[0], factors->half[0], c->n[1], buffer, plane);
     }
 }
 
@@ -117,11 +117,11 @@ static void solve_depth(const struct consistent *c, const struct mass_factors *f
         const size_t lanes = c->plane - from < CHUNK ? c->plane - from : CHUNK;
         double *lane = a + component * c->volume + from;
         if (!forward) {
-            band_backward(factors->depth[component], c->n[DEPTH], half_width(c, DEPTH), lane, c->plane,
+            band_backward(factors->depth[component], c->n[DEPTH], factors->half[DEPTH], lane, c->plane,
                           lanes);
             continue;
         }
-        band_forward(factors->depth[component], c->n[DEPTH], half_width(c, DEPTH), lane, c->plane, lanes);
+        band_forward(factors->depth[component], c->n[DEPTH], factors->half[DEPTH], lane, c->plane, lanes);
         for (size_t k = 0; scale != 1 && k < c->n[DEPTH]; k++)
             for (size_t i = 0; i < lanes; i++)
                 lane[k * c->plane + i] *= scale;
@@ -173,6 +173,8 @@ bool mass_allocate(struct consistent *c)
     for (int set = 0; set < FACTOR_SETS; set++) {
         struct mass_factors *factors = &c->factors[set];
         factors->half_step = NAN;
+        for (int slot = 0; slot < 3; slot++)
+            factors->half[slot] = half_width(c, slot);
         factors->side = array_new(c->classes, sizeof *factors->side);
         if (factors->side == NULL) return false;
         for (int component = 0; component < c->dimension; component++)

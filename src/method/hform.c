@@ -105,6 +105,8 @@ static bool lay_upper(struct consistent *c, int component)
 static bool lay_inverses(struct consistent *c)
 {
     struct hform *h = c->hform;
+    h->factors.side = array_new(c->classes, sizeof *h->factors.side);
+    if (h->factors.side == NULL) return false;
     for (int axis = 0; axis < c->dimension; axis++)
         for (int component = 0; component < c->dimension; component++) {
             for (int other = 0; other < component; other++)
@@ -116,6 +118,11 @@ static bool lay_inverses(struct consistent *c)
             }
             if (h->inverse[component][axis] == NULL || !lay_factor(c, component, axis)) return false;
             if (axis == c->dimension - 1 && !lay_upper(c, component)) return false;
+            const int slot = c->slot[axis];
+            h->factors.half[slot] = h->inverse[component][axis]->half;
+            if (slot == DEPTH) h->factors.depth[component] = h->factor[component][axis];
+            for (size_t class = 0; slot != DEPTH && class < c->classes; class ++)
+                h->factors.side[class][component][slot] = h->factor[component][axis];
         }
     return true;
 }
@@ -326,6 +333,7 @@ void hform_free(struct consistent *c)
     array_free(h->load);
     for (int face = 0; face < BOX_FACES; face++)
         sparse_free(&h->pulled[face]);
+    array_free(h->factors.side);
     array_free(h->face[0]);
     array_free(h->face[1]);
     array_free(h->work);
@@ -358,22 +366,6 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
 }
 
-/* field := H (x) H (x) H field. */
-static void multiply_by_mass(const struct consistent *c, double *field)
-{
-    for (int component = 0; component < c->dimension; component++)
-        for (int axis = 0; axis < c->dimension; axis++) {
-            const double *factor = c->hform->factor[component][axis];
-            const size_t half = c->hform->inverse[component][axis]->half;
-            const struct line_set set = line_set(c, c->slot[axis]);
-            for (size_t l = 0; l < set.lines; l += set.lanes) {
-                double *first = field + (size_t)component * c->volume + line_start(&set, l);
-                band_forward(factor, set.length, half, first, set.stride, set.lanes);
-                band_backward(factor, set.length, half, first, set.stride, set.lanes);
-            }
-        }
-}
-
 static bool all_zero(size_t n, const double *x)
 {
     for (size_t i = 0; i < n; i++)
@@ -389,21 +381,23 @@ static double product(size_t n, const double *x, const double *y)
     return sum;
 }
 
-/* v.Mv / 2 with M = rho H (x) H (x) H, and u.Ku / 2 = -u.M(-M^-1 K u) / 2. */
+/* v.Mv / 2 with M = rho H (x) H (x) H, and u.Ku / 2 = -u.M(-M^-1 K u) / 2; mass_solve() with the factors of N
+ * gives H (x) H (x) H over the density. */
 void hform_energy(struct consistent *c, const double *y, struct energy *energy)
 {
     const size_t n = c->model.unknowns;
     const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    const double scale = density * density;
     double *work = c->hform->work;
     *energy = (struct energy){0};
     if (!all_zero(n, y + n)) {
         memcpy(work, y + n, n * sizeof *work);
-        multiply_by_mass(c, work);
-        energy->kinetic = density * product(n, work, y + n) / 2;
+        mass_solve(c, &c->hform->factors, work);
+        energy->kinetic = scale * product(n, work, y + n) / 2;
     }
     if (!all_zero(n, y)) {
         hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
-        multiply_by_mass(c, work);
-        energy->strain = -density * product(n, work, y) / 2;
+        mass_solve(c, &c->hform->factors, work);
+        energy->strain = -scale * product(n, work, y) / 2;
     }
 }

@@ -19,8 +19,9 @@ struct edge {
 struct hform {
     struct band *inverse[3][3]; /* N of [component][axis], 0 where held */
     bool owns_inverse[3][3];
-    double *factor[3][3]; /* Cholesky factors of N (1 where held), for energies */
-    double *upper[3];     /* layers: factor of the depth axis's N, turned round; by component */
+    double *factor[3][3];        /* Cholesky factors of N (1 where held), for energies; [component][axis] */
+    struct mass_factors factors; /* the same for mass_solve() */
+    double *upper[3];            /* layers: factor of the depth axis's N, turned round; by component */
     size_t upper_half;
     double *column[3][3][2]; /* [component][axis][end]: N e */
     size_t reach[3];         /* by axis: entries of a column that are not 0 */
