@@ -297,7 +297,7 @@ static void fill_model(struct tl_model *tl)
     model->self_adjoint = true;
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
     model->bytes = sizeof *tl + rows_bytes(&tl->gradient, n, d) + rows_bytes(&tl->transposed, tl->sites, d) +
-                   rows_bytes(&tl->pair, n, 1) + rows_bytes(&tl->viscous, n, 1) +
+                   rows_bytes(&tl->pair, n, 1) + rows_bytes(&tl->viscous, n, 2) +
                    neighbours_bytes(&tl->near) +
                    tl->sites * (3 + (viscous ? 3 : 2) * d + d * d) * sizeof(double) +
                    n * (9 + d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +

@@ -65,7 +65,7 @@ struct tl_model {
     struct tl_rows transposed;        /* rows of sites over points: G_ji */
     struct tl_rows returned;          /* rows of points over ghosts (numbered from 0), no weights */
     struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
-    struct tl_rows viscous;           /* rows of points over sites, weight = m_i m_j |W'|, width 1 */
+    struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
     double *row_sum;                  /* [dimension * points] sum over j of G_ij */
     double *mass;                     /* [points] */
     double *damper;                   /* [dimension * points] or NULL */

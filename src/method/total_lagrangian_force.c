@@ -370,7 +370,6 @@ void tl_viscosity(struct tl_model *tl)
 {
     const size_t n = tl->cloud->points;
     const size_t d = (size_t)tl->cloud->dimension;
-    const double h = tl_radius(tl) / tl->options.kernel->support;
 #pragma omp parallel for schedule(static) if (n > TL_SERIAL)
     for (size_t i = 0; i < n; i++) {
         const double speed = tl->material[i]->p_speed;
@@ -386,11 +385,12 @@ void tl_viscosity(struct tl_model *tl)
                 approach += r[a] * (tl->site_v[d * i + a] - tl->site_v[d * j + a]);
             }
             if (approach >= 0) continue;
+            const double h = tl->viscous.weight[2 * k + 1];
             const double phi = h * approach / (square + 0.01 * h * h);
             const double pressure =
                 (-tl->options.viscosity_alpha * speed + tl->options.viscosity_beta * phi) * phi /
                 tl->material[i]->density;
-            const double push = tl->viscous.weight[k] * pressure / sqrt(square);
+            const double push = tl->viscous.weight[2 * k] * pressure / sqrt(square);
             for (size_t a = 0; a < d; a++)
                 tl->force[d * i + a] += push * r[a];
         }

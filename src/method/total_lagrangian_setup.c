@@ -269,20 +269,22 @@ static selas_status viscosity_pairs(struct tl_model *tl, const struct neighbours
 {
     const size_t n = tl->cloud->points;
     const struct kernel *kernel = tl->options.kernel;
-    const double h = tl_radius(tl) / kernel->support;
+    const double per_spacing = tl_radius(tl) / (kernel->support * tl->cloud->spacing);
     tl->site_v = array_new((size_t)tl->cloud->dimension * tl->sites, sizeof(double));
-    if (tl->site_v == NULL || tl_rows_allocate(&tl->viscous, n, near->start[n], 1) != SELAS_OK)
+    if (tl->site_v == NULL || tl_rows_allocate(&tl->viscous, n, near->start[n], 2) != SELAS_OK)
         return fail(messages, SELAS_NO_MEMORY, "no memory for viscosity pairs");
     size_t entries = 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t k = near->start[i]; k < near->start[i + 1]; k++) {
             const size_t j = near->index[k];
             const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
+            const size_t source = j < n ? j : tl->ghost[j - n].source;
+            const double h = 0.5 * per_spacing * (tl_spacing_at(tl, i) + tl_spacing_at(tl, source));
             const double slope = -kernel_derivative(kernel, tl->cloud->dimension, r, h);
             if (j == i || !(slope > 0)) continue;
-            const size_t source = j < n ? j : tl->ghost[j - n].source;
             tl->viscous.index[entries] = (uint32_t)j;
-            tl->viscous.weight[entries++] = tl->mass[i] * tl->mass[source] * slope;
+            tl->viscous.weight[2 * entries] = tl->mass[i] * tl->mass[source] * slope;
+            tl->viscous.weight[2 * entries++ + 1] = h;
         }
         tl->viscous.start[i + 1] = entries;
     }
