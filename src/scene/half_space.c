@@ -126,7 +126,6 @@ static double fit(const struct builder *builder, const struct extents *extents, 
         double above = layers ? high + MARGIN * dx : fmax(0.5 * (reach + load.high + place.high), high + dx);
         double below = layers ? low - MARGIN * dx : fmin(0.5 * (load.low + place.low - reach), low - dx);
         if (c == down) {
-            below = 0.0;
             if (layers) above = fmax(fmax(above, LEAST_DEPTH * dx), deepest_layer(builder) + MARGIN * dx);
             box[c] = (struct span){0.0, ceil(above / dx - 1e-6) * dx};
         } else {
