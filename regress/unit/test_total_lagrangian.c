@@ -3,6 +3,7 @@
 #include "box_scene.h"
 #include "method/total_lagrangian.h"
 #include "points/lattice.h"
+#include "points/least_squares.h"
 
 #include <gsl/gsl_eigen.h>
 #include <stdlib.h>
@@ -113,6 +114,27 @@ static void probes_extrapolate(void **state)
     }
     array_free(y);
     model_free(&model);
+}
+
+/* Two rows of points that are not quite straight tell no curvature across them: no quadratic is fitted. */
+static void nearly_dependent_fits_are_refused(void **state)
+{
+    (void)state;
+    double offset[3 * 10] = {0};
+    double weight[10];
+    double value[10];
+    double work[FIT_TERMS * 10];
+    for (int k = 0; k < 10; k++) {
+        offset[3 * k] = k / 2 - 2;
+        offset[3 * k + 1] = (k % 2 + .5) * (1 + 1e-3 * offset[3 * k] * offset[3 * k]);
+        weight[k] = 1;
+    }
+    struct fit fit = {2, 2, 2, 10, offset, weight, work};
+    assert_false(fit_free(&fit, value, NULL));
+    fit.degree = 1;
+    assert_true(fit_free(&fit, value, NULL));
+    for (int k = 0; k < 10; k++)
+        assert_true(fabs(value[k]) < 1);
 }
 
 static double energy_at(struct model *model, const double *y)
@@ -429,6 +451,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patch_tests),
         cmocka_unit_test(probes_extrapolate),
+        cmocka_unit_test(nearly_dependent_fits_are_refused),
         cmocka_unit_test(forces_are_the_energys_derivative),
         cmocka_unit_test(spectrum_is_imaginary),
         cmocka_unit_test(turns_make_no_force),

@@ -90,6 +90,9 @@ selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
 double tl_spacing_at(const struct tl_model *tl, size_t i); /* of the points around point i */
 double tl_radius(const struct tl_model *tl);               /* of the weights, in length */
 double tl_search_radius(const struct tl_model *tl);        /* the largest a point's weights may take */
+/* Neighbours that a quadratic fit should have: those of a point inside a lattice; linear ones take what there
+ * is. */
+size_t tl_wanted(const struct tl_model *tl);
 /* total_lagrangian_loads.c */
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);

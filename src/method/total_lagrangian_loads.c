@@ -21,6 +21,7 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
     double kernel[TL_PROBE_ROOM];
     double work[FIT_TERMS * TL_PROBE_ROOM];
     const int d = tl->cloud->dimension;
+    const size_t wanted = tl_wanted(tl);
     const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);
     const size_t nearest = neighbours_nearest(&tl->near, body_position);
     const double spacing = nearest < tl->cloud->points ? tl_spacing_at(tl, nearest) : tl->cloud->spacing;
@@ -40,7 +41,8 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
             index[(*count)++] = tl->found[k];
         }
         const struct fit fit = {d, tl->options.degree, radius, *count, offset, kernel, work};
-        if (fit_free(&fit, weight, gradient)) return SELAS_OK;
+        const bool enough = *count >= wanted || radius * 1.05 > tl->near.radius;
+        if (enough && fit_free(&fit, weight, gradient)) return SELAS_OK;
         radius *= 1.05;
     }
     return fail(messages, SELAS_BAD_SCENE, "no points near (%g, %g, %g) to take a value from",

@@ -124,6 +124,12 @@ static size_t lattice_neighbours(int dimension, double reach)
     return count - 1;
 }
 
+size_t tl_wanted(const struct tl_model *tl)
+{
+    if (tl->options.degree == 1) return 0;
+    return lattice_neighbours(tl->cloud->dimension, tl_radius(tl) / tl->cloud->spacing);
+}
+
 /* Gradient weights of point i into work->gradient; returns how many sites they take, 0 if no radius will do.
  * Quadratic gradients at faces and corners grow their radius until they have as many neighbours as inside: a
  * one-sided fit over few points has large weights, which would limit the time step. */
@@ -131,7 +137,7 @@ static size_t fit_point(const struct tl_model *tl, const struct neighbours *near
 {
     const double reach = tl_radius(tl) / tl->cloud->spacing;
     const bool quadratic = tl->options.degree == 2;
-    const size_t wanted = quadratic ? lattice_neighbours(tl->cloud->dimension, reach) : 0;
+    const size_t wanted = tl_wanted(tl);
     double radius = reach * tl_spacing_at(tl, i);
     size_t count = 0;
     bool done = false;
