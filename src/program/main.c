@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-const char *argp_program_version = "selas " SELAS_VERSION;
+SELAS_API const char *argp_program_version = "selas " SELAS_VERSION; /* glibc looks for it: must be visible */
 
 static const char usage[] = "DECK [GROUP%NAME=VALUE ...]\n"
                             "check DECK [GROUP%NAME=VALUE ...]\n"
@@ -21,16 +21,17 @@ static const char usage[] = "DECK [GROUP%NAME=VALUE ...]\n"
 static const char documentation[] =
     "Computes elastic waves in solids on points instead of a mesh.\n"
     "\n"
-    "  selas DECK          runs the deck and leaves histories, fields, report and plots in\n"
-    "                      output/DECKNAME/ (or &output directory)\n"
-    "  selas check DECK    prints the plan (points, memory, time step, resolution), runs nothing\n"
-    "  selas exact DECK    writes just the exact histories that &reference asks for\n"
-    "  selas diff A B      compares two histories or the receivers of two run folders\n"
+    "  selas DECK        runs the deck; histories, fields, report and plots go\n"
+    "                    to output/DECKNAME/ (or &output directory)\n"
+    "  selas check DECK  prints the plan: points, memory, time step, resolution\n"
+    "  selas exact DECK  writes just the exact histories (&reference)\n"
+    "  selas diff A B    compares two histories or two run folders\n"
     "\v"
     "Overrides change any name of the deck: body%spacing=0.25, load(2)%amplitude=3,\n"
     "method%variant=paper. The deck is explained in doc/deck.md.\n"
     "\n"
-    "Exit status: 0 done; 1 the run failed (an unstable run says where and when); 2 bad deck or usage.\n"
+    "Exit status: 0 done; 1 the run failed or A and B differ (an unstable run says\n"
+    "where and when); 2 bad deck or usage.\n"
     "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.";
 
 struct arguments {

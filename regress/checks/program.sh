@@ -1,0 +1,34 @@
+#!/bin/sh
+# The program's own words: help, version, usage errors and their exit status; nothing on standard output when quiet.
+build=${1:-build}
+selas=$build/selas
+ok() { # ok TITLE COMMAND...: the command succeeds
+    title=$1
+    shift
+    if "$@" >/dev/null 2>&1; then echo "ok - $title"; else echo "not ok - $title"; fi
+}
+status() { # status WANTED TITLE COMMAND...
+    wanted=$1
+    title=$2
+    shift 2
+    "$@" >/dev/null 2>&1
+    got=$?
+    if [ $got -eq "$wanted" ]; then echo "ok - $title"; else echo "not ok - $title: exit status $got, wanted $wanted"; fi
+}
+status 0 "--help" "$selas" --help
+status 0 "--version" "$selas" --version
+ok "the version is the header's" sh -c "'$selas' --version | grep -q \"\$(sed -n 's/.*SELAS_VERSION \"\\(.*\\)\"/\\1/p' src/selas.h)\""
+ok "no line of the help is longer than 80" sh -c "! '$selas' --help | grep -q '.\{81\}'"
+for word in check exact diff GROUP%NAME=VALUE 'Exit status' OMP_NUM_THREADS; do
+    ok "the help tells of $word" sh -c "'$selas' --help | grep -q '$word'"
+done
+status 2 "no deck" "$selas"
+status 2 "check without a deck" "$selas" check
+status 2 "unknown option" "$selas" --fast input/halfspace.nml
+status 2 "a deck that is not there" "$selas" nothere.nml
+status 0 "check of each deck" sh -c "for deck in input/*.nml; do '$selas' check \$deck >/dev/null 2>&1 || exit 1; done"
+out=$build/test/program
+rm -rf "$out"
+ok "a quiet run prints nothing" sh -c "[ -z \"\$('$selas' -q input/halfspace.nml body%spacing=1 output%plots=F output%low_pass=0 output%directory='$out' 2>&1)\" ]"
+ok "and leaves its report" test -s "$out/report.txt"
+rm -rf "$out"
