@@ -26,7 +26,7 @@ INCLUDE  = $(PREFIX)/include
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace paper-figures test unit check-format check-tidy check-cppcheck install uninstall clean help
+.PHONY: all setup halfspace paper-figures consistent-tables test unit check-format check-tidy check-cppcheck install uninstall clean help
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -40,6 +40,9 @@ halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots i
 
 paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
 	@sh regress/paper-figures $(BUILD)
+
+consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/consistent-tables.md
+	@sh regress/consistent-tables $(BUILD)
 
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
