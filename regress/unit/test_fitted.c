@@ -64,7 +64,7 @@ static void named_sides_are_kept(void **unused)
 }
 
 #define BOX                                                                                                  \
-    "&scene dimension=3, end_time=6 /\n" ROCK "&body material='rock', low=0,0,0, high=8,6,4, spacing=.5 /\n"
+    "&scene dimension=3, end_time=6 /\n" ROCK "&body material='rock', low=0,0,0, high=8,6,5, spacing=.5 /\n"
 #define LOAD(words) "&load face='z-', history='triangle', duration=2, " words " /\n"
 
 static void mirror_planes(void **unused)
@@ -114,6 +114,11 @@ static void mirror_planes(void **unused)
              "shear_factor=.8 /\n",
          6},
         {BOX "&boundary face='z+', kind='velocity', direction=0,1,0, history='step' /\n", 1},
+        /* too thin for a part with mirrors: of degree 3 depth and width are */
+        {BOX "&method degree=3 /\n", 1},
+        /* a moment tensor on two planes, and off them */
+        {BOX "&load kind='moment-tensor', centre=4,3,2, moment=1,2,3,0,0,0, history='step' /\n", 3},
+        {BOX "&load kind='moment-tensor', centre=4,3,2, moment=0,0,0,1,0,0, history='step' /\n", 0},
         {BOX "&initial kind='uniform-velocity', velocity=1,0,0 /\n", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -129,7 +134,7 @@ static void odd_numbers_of_cells_have_no_mirror(void **unused)
 {
     (void)unused;
     struct from_deck d = right_scene("&scene dimension=3, end_time=6 /\n" ROCK
-                                     "&body material='rock', low=0,0,0, high=7,8,9, spacing=1 /\n");
+                                     "&body material='rock', low=0,0,0, high=11,12,13, spacing=1 /\n");
     assert_int_equal(scene_mirror_axes(d.scene), 2);
     from_deck_free(&d);
 }
@@ -140,15 +145,32 @@ static void turned_bodies(void **unused)
     (void)unused;
     struct from_deck d =
         right_scene("&scene dimension=3, end_time=6 /\n" ROCK
-                    "&body material='rock', low=0,0,0, high=8,6,4, spacing=.5, rotation=0,0,30 /\n" LOAD(
+                    "&body material='rock', low=0,0,0, high=8,6,5, spacing=.5, rotation=0,0,30 /\n" LOAD(
                         "shape='square', centre=4,3,0, size=1,1, direction=0,0,1"));
     assert_int_equal(scene_mirror_axes(d.scene), 3);
     from_deck_free(&d);
     d = right_scene("&scene dimension=3, end_time=6 /\n" ROCK
-                    "&body material='rock', low=0,0,0, high=8,6,4, spacing=.5, rotation=0,0,30 /\n" LOAD(
+                    "&body material='rock', low=0,0,0, high=8,6,5, spacing=.5, rotation=0,0,30 /\n" LOAD(
                         "shape='square', centre=4,3,0, size=1,1, direction=1,0,0"));
     assert_int_equal(scene_mirror_axes(d.scene), 0);
     from_deck_free(&d);
+    /* M is symmetric about the deck's planes, not about the body's: turned by 90 degrees it would be */
+    static const struct {
+        const char *rotation;
+        unsigned axes;
+    } turned[] = {{"rotation=0,0,90", 3}, {"rotation=0,0,30", 0}};
+    for (size_t i = 0; i < 2; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "&scene dimension=3, end_time=6 /\n" ROCK
+                 "&body material='rock', low=0,0,0, high=8,6,5, spacing=.5, %s /\n"
+                 "&load kind='moment-tensor', centre=4,3,2, moment=1,2,3,0,0,0, "
+                 "history='step' /\n",
+                 turned[i].rotation);
+        d = right_scene(text);
+        assert_int_equal(scene_mirror_axes(d.scene), turned[i].axes);
+        from_deck_free(&d);
+    }
 }
 
 int main(void)

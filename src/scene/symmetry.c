@@ -30,6 +30,20 @@ static bool same_vector(const double a[3], const double b[3], double scale)
     return same(a[0], b[0], scale) && same(a[1], b[1], scale) && same(a[2], b[2], scale);
 }
 
+/* xx yy zz xy yz zx in the body's frame: R^T M R. */
+static void moment_in_body_frame(const struct body *body, const double deck[6], double moment[6])
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
+            double sum = 0.0;
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3; l++)
+                    sum += body->frame[k][i] * deck[place[k][l]] * body->frame[l][j];
+            moment[place[i][j]] = sum;
+        }
+}
+
 /* A load with its geometry in the body's frame and its amplitude in its vectors. */
 static struct load in_body_frame(const struct body *body, const struct load *load)
 {
@@ -39,6 +53,7 @@ static struct load in_body_frame(const struct body *body, const struct load *loa
     body_direction_from_deck(body, load->velocity, result.velocity);
     for (int c = 0; c < 3; c++)
         result.direction[c] *= load->amplitude;
+    if (body->rotated) moment_in_body_frame(body, load->moment, result.moment);
     for (int c = 0; c < 6; c++)
         result.moment[c] *= load->amplitude;
     return result;
@@ -64,6 +79,14 @@ static struct load mirrored(const struct load *load, int axis, double middle)
     return image;
 }
 
+static double largest_moment(const struct load *load)
+{
+    double largest = 0.0;
+    for (int c = 0; c < 6; c++)
+        largest = fmax(largest, fabs(load->moment[c]));
+    return largest;
+}
+
 static bool same_load(const struct load *a, const struct load *b, double length)
 {
     if (a->kind != b->kind || a->shape != b->shape) return false;
@@ -73,7 +96,7 @@ static bool same_load(const struct load *a, const struct load *b, double length)
         return false;
     if (a->kind == LOAD_MOMENT_TENSOR)
         for (int c = 0; c < 6; c++)
-            if (!same(a->moment[c], b->moment[c], fabs(a->amplitude))) return false;
+            if (!same(a->moment[c], b->moment[c], largest_moment(a))) return false;
     if (a->kind != LOAD_MOMENT_TENSOR && !same_vector(a->direction, b->direction, fabs(a->amplitude)))
         return false;
     return same_vector(a->velocity, b->velocity,
@@ -123,10 +146,16 @@ static bool faces_are_symmetric(const struct scene *scene, int axis)
     return true;
 }
 
-static bool has_middle_points(const struct body *body, int axis)
+/* The part must have more than twice as many cells as the degree, or its splines cannot have a mirror plane.
+ */
+static bool has_middle_points(const struct scene *scene, int axis)
 {
+    const struct deck_group *method = scene->method.group;
+    const bool given = method != NULL && deck_values(method, "degree") > 0;
+    const double degree = given ? (double)deck_integer(method, "degree", 0) : 2.0;
+    const struct body *body = &scene->body;
     const double cells = (body->high[axis] - body->low[axis]) / body->spacing;
-    return cells >= 4.0 && same(cells, 2.0 * round(0.5 * cells), 1e4);
+    return cells > 4.0 * degree + 0.5 && same(cells, 2.0 * round(0.5 * cells), 1e4);
 }
 
 unsigned scene_mirror_axes(const struct scene *scene)
@@ -136,10 +165,10 @@ unsigned scene_mirror_axes(const struct scene *scene)
     if (scene->initial.kind != INITIAL_REST || body->jitter != 0.0) return 0;
     unsigned axes = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
-        if (axis == 2 && body->layers > 0) continue;
+        if (axis == scene->dimension - 1 && body->layers > 0) continue; /* ground varies over depth */
         const double middle = 0.5 * (body->low[axis] + body->high[axis]);
         const double length = body->high[axis] - body->low[axis];
-        if (has_middle_points(body, axis) && faces_are_symmetric(scene, axis) &&
+        if (has_middle_points(scene, axis) && faces_are_symmetric(scene, axis) &&
             loads_are_symmetric(scene, axis, middle, length))
             axes |= 1u << axis;
     }
