@@ -143,7 +143,8 @@ static double *inner_knots_mapped(const struct spline_choice *choice, size_t cel
     return inner;
 }
 
-/* All knots: copies of the end (open) or reflections (mirror) around the inner ones. */
+/* All knots: copies of the end (open) or reflections (mirror; of the far end's too in a thin body) around the
+ * inner ones. */
 static bool lay_knots(struct spline *s, const double *inner, size_t inner_count, const double domain[2])
 {
     const size_t p = (size_t)s->degree, total = inner_count + 2 * (p + 1);
@@ -156,8 +157,10 @@ static bool lay_knots(struct spline *s, const double *inner, size_t inner_count,
     for (size_t i = 0; i <= p; i++) { /* i-th knot outwards from either end */
         double low = domain[0], high = domain[1];
         const size_t reflected = between ? i + 1 : i; /* so many knots inside are needed */
-        if (s->mirror[0] && reflected > 0) low = 2 * domain[0] - inner[reflected - 1];
-        if (s->mirror[1] && reflected > 0) high = 2 * domain[1] - inner[inner_count - reflected];
+        if (s->mirror[0] && reflected > 0)
+            low = 2 * domain[0] - (reflected <= inner_count ? inner[reflected - 1] : domain[1]);
+        if (s->mirror[1] && reflected > 0)
+            high = 2 * domain[1] - (reflected <= inner_count ? inner[inner_count - reflected] : domain[0]);
         s->knot[p - i] = low;
         s->knot[p + 1 + inner_count + i] = high;
     }
@@ -295,14 +298,15 @@ struct spline *spline_new(const struct spline_choice *choice, struct messages *m
     s->high = choice->high;
     s->mirror[0] = choice->mirror[0];
     s->mirror[1] = choice->mirror[1];
-    const bool mirrored = choice->mirror[0] || choice->mirror[1];
     const struct spline_choice whole = {.low = choice->low, .high = choice->high, .spacing = choice->spacing};
     s->cells = breakpoints(choice->mapped ? &whole : choice, NULL, NULL) - 1;
-    const size_t least = mirrored || choice->mapped ? 2 * (size_t)choice->degree + 1 : 1;
+    const bool both = choice->mirror[0] && choice->mirror[1], one = choice->mirror[0] || choice->mirror[1];
+    const size_t p = (size_t)choice->degree; /* half of a mapped body may be thinner than a whole one */
+    const size_t least = both || (choice->mapped && !one) ? 2 * p + 1 : choice->mapped ? p + 1 : 1;
     if (s->cells < least) {
         fail(messages, SELAS_BAD_SCENE,
-             "degree %d with %s ends needs at least %zu spacings along each axis, there are %zu",
-             choice->degree, choice->mapped ? "mapped" : "mirrored", least, s->cells);
+             "degree %d with %s needs at least %zu spacings along each axis, there are %zu", choice->degree,
+             choice->mapped ? "mapped ends" : "symmetry on both sides", least, s->cells);
         spline_free(s);
         return NULL;
     }

@@ -219,9 +219,11 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
         const double cells = round((choice.high - choice.low) / choice.spacing);
         c->slot[axis] = slots[c->dimension - 1][axis];
         if (c->slot[axis] == DEPTH) choice.interfaces = interfaces(body, axis, interface);
-        for (int end = 0; end < 2; end++) /* in a body too thin for mirrors the normal component is held */
-            choice.mirror[end] = c->model.scene->boundary[2 * axis + end].kind == BOUNDARY_SYMMETRY &&
-                                 cells > 2 * c->options.degree;
+        const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
+        for (int end = 0; end < 2; end++)
+            choice.mirror[end] = boundary[end].kind == BOUNDARY_SYMMETRY;
+        if (choice.mirror[0] && choice.mirror[1] && cells <= 2 * c->options.degree)
+            choice.mirror[0] = choice.mirror[1] = false; /* too thin: the normal component is held instead */
         c->spline[axis] = spline_new(&choice, messages);
         if (c->spline[axis] == NULL)
             status = SELAS_BAD_SCENE;
