@@ -5,6 +5,7 @@
  *
  * Here: the model's making, its acceleration and energies. */
 #include "method/hform.h"
+#include "method/moving_load.h"
 
 #include "base/memory.h"
 
@@ -73,6 +74,7 @@ static void residual_plane(const struct consistent *c, const struct drive *drive
     if (v != NULL && c->model.damped) dampers_subtract(c, thread, k, v, out);
     for (int component = 0; component < c->dimension; component++) {
         add_forces(c, drive, c->load, c->inertia, component, k, out[component]);
+        moving_loads_add(c, drive, component, k, out[component]);
         consistent_clear_held(c, component, k, out[component]);
     }
 }
@@ -102,6 +104,7 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
                        const double *v, double *a)
 {
     struct consistent *c = consistent_of(model);
+    moving_loads_place(c, drive->time, c->hform != NULL);
     if (c->hform != NULL)
         hform_accelerate(c, drive, half_step, u, v, a);
     else
@@ -134,6 +137,10 @@ static void power(struct model *model, const struct drive *drive, const double *
     for (size_t l = 0; drive->load != NULL && l < model->scene->loads; l++)
         if (drive->load[l] != 0)
             *load += drive->load[l] * model->scene->load[l].amplitude * sparse_dot(c, &c->load[l], v);
+    if (c->moving_loads > 0) {
+        moving_loads_place(c, drive->time, false);
+        *load += moving_loads_power(c, drive, v);
+    }
     *absorbed = c->hform != NULL ? hform_damper_power(c, v) : dampers_power(c, v);
 }
 

@@ -65,7 +65,9 @@ struct consistent {
     size_t classes;              /* kinds of planes by material; 1 without layers */
     size_t *plane_class, *class_plane; /* [n[2]]; [classes]: the first plane of a class */
     struct band *side[BOX_FACES][3];   /* layers: matrix over depth of a damped face across x or y */
-    struct sparse *load;               /* [scene->loads] */
+    struct sparse *load;               /* [scene->loads]; 0 for those that move */
+    size_t moving_loads;
+    struct moving_load *moving_load;                      /* moving_load.c */
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
     struct mass_factors factors[FACTOR_SETS];
     struct band *scratch[3]; /* [axis]: matrix to be factorised */
@@ -117,6 +119,10 @@ void mass_solve(struct consistent *c, const struct mass_factors *factors, double
 /* consistent_forces.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
 void forces_free(struct consistent *c);
+/* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
+ */
+void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
+                           double *line);
 bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
 void sparse_free(struct sparse *sparse);
 /* Adds loads and the pull of moving faces, as vectors given, in plane k. */

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "method/disc.h"
+#include "method/moving_load.h"
 
 #include <math.h>
 #include <string.h>
@@ -118,8 +119,8 @@ static void add_product(const struct consistent *c, const struct workspace *w, i
 
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
  */
-static void point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
-                       double *line)
+void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
+                           double *line)
 {
     const struct spline *spline = c->spline[axis];
     const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
@@ -145,14 +146,14 @@ static bool traction(struct consistent *c, const struct load *load, const double
             const bool odd = axis == component;
             double *line = w->line[axis];
             if (axis == normal) {
-                point_line(c, axis, odd, false, false, load->face % 2 == 0 ? spline->low : spline->high,
-                           line);
+                consistent_point_line(c, axis, odd, false, false,
+                                      load->face % 2 == 0 ? spline->low : spline->high, line);
                 continue;
             }
             const double half = load->size[load->shape == LOAD_DISC ? 0 : count] / 2;
             along[count++] = axis;
             if (load->shape == LOAD_POINT)
-                point_line(c, axis, odd, false, true, centre[axis], line);
+                consistent_point_line(c, axis, odd, false, true, centre[axis], line);
             else if (load->shape == LOAD_FACE)
                 spline_moments(spline, odd, spline->low, spline->high, line);
             else
@@ -185,7 +186,7 @@ static void body_force(struct consistent *c, const struct load *load, const doub
         for (int axis = 0; axis < c->dimension; axis++) {
             const struct spline *spline = c->spline[axis];
             if (load->shape == LOAD_POINT)
-                point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
+                consistent_point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
             else
                 spline_moments(spline, axis == component, spline->low, spline->high, w->line[axis]);
         }
@@ -207,7 +208,7 @@ static void moment_tensor(struct consistent *c, const struct load *load, const d
                 for (int l = 0; l < 3; l++)
                     moment += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
             for (int axis = 0; axis < c->dimension; axis++)
-                point_line(c, axis, axis == i, axis == j, true, centre[axis], w->line[axis]);
+                consistent_point_line(c, axis, axis == i, axis == j, true, centre[axis], w->line[axis]);
             if (moment != 0) add_product(c, w, i, moment);
         }
 }
@@ -223,12 +224,13 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
         body_from_deck(body, load->centre, centre);
         body_direction_from_deck(body, load->direction, direction);
     }
-    if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
-        return fail(messages, SELAS_UNSUPPORTED, "moving loads are not offered by the consistent method");
     memset(w->field, 0, (size_t)c->dimension * c->volume * sizeof *w->field);
     if (load->kind == LOAD_TRACTION && face_axis(load->face) >= c->dimension)
         return fail(messages, SELAS_BAD_SCENE, "a load acts on face %s, which this body has not",
                     face_name(load->face));
+    if (load_moves(load)) /* moving_load.c; nothing here */
+        return sparse_from(c, w->field, sparse) ? SELAS_OK
+                                                : fail(messages, SELAS_NO_MEMORY, "no memory for a load");
     bool good = true;
     if (load->kind == LOAD_TRACTION)
         good = traction(c, load, centre, direction, w);
@@ -299,6 +301,7 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++)
         status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+    if (status == SELAS_OK) status = moving_loads_create(c, messages);
     for (int face = 0; status == SELAS_OK && face < 2 * c->dimension; face++)
         if (c->moving[face] && !motion_create(c, face, &w))
             status = fail(messages, SELAS_NO_MEMORY, "no memory for a moving face");
@@ -311,6 +314,7 @@ void forces_free(struct consistent *c)
     for (size_t k = 0; c->load != NULL && k < c->model.scene->loads; k++)
         sparse_free(&c->load[k]);
     array_free(c->load);
+    moving_loads_free(c);
     for (int face = 0; face < BOX_FACES; face++) {
         sparse_free(&c->pattern[face]);
         sparse_free(&c->inertia[face]);

@@ -5,6 +5,7 @@
  * edges, A = N S,  C1 = N (G - mu / (lambda + mu) E),  C2 = N (G - lambda / (lambda + mu) E),  E = G + G^T.
  */
 #include "method/hform.h"
+#include "method/moving_load.h"
 
 #include "base/memory.h"
 
@@ -353,6 +354,7 @@ static void acceleration_plane(const struct consistent *c, const struct drive *d
     hform_edges(c, k, u, out);
     for (int component = 0; component < c->dimension; component++) {
         add_forces(c, drive, h->load, h->pulled, component, k, out[component]);
+        moving_loads_add(c, drive, component, k, out[component]);
         consistent_clear_held(c, component, k, out[component]);
     }
 }

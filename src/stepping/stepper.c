@@ -152,13 +152,23 @@ static selas_status warp_drives(struct stepper *stepper, struct messages *messag
     return SELAS_OK;
 }
 
-/* The transform is exact for linear models at rest at t = 0 that prescribed histories drive; it is
- * leapfrog's. */
+static bool loads_move(const struct scene *scene)
+{
+    for (size_t k = 0; k < scene->loads; k++) {
+        const double *velocity = scene->load[k].velocity;
+        if (velocity[0] != 0.0 || velocity[1] != 0.0 || velocity[2] != 0.0) return true;
+    }
+    return false;
+}
+
+/* The transform is exact for linear models at rest at t = 0 that prescribed histories at fixed places drive;
+ * it is leapfrog's. */
 static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
     return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->class->linearise == NULL &&
-           model->class->after_step == NULL && model->scene->initial.kind == INITIAL_REST;
+           model->class->after_step == NULL && model->scene->initial.kind == INITIAL_REST &&
+           !loads_move(model->scene);
 }
 
 static selas_status choose_unwarp(struct stepper *stepper, struct messages *messages)
@@ -168,8 +178,8 @@ static selas_status choose_unwarp(struct stepper *stepper, struct messages *mess
     if (choice->unwarp_given && choice->unwarp && !possible)
         return fail(
             messages, SELAS_BAD_SCENE,
-            "stepping%%unwarp needs scheme 'leapfrog', a linear symmetric method without filter and a body "
-            "at rest at t = 0");
+            "stepping%%unwarp needs scheme 'leapfrog', a linear symmetric method without filter, a body "
+            "at rest at t = 0 and loads that do not move");
     stepper->unwarp = choice->unwarp_given ? choice->unwarp : possible;
     return SELAS_OK;
 }
@@ -186,6 +196,10 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     if (stepper->scheme->needs_acceleration && class->accelerate == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
                     stepper->scheme->name, class->method, class->variant);
+    if (stepper->scheme->order == 4 && stepper->scheme->needs_acceleration && loads_move(scene))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "scheme '%s' knows how loads vary in time, not how they move; take scheme 'leapfrog'",
+                    name);
     selas_status status = choose_step(stepper, messages);
     if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
     if (status != SELAS_OK) return status;
