@@ -204,7 +204,7 @@ static const struct word output_words[] = {
 };
 
 static const struct word reference_words[] = {
-    {"kind", WORD_CHOICE, 1, NULL, "lamb|bar|beam|hole|plane-wave|file", true, "exact solution"},
+    {"kind", WORD_CHOICE, 1, NULL, "lamb|stokes|bar|beam|hole|plane-wave|file", true, "exact solution"},
     {"file", WORD_FILE, 1, NULL, NULL, false, "history to compare with"},
 };
 
