@@ -26,7 +26,7 @@ INCLUDE  = $(PREFIX)/include
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace paper-figures consistent-tables test unit check-format check-tidy check-cppcheck install uninstall clean help
+.PHONY: all setup halfspace paper-figures consistent-tables tables test unit check-format check-tidy check-cppcheck install uninstall clean help
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -69,6 +69,11 @@ $(BUILD)/test/%: regress/unit/%.c $(BUILD)/libselas.a
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) -Iregress/unit -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS) -lcmocka
+
+tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/tables.md (some 20 minutes; installs calculix-ccx)
+	@sh regress/setup tables
+	@$(MAKE) --no-print-directory all
+	@regress/tables $(BUILD)
 
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
