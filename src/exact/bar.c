@@ -85,8 +85,12 @@ static double motion(const struct boundary *boundary, double t, int derivative)
 static double wave(const struct bar *bar, enum face face, double t, int derivative)
 {
     const struct scene *scene = bar->exact.scene;
+    const double passage = bar->length / bar->speed;
+    const long passages = t < 0 ? 0 : 1 + (long)floor(t / passage);
+    const double first = t;
     double sum = 0, sign = 1;
-    for (; t >= 0; t -= bar->length / bar->speed) {
+    for (long k = 0; k < passages; k++) {
+        t = first - (double)k * passage;
         const struct boundary *boundary = &scene->boundary[face];
         const enum boundary_kind kind = boundary->kind;
         const double pushed = traction(scene, face, t, derivative) / bar->impedance;

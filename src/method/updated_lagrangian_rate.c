@@ -238,7 +238,7 @@ static inline void stress_rate(const struct updated *updated, const int dimensio
     for (int a = 0; a < dimension; a++)
         for (int b = a; b < dimension; b++) {
             double sum = mu * (g[a][b] + g[b][a]) + (a == b ? lambda * trace : 0);
-            if (updated->options.jaumann && dimension > 1)
+            if (updated->options.jaumann)
                 for (int c = 0; c < dimension; c++) {
                     const double ac = (g[a][c] - g[c][a]) / 2, cb = (g[c][b] - g[b][c]) / 2;
                     sum += ac * stress[updated_component[dimension][c][b]] -
