@@ -136,6 +136,63 @@ static inline void find_roots(double a, struct pair w, double size, double z, do
     }
 }
 
+/* One node at the surface (z = 0, so that D = 0) under vertical loads: values[0] vertical, values[1]
+ * horizontal. `large`: k^2 > 2 |w|. Without branches, so that loops over it run in vectors. */
+static inline void surface_node(double a, struct pair w, double k, bool large, struct pair values[2])
+{
+    const double k2 = k * k;
+    const struct pair one = {1, 0}, kk = {k2, 0};
+    const struct pair p = root(plus(kk, scaled(a, w))), q = root(plus(kk, w)), pq = times(p, q);
+    const struct pair kap = plus(scaled(2, kk), w);
+    const struct pair square = times(kap, kap), product = scaled(4 * k2, pq);
+    struct pair inverse, c;
+    if (large) {
+        struct pair sum = plus(w, (struct pair){8 * k2, 0});
+        sum = plus(times(sum, w), (struct pair){(24 - 16 * a) * k2 * k2, 0});
+        sum = plus(times(sum, w), (struct pair){16 * (1 - a) * k2 * k2 * k2, 0});
+        inverse = over(plus(square, product), sum);
+        c = plus(one, scaled(-2, over(plus(scaled(1 + a, kk), scaled(a, w)), plus(pq, kk))));
+    } else {
+        inverse = over(w, plus(square, scaled(-1, product)));
+        c = over(plus(kap, scaled(-2, pq)), w);
+    }
+    values[0] = times(p, inverse);
+    values[1] = times(scaled(-k, c), inverse);
+}
+
+static inline void surface_run(const struct half_space *half_space, struct pair w, size_t from, size_t until,
+                               const double *k, bool large, bool without_rayleigh,
+                               struct compliance *compliance)
+{
+    const double vertical = half_space->vertical_residue[0] + half_space->vertical_residue[1];
+    const double horizontal = half_space->horizontal_residue[0] + half_space->horizontal_residue[1];
+    for (size_t i = from; i < until; i++) {
+        struct pair values[2];
+        surface_node(half_space->ratio, w, k[i], large, values);
+        if (without_rayleigh) {
+            const struct pair pole =
+                over((struct pair){k[i], 0}, plus(w, (struct pair){half_space->rayleigh * k[i] * k[i], 0}));
+            values[0] = plus(values[0], scaled(-vertical, pole));
+            values[1] = plus(values[1], scaled(-horizontal, pole));
+        }
+        compliance->vertical[0][i] = values[0].re;
+        compliance->vertical[1][i] = values[0].im;
+        compliance->horizontal[0][i] = values[1].re;
+        compliance->horizontal[1][i] = values[1].im;
+    }
+}
+
+/* Wavenumbers ascend: first those with k^2 <= 2 |w|, then the others. */
+static void surface_compliance(const struct half_space *half_space, struct pair w, double size, size_t count,
+                               const double *k, bool without_rayleigh, struct compliance *compliance)
+{
+    size_t small = 0;
+    while (small < count && k[small] * k[small] <= 2 * size)
+        small++;
+    surface_run(half_space, w, 0, small, k, false, without_rayleigh, compliance);
+    surface_run(half_space, w, small, count, k, true, without_rayleigh, compliance);
+}
+
 void half_space_compliance(const struct half_space *half_space, double complex s, double z, size_t count,
                            const double *k, bool horizontal_loads, bool without_rayleigh,
                            struct compliance *compliance)
@@ -144,6 +201,10 @@ void half_space_compliance(const struct half_space *half_space, double complex s
     const struct pair slowness = {creal(s) / half_space->s_speed, cimag(s) / half_space->s_speed};
     const struct pair w = times(slowness, slowness);
     const double size = sqrt(w.re * w.re + w.im * w.im);
+    if (z == 0 && !horizontal_loads) {
+        surface_compliance(half_space, w, size, count, k, without_rayleigh, compliance);
+        return;
+    }
     for (size_t i = 0; i < count; i++) {
         struct roots r;
         find_roots(a, w, size, z, k[i], &r);

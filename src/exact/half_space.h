@@ -40,8 +40,8 @@ struct compliance {
     double shear[2][BLOCK];      /* u_t / T_t */
 };
 
-/* At depth z >= 0 for wavenumbers k > 0, Re s > 0, Im s >= 0; the last three only if horizontal loads are
- * wanted. With `without_rayleigh` the pole is subtracted from all of them but shear. */
+/* At depth z >= 0 for ascending wavenumbers k > 0, Re s > 0, Im s >= 0; the last three only if horizontal
+ * loads are wanted. With `without_rayleigh` the pole is subtracted from all of them but shear. */
 void half_space_compliance(const struct half_space *half_space, double complex s, double z, size_t count,
                            const double *k, bool horizontal_loads, bool without_rayleigh,
                            struct compliance *compliance);

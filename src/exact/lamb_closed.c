@@ -21,37 +21,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-selas_status lamb_closed_set(struct lamb_closed *closed, double density, double lambda, double mu,
-                             struct messages *messages)
-{
-    *closed = (struct lamb_closed){.mu = mu, .s_speed = sqrt(mu / density), .ratio = mu / (lambda + 2 * mu)};
-    const double a = closed->ratio, lead = 16 * (1 - a);
-    gsl_complex roots[3];
-    if (gsl_poly_complex_solve_cubic(-8 * (3 - 2 * a) / lead, 8 / lead, -1 / lead, &roots[0], &roots[1],
-                                     &roots[2]) != 3)
-        return fail(messages, SELAS_NOT_CONVERGED, "the Rayleigh cubic has no three roots");
-    for (int j = 0; j < 3; j++) {
-        double complex y = GSL_REAL(roots[j]) + I * GSL_IMAG(roots[j]);
-        double complex slope = 0;
-        for (int i = 0; i < 4; i++) { /* polish by Newton, then P'(y) */
-            slope = -((3 * lead * y - 16 * (3 - 2 * a)) * y + 8);
-            const double complex value = -(((lead * y - 8 * (3 - 2 * a)) * y + 8) * y - 1);
-            if (i < 3) y -= value / slope;
-        }
-        closed->root[j] = y;
-        closed->p[j] = (1 - 2 * y) * (1 - 2 * y) / slope;
-        closed->s[j] = 4 * y * (y - a) / slope;
-        if (creal(y) > 1 && fabs(cimag(y)) < 1e-12) closed->rayleigh = j;
-    }
-    /* C_R = -2 g N / R'(g), R = (1-2q^2)^2 - 4 q^2 sqrt((q^2-a)(q^2-1)), N = 1 - 2 g^2 + 2
-     * sqrt((g^2-a)(g^2-1)) */
-    const double y = creal(closed->root[closed->rayleigh]), g = sqrt(y);
-    const double product = sqrt((y - a) * (y - 1));
-    const double slope = -8 * g * (1 - 2 * y) - 8 * g * product - 4 * g * y * (2 * y - a - 1) / product;
-    closed->horizontal = -2 * g * (1 - 2 * y + 2 * product) / slope;
-    return SELAS_OK;
-}
-
 /* Integral of 1 - Q_j(c) over r from 0 to rho, Eq 4. */
 static double complex without_wave(const struct lamb_closed *closed, int j, double c, double rho)
 {
@@ -134,7 +103,7 @@ static double over_branch(const struct lamb_closed *closed, double from, double 
     return sum;
 }
 
-static double horizontal_area(const struct lamb_closed *closed, double rho)
+static double direct_horizontal_area(const struct lamb_closed *closed, double rho)
 {
     const double g = sqrt(creal(closed->root[closed->rayleigh]));
     const double kink = branch_angle(closed, 1 / rho);
@@ -143,6 +112,93 @@ static double horizontal_area(const struct lamb_closed *closed, double rho)
     sum -= 2 / M_PI * over_branch(closed, 0, kink, rho);
     if (kink < M_PI) sum -= 2 / M_PI * over_branch(closed, kink, M_PI, rho);
     return sum;
+}
+
+/* Ends of the intervals of rho on which W (Eq 6) is smooth; it is constant from the last one on. */
+static void area_intervals(const struct lamb_closed *closed, double end[LAMB_CLOSED_INTERVALS + 1])
+{
+    end[0] = 0;
+    end[1] = 1 / sqrt(creal(closed->root[closed->rayleigh]));
+    end[2] = 1;
+    end[3] = 1 / sqrt(closed->ratio);
+}
+
+/* Chebyshev series of W in u on each interval, rho = from + (to - from) u^2 (3 - 2u): the roots at both ends
+ * are taken up. */
+static void tabulate_horizontal_area(struct lamb_closed *closed)
+{
+    enum { TERMS = LAMB_CLOSED_TERMS };
+    double end[LAMB_CLOSED_INTERVALS + 1];
+    area_intervals(closed, end);
+    for (int interval = 0; interval < LAMB_CLOSED_INTERVALS; interval++) {
+        double value[TERMS];
+        for (int i = 0; i < TERMS; i++) {
+            const double u = .5 + .5 * cos(M_PI * (i + .5) / TERMS);
+            value[i] = direct_horizontal_area(closed, end[interval] + (end[interval + 1] - end[interval]) *
+                                                                          u * u * (3 - 2 * u));
+        }
+        for (int j = 0; j < TERMS; j++) {
+            double sum = 0;
+            for (int i = 0; i < TERMS; i++)
+                sum += value[i] * cos(M_PI * j * (i + .5) / TERMS);
+            closed->area[interval][j] = (j == 0 ? 1. : 2.) / TERMS * sum;
+        }
+    }
+}
+
+/* u in [0, 1] with u^2 (3 - 2u) = share. */
+static double inverse_smoothstep(double share)
+{
+    return .5 - sin(asin(1 - 2 * fmin(1, fmax(0, share))) / 3);
+}
+
+static double horizontal_area(const struct lamb_closed *closed, double rho)
+{
+    double end[LAMB_CLOSED_INTERVALS + 1];
+    area_intervals(closed, end);
+    int interval = 0;
+    while (interval + 1 < LAMB_CLOSED_INTERVALS && rho > end[interval + 1])
+        interval++;
+    const double x = 2 * inverse_smoothstep((rho - end[interval]) / (end[interval + 1] - end[interval])) - 1;
+    double one = 0, two = 0;
+    for (int j = LAMB_CLOSED_TERMS - 1; j > 0; j--) {
+        const double next = 2 * x * one - two + closed->area[interval][j];
+        two = one;
+        one = next;
+    }
+    return x * one - two + closed->area[interval][0];
+}
+
+selas_status lamb_closed_set(struct lamb_closed *closed, double density, double lambda, double mu,
+                             struct messages *messages)
+{
+    *closed = (struct lamb_closed){.mu = mu, .s_speed = sqrt(mu / density), .ratio = mu / (lambda + 2 * mu)};
+    const double a = closed->ratio, lead = 16 * (1 - a);
+    gsl_complex roots[3];
+    if (gsl_poly_complex_solve_cubic(-8 * (3 - 2 * a) / lead, 8 / lead, -1 / lead, &roots[0], &roots[1],
+                                     &roots[2]) != 3)
+        return fail(messages, SELAS_NOT_CONVERGED, "the Rayleigh cubic has no three roots");
+    for (int j = 0; j < 3; j++) {
+        double complex y = GSL_REAL(roots[j]) + I * GSL_IMAG(roots[j]);
+        double complex slope = 0;
+        for (int i = 0; i < 4; i++) { /* polish by Newton, then P'(y) */
+            slope = -((3 * lead * y - 16 * (3 - 2 * a)) * y + 8);
+            const double complex value = -(((lead * y - 8 * (3 - 2 * a)) * y + 8) * y - 1);
+            if (i < 3) y -= value / slope;
+        }
+        closed->root[j] = y;
+        closed->p[j] = (1 - 2 * y) * (1 - 2 * y) / slope;
+        closed->s[j] = 4 * y * (y - a) / slope;
+        if (creal(y) > 1 && fabs(cimag(y)) < 1e-12) closed->rayleigh = j;
+    }
+    /* C_R = -2 g N / R'(g), R = (1-2q^2)^2 - 4 q^2 sqrt((q^2-a)(q^2-1)), N = 1 - 2 g^2 + 2
+     * sqrt((g^2-a)(g^2-1)) */
+    const double y = creal(closed->root[closed->rayleigh]), g = sqrt(y);
+    const double product = sqrt((y - a) * (y - 1));
+    const double slope = -8 * g * (1 - 2 * y) - 8 * g * product - 4 * g * y * (2 * y - a - 1) / product;
+    closed->horizontal = -2 * g * (1 - 2 * y + 2 * product) / slope;
+    tabulate_horizontal_area(closed);
+    return SELAS_OK;
 }
 
 double lamb_closed_point_radial(const struct lamb_closed *closed, double tau)

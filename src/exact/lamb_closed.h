@@ -9,13 +9,16 @@
 
 #include <complex.h>
 
+enum { LAMB_CLOSED_INTERVALS = 3, LAMB_CLOSED_TERMS = 72 };
+
 struct lamb_closed {
     double mu, s_speed;
-    double ratio;              /* a = (cs/cp)^2 */
-    double complex root[3];    /* y_j of the cubic (Eq 3 of lamb_closed.c) */
-    double complex p[3], s[3]; /* B_j, C_j */
-    int rayleigh;              /* which root is the Rayleigh wave's */
-    double horizontal;         /* C_R */
+    double ratio;                                          /* a = (cs/cp)^2 */
+    double complex root[3];                                /* y_j of the cubic (Eq 3 of lamb_closed.c) */
+    double complex p[3], s[3];                             /* B_j, C_j */
+    int rayleigh;                                          /* which root is the Rayleigh wave's */
+    double horizontal;                                     /* C_R */
+    double area[LAMB_CLOSED_INTERVALS][LAMB_CLOSED_TERMS]; /* Chebyshev series of W (Eq 6) */
 };
 
 selas_status lamb_closed_set(struct lamb_closed *closed, double density, double lambda, double mu,

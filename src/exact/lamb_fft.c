@@ -9,23 +9,13 @@
 #include "exact/lamb_fft.h"
 
 #include "base/memory.h"
-#include "exact/gauss12.h"
+#include "exact/lamb_sum.h"
 
 #include <fftw3.h>
 #include <math.h>
 #include <string.h>
 
-enum { COMPONENTS = 3, KERNELS = 5, SAMPLES = 200, MOST_BANDS = 64 };
-
-/* One load seen from one receiver. */
-struct path {
-    const struct lamb_load *load;
-    double x, y, z;
-    bool without_rayleigh, horizontal;
-    double share;    /* patch_share */
-    double *weight;  /* [COMPONENTS * KERNELS * room]: coefficients by component and compliance */
-    double *statics; /* [COMPONENTS * room]: sum of coefficients times static compliances */
-};
+enum { SAMPLES = 200, MOST_BANDS = 64 };
 
 /* Scales of the problem: smallest edge (0 without patches), farthest distance, highest frequency worth having
  * before convergence is judged, frequency above which nothing is left. */
@@ -39,13 +29,10 @@ struct work {
     const struct lamb_problem *problem;
     size_t receivers;
     struct lamb_signal *signal;
-    size_t paths;
-    struct path *path; /* [receivers * loads] */
-    double period, decay, panel;
-    size_t nodes, room; /* wavenumbers so far, room for them */
-    double *k, *k_weight;
+    struct lamb_sum sum;
+    double period, decay;
     size_t frequencies, frequency_room;
-    double complex *spectrum; /* [receivers][COMPONENTS][frequency_room]: displacement */
+    double complex *spectrum; /* [receivers][LAMB_COMPONENTS][frequency_room]: displacement */
     size_t rows;              /* of the time grid over the whole period */
     fftw_plan plan;
     double complex *fft_in;
@@ -58,209 +45,31 @@ static double complex frequency(const struct work *work, size_t j)
     return work->decay + I * (2 * M_PI * (double)j / work->period);
 }
 
-/* The wavenumbers that count at one frequency: all up to `flat`, fading out until `end`. */
-struct range {
-    double flat, end;
-};
-
-static struct range wavenumbers(const struct work *work, double angular_frequency)
+static struct lamb_range wavenumbers(const struct work *work, double angular_frequency)
 {
-    const struct lamb_problem *problem = work->problem;
-    const double slowest = angular_frequency / (problem->layers != NULL ? problem->layers->slowest
-                                                                        : problem->ground.rayleigh_speed);
-    const double flat = 1.15 * slowest + (work->scales.kinks ? 48 : 160) / work->scales.edge;
+    const double slowest = angular_frequency / work->sum.slowest;
+    const double flat = 1.15 * slowest + 160 / work->scales.edge;
     /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading */
     const double buried = hypot(26 / work->scales.depth, slowest);
-    return buried < flat ? (struct range){buried, buried} : (struct range){flat, flat / .6};
-}
-
-/* Coefficients of the compliances (order of struct compliance) for each component. */
-static void coefficients(const struct path *path, double k, double weight, double value[COMPONENTS][KERNELS])
-{
-    double a[AVERAGES];
-    patch_averages(&path->load->patch, path->x, path->y, k, a);
-    const double scale = weight * k;
-    for (int i = 0; i < AVERAGES; i++)
-        a[i] *= scale;
-    const double fx = path->load->traction[0], fy = path->load->traction[1], fz = path->load->traction[2];
-    const double yy = a[AVERAGE] - a[AVERAGE_XX];
-    const double along_x = fx * a[AVERAGE_XX] + fy * a[AVERAGE_XY], along_y = fx * a[AVERAGE_XY] + fy * yy;
-    const double table[COMPONENTS][KERNELS] = {
-        {0, fz * a[AVERAGE_X], along_x, 0, fx * a[AVERAGE] - along_x},
-        {0, fz * a[AVERAGE_Y], along_y, 0, fy * a[AVERAGE] - along_y},
-        {fz * a[AVERAGE], 0, 0, fx * a[AVERAGE_X] + fy * a[AVERAGE_Y], 0},
-    };
-    memcpy(value, table, sizeof table);
-}
-
-/* Appends panels until the wavenumbers reach `largest`; coefficients of all paths and their static sums. */
-static bool extend_nodes(struct work *work, double largest)
-{
-    const size_t panels = (size_t)ceil(largest / work->panel), until = panels * 12;
-    if (until <= work->nodes) return true;
-    if (until > work->room) {
-        const size_t room = until + until / 2;
-        double *k = array_new(room, sizeof *k), *k_weight = array_new(room, sizeof *k_weight);
-        if (k == NULL || k_weight == NULL) return false;
-        if (work->nodes > 0) {
-            memcpy(k, work->k, work->nodes * sizeof *k);
-            memcpy(k_weight, work->k_weight, work->nodes * sizeof *k);
-        }
-        array_free(work->k);
-        array_free(work->k_weight);
-        work->k = k;
-        work->k_weight = k_weight;
-        for (size_t p = 0; p < work->paths; p++) {
-            double *weight = array_new(COMPONENTS * KERNELS * room, sizeof *weight);
-            if (weight == NULL) return false;
-            for (size_t c = 0; c < COMPONENTS * KERNELS && work->nodes > 0; c++)
-                memcpy(weight + c * room, work->path[p].weight + c * work->room,
-                       work->nodes * sizeof *weight);
-            double *statics = array_new(COMPONENTS * room, sizeof *statics);
-            for (size_t c = 0; statics != NULL && work->nodes > 0 && c < COMPONENTS; c++)
-                memcpy(statics + c * room, work->path[p].statics + c * work->room,
-                       work->nodes * sizeof *statics);
-            array_free(work->path[p].weight);
-            array_free(work->path[p].statics);
-            work->path[p].weight = weight;
-            work->path[p].statics = statics;
-            if (statics == NULL) return false;
-        }
-        work->room = room;
-    }
-    for (size_t i = work->nodes; i < until; i++) {
-        const size_t in_panel = i % 12, panel = i / 12;
-        work->k[i] = work->panel * ((double)panel + .5 + .5 * gauss12_node[in_panel]);
-        work->k_weight[i] = .5 * work->panel * gauss12_weight[in_panel];
-    }
-    for (size_t p = 0; p < work->paths; p++) {
-        struct path *path = &work->path[p];
-        const size_t from = work->nodes, room = work->room;
-#pragma omp parallel for schedule(dynamic, 64)
-        for (size_t i = from; i < until; i++) {
-            double value[COMPONENTS][KERNELS];
-            coefficients(path, work->k[i], work->k_weight[i], value);
-            for (size_t c = 0; c < COMPONENTS; c++)
-                for (size_t g = 0; g < KERNELS; g++)
-                    path->weight[(c * KERNELS + g) * room + i] = value[c][g];
-        }
-        for (size_t i = from; i < until; i++) {
-            double value[KERNELS], pole[4] = {0};
-            half_space_static(&work->problem->ground, path->z, work->k[i], value);
-            if (path->without_rayleigh)
-                half_space_static_rayleigh(&work->problem->ground, path->z, work->k[i], pole);
-            for (size_t c = 0; c < COMPONENTS; c++) {
-                double *statics = &path->statics[c * room + i];
-                *statics = 0;
-                for (size_t g = 0; g < KERNELS; g++)
-                    *statics +=
-                        path->weight[(c * KERNELS + g) * room + i] * (value[g] - (g < 4 ? pole[g] : 0));
-            }
-        }
-    }
-    work->nodes = until;
-    return true;
-}
-
-/* sum of a[i] b[i] in a fixed order */
-static inline double dot(const double *a, const double *b, size_t n)
-{
-    double sum[4] = {0, 0, 0, 0};
-    size_t i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (size_t j = 0; j < 4; j++)
-            sum[j] += a[i + j] * b[i + j];
-    for (; i < n; i++)
-        sum[0] += a[i] * b[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-/* Sum over the wavenumbers for one path on one block of them. */
-static void add_block(const struct path *path, size_t room, size_t from, size_t count,
-                      const struct compliance *compliance, double complex sum[COMPONENTS])
-{
-    static const int used[COMPONENTS][3] = {{1, 2, 4}, {1, 2, 4}, {0, 3, -1}};
-    const double(*const parts[KERNELS])[BLOCK] = {compliance->vertical, compliance->horizontal,
-                                                  compliance->radial, compliance->coupled, compliance->shear};
-    for (size_t c = 0; c < COMPONENTS; c++)
-        for (int i = 0; i < (path->horizontal ? 3 : 1); i++) {
-            const int g = used[c][i];
-            if (g < 0) continue;
-            const double *weight = path->weight + (c * KERNELS + (size_t)g) * room + from;
-            sum[c] += dot(weight, parts[g][0], count) + I * dot(weight, parts[g][1], count);
-        }
-}
-
-/* 1 up to range.flat, then smoothly to 0 at range.end with three continuous derivatives. */
-static double roll_off(struct range range, double k)
-{
-    if (k <= range.flat) return 1;
-    if (k >= range.end) return 0;
-    const double y = (k - range.flat) / (range.end - range.flat);
-    return .5 * (1 + cos(M_PI * y * y * y * (10 - y * (15 - 6 * y))));
-}
-
-static void multiply(double factor, size_t i, bool horizontal, struct compliance *compliance)
-{
-    for (int part = 0; part < 2; part++) {
-        compliance->vertical[part][i] *= factor;
-        compliance->horizontal[part][i] *= factor;
-        if (!horizontal) continue;
-        compliance->radial[part][i] *= factor;
-        compliance->coupled[part][i] *= factor;
-        compliance->shear[part][i] *= factor;
-    }
-}
-
-/* Sums of all paths at one s over the wavenumbers of a range: [paths][COMPONENTS], before the history's
- * transform. */
-static void sum_wavenumbers(const struct work *work, double complex s, struct range range,
-                            double complex *sum)
-{
-    for (size_t i = 0; i < work->paths * COMPONENTS; i++)
-        sum[i] = 0;
-    for (size_t from = 0; from < work->nodes && work->k[from] < range.end; from += BLOCK) {
-        const size_t count = work->nodes - from < BLOCK ? work->nodes - from : BLOCK;
-        struct compliance compliance;
-        double taper[BLOCK];
-        for (size_t i = 0; i < count; i++)
-            taper[i] = roll_off(range, work->k[from + i]);
-        for (size_t p = 0; p < work->paths; p++) {
-            const struct path *path = &work->path[p];
-            const struct path *before = p > 0 ? path - 1 : NULL;
-            if (before == NULL || before->z != path->z || before->horizontal != path->horizontal ||
-                before->without_rayleigh != path->without_rayleigh) {
-                half_space_compliance(&work->problem->ground, s, path->z, count, work->k + from,
-                                      path->horizontal, path->without_rayleigh, &compliance);
-                if (work->problem->layers != NULL)
-                    layered_add_difference(work->problem->layers, &work->problem->ground, s, path->z, count,
-                                           work->k + from, path->horizontal, &compliance);
-                for (size_t i = 0; i < count && taper[count - 1] < 1; i++)
-                    multiply(taper[i], i, path->horizontal, &compliance);
-            }
-            add_block(path, work->room, from, count, &compliance, sum + p * COMPONENTS);
-            for (size_t c = 0; c < COMPONENTS; c++)
-                sum[p * COMPONENTS + c] -= dot(path->statics + c * work->room + from, taper, count);
-        }
-    }
+    return buried < flat ? (struct lamb_range){buried, buried} : (struct lamb_range){flat, flat / .6};
 }
 
 static void one_frequency(const struct work *work, size_t j, double complex *sum)
 {
     const double complex s = frequency(work, j);
     const double mu = work->problem->ground.mu;
-    sum_wavenumbers(work, s, wavenumbers(work, cimag(s)), sum);
+    lamb_sum_at(&work->sum, s, wavenumbers(work, cimag(s)), sum);
     const size_t loads = work->problem->loads;
-    for (size_t p = 0; p < work->paths; p++) {
-        const struct path *path = &work->path[p];
+    for (size_t p = 0; p < work->sum.paths; p++) {
+        const struct lamb_path *path = &work->sum.path[p];
         const double complex f = history_laplace(path->load->history, s) / mu;
-        double complex plane[COMPONENTS];
-        lamb_split_plane(&work->problem->ground, s, path->z, plane);
-        for (size_t c = 0; c < COMPONENTS; c++) {
-            double complex value = sum[p * COMPONENTS + c];
+        double complex plane[LAMB_COMPONENTS];
+        lamb_split_front_laplace(&work->problem->ground, work->signal[p / loads].front + 3 * (p % loads), s,
+                                 path->z, plane);
+        for (size_t c = 0; c < LAMB_COMPONENTS; c++) {
+            double complex value = sum[p * LAMB_COMPONENTS + c] - mu * plane[c];
             value += mu * work->signal[p / loads].statics[3 * (p % loads) + c];
-            value -= path->share * path->load->traction[c] * plane[c];
-            work->spectrum[((p / loads) * COMPONENTS + c) * work->frequency_room + j] += f * value;
+            work->spectrum[((p / loads) * LAMB_COMPONENTS + c) * work->frequency_room + j] += f * value;
         }
     }
 }
@@ -268,7 +77,7 @@ static void one_frequency(const struct work *work, size_t j, double complex *sum
 static bool make_room_for_frequencies(struct work *work, size_t until)
 {
     if (until <= work->frequency_room) return true;
-    const size_t room = 2 * until, lines = work->receivers * COMPONENTS;
+    const size_t room = 2 * until, lines = work->receivers * LAMB_COMPONENTS;
     double complex *spectrum = array_new(lines * room, sizeof *spectrum);
     if (spectrum == NULL) return false;
     for (size_t i = 0; i < lines && work->frequencies > 0; i++)
@@ -281,14 +90,17 @@ static bool make_room_for_frequencies(struct work *work, size_t until)
 }
 
 /* Frequencies from work->frequencies up to the angular frequency `cutoff`. */
-static bool add_band(struct work *work, double cutoff, double largest_wavenumber)
+static bool add_band(struct work *work, double cutoff)
 {
     const size_t until = (size_t)ceil(cutoff * work->period / (2 * M_PI)) + 1;
-    if (!extend_nodes(work, largest_wavenumber) || !make_room_for_frequencies(work, until)) return false;
+    const double top = cimag(frequency(work, until));
+    if (!lamb_sum_extend(&work->sum, top, wavenumbers(work, top).end) ||
+        !make_room_for_frequencies(work, until))
+        return false;
     bool room = true;
 #pragma omp parallel
     {
-        double complex *sum = array_new(work->paths * COMPONENTS, sizeof *sum);
+        double complex *sum = array_new(work->sum.paths * LAMB_COMPONENTS, sizeof *sum);
         if (sum == NULL) {
 #pragma omp atomic write
             room = false;
@@ -298,7 +110,8 @@ static bool add_band(struct work *work, double cutoff, double largest_wavenumber
             if (sum != NULL) one_frequency(work, j, sum);
         array_free(sum);
     }
-    work->evaluations += (double)(until - work->frequencies) * (double)work->nodes;
+    work->evaluations +=
+        (double)(until - work->frequencies) * lamb_sum_effort(&work->sum, wavenumbers(work, cutoff).end);
     work->frequencies = until;
     return room;
 }
@@ -332,10 +145,10 @@ static bool make_plan(struct work *work)
 static void transform(struct work *work, size_t receiver, size_t component, size_t from, size_t until)
 {
     const double complex *line =
-        work->spectrum + (receiver * COMPONENTS + component % COMPONENTS) * work->frequency_room;
+        work->spectrum + (receiver * LAMB_COMPONENTS + component % LAMB_COMPONENTS) * work->frequency_room;
     memset(work->fft_in, 0, (work->rows / 2 + 1) * sizeof *work->fft_in);
     for (size_t j = from; j < until; j++)
-        work->fft_in[j] = line[j] * (component >= COMPONENTS ? frequency(work, j) : 1) / work->period;
+        work->fft_in[j] = line[j] * (component >= LAMB_COMPONENTS ? frequency(work, j) : 1) / work->period;
     fftw_execute(work->plan);
 }
 
@@ -344,7 +157,7 @@ static double band_norm(struct work *work, size_t receiver, size_t from, size_t 
 {
     const double step = work->period / (double)work->rows, end = work->signal[receiver].end_time;
     double largest = 0;
-    for (size_t c = COMPONENTS; c < 2 * COMPONENTS; c++) {
+    for (size_t c = LAMB_COMPONENTS; c < 2 * LAMB_COMPONENTS; c++) {
         transform(work, receiver, c, from, until);
         double sum = 0;
         for (size_t i = 0; i < work->rows && (double)i * step <= end; i++) {
@@ -376,12 +189,12 @@ static bool keep_signal(struct work *work, size_t receiver)
 /* L2 norm over [0, end] of the largest velocity component, from SAMPLES times. */
 static double signal_norm(const struct work *work, const struct lamb_signal *signal)
 {
-    double sum[COMPONENTS] = {0, 0, 0};
+    double sum[LAMB_COMPONENTS] = {0, 0, 0};
     const double step = signal->end_time / SAMPLES;
     for (size_t i = 0; i < SAMPLES; i++) {
         double value[6];
         lamb_signal_value(work->problem, signal, ((double)i + .5) * step, value);
-        for (size_t c = 0; c < COMPONENTS; c++)
+        for (size_t c = 0; c < LAMB_COMPONENTS; c++)
             sum[c] += value[3 + c] * value[3 + c] * step;
     }
     return sqrt(fmax(sum[0], fmax(sum[1], sum[2])));
@@ -391,8 +204,8 @@ static void find_scales(const struct work *work, struct scales *scales)
 {
     *scales = (struct scales){.edge = INFINITY, .depth = INFINITY};
     double nearest = INFINITY;
-    for (size_t p = 0; p < work->paths; p++) {
-        const struct path *path = &work->path[p];
+    for (size_t p = 0; p < work->sum.paths; p++) {
+        const struct lamb_path *path = &work->sum.path[p];
         const struct patch *patch = &path->load->patch;
         const struct history *history = path->load->history;
         scales->reach =
@@ -432,7 +245,7 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
     for (int band = 0; band < MOST_BANDS; band++) {
         const size_t from = work->frequencies;
         const double wavenumber = wavenumbers(work, cutoff).end;
-        if (!add_band(work, cutoff, wavenumber) || !make_plan(work)) {
+        if (!add_band(work, cutoff) || !make_plan(work)) {
             array_free(last);
             return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
         }
@@ -454,8 +267,8 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
         }
         if (cutoff >= scales.most || (band > 1 && cutoff >= scales.least && worst < tolerance)) break;
         const double next = fmin(cutoff * M_SQRT2, scales.most);
-        const double more =
-            (next - cutoff) * work->period / (2 * M_PI) * 12 * wavenumbers(work, next).end / work->panel;
+        const double more = (next - cutoff) * work->period / (2 * M_PI) *
+                            lamb_sum_effort(&work->sum, wavenumbers(work, next).end);
         const double most = worst > 3e-5 ? MOST_EVALUATIONS : SOME_EVALUATIONS;
         if (work->evaluations + more > most && cutoff >= scales.least) break;
         cutoff = next;
@@ -464,63 +277,46 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
     return SELAS_OK;
 }
 
+static bool has_kinks(const struct history *history)
+{
+    const double fine = history_cutoff(history, 1e-6);
+    return isinf(fine) || fine > 30 * history_cutoff(history, 1e-2);
+}
+
 static selas_status prepare(struct work *work, double end_time, struct messages *messages)
 {
     const struct lamb_problem *problem = work->problem;
-    work->paths = work->receivers * problem->loads;
-    work->path = array_new(work->paths, sizeof *work->path);
-    if (work->path == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
     bool kinks = false;
-    double reach = 0;
+    for (size_t l = 0; l < problem->loads; l++)
+        kinks = kinks || has_kinks(problem->load[l].history);
+    work->period = (kinks ? 4 : 2.2) * end_time;
+    work->decay = (kinks ? 14 : 16) / work->period;
     for (size_t r = 0; r < work->receivers; r++) {
         struct lamb_signal *signal = &work->signal[r];
         signal->statics = array_new(3 * problem->loads, sizeof *signal->statics);
-        if (signal->statics == NULL)
+        signal->front = array_new(3 * problem->loads, sizeof *signal->front);
+        if (signal->statics == NULL || signal->front == NULL)
             return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
         for (size_t l = 0; l < problem->loads; l++) {
             const struct lamb_load *load = &problem->load[l];
-            struct path *path = &work->path[r * problem->loads + l];
-            path->load = load;
-            path->x = signal->position[0] - load->patch.centre[0];
-            path->y = signal->position[1] - load->patch.centre[1];
-            path->z = signal->position[2];
-            path->without_rayleigh = lamb_split_rayleigh(load);
-            path->horizontal = load->traction[0] != 0 || load->traction[1] != 0;
-            path->share = patch_share(&load->patch, path->x, path->y);
-            lamb_split_static(&problem->ground, load, path->x, path->y, path->z, signal->statics + 3 * l);
-            reach = fmax(reach, fabs(path->x) + fabs(path->y) + load->patch.half[0] + load->patch.half[1]);
-            kinks = kinks || history_cutoff(load->history, 1e-6) > 30 * history_cutoff(load->history, 1e-2) ||
-                    isinf(history_cutoff(load->history, 1e-6));
+            const double x = signal->position[0] - load->patch.centre[0];
+            const double y = signal->position[1] - load->patch.centre[1];
+            lamb_split_static(&problem->ground, load, x, y, signal->position[2], signal->statics + 3 * l);
+            lamb_split_front(&problem->ground, load, x, y, signal->position[2], signal->front + 3 * l);
         }
     }
-    work->period = (kinks ? 4 : 2.2) * end_time;
-    work->decay = (kinks ? 14 : 16) / work->period;
-    /* poles and branch points lie decay/speed off the real axis of k */
-    const struct layered *layers = problem->layers;
-    const double p_speed = layers != NULL ? layers->fastest[0] : problem->ground.p_speed;
-    const double s_speed = layers != NULL ? layers->fastest[1] : problem->ground.s_speed;
-    work->panel = fmin(12 / reach, work->decay * fmin(2 / s_speed, 6 / p_speed));
-    return SELAS_OK;
+    return lamb_sum_set(&work->sum, problem, work->receivers, work->signal, work->decay, messages);
 }
 
-selas_status lamb_fft(const struct lamb_problem *problem, double end_time, size_t n,
-                      struct lamb_signal *signal, struct messages *messages)
+/* Receivers of one depth and of similar distances share a group: others neither share compliances nor need
+ * the same panels and frequencies. */
+static selas_status one_group(const struct lamb_problem *problem, double end_time, size_t n,
+                              struct lamb_signal *signal, struct messages *messages)
 {
     struct work work = {.problem = problem, .receivers = n, .signal = signal};
-    for (size_t i = 0; i < n; i++) {
-        signal[i].value = signal[i].statics = NULL;
-        signal[i].end_time = end_time;
-    }
     selas_status status = prepare(&work, end_time, messages);
     if (status == SELAS_OK) status = work_off_bands(&work, messages);
-    for (size_t p = 0; work.path != NULL && p < work.paths; p++) {
-        array_free(work.path[p].weight);
-        array_free(work.path[p].statics);
-    }
-    array_free(work.path);
-    array_free(work.k);
-    array_free(work.k_weight);
+    lamb_sum_free(&work.sum);
     array_free(work.spectrum);
 #pragma omp critical(selas_fftw_planner)
     {
@@ -528,6 +324,55 @@ selas_status lamb_fft(const struct lamb_problem *problem, double end_time, size_
         fftw_free(work.fft_in);
         fftw_free(work.fft_out);
     }
+    return status;
+}
+
+/* Octave of the farthest distance from a receiver to a load's edge, measured in edges. */
+static int distance_class(const struct lamb_problem *problem, const double position[3])
+{
+    double reach = 0, size = INFINITY;
+    for (size_t l = 0; l < problem->loads; l++) {
+        const struct patch *patch = &problem->load[l].patch;
+        const double extent = hypot(patch->half[0], patch->half[1]);
+        if (extent > 0) size = fmin(size, extent);
+        reach = fmax(reach, hypot(position[0] - patch->centre[0], position[1] - patch->centre[1]) + extent);
+    }
+    if (isinf(size)) return ilogb(fmax(reach, 1e-300));
+    return reach < 4 * size ? 0 : ilogb(reach / size);
+}
+
+selas_status lamb_fft(const struct lamb_problem *problem, double end_time, size_t n,
+                      struct lamb_signal *signal, struct messages *messages)
+{
+    struct lamb_signal *group = array_new(n, sizeof *group);
+    size_t *place = array_new(n, sizeof *place);
+    bool *done = array_new(n, sizeof *done);
+    selas_status status = SELAS_OK;
+    if (n > 0 && (group == NULL || place == NULL || done == NULL))
+        status = fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
+    for (size_t i = 0; i < n; i++) {
+        signal[i].value = signal[i].statics = signal[i].front = NULL;
+        signal[i].end_time = end_time;
+    }
+    for (size_t first = 0; first < n && status == SELAS_OK; first++) {
+        if (done[first]) continue;
+        const int class = distance_class(problem, signal[first].position);
+        size_t count = 0;
+        for (size_t i = first; i < n; i++) {
+            if (done[i] || signal[i].position[2] != signal[first].position[2] ||
+                distance_class(problem, signal[i].position) != class)
+                continue;
+            done[i] = true;
+            place[count] = i;
+            group[count++] = signal[i];
+        }
+        status = one_group(problem, end_time, count, group, messages);
+        for (size_t i = 0; i < count; i++)
+            signal[place[i]] = group[i];
+    }
+    array_free(group);
+    array_free(place);
+    array_free(done);
     if (status != SELAS_OK)
         for (size_t i = 0; i < n; i++)
             lamb_signal_free(&signal[i]);

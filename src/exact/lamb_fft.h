@@ -38,6 +38,7 @@ struct lamb_signal {
     double end_time, decay, step;
     size_t rows;
     double *statics; /* [3 * loads]: static displacements that are split off */
+    double *front;   /* [3 * loads]: lamb_split_front */
     double *value;   /* [6 * rows], each component in one piece: ux uy uz vx vy vz */
     struct lamb_effort effort;
 };
@@ -57,10 +58,14 @@ bool lamb_split_rayleigh(const struct lamb_load *load);
 /* Adds the closed forms of one load at a point (x, y from the patch's centre). */
 void lamb_split_static(const struct half_space *ground, const struct lamb_load *load, double x, double y,
                        double z, double displacement[3]);
+/* What begins at once: velocity = front[i] * history(t - z/c), c the P speed for uz, the S speed for ux, uy.
+ */
+void lamb_split_front(const struct half_space *ground, const struct lamb_load *load, double x, double y,
+                      double z, double front[3]);
+/* Laplace transform of its displacement, per unit of the history's. */
+void lamb_split_front_laplace(const struct half_space *ground, const double front[3], double complex s,
+                              double z, double complex displacement[3]);
 void lamb_split_value(const struct half_space *ground, const struct lamb_load *load, double x, double y,
-                      double z, double t, double value[6]);
-/* Laplace transform of the plane wave under the load, per unit of its history, times mu, per direction. */
-void lamb_split_plane(const struct half_space *ground, double complex s, double z,
-                      double complex displacement[3]);
+                      double z, double t, const double front[3], double value[6]);
 
 #endif

@@ -8,7 +8,8 @@ void lamb_signal_free(struct lamb_signal *signal)
 {
     array_free(signal->value);
     array_free(signal->statics);
-    signal->value = signal->statics = NULL;
+    array_free(signal->front);
+    signal->value = signal->statics = signal->front = NULL;
 }
 
 /* Lagrange interpolation on 12 rows of the grid (band limit an eighth of its own). */
@@ -40,6 +41,7 @@ void lamb_signal_value(const struct lamb_problem *problem, const struct lamb_sig
     for (size_t l = 0; l < problem->loads; l++) {
         const struct lamb_load *load = &problem->load[l];
         lamb_split_value(&problem->ground, load, signal->position[0] - load->patch.centre[0],
-                         signal->position[1] - load->patch.centre[1], signal->position[2], t, value);
+                         signal->position[1] - load->patch.centre[1], signal->position[2], t,
+                         signal->front + 3 * l, value);
     }
 }

@@ -4,7 +4,9 @@
  *    wavenumber integral;
  *  - the Rayleigh pole, for pulses with kinks: the slow end of the frequency integral. A step load gives
  *    Re of the same potentials at the complex depth decay z - i c_R t;
- *  - the plane wave right under the patch, f(t - z/c)/(rho c). */
+ *  - what begins at once, v = const f(t - z/c): the plane wave right under the patch, f(t - z/c)/(rho c), and
+ *    what half a plane's load does at its own edge, a quarter's in its corner. */
+#include "exact/gauss12.h"
 #include "exact/lamb_fft.h"
 
 #include <math.h>
@@ -139,24 +141,75 @@ static void add_rayleigh(const struct half_space *ground, const struct lamb_load
     }
 }
 
-void lamb_split_value(const struct half_space *ground, const struct lamb_load *load, double x, double y,
-                      double z, double t, double value[6])
+/* -1, 0 or 1: at the left edge of a side of half length `half`, elsewhere, at the right edge. */
+static int edge_of(double distance, double half)
 {
-    const double share = patch_share(&load->patch, x, y);
-    for (int i = 0; i < 3; i++) {
-        if (share == 0 || load->traction[i] == 0) continue;
-        const double speed = i == 2 ? ground->p_speed : ground->s_speed;
-        const double factor = share * load->traction[i] / (ground->density * speed);
-        value[i] += factor * history_value(load->history, t - z / speed, -1);
-        value[3 + i] += factor * history_value(load->history, t - z / speed, 0);
-    }
-    if (lamb_split_rayleigh(load)) add_rayleigh(ground, load, x, y, z, t, value);
+    if (fabs(fabs(distance) - half) > 1e-9 * half) return 0;
+    return distance < 0 ? -1 : 1;
 }
 
-void lamb_split_plane(const struct half_space *ground, double complex s, double z,
-                      double complex displacement[3])
+/* Integrals over kappa = k/|s| of horizontal/kappa, coupled/kappa and (radial - shear)/kappa at the surface:
+ * 12-point panels in u = kappa/(1 + kappa), so that the static tail, like kappa^-2, is smooth at u = 1. */
+static void front_integrals(const struct half_space *ground, bool without_rayleigh, double integral[3])
 {
-    displacement[0] = displacement[1] =
-        ground->mu / (ground->density * ground->s_speed * s) * cexp(-s * z / ground->s_speed);
-    displacement[2] = ground->mu / (ground->density * ground->p_speed * s) * cexp(-s * z / ground->p_speed);
+    enum { PANELS = 8 };
+    integral[0] = integral[1] = integral[2] = 0;
+    for (int panel = 0; panel < PANELS; panel++)
+        for (int i = 0; i < 12; i++) {
+            const double u = (panel + .5 + .5 * gauss12_node[i]) / PANELS, k = u / (1 - u);
+            const double weight = .5 * gauss12_weight[i] / PANELS / ((1 - u) * (1 - u)) / k;
+            struct compliance at;
+            half_space_compliance(ground, ground->s_speed, 0, 1, &k, true, without_rayleigh, &at);
+            integral[0] += weight * at.horizontal[0][0];
+            integral[1] += weight * at.coupled[0][0];
+            integral[2] += weight * (at.radial[0][0] - at.shear[0][0]);
+        }
+}
+
+void lamb_split_front(const struct half_space *ground, const struct lamb_load *load, double x, double y,
+                      double z, double velocity[3])
+{
+    const struct patch *patch = &load->patch;
+    const double share = patch_share(patch, x, y), *f = load->traction;
+    for (int i = 0; i < 3; i++)
+        velocity[i] = share * f[i] / (ground->density * (i == 2 ? ground->p_speed : ground->s_speed));
+    if (z > 0 || patch->shape == PATCH_POINT) return;
+    const bool disc = patch->shape == PATCH_DISC;
+    double edge[2] = {edge_of(x, patch->half[0]), edge_of(y, patch->half[1])};
+    const double corner = disc ? 0 : edge[0] * edge[1];
+    if (disc) {
+        const double r = hypot(x, y), rim = edge_of(r, patch->half[0]);
+        edge[0] = rim * x / r;
+        edge[1] = rim * y / r;
+    } else {
+        edge[0] *= patch_side_share(y, patch->half[1]);
+        edge[1] *= patch_side_share(x, patch->half[0]);
+    }
+    if (edge[0] == 0 && edge[1] == 0) return;
+    double integral[3];
+    front_integrals(ground, lamb_split_rayleigh(load), integral);
+    const double factor = -ground->s_speed / (M_PI * ground->mu);
+    velocity[0] += factor * (edge[0] * integral[0] * f[2] + .5 * corner * integral[2] * f[1]);
+    velocity[1] += factor * (edge[1] * integral[0] * f[2] + .5 * corner * integral[2] * f[0]);
+    velocity[2] += factor * integral[1] * (edge[0] * f[0] + edge[1] * f[1]);
+}
+
+void lamb_split_front_laplace(const struct half_space *ground, const double velocity[3], double complex s,
+                              double z, double complex displacement[3])
+{
+    for (int i = 0; i < 3; i++)
+        displacement[i] =
+            velocity[i] / s * (z == 0 ? 1 : cexp(-s * z / (i == 2 ? ground->p_speed : ground->s_speed)));
+}
+
+void lamb_split_value(const struct half_space *ground, const struct lamb_load *load, double x, double y,
+                      double z, double t, const double front[3], double value[6])
+{
+    for (int i = 0; i < 3; i++) {
+        if (front[i] == 0) continue;
+        const double late = t - z / (i == 2 ? ground->p_speed : ground->s_speed);
+        value[i] += front[i] * history_value(load->history, late, -1);
+        value[3 + i] += front[i] * history_value(load->history, late, 0);
+    }
+    if (lamb_split_rayleigh(load)) add_rayleigh(ground, load, x, y, z, t, value);
 }

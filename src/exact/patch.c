@@ -54,7 +54,7 @@ void patch_averages(const struct patch *patch, double x, double y, double k, dou
     average[AVERAGE_XY] = -shape * nx * ny * two;
 }
 
-static double share_of(double distance, double half)
+double patch_side_share(double distance, double half)
 {
     const double near = 1e-9 * half;
     if (fabs(fabs(distance) - half) <= near) return .5;
@@ -64,8 +64,8 @@ static double share_of(double distance, double half)
 double patch_share(const struct patch *patch, double x, double y)
 {
     if (patch->shape == PATCH_POINT) return 0;
-    if (patch->shape == PATCH_DISC) return share_of(hypot(x, y), patch->half[0]);
-    return share_of(x, patch->half[0]) * share_of(y, patch->half[1]);
+    if (patch->shape == PATCH_DISC) return patch_side_share(hypot(x, y), patch->half[0]);
+    return patch_side_share(x, patch->half[0]) * patch_side_share(y, patch->half[1]);
 }
 
 static void point_potentials(double x, double y, double complex d, struct potentials *potentials)

@@ -21,6 +21,8 @@ void patch_averages(const struct patch *patch, double x, double y, double k, dou
 
 /* 1 inside, 1/2 on the edge, 1/4 in a corner, 0 outside (and for a point). */
 double patch_share(const struct patch *patch, double x, double y);
+/* The same for one side of the half length `half`, by the distance from its middle. */
+double patch_side_share(double distance, double half);
 
 /* Integrals over the patch; R^2 = x^2 + y^2 + depth^2, derivatives with respect to the receiver. Additive
  * parts that do not depend on depth are left out of `once`, `twice` and their gradients. */
