@@ -26,7 +26,8 @@ selas_status lamb_sum_set(struct lamb_sum *sum, const struct lamb_problem *probl
     sum->path = array_new(sum->paths, sizeof *sum->path);
     if (sum->path == NULL)
         return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
-    double reach = 0;
+    double reach = 0; /* echoes between layers oscillate with their depth */
+    const double echo = layers != NULL ? 2 * layers->stratum[layers->strata - 1].top : 0;
     for (size_t p = 0; p < sum->paths; p++) {
         const struct lamb_load *load = &problem->load[p % problem->loads];
         const double *position = signal[p / problem->loads].position;
@@ -37,8 +38,8 @@ selas_status lamb_sum_set(struct lamb_sum *sum, const struct lamb_problem *probl
         path->z = position[2];
         path->without_rayleigh = lamb_split_rayleigh(load);
         path->horizontal = load->traction[0] != 0 || load->traction[1] != 0;
-        reach = fmax(reach,
-                     fabs(path->x) + fabs(path->y) + load->patch.half[0] + load->patch.half[1] + 2 * path->z);
+        reach = fmax(reach, fabs(path->x) + fabs(path->y) + load->patch.half[0] + load->patch.half[1] +
+                                2 * path->z + echo);
     }
     const double s_speed = layers != NULL ? layers->fastest[1] : problem->ground.s_speed;
     const double narrow = fmin(12 / reach, decay * fmin(2 / s_speed, 2.4 / sum->fastest));
@@ -152,6 +153,7 @@ bool lamb_sum_extend(struct lamb_sum *sum, double cutoff, double largest)
 
 double lamb_sum_effort(const struct lamb_sum *sum, double end)
 {
+    if (sum->layers != NULL) return PANEL * end / sum->narrow.panel;
     const double near = fmin(end, 3 * (1 + 2 * NEAR) * sum->wide.panel);
     return PANEL * ((end - near) / sum->wide.panel + near / sum->narrow.panel);
 }
