@@ -44,6 +44,10 @@ paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their error
 consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/consistent-tables.md
 	@sh regress/consistent-tables $(BUILD)
 
+.PHONY: lamb-check
+lamb-check: $(BUILD)/test/lamb_grid ## hold the half-space's FFT against its closed form: ten receivers, four Poisson ratios
+	$(BUILD)/test/lamb_grid
+
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
 
@@ -74,6 +78,11 @@ tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/tables.md (some 20 min
 	@sh regress/setup tables
 	@$(MAKE) --no-print-directory all
 	@regress/tables $(BUILD)
+
+$(BUILD)/test/lamb_grid: regress/lamb/lamb_grid.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')

@@ -7,29 +7,79 @@
 #include <gsl/gsl_integration.h>
 #include <math.h>
 
+/* sin and cos of |x| < 1e6 to rounding of x, without branches so that loops over it run in vectors: x = n
+ * pi/2 + y with |y| <= pi/4 (pi/2 in three parts, Cody & Waite 1980), Taylor series of y, turned by n
+ * quarters. */
+static inline void sine_cosine(double x, double *sine, double *cosine)
+{
+    const double shift = 0x1.8p52; /* adding it rounds to an integer */
+    const double n = (x * M_2_PI + shift) - shift, m = n - 4 * ((.25 * n + shift) - shift);
+    const double y = ((x - n * 0x1.921fb544p0) - n * 0x1.0b4611a6p-34) - n * 0x1.3198a2e037073p-69;
+    const double q = y * y;
+    const double s =
+        y + y * q *
+                (-1. / 6 +
+                 q * (1. / 120 + q * (-1. / 5040 +
+                                      q * (1. / 362880 + q * (-1. / 39916800 + q * (1. / 6227020800. -
+                                                                                    q / 1307674368000.))))));
+    const double c =
+        1 + q * (-.5 + q * (1. / 24 +
+                            q * (-1. / 720 +
+                                 q * (1. / 40320 + q * (-1. / 3628800 + q * (1. / 479001600. +
+                                                                             q * (-1. / 87178291200. +
+                                                                                  q / 20922789888000.)))))));
+    const double turn_cosine = 1 - fabs(m), turn_sine = m * (2 - fabs(m));
+    *sine = s * turn_cosine + c * turn_sine;
+    *cosine = c * turn_cosine - s * turn_sine;
+}
+
+enum { DIRECTIONS = 32 }; /* worked off at once */
+
+/* Adds the directions whose cosine and sine are c, s; `shape`: their weights over kx ky. */
+static void add_directions(const struct patch *patch, double x, double y, double k, const double *c,
+                           const double *s, const double *weight, double average[AVERAGES])
+{
+    double part[AVERAGES][DIRECTIONS];
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double kx = k * c[i], ky = k * s[i];
+        double side_x, side_y, sin_x, cos_x, sin_y, cos_y, unused;
+        sine_cosine(kx * patch->half[0], &side_x, &unused);
+        sine_cosine(ky * patch->half[1], &side_y, &unused);
+        sine_cosine(kx * x, &sin_x, &cos_x);
+        sine_cosine(ky * y, &sin_y, &cos_y);
+        const double shape = weight[i] * 4 * side_x * side_y / (kx * ky);
+        part[AVERAGE][i] = shape * cos_x * cos_y;
+        part[AVERAGE_X][i] = -shape * c[i] * sin_x * cos_y;
+        part[AVERAGE_Y][i] = -shape * s[i] * cos_x * sin_y;
+        part[AVERAGE_XX][i] = shape * c[i] * c[i] * cos_x * cos_y;
+        part[AVERAGE_XY][i] = -shape * c[i] * s[i] * sin_x * sin_y;
+    }
+    for (int j = 0; j < AVERAGES; j++)
+        for (int i = 0; i < DIRECTIONS; i++)
+            average[j] += part[j][i];
+}
+
+/* The trapezoidal rule's points lie half a step from the axes, where kx or ky vanish. */
 static void rectangle_averages(const struct patch *patch, double x, double y, double k,
                                double average[AVERAGES])
 {
     const double reach = k * hypot(fabs(x) + patch->half[0], fabs(y) + patch->half[1]);
     const int points = (int)(.27 * reach + 5 * cbrt(reach)) + 20; /* in a quarter of the circle */
     const double turn = M_PI_2 / points, turn_cos = cos(turn), turn_sin = sin(turn);
-    double c = 1, s = 0; /* direction of the wavenumber */
+    double next_c = cos(.5 * turn), next_s = sin(.5 * turn);
     for (int i = 0; i < AVERAGES; i++)
         average[i] = 0;
-    for (int i = 0; i <= points; i++) {
-        const double kx = k * c, ky = k * s;
-        const double shape_x = i == points ? 2 * patch->half[0] : 2 * sin(kx * patch->half[0]) / kx;
-        const double shape_y = i == 0 ? 2 * patch->half[1] : 2 * sin(ky * patch->half[1]) / ky;
-        const double shape = (i == 0 || i == points ? .5 : 1) * shape_x * shape_y;
-        const double cos_x = cos(kx * x), sin_x = sin(kx * x), cos_y = cos(ky * y), sin_y = sin(ky * y);
-        average[AVERAGE] += shape * cos_x * cos_y;
-        average[AVERAGE_X] -= shape * c * sin_x * cos_y;
-        average[AVERAGE_Y] -= shape * s * cos_x * sin_y;
-        average[AVERAGE_XX] += shape * c * c * cos_x * cos_y;
-        average[AVERAGE_XY] -= shape * c * s * sin_x * sin_y;
-        const double next = c * turn_cos - s * turn_sin;
-        s = s * turn_cos + c * turn_sin;
-        c = next;
+    for (int from = 0; from < points; from += DIRECTIONS) {
+        double c[DIRECTIONS], s[DIRECTIONS], weight[DIRECTIONS];
+        for (int i = 0; i < DIRECTIONS; i++) {
+            c[i] = next_c;
+            s[i] = next_s;
+            weight[i] = from + i < points ? 1 : 0;
+            if (from + i + 1 >= points) continue; /* the rest is filled up with the last one */
+            next_c = c[i] * turn_cos - s[i] * turn_sin;
+            next_s = s[i] * turn_cos + c[i] * turn_sin;
+        }
+        add_directions(patch, x, y, k, c, s, weight, average);
     }
     for (int i = 0; i < AVERAGES; i++)
         average[i] /= 2 * M_PI * points;
