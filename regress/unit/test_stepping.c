@@ -308,11 +308,49 @@ static void unwarped_leapfrog_is_exact(void **state)
     assert_true(error[1] < 2e-6);
 }
 
+/* One mass at rest under a force that jumps to 1 at t = 0: u = (1 - cos(omega t)) / omega^2. The jump must
+ * not cost an order: the schemes stay of second order at least (a history gives 1/2 at its jump; half a step
+ * late would be first order). */
+static double jump_error(const char *scheme, double dt, bool unwarp)
+{
+    struct fixture f;
+    set_up(&f, 1, 0.5, 0.0, scheme);
+    add_load(&f, (struct history){.kind = HISTORY_STEP});
+    f.scene.stepping.time_step = dt;
+    f.scene.stepping.unwarp_given = true;
+    f.scene.stepping.unwarp = unwarp;
+    struct stepper *stepper = NULL;
+    struct state state;
+    assert_int_equal(stepper_create(&f.chain.model, &stepper, &f.messages), SELAS_OK);
+    assert_int_equal(state_create(stepper, &state, &f.messages), SELAS_OK);
+    double error = 0.0;
+    while (state.time < 10.0 - 1e-9) {
+        stepper->scheme->step(stepper, &state);
+        error = fmax(error, fabs(state.y[0] - (1.0 - cos(state.time))));
+    }
+    state_free(&state);
+    stepper_free(&stepper);
+    return error;
+}
+
+static void a_jump_at_the_start_costs_no_order(void **state)
+{
+    (void)state;
+    const char *const names[] = {"leapfrog", "modified-equation"};
+    for (size_t i = 0; i < 2; i++) {
+        const double coarse = jump_error(names[i], 0.1, false);
+        const double fine = jump_error(names[i], 0.05, false);
+        print_message("# %s under a jump: %.2e %.2e\n", names[i], coarse, fine);
+        assert_true(log2(coarse / fine) > scheme_find(names[i])->order - 0.15);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(largest_frequency_of_a_chain),
         cmocka_unit_test(schemes_have_their_order),
+        cmocka_unit_test(a_jump_at_the_start_costs_no_order),
         cmocka_unit_test(limits_are_sharp),
         cmocka_unit_test(a_step_beyond_the_limit_is_refused),
         cmocka_unit_test(the_damper_takes_what_the_energy_loses),

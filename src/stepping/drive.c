@@ -17,6 +17,13 @@ double motion_displacement(const struct boundary *boundary, double time, int der
     return history_value(&boundary->history, time, integrated);
 }
 
+/* Histories begin at t = 0 and are 0 before; at t = 0 itself they give the mean of both sides. A body at rest
+ * is driven by what comes after: twice that. */
+static double after_start(double value, bool at_start)
+{
+    return at_start ? 2.0 * value : value;
+}
+
 /* stepper->motion holds displacements, velocities and accelerations of the faces, one after the other. */
 static struct drive drive_of(const struct stepper *stepper, double time)
 {
@@ -34,9 +41,9 @@ static void deck_row(const struct stepper *stepper, double time, double *load, d
 {
     const struct scene *scene = stepper->model->scene;
     for (size_t k = 0; k < scene->loads; k++)
-        load[k] = history_value(&scene->load[k].history, time, 0);
+        load[k] = after_start(history_value(&scene->load[k].history, time, 0), time == 0.0);
     for (size_t face = 0; face < FACES; face++)
-        displacement[face] = motion_displacement(&scene->boundary[face], time, 0);
+        displacement[face] = time > 0.0 ? motion_displacement(&scene->boundary[face], time, 0) : 0.0;
 }
 
 /* Amplitudes at step n: loads, then displacements of the faces; before the start everything is at rest. */
@@ -106,11 +113,11 @@ void drive_at(struct stepper *stepper, double time, struct drive *drive)
 {
     const struct scene *scene = stepper->model->scene;
     for (size_t k = 0; k < scene->loads; k++)
-        stepper->load[k] = history_value(&scene->load[k].history, time, 0);
+        stepper->load[k] = after_start(history_value(&scene->load[k].history, time, 0), time == 0.0);
     for (size_t face = 0; face < FACES; face++)
         for (int derivative = 0; derivative <= 2; derivative++)
-            stepper->motion[(size_t)derivative * FACES + face] =
-                motion_displacement(&scene->boundary[face], time, derivative);
+            stepper->motion[(size_t)derivative * FACES + face] = after_start(
+                motion_displacement(&scene->boundary[face], time, derivative), time == 0.0 && derivative > 0);
     if (stepper->host != NULL) host_at(stepper, time);
     *drive = drive_of(stepper, time);
 }
@@ -127,17 +134,21 @@ static double load_amplitude(struct stepper *stepper, size_t k, long n)
 {
     const struct scene *scene = stepper->model->scene;
     if (stepper->host != NULL) return host_row(stepper, n)[k];
-    if (stepper->unwarp) return warped(stepper->warped_load, scene->loads, k, stepper->warped_rows, n);
-    return history_value(&scene->load[k].history, (double)n * stepper->dt, 0);
+    if (stepper->unwarp)
+        return after_start(warped(stepper->warped_load, scene->loads, k, stepper->warped_rows, n), n == 0);
+    return after_start(history_value(&scene->load[k].history, (double)n * stepper->dt, 0), n == 0);
 }
 
 static double motion_amplitude(struct stepper *stepper, size_t face, long n)
 {
+    if (n <= 0) return 0.0; /* the body stands where it stands: a jump at t = 0 becomes the first step */
     if (stepper->host != NULL) return host_row(stepper, n)[stepper->model->scene->loads + face];
     if (stepper->unwarp) return warped(stepper->warped_motion, FACES, face, stepper->warped_rows, n);
     return motion_displacement(&stepper->model->scene->boundary[face], (double)n * stepper->dt, 0);
 }
 
+/* Differences at step 0 see the histories continued evenly to t < 0: the scheme's first step is u(1) = u(0) +
+ * dt v(0) + dt^2/2 a(0), so a(0) = 2 g(1) / dt^2 takes a face at rest to g(1). */
 void drive_at_step(struct stepper *stepper, unsigned long step, bool corrected, struct drive *drive)
 {
     const struct scene *scene = stepper->model->scene;
@@ -145,15 +156,15 @@ void drive_at_step(struct stepper *stepper, unsigned long step, bool corrected, 
     for (size_t k = 0; k < scene->loads; k++) {
         double amplitude = load_amplitude(stepper, k, n);
         if (corrected && !(stepper->host != NULL && stepper->host->held[k]))
-            amplitude +=
-                (load_amplitude(stepper, k, n + 1) - 2.0 * amplitude + load_amplitude(stepper, k, n - 1)) /
-                12.0;
+            amplitude += (load_amplitude(stepper, k, n + 1) - 2.0 * amplitude +
+                          load_amplitude(stepper, k, n > 0 ? n - 1 : 1)) /
+                         12.0;
         stepper->load[k] = amplitude;
     }
     for (size_t face = 0; face < FACES; face++) {
         if (!is_motion(&scene->boundary[face])) continue;
         const double dt = stepper->dt;
-        const double before = motion_amplitude(stepper, face, n - 1);
+        const double before = motion_amplitude(stepper, face, n > 0 ? n - 1 : 1);
         const double now = motion_amplitude(stepper, face, n);
         const double after = motion_amplitude(stepper, face, n + 1);
         stepper->motion[face] = now;
