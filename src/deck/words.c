@@ -130,6 +130,8 @@ static const struct word boundary_words[] = {
     {"layer", WORD_CHOICE, 1, NULL, "lysmer|pml", false, "how a transmitting face absorbs"},
     {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", false, "thickness of the absorbing layer [points]"},
     {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", false, "wanted reflection, in place of layer_points"},
+    {"always", WORD_LOGICAL, 1, ".false.", NULL, false,
+     "keep layers whose reflections cannot be seen by end_time"},
     {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, false, "Lysmer-Kuhlemeyer factor on the P impedance"},
     {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, false, "Lysmer-Kuhlemeyer factor on the S impedance"},
     {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the prescribed motion"},

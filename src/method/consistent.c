@@ -4,8 +4,8 @@
  *   M a + C v + K u = F.
  *
  * Here: the model's making, its acceleration and energies. */
-#include "method/hform.h"
 #include "method/moving_load.h"
+#include "method/pml.h"
 
 #include "base/memory.h"
 
@@ -17,6 +17,7 @@
 static void destroy(struct model *model)
 {
     struct consistent *c = consistent_of(model);
+    pml_free(c);
     hform_free(c);
     forces_free(c);
     mass_free(c);
@@ -162,10 +163,11 @@ static void describe(const struct model *model,
     tell(context, "lattice points", text);
     snprintf(text, sizeof text, "%zu x %zu x %zu", control[0], control[1], control[2]);
     tell(context, "control values per component", text);
+    layers_describe(c, tell, context);
 }
 
 /* What each face does to each component's control values, in the body's frame. */
-static selas_status lay_faces(struct consistent *c, struct messages *messages)
+static void lay_faces(struct consistent *c)
 {
     const struct scene *scene = c->model.scene;
     for (int face = 0; face < 2 * c->dimension; face++) {
@@ -176,23 +178,19 @@ static selas_status lay_faces(struct consistent *c, struct messages *messages)
         memcpy(direction, boundary->direction, sizeof direction);
         if (scene->body.rotated) body_direction_from_deck(&scene->body, boundary->direction, direction);
         c->moving[face] = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-        c->damped[face] = boundary->kind == BOUNDARY_TRANSMITTING;
+        c->damped[face] = boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_LYSMER;
         c->model.damped = c->model.damped || c->damped[face];
-        if (c->damped[face] && boundary->absorber != ABSORBER_LYSMER)
-            return fail(messages, SELAS_UNSUPPORTED, "face %s: the consistent method has no layer 'pml' yet",
-                        face_name((enum face)face));
         for (int component = 0; component < c->dimension; component++) {
             const bool normal = component == axis;
             bool *held = &c->held[component][face];
             c->motion[face][component] = boundary->amplitude * direction[component];
-            if (boundary->kind == BOUNDARY_FIXED) *held = true;
+            if (boundary->kind == BOUNDARY_FIXED || c->layer[face] > 0) *held = true;
             if (boundary->kind == BOUNDARY_ROLLER) *held = normal;
             if (boundary->kind == BOUNDARY_SYMMETRY)
                 *held = normal && (!spline->mirror[face % 2] || spline->centred[face % 2]);
             if (c->moving[face]) *held = !boundary->slip || fabs(direction[component]) > 1e-9;
         }
     }
-    return SELAS_OK;
 }
 
 /* Depths below the low end of the last axis where the material changes, as positions. */
@@ -224,6 +222,10 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
                                        .mapped = c->options.mapped,
                                        .interface = interface};
         const double cells = round((choice.high - choice.low) / choice.spacing);
+        if (c->layer[2 * axis] + c->layer[2 * axis + 1] > 0)
+            choice.spacing = (choice.high - choice.low) / fmax(cells, 1);
+        choice.low -= (double)c->layer[2 * axis] * choice.spacing;
+        choice.high += (double)c->layer[2 * axis + 1] * choice.spacing;
         c->slot[axis] = slots[c->dimension - 1][axis];
         if (c->slot[axis] == DEPTH) choice.interfaces = interfaces(body, axis, interface);
         const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
@@ -267,7 +269,7 @@ static bool lay_material(struct consistent *c)
     for (size_t e = 0; e < spline->elements; e++) {
         const double middle = (spline->element[e].x_from + spline->element[e].x_to) / 2;
         double property[WEIGHT_NONE];
-        properties(scene_material_at(scene, middle - spline->low), property);
+        properties(scene_material_at(scene, middle - scene->body.low[c->dimension - 1]), property);
         for (int weight = 0; weight < WEIGHT_NONE; weight++)
             c->weighted[weight][e] = property[weight];
     }
@@ -290,9 +292,10 @@ static bool lay_planes(struct consistent *c)
     const struct material *before = NULL;
     for (size_t k = 0; k < n; k++) {
         const struct spline *spline = c->layout[DEPTH];
-        const struct material *material = scene->body.layers == 0
-                                              ? &scene->material[scene->body.material]
-                                              : scene_material_at(scene, spline->greville[k] - spline->low);
+        const struct material *material =
+            scene->body.layers == 0
+                ? &scene->material[scene->body.material]
+                : scene_material_at(scene, spline->greville[k] - scene->body.low[c->dimension - 1]);
         if (material != before) c->class_plane[c->classes++] = k;
         before = material;
         c->plane_class[k] = c->classes - 1;
@@ -307,6 +310,19 @@ static bool lay_planes(struct consistent *c)
     return true;
 }
 
+double consistent_fastest(const struct consistent *c, int face)
+{
+    const struct scene *scene = c->model.scene;
+    const struct body *body = &scene->body;
+    double fastest = scene->material[body->material].p_speed;
+    if (body->layers == 0) return fastest;
+    const double depth = body->high[c->dimension - 1] - body->low[c->dimension - 1];
+    if (c->slot[face / 2] == DEPTH) return scene_material_at(scene, face % 2 == 0 ? 0 : depth)->p_speed;
+    for (size_t i = 0; i < body->layers; i++)
+        fastest = fmax(fastest, scene->material[body->layer[i].material].p_speed);
+    return fastest;
+}
+
 static selas_status check_options(const struct scene *scene, const struct consistent_options *options,
                                   struct messages *messages)
 {
@@ -317,19 +333,31 @@ static selas_status check_options(const struct scene *scene, const struct consis
         return fail(messages, SELAS_UNSUPPORTED,
                     "the consistent smoothed point method needs a box or a half-space; for other bodies take "
                     "method%%variant = 'paper' or method%%name = 'sph'");
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        if (options->sweeps == 0 && layer_points(scene, face) > 0)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: layer 'pml' needs method%%mass = 'vc1', 'vc2' or 'vc3'; with 'exact' take "
+                        "layer = 'lysmer'",
+                        face_name((enum face)face));
     return SELAS_OK;
 }
 
 static selas_status build(struct consistent *c, struct messages *messages)
 {
+    for (int face = 0; face < 2 * c->dimension; face++)
+        c->layer[face] = layer_points(c->model.scene, face);
     selas_status status = lay_axes(c, messages);
-    if (status == SELAS_OK) status = lay_faces(c, messages);
     if (status != SELAS_OK) return status;
+    lay_faces(c);
     if (!lay_material(c) || !lay_planes(c) || !consistent_plans(c) || !mass_allocate(c) ||
         !dampers_allocate(c) || !observe_create(c) || !collocation_create(c))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
+    bool layers = false;
+    for (int face = 0; face < BOX_FACES; face++)
+        layers = layers || c->layer[face] > 0;
+    if (status == SELAS_OK && layers) status = pml_create(c, messages);
     return status;
 }
 
@@ -348,16 +376,21 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.scene = scene;
     c->model.self_adjoint = true;
     status = build(c, messages);
+    if (c->pml != NULL) {
+        c->layered_class = consistent_class;
+        c->layered_class.remember = pml_remember;
+        c->model.class = &c->layered_class;
+    }
     if (status != SELAS_OK) {
         destroy(&c->model);
         return status;
     }
-    c->model.state_size = 2 * c->model.unknowns;
+    c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
     c->model.component_stride = c->volume;
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
     c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
-                     3 * c->model.points * sizeof(double);
+                     3 * c->model.points * sizeof(double) + (c->pml != NULL ? c->pml->bytes : 0);
     *model = &c->model;
     return SELAS_OK;
 }

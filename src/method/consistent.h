@@ -70,11 +70,14 @@ struct consistent {
     struct moving_load *moving_load;                      /* moving_load.c */
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
     struct mass_factors factors[FACTOR_SETS];
-    struct band *scratch[3]; /* [axis]: matrix to be factorised */
-    double *lane_buffer;     /* [threads * n[0] * LANES] */
-    double *line_buffer;     /* [threads * (n[0] + n[1])] */
-    double *face_buffer;     /* [dimension * plane] */
-    struct hform *hform;     /* NULL: exact mass */
+    struct band *scratch[3];          /* [axis]: matrix to be factorised */
+    size_t layer[BOX_FACES];          /* points of the absorbing layer behind the face; 0: none */
+    struct pml *pml;                  /* NULL: no layers */
+    struct model_class layered_class; /* with layers: consistent_class and `remember` */
+    double *lane_buffer;              /* [threads * n[0] * LANES] */
+    double *line_buffer;              /* [threads * (n[0] + n[1])] */
+    double *face_buffer;              /* [dimension * plane] */
+    struct hform *hform;              /* NULL: exact mass */
     int threads;
     double *position;
     struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
@@ -139,6 +142,9 @@ double dampers_power(const struct consistent *c, const double *v);
 
 /* consistent.c: sets a component's prescribed control values in plane k to 0. */
 void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane);
+
+/* consistent.c: fastest wave of the ground that a face touches. */
+double consistent_fastest(const struct consistent *c, int face);
 
 /* consistent_observe.c */
 bool observe_create(struct consistent *c);

@@ -124,7 +124,7 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
 {
     const struct spline *spline = c->spline[axis];
     const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
-    const double small = 1e-9 * (spline->high - spline->low);
+    const double small = 1e-9 * (spline->high - spline->low); /* no layer lies behind a symmetry plane */
     const bool cut = (boundary[0].kind == BOUNDARY_SYMMETRY && fabs(x - spline->low) < small) ||
                      (boundary[1].kind == BOUNDARY_SYMMETRY && fabs(x - spline->high) < small);
     struct spline_point at;
@@ -137,6 +137,7 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
 static bool traction(struct consistent *c, const struct load *load, const double centre[3],
                      const double direction[3], struct workspace *w)
 {
+    const struct body *body = &c->model.scene->body;
     const int normal = face_axis(load->face);
     for (int component = 0; component < c->dimension; component++) {
         if (direction[component] == 0) continue;
@@ -147,7 +148,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
             double *line = w->line[axis];
             if (axis == normal) {
                 consistent_point_line(c, axis, odd, false, false,
-                                      load->face % 2 == 0 ? spline->low : spline->high, line);
+                                      load->face % 2 == 0 ? body->low[axis] : body->high[axis], line);
                 continue;
             }
             const double half = load->size[load->shape == LOAD_DISC ? 0 : count] / 2;
@@ -155,7 +156,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
             if (load->shape == LOAD_POINT)
                 consistent_point_line(c, axis, odd, false, true, centre[axis], line);
             else if (load->shape == LOAD_FACE)
-                spline_moments(spline, odd, spline->low, spline->high, line);
+                spline_moments(spline, odd, body->low[axis], body->high[axis], line);
             else
                 spline_moments(spline, odd, centre[axis] - half, centre[axis] + half, line);
         }
@@ -181,6 +182,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
 static void body_force(struct consistent *c, const struct load *load, const double centre[3],
                        const double direction[3], struct workspace *w)
 {
+    const struct body *body = &c->model.scene->body;
     for (int component = 0; component < c->dimension; component++) {
         if (direction[component] == 0) continue;
         for (int axis = 0; axis < c->dimension; axis++) {
@@ -188,7 +190,7 @@ static void body_force(struct consistent *c, const struct load *load, const doub
             if (load->shape == LOAD_POINT)
                 consistent_point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
             else
-                spline_moments(spline, axis == component, spline->low, spline->high, w->line[axis]);
+                spline_moments(spline, axis == component, body->low[axis], body->high[axis], w->line[axis]);
         }
         add_product(c, w, component, direction[component]);
     }

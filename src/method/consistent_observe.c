@@ -66,7 +66,7 @@ static const struct material *material_at(const struct consistent *c, double dep
 {
     const struct scene *scene = c->model.scene;
     if (scene->body.layers == 0) return &scene->material[scene->body.material];
-    return scene_material_at(scene, depth_position - c->layout[DEPTH]->low);
+    return scene_material_at(scene, depth_position - scene->body.low[c->dimension - 1]);
 }
 
 static void to_body(const struct consistent *c, const double position[3], double place[3])
@@ -126,9 +126,9 @@ selas_status consistent_probe(struct model *model, const double position[3], str
 /* Lattice points per axis: the deck's spacing, whatever the knots. */
 static double lattice_position(const struct consistent *c, int axis, size_t i)
 {
-    const struct spline *spline = c->spline[axis];
+    const double low = c->model.scene->body.low[axis], high = c->model.scene->body.high[axis];
     const size_t cells = c->model.grid[axis] - 1;
-    return i == cells ? spline->high : spline->low + (spline->high - spline->low) * (double)i / (double)cells;
+    return i == cells ? high : low + (high - low) * (double)i / (double)cells;
 }
 
 bool observe_create(struct consistent *c)

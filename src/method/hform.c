@@ -7,21 +7,23 @@
 #include "method/hform.h"
 #include "method/moving_load.h"
 
+#include "method/pml.h"
+
 #include "base/memory.h"
 
 #include <omp.h>
 #include <string.h>
 
-/* N of one component's axis; rows and columns of held control values are 0. */
-static struct band *van_cittert(const struct consistent *c, int component, int axis)
+struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd)
 {
     const struct spline *spline = c->spline[axis];
-    const struct band *mass = c->mass_band[component][axis];
+    const struct band *mass = consistent_matrix((struct consistent *)c, axis, 0, odd, 0, odd, WEIGHT_DENSITY);
     const struct band *even =
         consistent_matrix((struct consistent *)c, axis, 0, false, 0, false, WEIGHT_DENSITY);
+    if (mass == NULL || even == NULL) return NULL;
     const size_t n = spline->count;
     struct band *rest = band_new(n, mass->half), *diagonal = band_new(n, 0), *sum = band_new(n, 0);
-    if (rest == NULL || diagonal == NULL || sum == NULL || even == NULL) return NULL;
+    if (rest == NULL || diagonal == NULL || sum == NULL) return NULL;
     bool held[2], cut[2]; /* cut: the even functions of a mirror plane keep what odd ones have not */
     for (int end = 0; end < 2; end++) {
         held[end] = c->held[component][2 * axis + end];
@@ -114,7 +116,7 @@ static bool lay_inverses(struct consistent *c)
                 if (same_space(c, component, other, axis))
                     h->inverse[component][axis] = h->inverse[other][axis];
             if (h->inverse[component][axis] == NULL) {
-                h->inverse[component][axis] = van_cittert(c, component, axis);
+                h->inverse[component][axis] = hform_inverse(c, component, axis, component == axis);
                 h->owns_inverse[component][axis] = true;
             }
             if (h->inverse[component][axis] == NULL || !lay_factor(c, component, axis)) return false;
@@ -365,6 +367,7 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         acceleration_plane(c, drive, omp_get_thread_num(), k, u, a);
+    if (drive->extra != NULL) pml_accelerate(c, drive->extra, a);
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
 }
 

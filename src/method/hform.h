@@ -37,6 +37,9 @@ struct hform {
 
 selas_status hform_create(struct consistent *c, struct messages *messages);
 void hform_free(struct consistent *c);
+/* New van Cittert inverse of an axis's mass between functions that are even or odd at symmetry planes, 0
+ * where the component is held. NULL: no memory. */
+struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd);
 void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
                       const double *v, double *a);
 void hform_energy(struct consistent *c, const double *y, struct energy *energy);

@@ -13,6 +13,7 @@
 
 struct mirror {
     struct model model;
+    struct model_class class; /* mirror_class, with the functions that only some parts have */
     struct model *part;
     struct scene part_scene;
     unsigned axes;
@@ -105,6 +106,11 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     struct model *part = part_of(model);
     part->class->accelerate(part, drive, half_step, u, v, a);
     model->evaluations++;
+}
+
+static void remember(struct model *model, double dt, double *y)
+{
+    part_of(model)->class->remember(part_of(model), dt, y);
 }
 
 static void initialise(struct model *model, double *y)
@@ -270,7 +276,9 @@ static selas_status fill(struct mirror *mirror, struct messages *messages)
     struct model *model = &mirror->model;
     const struct scene *scene = model->scene;
     *model = *part;
-    model->class = &mirror_class;
+    mirror->class = mirror_class;
+    if (part->class->remember != NULL) mirror->class.remember = remember;
+    model->class = &mirror->class;
     model->scene = scene;
     for (int axis = 0; axis < 3; axis++)
         if ((mirror->axes & 1u << axis) != 0) model->grid[axis] = 2 * part->grid[axis] - 1;

@@ -22,6 +22,7 @@ struct drive {
     const double
         *motion; /* [FACES]: second time derivative of the prescribed displacement history (per amplitude) */
     const double *displacement, *velocity; /* [FACES]: that history itself and its first derivative */
+    const double *extra; /* the state's extra part, for models that have `remember`; NULL: all 0 */
 };
 
 struct energy {
@@ -77,6 +78,11 @@ struct model_class {
      * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
      * Called right after u has moved, before the acceleration there. NULL where there is no filter. */
     void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
+    /* Linear models with memory (absorbing layers): brings the extra part of y over a step dt. On entry u is
+     * that of the end of the step, v the mean velocity over it (leapfrog's half-step velocity), extra that of
+     * the start. Called before the acceleration at the end, which gets it in drive->extra. NULL: no memory.
+     */
+    void (*remember)(struct model *model, double dt, double *y);
     /* Initial state from scene->initial; y is zero on entry. */
     void (*initialise)(struct model *model, double *y);
     /* Finds weights for a position (deck coordinates). */

@@ -86,7 +86,9 @@ static void place_line(const struct consistent *c, const struct moving_load *mov
     const double x = moving->centre[axis] + moving->velocity[axis] * time, half = moving->half[axis];
     const double small = 1e-12 * (spline->high - spline->low);
     if (axis == face_axis(load->face))
-        consistent_point_line(c, axis, odd, false, false, load->face % 2 == 0 ? spline->low : spline->high,
+        consistent_point_line(c, axis, odd, false, false,
+                              load->face % 2 == 0 ? c->model.scene->body.low[axis]
+                                                  : c->model.scene->body.high[axis],
                               line->value);
     else if (half > 0)
         spline_moments(spline, odd, x - half, x + half, line->value);

@@ -43,7 +43,7 @@ static void read_motion(struct builder *builder, const struct deck_group *group,
 
 static void read_absorber(struct builder *builder, const struct deck_group *group, struct boundary *boundary)
 {
-    static const char *const layer_words[] = {"layer_points", "layer_reflection", NULL};
+    static const char *const layer_words[] = {"layer_points", "layer_reflection", "always", NULL};
     static const char *const factor_words[] = {"normal_factor", "shear_factor", NULL};
     boundary->absorber =
         deck_values(group, "layer") > 0 ? (enum absorber)deck_choice(group, "layer", 0) : ABSORBER_LYSMER;
@@ -54,6 +54,7 @@ static void read_absorber(struct builder *builder, const struct deck_group *grou
         return;
     }
     refuse(builder, group, factor_words, "layer 'pml'");
+    boundary->always = deck_logical(group, "always", 0);
     if (deck_given(group, "layer_points") && deck_given(group, "layer_reflection"))
         complain(builder, group, "layer_reflection", "give layer_points or layer_reflection, not both");
     if (deck_given(group, "layer_points")) boundary->layer_points = deck_integer(group, "layer_points", 0);
@@ -65,8 +66,8 @@ static void read_absorber(struct builder *builder, const struct deck_group *grou
 static void read_treatment(struct builder *builder, const struct deck_group *group, struct boundary *boundary)
 {
     static const char *const motion_words[] = {"direction", "slip", NULL};
-    static const char *const absorber_words[] = {"layer",         "layer_points", "layer_reflection",
-                                                 "normal_factor", "shear_factor", NULL};
+    static const char *const absorber_words[] = {
+        "layer", "layer_points", "layer_reflection", "normal_factor", "shear_factor", "always", NULL};
     boundary->kind = (enum boundary_kind)deck_choice(group, "kind", 0);
     boundary->normal_factor = boundary->shear_factor = 1;
     const char *purpose = kinds[boundary->kind];

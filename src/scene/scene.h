@@ -79,6 +79,7 @@ struct boundary {
     enum absorber absorber;
     long layer_points; /* 0: choose from layer_reflection */
     double layer_reflection;
+    bool always;                        /* keep the layer even where no reflection can be seen by end_time */
     double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
     double direction[3];                /* unit vector in the deck's coordinates (VELOCITY, DISPLACEMENT) */
     double amplitude;

@@ -27,6 +27,7 @@ static void start(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
+    if (model->class->remember != NULL) drive.extra = state->y + 2 * model->unknowns;
     model->class->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 
@@ -38,6 +39,10 @@ static void close_step(struct stepper *stepper, struct state *state)
     double *v = state->y + model->unknowns;
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
+    if (model->class->remember != NULL) {
+        model->class->remember(model, stepper->dt, state->y);
+        drive.extra = v + model->unknowns;
+    }
     model->class->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
     leapfrog_kick(stepper, state);
 }

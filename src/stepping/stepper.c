@@ -200,6 +200,9 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
         return fail(messages, SELAS_UNSUPPORTED,
                     "scheme '%s' knows how loads vary in time, not how they move; take scheme 'leapfrog'",
                     name);
+    if (class->remember != NULL && stepper->scheme != &scheme_leapfrog)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "absorbing layers (boundary%%layer = 'pml') need scheme 'leapfrog', not '%s'", name);
     selas_status status = choose_step(stepper, messages);
     if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
     if (status != SELAS_OK) return status;

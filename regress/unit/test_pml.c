@@ -1,0 +1,269 @@
+/* Absorbing layers: what comes back from waves at all angles, quiet long runs, symmetry planes, layers that
+ * nobody needs, scenes without layers. */
+#include "consistent_run.h"
+
+#include "method/pml.h"
+#include "stepping/stepping.h"
+
+#include <omp.h>
+
+static const struct consistent_options standard = {.degree = 2, .sweeps = 3};
+
+static void set_layer(struct plain_scene *plain, int face, long points)
+{
+    struct boundary *boundary = &plain->scene.boundary[face];
+    boundary->kind = BOUNDARY_TRANSMITTING;
+    boundary->absorber = ABSORBER_PML;
+    boundary->layer_points = points;
+}
+
+static struct run start(const struct plain_scene *plain)
+{
+    struct run run = run_new(plain, standard);
+    free(run.y);
+    run.y = calloc(run.model->state_size, sizeof *run.y);
+    return run;
+}
+
+/* Steps of leapfrog; v is that of the half step before on entry and at the end. */
+static void march(struct run *run, double dt, int steps)
+{
+    const struct model_class *class = run->model->class;
+    double *v = run->y + run->n;
+    for (int step = 0; step < steps; step++) {
+        const struct drive drive = {.extra = class->remember != NULL ? v + run->n : NULL};
+        class->accelerate(run->model, &drive, dt / 2, run->y, v, run->a);
+        for (size_t i = 0; i < run->n; i++) {
+            v[i] += dt * run->a[i];
+            run->y[i] += dt * v[i];
+        }
+        if (class->remember != NULL) class->remember(run->model, dt, run->y);
+    }
+}
+
+static double safe_step(const struct run *run)
+{
+    double omega, error;
+    struct messages messages = {0};
+    assert_int_equal(largest_frequency(run->model, &omega, &error, &messages), SELAS_OK);
+    return 1.8 / (omega * (1 + error));
+}
+
+/* A pulse in a box, 0 .. 4 along each axis, whose faces in the mask have layers, and in one so large that
+ * nothing comes back; v at three places over the whole time. Gives the norms of the difference and of v. */
+static void compare(int dimension, double nu, unsigned layered, double end, double *off, double *norm)
+{
+    static const double places[3][3] = {{1, 1.5, 0}, {3.25, .5, 0}, {2, 3.5, 0}};
+    struct plain_scene plain[2];
+    struct run run[2];
+    for (int i = 0; i < 2; i++) {
+        plain_box(&plain[i], dimension, (double[]){4, 4, 4}, .25);
+        struct scene *scene = &plain[i].scene;
+        plain_material(&plain[i].material[0], 1, 2 * nu / (1 - 2 * nu), 1);
+        for (int face = 0; face < 2 * dimension; face++) {
+            if ((layered & 1u << face) == 0) continue;
+            if (i == 0) set_layer(&plain[i], face, 8);
+            if (i == 1 && face % 2 == 0) scene->body.low[face / 2] -= 8;
+            if (i == 1 && face % 2 == 1) scene->body.high[face / 2] += 8;
+        }
+        scene->initial = (struct initial){.kind = INITIAL_GAUSSIAN, .amplitude = 1, .width = .5};
+        for (int axis = 0; axis < dimension; axis++) {
+            scene->initial.centre[axis] = 2;
+            scene->initial.direction[axis] = axis == 0 ? .6 : .8;
+        }
+        run[i] = start(&plain[i]);
+        run[i].model->class->initialise(run[i].model, run[i].y);
+    }
+    const double dt = fmin(safe_step(&run[0]), safe_step(&run[1]));
+    *off = *norm = 0;
+    for (int step = 0; step < end / dt; step += 2)
+        for (int place = 0; place < 3; place++) {
+            double value[2][3];
+            for (int i = 0; i < 2; i++) {
+                struct probe probe = {0};
+                struct messages messages = {0};
+                if (place == 0) march(&run[i], dt, 2);
+                run[i].model->class->probe(run[i].model, places[place], &probe, &messages);
+                run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
+                                             value[i]);
+                probe_free(&probe);
+            }
+            for (int c = 0; c < dimension; c++) {
+                *off += pow(value[0][c] - value[1][c], 2);
+                *norm += pow(value[1][c], 2);
+            }
+        }
+    *off = sqrt(*off);
+    *norm = sqrt(*norm);
+    run_free(&run[0]);
+    run_free(&run[1]);
+}
+
+/* Normal incidence (a bar), all angles and corners (a square), the free surface and its waves (face y-). */
+static void test_reflection(void **state)
+{
+    (void)state;
+    static const struct {
+        int dimension;
+        unsigned layered;
+        double nu, end, most;
+    } cases[] = {{1, 3, .25, 6, 2e-3}, {2, 15, .25, 6, 2e-3}, {2, 11, .25, 6, 2e-3}, {2, 11, .45, 3, 2e-3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double off, norm;
+        compare(cases[i].dimension, cases[i].nu, cases[i].layered, cases[i].end, &off, &norm);
+        print_message("# reflection %zu: %.3g of %.3g: %.3g\n", i, off, norm, off / norm);
+        assert_true(norm > .1);
+        assert_true(off < cases[i].most * norm);
+    }
+}
+
+/* Noise dies away and never comes back, whatever Poisson's ratio, with layers all around, on both sides of a
+ * thin body, and under a free surface, at nine tenths of the limit. */
+static void test_quiet(void **state)
+{
+    (void)state;
+    static const double poisson[3] = {.25, .45, .49};
+    for (int thin = 0; thin < 2; thin++)
+        for (int material = 0; material < 3; material++) {
+            struct plain_scene plain;
+            plain_box(&plain, 2, (double[]){2.5, thin ? 1 : 2.5, 0}, .25);
+            plain_material(&plain.material[0], 1, 2 * poisson[material] / (1 - 2 * poisson[material]), 1);
+            for (int face = 0; face < 4; face++)
+                if (face != FACE_Y_LOW || !thin) set_layer(&plain, face, 6);
+            struct run run = start(&plain);
+            double *v = run.y + run.n, first = 0, before = 0;
+            const double dt = safe_step(&run);
+            noise(run.n, run.y);
+            run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
+            memset(run.y, 0, run.n * sizeof *run.y);
+            first = dot(run.n, v, v);
+            for (int round = 0; round < 8; round++) {
+                double most = 0;
+                for (int part = 0; part < 25; part++) {
+                    march(&run, dt, 10);
+                    most = fmax(most, dot(run.n, v, v));
+                }
+                if (round > 0) assert_true(most < before + 1e-24 * first);
+                before = most;
+            }
+            print_message("# noise left, thin %d, nu %g: %.2g\n", thin, poisson[material], before / first);
+            assert_true(before < 1e-3 * first);
+            run_free(&run);
+        }
+}
+
+/* A quarter with symmetry planes does what the whole does; 1 and 3 threads give the same bits. */
+static void test_symmetry_planes(void **state)
+{
+    (void)state;
+    struct plain_scene plain[3];
+    struct run run[3];
+    const int most = omp_get_max_threads();
+    for (int i = 0; i < 3; i++) {
+        plain_box(&plain[i], 3, (double[]){4.8, 4.8, 1.2}, .4);
+        struct scene *scene = &plain[i].scene;
+        for (int face = 0; face < 6; face++)
+            if (face != FACE_Z_LOW) set_layer(&plain[i], face, 4);
+        if (i > 0) {
+            scene->body.low[0] = scene->body.low[1] = 2.4;
+            scene->boundary[FACE_X_LOW].kind = scene->boundary[FACE_Y_LOW].kind = BOUNDARY_SYMMETRY;
+        }
+        scene->initial = (struct initial){.kind = INITIAL_GAUSSIAN,
+                                          .amplitude = 1,
+                                          .width = .6,
+                                          .centre = {2.4, 2.4, .3},
+                                          .direction = {0, 0, 1}};
+        omp_set_num_threads(i == 2 ? 3 : 1);
+        run[i] = start(&plain[i]);
+        run[i].model->class->initialise(run[i].model, run[i].y);
+        march(&run[i], .05, 60);
+    }
+    omp_set_num_threads(most);
+    assert_memory_equal(run[1].y, run[2].y, run[1].model->state_size * sizeof(double));
+    static const double places[2][3] = {{2.4, 2.4, 0}, {4, 2.8, .4}};
+    for (int place = 0; place < 2; place++) {
+        double value[2][3];
+        for (int i = 0; i < 2; i++) {
+            struct probe probe = {0};
+            struct messages messages = {0};
+            run[i].model->class->probe(run[i].model, places[place], &probe, &messages);
+            run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a, value[i]);
+            probe_free(&probe);
+        }
+        assert_true(fabs(value[0][2]) > 1e-3);
+        for (int component = 0; component < 3; component++)
+            assert_near(value[1][component], value[0][component], 1e-12);
+    }
+    for (int i = 0; i < 3; i++)
+        run_free(&run[i]);
+}
+
+/* Points, positions and the state: users see their box, the state has the memory, others have nothing of it.
+ */
+static void test_what_is_kept(void **state)
+{
+    (void)state;
+    struct plain_scene plain, with;
+    plain_box(&plain, 3, (double[]){1.5, 1.2, 1.5}, .3);
+    with = plain;
+    with.scene.material = with.material;
+    set_layer(&with, FACE_X_HIGH, 5);
+    struct run bare = start(&plain), layered = start(&with);
+    assert_null(bare.model->class->remember);
+    assert_null(consistent_of(bare.model)->pml);
+    assert_int_equal(bare.model->state_size, 2 * bare.model->unknowns);
+    assert_int_equal(layered.model->points, bare.model->points);
+    assert_memory_equal(layered.model->position, bare.model->position,
+                        3 * bare.model->points * sizeof(double));
+    const struct consistent *c = consistent_of(layered.model);
+    assert_int_equal(c->n[0], consistent_of(bare.model)->n[0] + 5);
+    assert_int_equal(layered.model->state_size - 2 * layered.model->unknowns,
+                     18 * c->pml->slab[0].inside.n[0] * c->n[1] * c->n[2] / 3);
+    run_free(&bare);
+    run_free(&layered);
+}
+
+/* A layer is left out where no reflection is seen by end_time, and kept one wave path later or on request.
+ */
+static void test_left_out(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    struct receiver receiver = {.position = {1, 0, 0}};
+    plain_box(&plain, 2, (double[]){6, 6, 0}, .25);
+    struct load *load = plain_face_load(&plain, FACE_Y_LOW, (double[]){0, 1, 0});
+    load->shape = LOAD_SQUARE;
+    load->size[0] = load->size[1] = 1;
+    load->centre[0] = 1;
+    plain.scene.receivers = 1;
+    plain.scene.receiver = &receiver;
+    set_layer(&plain, FACE_X_HIGH, 8);
+    const double speed = plain.material[0].p_speed; /* the path is 4.5 + 5 */
+    plain.scene.end_time = 8 / speed;
+    assert_true(layer_left_out(&plain.scene, FACE_X_HIGH));
+    assert_int_equal(layer_points(&plain.scene, FACE_X_HIGH), 0);
+    plain.scene.boundary[FACE_X_HIGH].always = true;
+    assert_int_equal(layer_points(&plain.scene, FACE_X_HIGH), 8);
+    plain.scene.boundary[FACE_X_HIGH].always = false;
+    plain.scene.end_time = 9.5 / speed;
+    assert_int_equal(layer_points(&plain.scene, FACE_X_HIGH), 8);
+    plain.scene.end_time = 8 / speed;
+    plain.scene.boundary[FACE_X_LOW].kind = BOUNDARY_SYMMETRY; /* images are no nearer */
+    assert_true(layer_left_out(&plain.scene, FACE_X_HIGH));
+    receiver.position[0] = 5;
+    assert_int_equal(layer_points(&plain.scene, FACE_X_HIGH), 8);
+    plain.scene.boundary[FACE_X_HIGH].layer_points = 0;
+    assert_int_equal(layer_points(&plain.scene, FACE_X_HIGH), LAYER_POINTS);
+    plain.scene.boundary[FACE_X_HIGH].layer_reflection = layer_expected_reflection(12);
+    assert_int_equal(layer_points(&plain.scene, FACE_X_HIGH), 12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reflection),      cmocka_unit_test(test_quiet),
+        cmocka_unit_test(test_symmetry_planes), cmocka_unit_test(test_what_is_kept),
+        cmocka_unit_test(test_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

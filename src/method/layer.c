@@ -1,0 +1,143 @@
+/* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
+ * (doc/absorbing-faces.md, sections 3 and 6). */
+#include "method/pml.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The reflection that a profile is made for may fall with the number of points by this factor a point; then
+ * what comes back from the outer end and what the lattice makes of the profile are about equal, a tenth of
+ * the profile's own figure (measured). */
+static const double decay_per_point = .78, measured_part = .1;
+
+double layer_profile_reflection(size_t points)
+{
+    return exp(-decay_per_point * (double)points);
+}
+
+double layer_expected_reflection(size_t points)
+{
+    return measured_part * layer_profile_reflection(points);
+}
+
+static bool in_box(const struct scene *scene)
+{
+    return scene->body.shape == BODY_BOX || scene->body.shape == BODY_HALF_SPACE;
+}
+
+static double face_position(const struct scene *scene, int face)
+{
+    return face % 2 == 0 ? scene->body.low[face / 2] : scene->body.high[face / 2];
+}
+
+/* Distance of a place (deck coordinates) from a face, or of its mirror image where the opposite face is a
+ * symmetry plane. */
+static double distance(const struct scene *scene, int face, const double position[3])
+{
+    double place[3];
+    const int opposite = face ^ 1, axis = face / 2;
+    body_from_deck(&scene->body, position, place);
+    const double direct = fabs(place[axis] - face_position(scene, face));
+    if (scene->boundary[opposite].kind != BOUNDARY_SYMMETRY) return direct;
+    const double image = 2 * face_position(scene, opposite) - place[axis];
+    return fmin(direct, fabs(image - face_position(scene, face)));
+}
+
+static double source_distance(const struct scene *scene, int face)
+{
+    double nearest = INFINITY;
+    if (scene->initial.kind != INITIAL_REST) return 0;
+    for (int other = 0; other < BOX_FACES; other++)
+        if (scene->boundary[other].kind == BOUNDARY_VELOCITY ||
+            scene->boundary[other].kind == BOUNDARY_DISPLACEMENT)
+            return 0;
+    for (size_t l = 0; l < scene->loads; l++) {
+        const struct load *load = &scene->load[l];
+        const bool moves = load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
+        if (load->shape == LOAD_FACE || moves) return 0;
+        const double size = load->shape == LOAD_POINT ? 0 : fmax(load->size[0], load->size[1]) / 2;
+        nearest = fmin(nearest, distance(scene, face, load->centre) - size);
+    }
+    return fmax(nearest, 0);
+}
+
+static double seen_distance(const struct scene *scene, int face)
+{
+    double nearest = INFINITY;
+    if (scene->snapshots > 0) return 0;
+    for (size_t r = 0; r < scene->receivers; r++)
+        nearest = fmin(nearest, distance(scene, face, scene->receiver[r].position));
+    for (size_t p = 0; p < scene->profiles; p++)
+        nearest = fmin(nearest, fmin(distance(scene, face, scene->profile[p].from),
+                                     distance(scene, face, scene->profile[p].to)));
+    return nearest;
+}
+
+bool layer_unneeded(const struct scene *scene, int face)
+{
+    double fastest = 0;
+    for (size_t m = 0; m < scene->materials; m++)
+        fastest = fmax(fastest, scene->material[m].p_speed);
+    if (scene->boundary[face].always || scene->receivers + scene->profiles == 0) return false;
+    const double path = source_distance(scene, face) + seen_distance(scene, face);
+    return path - 4 * scene->body.spacing > 1.02 * fastest * scene->end_time;
+}
+
+static bool layer_asked(const struct scene *scene, int face)
+{
+    const struct boundary *boundary = &scene->boundary[face];
+    return in_box(scene) && boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML;
+}
+
+size_t layer_points(const struct scene *scene, int face)
+{
+    const struct boundary *boundary = &scene->boundary[face];
+    if (!layer_asked(scene, face) || layer_unneeded(scene, face)) return 0;
+    if (boundary->layer_points > 0) return (size_t)boundary->layer_points;
+    if (!(boundary->layer_reflection > 0)) return LAYER_POINTS;
+    const double points = ceil(log(measured_part / boundary->layer_reflection) / decay_per_point - 1e-9);
+    return (size_t)fmin(fmax(points, LEAST_POINTS), MOST_POINTS);
+}
+
+bool layer_left_out(const struct scene *scene, int face)
+{
+    return layer_asked(scene, face) && layer_unneeded(scene, face);
+}
+
+/* Largest angular frequency of the loads (above it the spectrum is below 5 %), 0 if there is none. */
+static double source_cutoff(const struct scene *scene)
+{
+    double omega = 0;
+    for (size_t l = 0; l < scene->loads; l++)
+        omega = fmax(omega, history_cutoff(&scene->load[l].history, .05));
+    return omega;
+}
+
+void layers_describe(const struct consistent *c,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct scene *scene = c->model.scene;
+    const double cutoff = source_cutoff(scene), two_pi = 6.283185307179586477;
+    char key[32], text[200];
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        snprintf(key, sizeof key, "layer %s", face_name((enum face)face));
+        if (layer_left_out(scene, face))
+            tell(context, key,
+                 "none: no reflection can be seen by end_time (boundary%always = .true. keeps it)");
+        if (c->layer[face] == 0) continue;
+        const double thickness = fabs((face % 2 == 0 ? c->spline[face / 2]->low : c->spline[face / 2]->high) -
+                                      face_position(scene, face));
+        int used =
+            snprintf(text, sizeof text, "C-PML, %zu points, thickness %.4g", c->layer[face], thickness);
+        if (cutoff > 0 && isfinite(cutoff))
+            used += snprintf(text + used, sizeof text - (size_t)used,
+                             " = %.2g P wavelengths at the source's cutoff",
+                             thickness * cutoff / (two_pi * consistent_fastest(c, face)));
+        snprintf(text + used, sizeof text - (size_t)used, ", expected reflection %.1g %%",
+                 100 * layer_expected_reflection(c->layer[face]));
+        tell(context, key, text);
+    }
+    if (c->pml == NULL) return;
+    snprintf(text, sizeof text, "%zu in %zu slabs", c->pml->extra, c->pml->slabs);
+    tell(context, "memory variables of layers", text);
+}

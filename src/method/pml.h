@@ -1,0 +1,72 @@
+/* Absorbing layers of the consistent method: convolutional perfectly matched layers on the control values of
+ * the H-form (doc/absorbing-faces.md).
+ *
+ * The body goes on behind a face for some points; along the axis j across the face d/dx_j becomes
+ * (1 / s_j) d/dx_j, s_j = 1 + d_j(x_j) / (alpha + i omega). With F_j = 1 / s_j - 1 = -d_j / (i omega + alpha
+ * + d_j), that is f = F_j[g] <=> f' = -(alpha + d_j) f - d_j g, the layer keeps
+ *
+ *   psi_ij = F_j[C_j u_i]   and   phi_ij = F_j[T_ij],   T_ij: terms of rho a_i whose outer derivative is
+ *                                                             along j (Eqs 6 to 9 of the manual).
+ *
+ * These memory variables are the extra part of the state; only slabs of layer points have them. */
+#ifndef SELAS_PML_H
+#define SELAS_PML_H
+
+#include "method/hform.h"
+
+enum { SLAB_BANDS = 48, LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40, LAYER_POWER = 2 };
+
+/* A box of control values: first one and number of them by slot. */
+struct block {
+    size_t at[3], n[3];
+};
+
+/* The layer behind one face. */
+struct slab {
+    int axis, end;
+    struct block inside; /* control values with d > 0 */
+    struct block region; /* and those that the matrices reach from them */
+    size_t inner, volume;
+    double relaxation; /* alpha: the rate at which the layer forgets */
+    double *damping;   /* d at the control values inside, along the axis */
+    size_t psi, phi;   /* their places in the extra part: component i at psi + i * inner */
+    double *middle;    /* [dimension * inner] psi at the middle of a step */
+    size_t bands;
+    struct band *band[SLAB_BANDS];
+    struct tensor_plan *gradient; /* C_j u_i */
+    struct tensor_plan *outer;    /* T_ij from u, psi of this slab and psi_kk of the others */
+    struct tensor_plan *pull;     /* the acceleration that psi of this slab makes */
+};
+
+struct pml {
+    size_t slabs, extra;
+    struct slab slab[BOX_FACES];
+    double *in, *out; /* fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
+    size_t bytes;
+};
+
+/* layer.c: points of the layer behind a face, 0 if it has none. */
+size_t layer_points(const struct scene *scene, int face);
+/* Reflection at normal incidence that the profile of a layer of so many points is made for, and the one to be
+ * expected by measurement (doc/absorbing-faces.md, section 5). */
+double layer_profile_reflection(size_t points);
+double layer_expected_reflection(size_t points);
+/* True if no wave that the face sends back is seen by receivers and profiles within end_time; and if a layer
+ * that the scene asks for is left out for that. */
+bool layer_unneeded(const struct scene *scene, int face);
+bool layer_left_out(const struct scene *scene, int face);
+
+/* Lines of the plan about layers, built and left out. */
+void layers_describe(const struct consistent *c,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+
+/* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. */
+selas_status pml_create(struct consistent *c, struct messages *messages);
+void pml_free(struct consistent *c);
+/* a += what the memory variables do. */
+void pml_accelerate(const struct consistent *c, const double *extra, double *a);
+/* Brings the memory variables from one step to the next: y holds u at the end of the step and v, the mean
+ * velocity over it (Eqs 11 and 12). */
+void pml_remember(struct model *model, double dt, double *y);
+
+#endif

@@ -1,0 +1,268 @@
+/* Building the absorbing layers: slabs, damping profiles, matrices (doc/absorbing-faces.md, sections 2 and
+ * 3). The matrices of the axis across the face are cut to the slab's region; nothing outside is touched. */
+#include "method/pml.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Keeps a matrix for the plans; equal ones are shared, so that plans share passes. NULL: no room. */
+static const struct band *keep(struct slab *slab, struct band *band)
+{
+    if (band == NULL) return NULL;
+    for (size_t i = 0; i < slab->bands; i++) {
+        const struct band *known = slab->band[i];
+        if (known->n != band->n || known->half != band->half ||
+            memcmp(known->value, band->value, (2 * band->half + 1) * band->n * sizeof(double)) != 0)
+            continue;
+        band_free(band);
+        return known;
+    }
+    if (slab->bands == SLAB_BANDS) {
+        band_free(band);
+        return NULL;
+    }
+    return slab->band[slab->bands++] = band;
+}
+
+/* Rows and columns from .. from + n of a band matrix. */
+static struct band *cut(const struct band *band, size_t from, size_t n)
+{
+    struct band *part = band_new(n, band->half < n ? band->half : n - 1);
+    for (size_t i = 0; part != NULL && i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            if (band_get(band, from + i, from + j) != 0)
+                band_add(part, i, j, band_get(band, from + i, from + j));
+    return part;
+}
+
+/* What a term is applied to: a component's displacement, or that component's slope along an axis. */
+struct input {
+    int component, slope_axis; /* slope_axis -1: the displacement */
+};
+
+static bool odd(struct input input, int axis)
+{
+    return (input.component == axis) != (input.slope_axis == axis);
+}
+
+/* left * (integral of the test functions of `to` and the trial functions of `from`, with a slope on either
+ * one), cut to the region along the slab's own axis. */
+static const struct band *matrix(struct consistent *c, struct slab *slab, int axis, const struct band *left,
+                                 struct input to, bool test_slope, struct input from, bool trial_slope,
+                                 enum weighting weight)
+{
+    const struct band *right =
+        consistent_matrix(c, axis, test_slope, odd(to, axis), trial_slope, odd(from, axis), weight);
+    if (left == NULL || right == NULL) return NULL;
+    struct band *product = band_product(left, right);
+    const int slot = c->slot[axis];
+    if (product != NULL && axis == slab->axis) {
+        struct band *part = cut(product, slab->region.at[slot], slab->region.n[slot]);
+        band_free(product);
+        product = part;
+    }
+    return keep(slab, product);
+}
+
+/* Terms being collected for a plan of a slab. */
+struct terms {
+    struct consistent *c;
+    struct slab *slab;
+    struct tensor_term term[24];
+    size_t count;
+    bool good;
+};
+
+/* sign * weight / density * (d/dx_test, by parts) (d/dx_trial) `from`, to the acceleration `out`; test or
+ * trial may be -1. */
+static void add(struct terms *t, int out, size_t in, struct input from, int test, int trial,
+                enum weighting weight, double sign)
+{
+    struct consistent *c = t->c;
+    const bool varies = c->weighted[weight] != NULL;
+    struct tensor_term *term = &t->term[t->count++];
+    *term = (struct tensor_term){.out = out, .in = (int)in, .factor = sign};
+    if (!varies) term->factor *= c->property[weight] / c->property[WEIGHT_DENSITY];
+    for (int axis = 0; axis < c->dimension; axis++) {
+        if (axis != test && axis != trial && !(varies && c->slot[axis] == DEPTH)) continue;
+        const struct band *band = matrix(c, t->slab, axis, c->hform->inverse[out][axis],
+                                         (struct input){out, -1}, axis == test, from, axis == trial, weight);
+        t->good = t->good && band != NULL;
+        term->matrix[c->slot[axis]] = band;
+    }
+}
+
+static struct tensor_plan *plan(struct terms *t)
+{
+    const struct consistent *c = t->c;
+    if (!t->good) return NULL;
+    struct tensor_plan *made =
+        tensor_plan_new(t->slab->region.n, c->dimension, t->term, t->count, c->threads);
+    if (made != NULL) c->pml->bytes += tensor_plan_bytes(made);
+    return made;
+}
+
+/* N for the slopes of u_i along the slab's axis: that of components with their parity at symmetry planes. */
+static const struct band *slope_inverse(const struct consistent *c, struct slab *slab, int i)
+{
+    const int j = slab->axis;
+    if (i != j) return c->hform->inverse[j][j];
+    if (c->dimension > 1) return c->hform->inverse[(j + 1) % c->dimension][j];
+    return keep(slab, hform_inverse(c, 0, 0, false));
+}
+
+/* psi_ij = F_j[C_j u_i], C_j = N G; N over depth has the density in it. */
+static struct tensor_plan *plan_gradient(struct consistent *c, struct slab *slab)
+{
+    const int j = slab->axis;
+    struct terms t = {.c = c, .slab = slab, .good = true};
+    for (int i = 0; i < c->dimension; i++) {
+        const struct band *left = slope_inverse(c, slab, i);
+        struct tensor_term *term = &t.term[t.count++];
+        *term = (struct tensor_term){.out = i, .in = i, .factor = 1};
+        term->matrix[c->slot[j]] = matrix(c, slab, j, left, (struct input){i, j}, false,
+                                          (struct input){i, -1}, true, WEIGHT_DENSITY);
+        t.good = t.good && term->matrix[c->slot[j]] != NULL;
+    }
+    return plan(&t);
+}
+
+/* T_ij (Eqs 7 and 8): inputs u_i, psi_ij, psi_kk. */
+static struct tensor_plan *plan_outer(struct consistent *c, struct slab *slab)
+{
+    const int j = slab->axis;
+    const size_t dimension = (size_t)c->dimension;
+    struct terms t = {.c = c, .slab = slab, .good = true};
+    for (int i = 0; i < c->dimension; i++) {
+        const enum weighting weight = i == j ? WEIGHT_P : WEIGHT_MU;
+        add(&t, i, (size_t)i, (struct input){i, -1}, j, j, weight, -1);
+        add(&t, i, dimension + (size_t)i, (struct input){i, j}, -1, j, weight, 1);
+    }
+    for (int k = 0; k < c->dimension; k++) {
+        if (k == j) continue;
+        const size_t slope = 2 * dimension + (size_t)k;
+        add(&t, j, (size_t)k, (struct input){k, -1}, j, k, WEIGHT_LAMBDA, -1);
+        add(&t, j, (size_t)k, (struct input){k, -1}, k, j, WEIGHT_MU, -1);
+        add(&t, j, slope, (struct input){k, k}, j, -1, WEIGHT_LAMBDA, -1);
+        add(&t, j, slope, (struct input){k, k}, -1, j, WEIGHT_MU, 1);
+    }
+    return plan(&t);
+}
+
+/* The acceleration that psi_ij of this slab makes (Eq 9): inputs psi_ij. */
+static struct tensor_plan *plan_pull(struct consistent *c, struct slab *slab)
+{
+    const int j = slab->axis;
+    struct terms t = {.c = c, .slab = slab, .good = true};
+    for (int i = 0; i < c->dimension; i++) {
+        add(&t, i, (size_t)i, (struct input){i, j}, -1, j, i == j ? WEIGHT_P : WEIGHT_MU, 1);
+        if (i == j) continue;
+        add(&t, i, (size_t)j, (struct input){j, j}, i, -1, WEIGHT_LAMBDA, -1);
+        add(&t, i, (size_t)j, (struct input){j, j}, -1, i, WEIGHT_MU, 1);
+    }
+    return plan(&t);
+}
+
+/* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
+static const double layer_relaxation = .1;
+
+/* d(x) = (p + 1) c_p ln(1/R) / (2 L) * (distance / L)^p: then the integral of d over the layer's thickness L,
+ * there and back, takes the amplitude down to R at normal incidence (Eq 10). */
+static bool lay_damping(struct consistent *c, struct slab *slab)
+{
+    const struct body *body = &c->model.scene->body;
+    const struct spline *spline = c->spline[slab->axis];
+    const int slot = c->slot[slab->axis], face = 2 * slab->axis + slab->end;
+    const double edge = slab->end == 0 ? body->low[slab->axis] : body->high[slab->axis];
+    const double thickness = slab->end == 0 ? edge - spline->low : spline->high - edge;
+    const double reflection = layer_profile_reflection(c->layer[face]);
+    const double fastest = consistent_fastest(c, face);
+    const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness);
+    slab->relaxation = layer_relaxation * fastest / thickness;
+    size_t count = 0, first = 0;
+    for (size_t i = 0; i < spline->count; i++) {
+        const double beyond = slab->end == 0 ? edge - spline->greville[i] : spline->greville[i] - edge;
+        if (beyond <= 1e-9 * thickness) continue;
+        if (count++ == 0) first = i;
+    }
+    slab->damping = array_new(count, sizeof *slab->damping);
+    if (slab->damping == NULL) return false;
+    for (size_t i = 0; i < count; i++)
+        slab->damping[i] = most * pow(fabs(spline->greville[first + i] - edge) / thickness, LAYER_POWER);
+    slab->inside = (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
+    slab->inside.at[slot] = first;
+    slab->inside.n[slot] = count;
+    return true;
+}
+
+/* The region: the slab and as much before it as the widest matrix reaches. */
+static void lay_region(const struct consistent *c, struct slab *slab)
+{
+    const int slot = c->slot[slab->axis];
+    const size_t reach = c->hform->inverse[slab->axis][slab->axis]->half + (size_t)c->options.degree;
+    const size_t room = c->n[slot] - slab->inside.n[slot], wider = reach < room ? reach : room;
+    slab->region = slab->inside;
+    slab->region.n[slot] += wider;
+    if (slab->end == 1) slab->region.at[slot] -= wider;
+    slab->inner = slab->inside.n[0] * slab->inside.n[1] * slab->inside.n[2];
+    slab->volume = slab->region.n[0] * slab->region.n[1] * slab->region.n[2];
+}
+
+static bool lay_slab(struct consistent *c, struct slab *slab)
+{
+    const size_t dimension = (size_t)c->dimension;
+    if (!lay_damping(c, slab)) return false;
+    lay_region(c, slab);
+    slab->psi = c->pml->extra;
+    slab->phi = slab->psi + dimension * slab->inner;
+    c->pml->extra += 2 * dimension * slab->inner;
+    slab->middle = array_new(dimension * slab->inner, sizeof *slab->middle);
+    c->pml->bytes += dimension * slab->inner * sizeof *slab->middle;
+    slab->gradient = plan_gradient(c, slab);
+    slab->outer = plan_outer(c, slab);
+    slab->pull = plan_pull(c, slab);
+    return slab->middle != NULL && slab->gradient != NULL && slab->outer != NULL && slab->pull != NULL;
+}
+
+selas_status pml_create(struct consistent *c, struct messages *messages)
+{
+    const size_t dimension = (size_t)c->dimension;
+    size_t largest = 0;
+    bool good = true;
+    c->pml = array_new(1, sizeof *c->pml);
+    if (c->pml == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
+    for (int face = 0; good && face < 2 * c->dimension; face++) {
+        if (c->layer[face] == 0) continue;
+        struct slab *slab = &c->pml->slab[c->pml->slabs++];
+        slab->axis = face / 2;
+        slab->end = face % 2;
+        good = lay_slab(c, slab);
+        largest = slab->volume > largest ? slab->volume : largest;
+    }
+    c->pml->in = array_new(3 * dimension * largest, sizeof(double));
+    c->pml->out = array_new(dimension * largest, sizeof(double));
+    c->pml->bytes += 4 * dimension * largest * sizeof(double);
+    if (!good || c->pml->in == NULL || c->pml->out == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
+    return SELAS_OK;
+}
+
+void pml_free(struct consistent *c)
+{
+    if (c->pml == NULL) return;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        struct slab *slab = &c->pml->slab[s];
+        tensor_plan_free(slab->gradient);
+        tensor_plan_free(slab->outer);
+        tensor_plan_free(slab->pull);
+        for (size_t i = 0; i < slab->bands; i++)
+            band_free(slab->band[i]);
+        array_free(slab->damping);
+        array_free(slab->middle);
+    }
+    array_free(c->pml->in);
+    array_free(c->pml->out);
+    array_free(c->pml);
+}
