@@ -99,3 +99,6 @@ for mass in exact vc2; do
     sed -i 's/^&stepping time_step.*$//; s/&stepping \//\&stepping time_step = 0.02 \//' "$out/$mass.nml"
     judge "degree 3, mass $mass" "$mass" .25
 done
+deck damped 3 "$box" "&load face = 'z-', centre = 2.0, 2.25, 0.0, direction = 0.0, 0.0, 1.0, $square /
+&method dissipation = 0.3 / $receivers"
+judge "with dissipation" damped .25

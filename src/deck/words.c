@@ -30,6 +30,9 @@ static const struct word method_words[] = {
      "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent)"},
     {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", false,
      "mass in the stiffness over depth where the inverse is by sweeps: exact, or the same as elsewhere"},
+    {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,
+     "damping rate of the shortest waves where the inverse is by sweeps [fastest speed / spacing]; else "
+     "none"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
      "compute half or quarter of a body where the scene has mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", false, "precision of the state"},

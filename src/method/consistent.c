@@ -143,6 +143,7 @@ static void power(struct model *model, const struct drive *drive, const double *
         *load += moving_loads_power(c, drive, v);
     }
     *absorbed = c->hform != NULL ? hform_damper_power(c, v) : dampers_power(c, v);
+    if (c->hform != NULL) *absorbed += hform_dissipation_power(c, v);
 }
 
 static void describe(const struct model *model,
@@ -156,6 +157,11 @@ static void describe(const struct model *model,
     snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form%s)", c->options.sweeps,
              c->options.depth_exact ? ", exact over depth in the stiffness" : "");
     tell(context, "mass", c->options.sweeps == 0 ? "exact (banded Cholesky per axis)" : text);
+    if (c->options.dissipation > 0) {
+        snprintf(text, sizeof text, "%g c_p / spacing, largest damping rate at most %.4g",
+                 c->options.dissipation, model->dissipation);
+        tell(context, "dissipation", text);
+    }
     size_t control[3] = {1, 1, 1};
     for (int axis = 0; axis < c->dimension; axis++)
         control[axis] = c->spline[axis]->count;
@@ -329,6 +335,9 @@ static selas_status check_options(const struct scene *scene, const struct consis
     if (options->degree < 1 || options->degree > SPLINE_MAX_DEGREE)
         return fail(messages, SELAS_BAD_SCENE, "method%%degree = %d; expected 1 to %d", options->degree,
                     SPLINE_MAX_DEGREE);
+    if (options->dissipation > 0 && options->sweeps == 0)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "method%%dissipation needs method%%mass = 'vc1', 'vc2' or 'vc3', not 'exact'");
     if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
         return fail(messages, SELAS_UNSUPPORTED,
                     "the consistent smoothed point method needs a box or a half-space; for other bodies take "
@@ -408,6 +417,8 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     }
     if (group != NULL && deck_values(group, "depth_mass") > 0)
         options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
+    if (group != NULL && deck_values(group, "dissipation") > 0)
+        options.dissipation = deck_real(group, "dissipation", 0);
     if (group != NULL && deck_values(group, "ends") > 0)
         options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     return consistent_create_with(scene, &options, model, messages);

@@ -16,6 +16,8 @@ struct consistent_options {
     bool mapped;      /* ends mapped instead of open */
     int sweeps;       /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
     bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
+    double
+        dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
 };
 
 enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };

@@ -310,7 +310,7 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     h->face[0] = array_new(largest, sizeof(double));
     h->face[1] = array_new(largest, sizeof(double));
     if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) || !lay_plan(c) ||
-        !lay_forces(c))
+        !lay_forces(c) || !hform_dissipation_create(c))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     return SELAS_OK;
 }
@@ -331,6 +331,7 @@ void hform_free(struct consistent *c)
     for (size_t i = 0; i < h->products; i++)
         band_free(h->product[i]);
     tensor_plan_free(h->acceleration);
+    hform_dissipation_free(c);
     for (size_t l = 0; h->load != NULL && l < c->model.scene->loads; l++)
         sparse_free(&h->load[l]);
     array_free(h->load);
@@ -344,7 +345,7 @@ void hform_free(struct consistent *c)
 }
 
 static void acceleration_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
-                               const double *u, double *a)
+                               const double *u, const double *v, double *a)
 {
     const struct hform *h = c->hform;
     double *out[3] = {NULL, NULL, NULL};
@@ -354,6 +355,7 @@ static void acceleration_plane(const struct consistent *c, const struct drive *d
     }
     tensor_plane(h->acceleration, thread, k, 1, u, out);
     hform_edges(c, k, u, out);
+    if (h->dissipation != NULL && v != NULL) tensor_plane(h->dissipation, thread, k, 1, v, out);
     for (int component = 0; component < c->dimension; component++) {
         add_forces(c, drive, h->load, h->pulled, component, k, out[component]);
         moving_loads_add(c, drive, component, k, out[component]);
@@ -366,7 +368,7 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
 {
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t k = 0; k < c->n[DEPTH]; k++)
-        acceleration_plane(c, drive, omp_get_thread_num(), k, u, a);
+        acceleration_plane(c, drive, omp_get_thread_num(), k, u, v, a);
     if (drive->extra != NULL) pml_accelerate(c, drive->extra, a);
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
 }

@@ -33,6 +33,8 @@ struct hform {
     struct sparse *load, pulled[BOX_FACES]; /* M^-1 F; M^-1 M_IB a_B of moving faces */
     double *face[2];                        /* face values */
     double *work;                           /* [unknowns], energies */
+    struct band *smoother[3][3];            /* dissipation: P of [component][axis] ... */
+    struct tensor_plan *dissipation;        /* ... and -rate sum of P; NULL: none asked for */
 };
 
 selas_status hform_create(struct consistent *c, struct messages *messages);
@@ -48,5 +50,10 @@ double hform_damper_power(struct consistent *c, const double *v);
 /* hform_faces.c: edges of plane k; the dampers' part of an acceleration that is otherwise complete. */
 void hform_edges(const struct consistent *c, size_t k, const double *u, double *const *out);
 void hform_dampers(struct consistent *c, double half_step, const double *v, double *a);
+
+/* hform_dissipation.c: high-frequency dissipation, if the options ask for it; false: no memory. */
+bool hform_dissipation_create(struct consistent *c);
+void hform_dissipation_free(struct consistent *c);
+double hform_dissipation_power(struct consistent *c, const double *v);
 
 #endif

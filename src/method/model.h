@@ -113,9 +113,11 @@ struct model {
     size_t unknowns;           /* numbers in u */
     size_t state_size;         /* numbers in y */
     size_t component_stride, point_stride;
-    size_t bytes;      /* memory held by the model */
-    bool damped;       /* C is not zero */
-    bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
+    size_t bytes;       /* memory held by the model */
+    bool damped;        /* C is not zero */
+    double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
+                           [1/time] */
+    bool self_adjoint;  /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (
         *frame)[3]; /* unknowns are in the body's frame: rotate to deck coordinates; NULL: they are not */
     unsigned long evaluations; /* calls of accelerate or rate so far */

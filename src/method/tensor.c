@@ -166,7 +166,7 @@ static inline __attribute__((always_inline)) void taps_along(size_t taps, const 
 }
 
 /* Numbers of taps of the usual degrees and masses. */
-#define USUAL_TAPS(CASE) CASE(3) CASE(5) CASE(7) CASE(9) CASE(13) CASE(17)
+#define USUAL_TAPS(CASE) CASE(3) CASE(5) CASE(7) CASE(9) CASE(13) CASE(17) CASE(21)
 
 /* out[i] += factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n. */
 static void pass_across(const struct band *matrix, size_t at, double factor, const double *in, size_t stride,

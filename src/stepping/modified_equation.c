@@ -18,7 +18,12 @@
 static double limit(const struct spectrum *spectrum, long stages)
 {
     (void)stages;
-    return spectrum->omega > 0.0 ? (spectrum->dampers ? 2.0 : sqrt(12.0)) / spectrum->omega : INFINITY;
+    /* a viscous force taken at the half step needs x + 2 viscous dt <= 4, and x = (omega dt)^2 (1 - (omega
+     * dt)^2 / 12) is 3 at most */
+    const double viscous = spectrum->viscous > 0.0 ? 0.5 / spectrum->viscous : INFINITY;
+    const double waves =
+        spectrum->omega > 0.0 ? (spectrum->dampers ? 2.0 : sqrt(12.0)) / spectrum->omega : INFINITY;
+    return fmin(waves, viscous);
 }
 
 static void accelerate(struct stepper *stepper, struct state *state, double half_step)

@@ -30,6 +30,7 @@ static selas_status measure_spectrum(struct stepper *stepper, struct messages *m
     const bool explicit_damping = !stepper->scheme->needs_acceleration || class->linearise != NULL;
     if (status == SELAS_OK && model->damped && explicit_damping)
         status = largest_damping(model, fastest_speed(model->scene), &spectrum->viscous, messages);
+    spectrum->viscous += model->dissipation;
     return status;
 }
 
