@@ -60,9 +60,11 @@ static selas_status by_kinks(const struct lamb_closed *closed, const struct patc
     return status;
 }
 
+/* Gauss nodes in panels of 12; panel j reaches from edge[2 j] to edge[2 j + 1]. */
 struct table {
     size_t rows;
     double *time, *weight, *step; /* step: 3 a row */
+    double *edge;
 };
 
 /* Gauss nodes on [from, to], the middle part in panels no longer than `longest`, halved towards both ends. */
@@ -80,6 +82,10 @@ static void fill(struct table *table, double from, double to, double longest)
         size = fmin(size, fmax(left, smallest));
         if (right > smallest * 1.001) size = fmin(size, fmax(.5 * right, smallest));
         if (right - size < .5 * smallest) size = right;
+        if (table->edge != NULL) {
+            table->edge[table->rows / 6] = at;
+            table->edge[table->rows / 6 + 1] = right - size <= 0 ? to : at + size;
+        }
         for (int i = 0; i < 12; i++) {
             if (table->time != NULL) {
                 table->time[table->rows] = at + size * (.5 + .5 * gauss12_node[i]);
@@ -96,6 +102,7 @@ static void table_free(struct table *table)
     array_free(table->time);
     array_free(table->weight);
     array_free(table->step);
+    array_free(table->edge);
 }
 
 static selas_status make_table(const struct lamb_closed *closed, const struct patch *patch, double x,
@@ -118,8 +125,8 @@ static selas_status make_table(const struct lamb_closed *closed, const struct pa
         const size_t rows = table->rows;
         if (pass == 1) {
             *table = (struct table){0, array_new(rows, sizeof(double)), array_new(rows, sizeof(double)),
-                                    array_new(3 * rows, sizeof(double))};
-            if (table->time == NULL || table->weight == NULL || table->step == NULL) {
+                                    array_new(3 * rows, sizeof(double)), array_new(rows / 6, sizeof(double))};
+            if (table->time == NULL || table->weight == NULL || table->step == NULL || table->edge == NULL) {
                 table_free(table);
                 return fail(messages, SELAS_NO_MEMORY, "not enough memory for a step response");
             }
@@ -132,6 +139,52 @@ static selas_status make_table(const struct lamb_closed *closed, const struct pa
         status = lamb_closed_step(closed, patch, x, y, table->time[i], table->step + 3 * i, messages);
     if (status != SELAS_OK) table_free(table);
     return status;
+}
+
+/* Step response at a time inside the panel that begins with row `first`, by Lagrange's polynomial. */
+static void within_panel(const struct table *table, size_t first, double time, double step[3])
+{
+    step[0] = step[1] = step[2] = 0;
+    for (size_t i = first; i < first + 12; i++) {
+        double weight = 1;
+        for (size_t j = first; j < first + 12; j++)
+            if (j != i) weight *= (time - table->time[j]) / (table->time[i] - table->time[j]);
+        for (size_t c = 0; c < 3; c++)
+            step[c] += weight * table->step[3 * i + c];
+    }
+}
+
+/* f''(t - tau) times step response over one panel; cut where f'' has a kink. */
+static void add_panel(const struct table *table, size_t first, const struct history *history, size_t kinks,
+                      const double *kink, double t, double velocity[3])
+{
+    const double from = table->edge[first / 6], to = table->edge[first / 6 + 1];
+    size_t next = kinks; /* kinks ascend, so their places t - kink descend */
+    while (next > 0 && t - kink[next - 1] <= from)
+        next--;
+    if (next == 0) return; /* the history has not begun */
+    if (t - kink[next - 1] >= to) {
+        for (size_t j = first; j < first + 12; j++) {
+            const double factor = table->weight[j] * history_value(history, t - table->time[j], 2);
+            for (size_t c = 0; c < 3; c++)
+                velocity[c] += factor * table->step[3 * j + c];
+        }
+        return;
+    }
+    double at = from;
+    while (at < to && next > 0) {
+        const double end = fmin(to, t - kink[next - 1]);
+        for (int i = 0; i < 12; i++) {
+            double step[3];
+            const double time = at + (end - at) * (.5 + .5 * gauss12_node[i]);
+            const double factor = .5 * (end - at) * gauss12_weight[i] * history_value(history, t - time, 2);
+            within_panel(table, first, time, step);
+            for (size_t c = 0; c < 3; c++)
+                velocity[c] += factor * step[c];
+        }
+        at = end;
+        next--;
+    }
 }
 
 selas_status lamb_closed_velocity(const struct lamb_closed *closed, const struct patch *patch, double x,
@@ -153,12 +206,14 @@ selas_status lamb_closed_velocity(const struct lamb_closed *closed, const struct
     const double longest = 2 / history_cutoff(history, 1e-3);
     const selas_status status = make_table(closed, patch, x, y, time[n - 1], longest, &table, messages);
     if (status != SELAS_OK) return status;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < table.rows && table.time[j] < time[i]; j++) {
-            const double factor = table.weight[j] * history_value(history, time[i] - table.time[j], 2);
-            for (size_t c = 0; c < 3; c++)
-                velocity[3 * i + c] += factor * table.step[3 * j + c];
-        }
+    const size_t kinks = history_kinks(history, NULL, 0);
+    double *kink = array_new(kinks, sizeof *kink);
+    if (kink != NULL) history_kinks(history, kink, kinks);
+    for (size_t i = 0; kink != NULL && i < n; i++)
+        for (size_t first = 0; first < table.rows; first += 12)
+            add_panel(&table, first, history, kinks, kink, time[i], velocity + 3 * i);
     table_free(&table);
+    if (kink == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for a history");
+    array_free(kink);
     return SELAS_OK;
 }
