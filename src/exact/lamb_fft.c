@@ -48,7 +48,7 @@ static double complex frequency(const struct work *work, size_t j)
 static struct lamb_range wavenumbers(const struct work *work, double angular_frequency)
 {
     const double slowest = angular_frequency / work->sum.slowest;
-    const double flat = 1.15 * slowest + 160 / work->scales.edge;
+    const double flat = 1.15 * slowest + 240 / work->scales.edge;
     /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading */
     const double buried = hypot(26 / work->scales.depth, slowest);
     return buried < flat ? (struct lamb_range){buried, buried} : (struct lamb_range){flat, flat / .6};
