@@ -177,11 +177,31 @@ static void test_energy(void **state)
     run_free(&run);
 }
 
+/* What is off takes no memory: no state beyond u and v, no plan, no bytes. */
+static void test_off(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    plain_box(&plain, 3, (double[]){3.0, 2.7, 3.3}, .3);
+    struct run off = run_new(&plain, dissipative(2, 0)), on = run_new(&plain, dissipative(2, .5));
+    assert_int_equal(off.model->state_size, 2 * off.n);
+    assert_null(consistent_of(off.model)->hform->dissipation);
+    assert_null(consistent_of(off.model)->hform->smoother[0][0]);
+    assert_null(consistent_of(off.model)->pml);
+    assert_true(off.model->dissipation == 0);
+    assert_true(on.model->dissipation > 0);
+    assert_int_equal(on.model->state_size, off.model->state_size);
+    assert_int_equal(on.model->bytes - off.model->bytes,
+                     tensor_plan_bytes(consistent_of(on.model)->hform->dissipation));
+    run_free(&off);
+    run_free(&on);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cubics), cmocka_unit_test(test_rate),   cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_sign),   cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_off),   cmocka_unit_test(test_cubics), cmocka_unit_test(test_rate),
+        cmocka_unit_test(test_bound), cmocka_unit_test(test_sign),   cmocka_unit_test(test_energy),
     };
     (void)plain_face_load;
     omp_set_num_threads(1);

@@ -399,7 +399,8 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
     c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
-                     3 * c->model.points * sizeof(double) + (c->pml != NULL ? c->pml->bytes : 0);
+                     hform_bytes(c) + 3 * c->model.points * sizeof(double) +
+                     (c->pml != NULL ? c->pml->bytes : 0);
     *model = &c->model;
     return SELAS_OK;
 }

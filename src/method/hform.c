@@ -315,6 +315,14 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     return SELAS_OK;
 }
 
+size_t hform_bytes(const struct consistent *c)
+{
+    const struct hform *h = c->hform;
+    if (h == NULL) return 0;
+    return sizeof *h + c->model.unknowns * sizeof *h->work + tensor_plan_bytes(h->acceleration) +
+           (h->dissipation != NULL ? tensor_plan_bytes(h->dissipation) : 0);
+}
+
 void hform_free(struct consistent *c)
 {
     struct hform *h = c->hform;
