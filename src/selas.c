@@ -390,6 +390,40 @@ selas_status selas_write_exact(selas_simulation *simulation)
     return status;
 }
 
+static selas_status check_checkpoint(selas_simulation *simulation, const char *path)
+{
+    if (path == NULL || path[0] == '\0')
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the checkpoint's path is NULL or empty");
+    if (simulation->recording || simulation->finished)
+        return fail(&simulation->messages, SELAS_UNSUPPORTED,
+                    "checkpoints are not offered with result files (selas_record) or after selas_finish");
+    if (simulation->failed != SELAS_OK)
+        return fail(&simulation->messages, simulation->failed, "the simulation has failed before");
+    return SELAS_OK;
+}
+
+selas_status selas_save(selas_simulation *simulation, const char *path)
+{
+    selas_status status = simulation_begin(simulation);
+    if (status == SELAS_OK) status = check_checkpoint(simulation, path);
+    if (status != SELAS_OK) return status;
+    return checkpoint_write(simulation->recorder, &simulation->state, path, &simulation->messages);
+}
+
+selas_status selas_restore(selas_simulation *simulation, const char *path)
+{
+    selas_status status = simulation_begin(simulation);
+    if (status == SELAS_OK) status = check_checkpoint(simulation, path);
+    if (status != SELAS_OK) return status;
+    if (simulation->state.step > 0)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "restore before the first step");
+    simulation->failed =
+        checkpoint_read(simulation->recorder, &simulation->state, path, &simulation->messages);
+    if (simulation->failed == SELAS_OK && simulation->stepper->host != NULL)
+        drive_changed(simulation->stepper, 0);
+    return simulation->failed;
+}
+
 selas_status selas_plan(selas_simulation *simulation,
                         void (*tell)(void *context, const char *key, const char *value), void *context)
 {

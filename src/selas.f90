@@ -61,7 +61,7 @@ module selas
       procedure, public :: advance, step, time, end_time, time_step, steps, steps_needed
       procedure, public :: receiver, finish, history, record, write => write_results, write_exact, plan
       procedure, public :: set_traction, set_body_force, set_motion, set_load, load_mean
-      procedure, public :: points, field, energy
+      procedure, public :: points, field, energy, save => save_state, restore
       procedure, public :: status => kept_status, message, output_directory, close => close_simulation
       final :: finalise
    end type
@@ -296,6 +296,18 @@ module selas
          type(c_ptr), value :: sim
          real(c_double), intent(out) :: kinetic, strain
          integer(c_int) :: c_energy
+      end function
+      function c_save(sim, path) bind(c, name='selas_save')
+         import :: c_int, c_char, c_ptr
+         type(c_ptr), value :: sim
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: c_save
+      end function
+      function c_restore(sim, path) bind(c, name='selas_restore')
+         import :: c_int, c_char, c_ptr
+         type(c_ptr), value :: sim
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: c_restore
       end function
       function c_field_components(field) bind(c, name='selas_field_components')
          import :: c_int
@@ -750,6 +762,22 @@ contains
       kinetic = 0
       strain = 0
       call report(self, c_energy(self%handle, kinetic, strain), status)
+   end subroutine
+
+   ! --- Checkpoints ---
+
+   subroutine save_state(self, path, status)
+      class(selas_simulation), intent(inout) :: self
+      character(*), intent(in) :: path
+      integer, intent(out), optional :: status
+      call report(self, c_save(self%handle, terminated(path)), status)
+   end subroutine
+
+   subroutine restore(self, path, status)
+      class(selas_simulation), intent(inout) :: self
+      character(*), intent(in) :: path
+      integer, intent(out), optional :: status
+      call report(self, c_restore(self%handle, terminated(path)), status)
    end subroutine
 
    ! --- What the host drives ---

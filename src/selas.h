@@ -205,6 +205,18 @@ SELAS_API selas_status selas_field_values(selas_simulation *simulation, selas_fi
 /* Kinetic and strain energy of the body at the step reached. Errors: SELAS_UNSUPPORTED. */
 SELAS_API selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain);
 
+/* --- Checkpoints
+ * -------------------------------------------------------------------------------------------------- */
+
+/* Saves state, time and histories in the file `path` (HDF5; it has its name only when it is complete).
+ * Errors: SELAS_FILE_ERROR, SELAS_UNSUPPORTED (after selas_record, after selas_finish). */
+SELAS_API selas_status selas_save(selas_simulation *simulation, const char *path);
+/* Goes on where selas_save left off: on a simulation of the same scene before its first step, with the same
+ * loads driven by the host. What follows is bit for bit what the saved simulation would have given. Errors:
+ * SELAS_FILE_ERROR (no checkpoint, another version or scene, damaged: no step can follow),
+ * SELAS_BAD_ARGUMENT, SELAS_UNSUPPORTED. */
+SELAS_API selas_status selas_restore(selas_simulation *simulation, const char *path);
+
 /* --- Names
  * ----------------------------------------------------------------------------------------------------- */
 

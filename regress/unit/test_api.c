@@ -227,6 +227,8 @@ static void call_all(selas_simulation *s)
     wrong(s, selas_points(s, &count, &values));
     wrong(s, selas_field_values(s, SELAS_VELOCITY, &count, &count, &values));
     wrong(s, selas_energy(s, value, value));
+    wrong(s, selas_save(s, "checkpoint"));
+    wrong(s, selas_restore(s, "checkpoint"));
     assert_true(selas_steps_needed(s) == 0 && selas_time_step(s) == 0.0);
     assert_true(isnan(selas_end_time(s)));
     assert_string_equal(selas_output_directory(s), "");
@@ -400,6 +402,53 @@ static void test_wrong_calls(void **state)
     assert_true(wrong_calls >= 200);
 }
 
+/* --- Checkpoints
+ * ---------------------------------------------------------------------------------------------------- */
+
+/* Saved half way and gone on in another simulation: the same bits as without a stop, by each family of
+ * schemes. */
+static void test_checkpoint(void **state)
+{
+    (void)state;
+    static const char *const scheme[4] = {"leapfrog", "modified-equation", "rk4", "lsrk54"};
+    char path[] = "/tmp/selas-checkpoint-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    for (int i = 0; i < 4; i++) {
+        selas_simulation *whole = open_scene(), *first = open_scene(), *second = open_scene();
+        selas_simulation *const all[3] = {whole, first, second};
+        const double *time = NULL, *value = NULL, *other = NULL;
+        size_t rows = 0, other_rows = 0;
+        for (int k = 0; k < 3; k++)
+            assert_int_equal(selas_set_text(all[k], "stepping%scheme", 1, &scheme[i]), SELAS_OK);
+        assert_int_equal(selas_step(first, 4), SELAS_OK);
+        assert_int_equal(selas_save(first, path), SELAS_OK);
+        assert_int_equal(selas_restore(second, path), SELAS_OK);
+        assert_true(selas_steps(second) == 4 && selas_time(second) == selas_time(first));
+        assert_int_equal(selas_finish(whole), SELAS_OK);
+        assert_int_equal(selas_finish(second), SELAS_OK);
+        assert_int_equal(selas_history(whole, "r", &rows, &time, &value), SELAS_OK);
+        assert_int_equal(selas_history(second, "r", &other_rows, &time, &other), SELAS_OK);
+        assert_true(rows == other_rows && rows > 4);
+        assert_memory_equal(value, other, 6 * rows * sizeof *value);
+        wrong_open(&second, selas_save(second, path)); /* finished */
+        for (int k = 0; k < 3; k++)
+            selas_close(&(selas_simulation *){all[k]});
+    }
+    selas_simulation *simulation = open_scene();
+    wrong_open(&simulation, selas_save(simulation, "/no/such/folder/checkpoint"));
+    wrong(simulation, selas_save(simulation, NULL));
+    wrong(simulation, selas_restore(simulation, path)); /* another scene: lsrk54 */
+    wrong(simulation, selas_step(simulation, 1));
+    selas_close(&simulation);
+    assert_int_equal(truncate(path, 3000), 0);
+    simulation = open_scene();
+    wrong_open(&simulation, selas_restore(simulation, path));
+    selas_close(&simulation);
+    remove(path);
+}
+
 /* --- Many simulations
  * ----------------------------------------------------------------------------------------------- */
 
@@ -445,7 +494,7 @@ static void test_two_threads(void **state)
 {
     (void)state;
     double alone[7], beside[2][7];
-    pthread_t thread[2];
+    pthread_t thread[2] = {0};
     run_one(alone);
     assert_true(alone[6] == 1 && fabs(alone[2]) > 0);
     for (int round = 0; round < 5; round++) {
@@ -464,8 +513,8 @@ int main(void)
         cmocka_unit_test(test_driven_loads),     cmocka_unit_test(test_mean),
         cmocka_unit_test(test_callback_answers), cmocka_unit_test(test_callback_must_not_call_back),
         cmocka_unit_test(test_wrong_handles),    cmocka_unit_test(test_wrong_words),
-        cmocka_unit_test(test_wrong_calls),      cmocka_unit_test(test_no_growth),
-        cmocka_unit_test(test_two_threads),
+        cmocka_unit_test(test_wrong_calls),      cmocka_unit_test(test_checkpoint),
+        cmocka_unit_test(test_no_growth),        cmocka_unit_test(test_two_threads),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

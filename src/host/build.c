@@ -25,6 +25,7 @@ static void put(struct text *text, const char *piece, size_t length)
         const size_t room = 2 * (text->room + length) + 64;
         char *grown = realloc(text->start, room);
         text->lacking = grown == NULL;
+        // cppcheck-suppress memleak ; grown is NULL here
         if (text->lacking) return;
         text->start = grown;
         text->room = room;

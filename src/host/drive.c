@@ -419,7 +419,7 @@ static void translate(const struct model *model, const double direction[3], doub
     double own[3] = {direction[0], direction[1], direction[2]};
     if (model->frame != NULL) body_direction_from_deck(&model->scene->body, direction, own);
     for (size_t i = 0; i < model->unknowns / d; i++)
-        for (size_t c = 0; c < d; c++)
+        for (size_t c = 0; c < 3 && c < d; c++)
             velocity[c * model->component_stride + i * model->point_stride] = own[c];
 }
 

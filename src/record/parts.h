@@ -87,6 +87,8 @@ struct recorder {
 selas_status trace_create(struct recorder *recorder, struct messages *messages);
 selas_status trace_observe(struct recorder *recorder, const struct state *state, struct messages *messages);
 selas_status trace_finish(struct recorder *recorder, struct messages *messages);
+/* Room for as many rows of all receivers. */
+selas_status trace_reserve(struct recorder *recorder, size_t rows, struct messages *messages);
 /* Forgets the last row of all receivers. */
 void trace_forget(struct recorder *recorder);
 void trace_free(struct recorder *recorder);

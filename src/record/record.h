@@ -56,6 +56,13 @@ void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const 
                    void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
+/* checkpoint.c: state and recorder to a file and back, bit for bit; without result files (recorder_open).
+ * Reading wants the same scene; SELAS_FILE_ERROR with the reason, after which state and recorder are of no
+ * use. */
+selas_status checkpoint_write(struct recorder *recorder, struct state *state, const char *path,
+                              struct messages *messages);
+selas_status checkpoint_read(struct recorder *recorder, struct state *state, const char *path,
+                             struct messages *messages);
 void recorder_free(struct recorder **recorder);
 
 #endif

@@ -11,13 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* HDF5 prints its errors unless it is told not to; the library prints nothing. */
-struct quiet {
-    H5E_auto2_t function;
-    void *data;
-};
-
-static struct quiet quiet_begin(void)
+struct quiet quiet_begin(void)
 {
     struct quiet quiet = {0};
     H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
@@ -25,7 +19,7 @@ static struct quiet quiet_begin(void)
     return quiet;
 }
 
-static void quiet_end(struct quiet quiet)
+void quiet_end(struct quiet quiet)
 {
     H5Eset_auto2(H5E_DEFAULT, quiet.function, quiet.data);
 }

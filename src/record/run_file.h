@@ -1,5 +1,5 @@
-/* run.h5 and the helpers that write into it; shared by run_file.c and provenance.c only. The helpers return
- * false on failure. */
+/* run.h5 and the helpers that write into it; shared by run_file.c, provenance.c and checkpoint.c only. The
+ * helpers return false on failure. */
 #ifndef SELAS_RUN_FILE_H
 #define SELAS_RUN_FILE_H
 
@@ -12,6 +12,14 @@ struct run_file {
     hid_t file, snapshots; /* -1 when closed */
     bool complete;         /* has its name */
 };
+
+/* HDF5 prints its errors unless it is told not to; the library prints nothing. */
+struct quiet {
+    H5E_auto2_t function;
+    void *data;
+};
+struct quiet quiet_begin(void);
+void quiet_end(struct quiet quiet);
 
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);

@@ -71,6 +71,16 @@ selas_status trace_observe(struct recorder *recorder, const struct state *state,
     return SELAS_OK;
 }
 
+selas_status trace_reserve(struct recorder *recorder, size_t rows, struct messages *messages)
+{
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
+        if (recorder->trace[r].room >= rows) continue;
+        const selas_status status = trace_room(&recorder->trace[r], rows, messages);
+        if (status != SELAS_OK) return status;
+    }
+    return SELAS_OK;
+}
+
 void trace_forget(struct recorder *recorder)
 {
     for (size_t r = 0; r < recorder->scene->receivers; r++)
