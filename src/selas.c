@@ -419,9 +419,12 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "restore before the first step");
     simulation->failed =
         checkpoint_read(simulation->recorder, &simulation->state, path, &simulation->messages);
-    if (simulation->failed == SELAS_OK && simulation->stepper->host != NULL)
-        drive_changed(simulation->stepper, 0);
-    return simulation->failed;
+    struct stepper *stepper = simulation->stepper;
+    if (simulation->failed != SELAS_OK) return simulation->failed;
+    if (stepper->host != NULL) drive_changed(stepper, 0);
+    /* the Runge-Kutta family keeps the rate at the start of a step; leapfrog's acceleration is in the file */
+    if (!stepper->scheme->needs_acceleration) stepper->scheme->start(stepper, &simulation->state);
+    return SELAS_OK;
 }
 
 selas_status selas_plan(selas_simulation *simulation,

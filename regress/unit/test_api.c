@@ -493,13 +493,13 @@ static void *run_one(void *answer)
 static void test_two_threads(void **state)
 {
     (void)state;
-    double alone[7], beside[2][7];
+    double alone[7] = {0}, beside[2][7] = {{0}};
     pthread_t thread[2] = {0};
     run_one(alone);
     assert_true(alone[6] == 1 && fabs(alone[2]) > 0);
     for (int round = 0; round < 5; round++) {
         for (int i = 0; i < 2; i++)
-            assert_int_equal(pthread_create(&thread[i], NULL, run_one, beside[i]), 0);
+            if (pthread_create(&thread[i], NULL, run_one, beside[i]) != 0) abort();
         for (int i = 0; i < 2; i++) {
             pthread_join(thread[i], NULL);
             assert_memory_equal(beside[i], alone, sizeof alone);
