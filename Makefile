@@ -26,7 +26,7 @@ INCLUDE  = $(PREFIX)/include
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace paper-figures consistent-tables tables test unit check-format check-tidy check-cppcheck install uninstall clean help
+.PHONY: all setup halfspace absorption paper-figures consistent-tables tables test unit check-format check-tidy check-cppcheck install uninstall clean help
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -37,6 +37,9 @@ halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots i
 	@$(MAKE) --no-print-directory all
 	$(BUILD)/selas input/halfspace.nml
 	@ls output/halfspace
+
+absorption: $(BUILD)/selas ## table of doc/absorbing-faces.md: what comes back from transmitting faces
+	@sh regress/absorption $(BUILD)
 
 paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
 	@sh regress/paper-figures $(BUILD)
