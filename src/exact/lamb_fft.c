@@ -348,13 +348,13 @@ selas_status lamb_fft(const struct lamb_problem *problem, double end_time, size_
     size_t *place = array_new(n, sizeof *place);
     bool *done = array_new(n, sizeof *done);
     selas_status status = SELAS_OK;
-    if (n > 0 && (group == NULL || place == NULL || done == NULL))
-        status = fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
+    const bool room = group != NULL && place != NULL && done != NULL;
+    if (!room) status = fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
     for (size_t i = 0; i < n; i++) {
         signal[i].value = signal[i].statics = signal[i].front = NULL;
         signal[i].end_time = end_time;
     }
-    for (size_t first = 0; first < n && status == SELAS_OK; first++) {
+    for (size_t first = 0; room && first < n && status == SELAS_OK; first++) {
         if (done[first]) continue;
         const int class = distance_class(problem, signal[first].position);
         size_t count = 0;

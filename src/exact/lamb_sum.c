@@ -105,7 +105,8 @@ static bool starts_group(const struct lamb_sum *sum, size_t p)
 
 static void fill_node(const struct lamb_sum *sum, struct lamb_grid *grid, size_t i)
 {
-    const double k = grid->panel * ((double)(i / PANEL) + .5 + .5 * gauss12_node[i % PANEL]);
+    const size_t panel = i / PANEL;
+    const double k = grid->panel * ((double)panel + .5 + .5 * gauss12_node[i % PANEL]);
     const double k_weight = .5 * grid->panel * gauss12_weight[i % PANEL];
     grid->k[i] = k;
     for (size_t p = 0; p < sum->paths; p++) {

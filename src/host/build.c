@@ -24,6 +24,7 @@ static void put(struct text *text, const char *piece, size_t length)
     if (text->length + length + 1 > text->room && !text->lacking) {
         const size_t room = 2 * (text->room + length) + 64;
         char *grown = realloc(text->start, room);
+        /* cppcheck-suppress memleak ; there is nothing to lose where it is NULL */
         text->lacking = grown == NULL;
         // cppcheck-suppress memleak ; grown is NULL here
         if (text->lacking) return;

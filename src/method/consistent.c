@@ -302,6 +302,7 @@ static bool lay_planes(struct consistent *c)
             scene->body.layers == 0
                 ? &scene->material[scene->body.material]
                 : scene_material_at(scene, spline->greville[k] - scene->body.low[c->dimension - 1]);
+        if (material == NULL) return false;
         if (material != before) c->class_plane[c->classes++] = k;
         before = material;
         c->plane_class[k] = c->classes - 1;

@@ -87,6 +87,7 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
     if (!varies) term->factor *= c->property[weight] / c->property[WEIGHT_DENSITY];
     for (int axis = 0; axis < c->dimension; axis++) {
         if (axis != test && axis != trial && !(varies && c->slot[axis] == DEPTH)) continue;
+        /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
         const struct band *band = matrix(c, t->slab, axis, c->hform->inverse[out][axis],
                                          (struct input){out, -1}, axis == test, from, axis == trial, weight);
         t->good = t->good && band != NULL;

@@ -179,7 +179,7 @@ static selas_status take(const struct scene *scene, const struct table *table, s
 /* Points that the host handed over. */
 static bool take_given(const struct given_points *given, struct table *table)
 {
-    if (!make_room(table, given->count)) return false;
+    if (!make_room(table, given->count) || table->row == NULL) return false;
     memset(table->row, 0, given->count * sizeof *table->row);
     for (size_t i = 0; i < given->count; i++) {
         memcpy(table->row[i], given->position + 3 * i, 3 * sizeof(double));
