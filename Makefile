@@ -26,7 +26,7 @@ INCLUDE  = $(PREFIX)/include
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace absorption paper-figures consistent-tables tables test unit check-format check-tidy check-cppcheck install uninstall clean help
+.PHONY: all setup halfspace absorption paper-figures sph-figures consistent-tables tables test unit check-format check-tidy check-cppcheck install uninstall clean help
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -43,6 +43,9 @@ absorption: $(BUILD)/selas ## table of doc/absorbing-faces.md: what comes back f
 
 paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
 	@sh regress/paper-figures $(BUILD)
+
+sph-figures: $(BUILD)/selas ## Figs 4-13 and 15-19 of He & Seaid (2016), in output/sph-figures/ (some two minutes)
+	@sh regress/sph-figures $(BUILD)
 
 consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/consistent-tables.md
 	@sh regress/consistent-tables $(BUILD)
