@@ -9,7 +9,8 @@ beam_field() {
         echo "load '$out/palette'"
         for number in 0 1 2 3; do
             echo "set title 't = $(echo "$beam_times" | cut -d, -f$((number + 1)) | awk '{ printf "%.2f", $1 * 1e6 }') microseconds'"
-            echo "stats '$out/beam-field.$number' using (abs(\$$2*1e-6)) nooutput; set cbrange [-STATS_max:STATS_max]"
+            largest=$(awk -v c="$2" '{ v = $c < 0 ? -$c : $c; if (v > m) m = v } END { printf "%.3g", m * 1e-6 }' "$out/beam-field.$number")
+            echo "set cbrange [-$largest:$largest]"
             echo "plot '$out/beam-field.$number' using (\$1+\$4):(\$2+\$5):(\$$2*1e-6) with points pt 5 ps .45 lc palette"
         done
     } | draw "$1" 1500 800
