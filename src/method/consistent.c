@@ -343,19 +343,37 @@ static selas_status check_options(const struct scene *scene, const struct consis
         return fail(messages, SELAS_UNSUPPORTED,
                     "the consistent smoothed point method needs a box or a half-space; for other bodies take "
                     "method%%variant = 'paper' or method%%name = 'sph'");
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        if (options->sweeps == 0 && layer_points(scene, face) > 0)
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        if (layer_points(scene, face) == 0) continue;
+        if (options->sweeps == 0)
             return fail(messages, SELAS_UNSUPPORTED,
                         "face %s: layer 'pml' needs method%%mass = 'vc1', 'vc2' or 'vc3'; with 'exact' take "
                         "layer = 'lysmer'",
                         face_name((enum face)face));
+        if (scene->body.layers > 1)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: layer 'pml' does not stay quiet beside ground that varies with depth; take "
+                        "layer = 'lysmer' or a larger body",
+                        face_name((enum face)face));
+    }
     return SELAS_OK;
+}
+
+/* The memory equations of the layers take one mass in all three axes. With another mass over depth in the
+ * stiffness the free surface in a layer grows in three dimensions (doc/absorbing-faces.md), so scenes with
+ * layers have depth_mass 'same'. */
+static bool has_layers(const struct consistent *c)
+{
+    for (int face = 0; face < BOX_FACES; face++)
+        if (c->layer[face] > 0) return true;
+    return false;
 }
 
 static selas_status build(struct consistent *c, struct messages *messages)
 {
     for (int face = 0; face < 2 * c->dimension; face++)
         c->layer[face] = layer_points(c->model.scene, face);
+    if (has_layers(c)) c->options.depth_exact = false;
     selas_status status = lay_axes(c, messages);
     if (status != SELAS_OK) return status;
     lay_faces(c);
@@ -364,10 +382,7 @@ static selas_status build(struct consistent *c, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
-    bool layers = false;
-    for (int face = 0; face < BOX_FACES; face++)
-        layers = layers || c->layer[face] > 0;
-    if (status == SELAS_OK && layers) status = pml_create(c, messages);
+    if (status == SELAS_OK && has_layers(c)) status = pml_create(c, messages);
     return status;
 }
 
@@ -419,6 +434,14 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     }
     if (group != NULL && deck_values(group, "depth_mass") > 0)
         options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        if (group != NULL && deck_given(group, "depth_mass") && options.depth_exact &&
+            layer_points(scene, face) > 0)
+            return deck_error(
+                scene->deck, group, "depth_mass", messages,
+                "depth_mass = 'exact' does not stay quiet with layer 'pml' on face '%s'; expected "
+                "'same', or layer = 'lysmer'",
+                face_name((enum face)face));
     if (group != NULL && deck_values(group, "dissipation") > 0)
         options.dissipation = deck_real(group, "dissipation", 0);
     if (group != NULL && deck_values(group, "ends") > 0)
