@@ -1,0 +1,18 @@
+/* Patches that move over the surface of a homogeneous or layered half-space. */
+#ifndef SELAS_LAMB_MOVING_H
+#define SELAS_LAMB_MOVING_H
+
+#include "exact/lamb_fft.h"
+
+struct moving_patch {
+    struct lamb_load load; /* where it is at t = 0 */
+    double velocity[2];
+};
+
+/* Histories at n receivers for times up to end_time, from all the patches; signal[i].position is given. To be
+ * read by lamb_signal_value() with a problem without loads. Patches must be slower than every Rayleigh wave
+ * and their histories smooth (SELAS_BAD_SCENE). On failure all value are NULL. */
+selas_status lamb_moving(const struct lamb_problem *ground, size_t patches, const struct moving_patch *patch,
+                         double end_time, size_t n, struct lamb_signal *signal, struct messages *messages);
+
+#endif
