@@ -6,9 +6,11 @@
 #include "base/memory.h"
 #include "exact/exact.h"
 #include "exact/lamb_fft.h"
+#include "exact/lamb_moving.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 struct lamb {
     struct exact exact;
@@ -17,6 +19,10 @@ struct lamb {
     struct lamb_load *load; /* patches, images included */
     size_t planes;
     struct lamb_load *plane; /* loads of the whole face */
+    size_t patches;          /* that move; their histories by a problem without loads */
+    struct moving_patch *patch;
+    struct lamb_problem unloaded;
+    struct lamb_signal *moved; /* of the scene's receivers */
     size_t signals;
     struct lamb_signal *signal; /* of the scene's receivers */
 };
@@ -40,6 +46,18 @@ static selas_status refuse(struct messages *messages, const char *why)
     return fail(messages, SELAS_BAD_SCENE, "reference 'lamb': %s", why);
 }
 
+static bool moves(const struct load *load)
+{
+    return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
+}
+
+static bool has_symmetry(const struct scene *scene)
+{
+    for (int face = 0; face < BOX_FACES; face++)
+        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY) return true;
+    return false;
+}
+
 static selas_status check_load(const struct scene *scene, const struct load *load, struct messages *messages)
 {
     if (load->kind != LOAD_TRACTION)
@@ -47,8 +65,8 @@ static selas_status check_load(const struct scene *scene, const struct load *loa
     if (load->face != FACE_Z_LOW) return refuse(messages, "loads must act on the free surface, face = 'z-'");
     if (load->shape == LOAD_FACE && scene->body.layers > 0)
         return refuse(messages, "a load of the whole face is not offered on layers");
-    if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
-        return refuse(messages, "a moving patch is not offered");
+    if (moves(load) && has_symmetry(scene))
+        return refuse(messages, "a moving patch is not offered with symmetry planes");
     return SELAS_OK;
 }
 
@@ -135,18 +153,30 @@ static selas_status set_loads(struct lamb *lamb, const struct scene *scene, stru
 {
     lamb->load = array_new(4 * scene->loads, sizeof *lamb->load);
     lamb->plane = array_new(scene->loads, sizeof *lamb->plane);
-    if (lamb->load == NULL || lamb->plane == NULL)
+    lamb->patch = array_new(scene->loads, sizeof *lamb->patch);
+    if (lamb->load == NULL || lamb->plane == NULL || lamb->patch == NULL)
         return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
     size_t count = 0;
-    for (size_t i = 0; i < scene->loads; i++)
-        set_load(scene, &scene->load[i],
-                 scene->load[i].shape == LOAD_FACE ? &lamb->plane[lamb->planes++] : &lamb->load[count++]);
+    for (size_t i = 0; i < scene->loads; i++) {
+        const struct load *load = &scene->load[i];
+        if (moves(load)) {
+            struct moving_patch *patch = &lamb->patch[lamb->patches++];
+            double velocity[3];
+            set_load(scene, load, &patch->load);
+            body_direction_from_deck(&scene->body, load->velocity, velocity);
+            memcpy(patch->velocity, velocity, sizeof patch->velocity);
+        } else {
+            set_load(scene, load,
+                     load->shape == LOAD_FACE ? &lamb->plane[lamb->planes++] : &lamb->load[count++]);
+        }
+    }
     for (int axis = 0; axis < 2; axis++) {
         const selas_status status = add_images(scene, axis, lamb->load, &count, messages);
         if (status != SELAS_OK) return status;
     }
     lamb->problem.loads = count;
     lamb->problem.load = lamb->load;
+    lamb->unloaded = (struct lamb_problem){.ground = lamb->problem.ground, .layers = lamb->problem.layers};
     return SELAS_OK;
 }
 
@@ -164,29 +194,52 @@ static selas_status check_position(const struct lamb *lamb, const double positio
     return SELAS_OK;
 }
 
+/* Histories at n places, of loads at rest and of those that move. */
+static selas_status compute(const struct lamb *lamb, double end_time, size_t n, struct lamb_signal *signal,
+                            struct lamb_signal *moved, struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    if (lamb->problem.loads > 0) status = lamb_fft(&lamb->problem, end_time, n, signal, messages);
+    if (status == SELAS_OK && lamb->patches > 0) {
+        for (size_t i = 0; i < n; i++)
+            memcpy(moved[i].position, signal[i].position, sizeof moved[i].position);
+        status = lamb_moving(&lamb->unloaded, lamb->patches, lamb->patch, end_time, n, moved, messages);
+        for (size_t i = 0; i < n && status != SELAS_OK; i++)
+            lamb_signal_free(&signal[i]);
+        for (size_t i = 0; i < n && status == SELAS_OK; i++)
+            signal[i].end_time = end_time;
+    }
+    return status;
+}
+
 static selas_status compute_receivers(struct lamb *lamb, const struct scene *scene, struct messages *messages)
 {
     lamb->signal = array_new(scene->receivers, sizeof *lamb->signal);
-    if (lamb->signal == NULL)
+    lamb->moved = array_new(scene->receivers, sizeof *lamb->moved);
+    if (lamb->signal == NULL || lamb->moved == NULL)
         return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
     for (size_t i = 0; i < scene->receivers; i++) {
         position_in_ground(scene, scene->receiver[i].position, lamb->signal[i].position);
         const selas_status status = check_position(lamb, lamb->signal[i].position, messages);
         if (status != SELAS_OK) return status;
     }
-    if (lamb->problem.loads == 0 || scene->receivers == 0) return SELAS_OK;
+    if (scene->receivers == 0) return SELAS_OK;
     const selas_status status =
-        lamb_fft(&lamb->problem, scene->end_time, scene->receivers, lamb->signal, messages);
-    if (status == SELAS_OK) lamb->signals = scene->receivers;
+        compute(lamb, scene->end_time, scene->receivers, lamb->signal, lamb->moved, messages);
+    if (status == SELAS_OK && lamb->problem.loads + lamb->patches > 0) lamb->signals = scene->receivers;
     return status;
 }
 
 static void destroy(struct exact *exact)
 {
     struct lamb *lamb = (struct lamb *)exact;
-    for (size_t i = 0; i < lamb->signals; i++)
+    for (size_t i = 0; i < lamb->signals; i++) {
         lamb_signal_free(&lamb->signal[i]);
+        lamb_signal_free(&lamb->moved[i]);
+    }
     array_free(lamb->signal);
+    array_free(lamb->moved);
+    array_free(lamb->patch);
     array_free(lamb->load);
     array_free(lamb->plane);
     layered_free(&lamb->layers);
@@ -228,12 +281,15 @@ static void add_plane_wave(const struct half_space *ground, const struct lamb_lo
     }
 }
 
-static void evaluate(const struct lamb *lamb, const struct lamb_signal *signal, size_t n, const double *time,
-                     double *value)
+static void evaluate(const struct lamb *lamb, const struct lamb_signal *signal,
+                     const struct lamb_signal *moved, size_t n, const double *time, double *value)
 {
     for (size_t i = 0; i < n; i++) {
-        double body[6] = {0};
+        double body[6] = {0}, more[6] = {0};
         if (lamb->problem.loads > 0) lamb_signal_value(&lamb->problem, signal, time[i], body);
+        if (lamb->patches > 0) lamb_signal_value(&lamb->unloaded, moved, time[i], more);
+        for (int c = 0; c < 6; c++)
+            body[c] += more[c];
         for (size_t l = 0; l < lamb->planes; l++)
             add_plane_wave(&lamb->problem.ground, &lamb->plane[l], signal->position[2], time[i], body);
         body_direction_to_deck(&lamb->exact.scene->body, body, value + 6 * i);
@@ -246,24 +302,23 @@ static selas_status history(struct exact *exact, const double position[3], size_
 {
     const struct lamb *lamb = (const struct lamb *)exact;
     if (n == 0) return SELAS_OK;
-    struct lamb_signal own = {.value = NULL};
+    struct lamb_signal own = {.value = NULL}, moved = {.value = NULL};
     position_in_ground(exact->scene, position, own.position);
     for (size_t i = 0; i < lamb->signals; i++) {
         const struct lamb_signal *signal = &lamb->signal[i];
         if (signal->position[0] == own.position[0] && signal->position[1] == own.position[1] &&
             signal->position[2] == own.position[2] && time[n - 1] <= signal->end_time) {
-            evaluate(lamb, signal, n, time, value);
+            evaluate(lamb, signal, &lamb->moved[i], n, time, value);
             return SELAS_OK;
         }
     }
     selas_status status = check_position(lamb, own.position, messages);
     if (status != SELAS_OK) return status;
-    if (lamb->problem.loads > 0) {
-        status = lamb_fft(&lamb->problem, fmax(exact->scene->end_time, time[n - 1]), 1, &own, messages);
-        if (status != SELAS_OK) return status;
-    }
-    evaluate(lamb, &own, n, time, value);
+    status = compute(lamb, fmax(exact->scene->end_time, time[n - 1]), 1, &own, &moved, messages);
+    if (status != SELAS_OK) return status;
+    evaluate(lamb, &own, &moved, n, time, value);
     lamb_signal_free(&own);
+    lamb_signal_free(&moved);
     return SELAS_OK;
 }
 
@@ -281,7 +336,10 @@ static void describe(const struct exact *exact,
     }
     char text[128];
     tell(context, "exact", "infinite half-space under traction patches, by FFT (doc/lamb.md)");
-    if (lamb->signals == 0) return;
+    if (lamb->problem.layers != NULL) tell(context, "exact layers", "stiffness matrices (doc/layered.md)");
+    if (lamb->patches > 0)
+        tell(context, "exact moving patches", "by wavenumbers and directions (doc/sources.md)");
+    if (lamb->signals == 0 || lamb->problem.loads == 0) return;
     (void)snprintf(text, sizeof text, "%.1e", fmax(effort.estimate, 5e-7));
     tell(context, "exact accuracy (L2 of velocity, estimated)", text);
     (void)snprintf(text, sizeof text, "%.4g", effort.cutoff);

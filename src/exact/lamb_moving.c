@@ -209,7 +209,7 @@ static selas_status prepare(struct job *job, struct messages *messages)
     const double s_speed = layers != NULL ? layers->fastest[1] : ground->ground.s_speed;
     const double speed = speed_of(patch), rough = history_cutoff(history, 1e-2);
     const double lasts = fmin(history_end(history), job->period);
-    job->table.cutoff = history_cutoff(history, 1e-8);
+    job->table.cutoff = history_cutoff(history, 1e-7);
     if (speed > .95 * slowest)
         return fail(
             messages, SELAS_BAD_SCENE,
@@ -232,6 +232,11 @@ static selas_status prepare(struct job *job, struct messages *messages)
             nearest = fmin(nearest, sqrt(x * x + y * y + position[2] * position[2]));
         }
     }
+    if (patch->load.patch.shape == PATCH_POINT && nearest <= speed * lasts / 100)
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "reference 'lamb': a receiver lies on the path of a moving point load, where displacement is "
+            "infinite");
     const double edge = patch->load.patch.shape == PATCH_POINT
                             ? nearest
                             : 2 * fmin(patch->load.patch.half[0], patch->load.patch.half[1]);
