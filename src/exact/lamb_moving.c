@@ -209,7 +209,8 @@ static selas_status prepare(struct job *job, struct messages *messages)
     const double s_speed = layers != NULL ? layers->fastest[1] : ground->ground.s_speed;
     const double speed = speed_of(patch), rough = history_cutoff(history, 1e-2);
     const double lasts = fmin(history_end(history), job->period);
-    job->table.cutoff = history_cutoff(history, 1e-7);
+    /* a Gaussian whose start is cut has a faint spectrum without end */
+    job->table.cutoff = fmin(history_cutoff(history, 1e-8), 3 * history_cutoff(history, 1e-4));
     if (speed > .95 * slowest)
         return fail(
             messages, SELAS_BAD_SCENE,
