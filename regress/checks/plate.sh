@@ -48,3 +48,9 @@ check() { # check NAME LIMIT CURVE OVERRIDES...
 
 check 'plate R = .3, 1,026 points, moved edge' 0.008 R0.3_disp.csv
 check 'plate R = .2, 1,054 points, moved edge' 0.008 R0.2_disp.csv body%hole_radius=0.2 'profile(1)%from=0.2,0.0'
+
+# Updated Lagrangian: with one smoothing length for all particles of the graded arrangement .050 and .071.
+updated='method%variant=updated-lagrangian method%artificial_stress=0 method%viscosity_alpha=2.5'
+check 'plate R = .3, 1,026 points, updated Lagrangian' 0.035 R0.3_disp.csv $updated
+check 'plate R = .2, 1,054 points, updated Lagrangian' 0.025 R0.2_disp.csv body%hole_radius=0.2 'profile(1)%from=0.2,0.0' \
+    $updated

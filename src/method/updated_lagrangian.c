@@ -94,7 +94,8 @@ static void choose_layout(struct updated *updated)
     layout->volume = 2 * dimension;
     layout->span = layout->volume + 1;
     layout->mass = layout->span + 1;
-    layout->tension = layout->mass + 1;
+    layout->length = layout->mass + 1;
+    layout->tension = layout->length + 1;
     layout->repulsion = layout->tension + stresses;
     layout->size = layout->repulsion + stresses;
 }
@@ -115,6 +116,26 @@ static void choose_lengths(struct updated *updated)
     updated->alpha = options->alpha;
     updated->beta = options->beta;
     updated->repulsive = options->artificial_stress > 0;
+}
+
+/* One smoothing length as published, except on the graded arrangement, where the spacing changes several-fold
+ * and the length follows it: with one length the kernel reaches too few particles where they are far apart
+ * and smears the stress where they are close. On even arrangements the volumes tell of noise only. */
+static selas_status choose_own_lengths(struct updated *updated, struct messages *messages)
+{
+    const struct cloud *cloud = updated->cloud;
+    updated->length = array_new(cloud->points, sizeof(double));
+    if (updated->length == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", cloud->points);
+    const struct body *body = &updated->model.scene->body;
+    updated->even = body->shape != BODY_PLATE_WITH_HOLE || body->arrangement != ARRANGEMENT_CONFORMAL;
+    updated->longest = updated->even ? 1 : 0;
+    for (size_t i = 0; i < cloud->points; i++) {
+        updated->length[i] =
+            updated->even ? 1 : pow(cloud->volume[i], 1.0 / updated->dimension) / cloud->spacing;
+        updated->longest = fmax(updated->longest, updated->length[i]);
+    }
+    return SELAS_OK;
 }
 
 static selas_status take_memory(struct updated *updated, struct messages *messages)
@@ -141,7 +162,7 @@ static selas_status take_memory(struct updated *updated, struct messages *messag
     }
     memcpy(updated->searched, updated->reference, 3 * places * sizeof(double));
     return neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
-                           updated->reach + updated->skin, false, messages);
+                           updated->longest * updated->reach + updated->skin, false, messages);
 }
 
 static void destroy(struct model *model)
@@ -150,6 +171,7 @@ static void destroy(struct model *model)
     cloud_free(&updated->cloud);
     neighbours_free(&updated->neighbours);
     array_free(updated->mass);
+    array_free(updated->length);
     array_free(updated->ghost);
     array_free(updated->reference);
     array_free(updated->searched);
@@ -188,7 +210,8 @@ static selas_status build(struct updated *updated, struct messages *messages)
     if (updated->reference == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     memcpy(updated->reference, updated->cloud->position, 3 * points * sizeof(double));
-    status = updated_ghosts_create(updated, messages);
+    status = choose_own_lengths(updated, messages);
+    if (status == SELAS_OK) status = updated_ghosts_create(updated, messages);
     if (status == SELAS_OK) status = take_memory(updated, messages);
     if (status == SELAS_OK) fill_public_face(updated);
     return status;

@@ -34,9 +34,10 @@ struct updated_ghost {
 enum updated_wall { WALL_NONE, WALL_STICK, WALL_SLIP, WALL_TRACTION };
 
 /* Components of a packed particle: place, velocity, volume, span (the volume, or 0 for ghosts that carry a
- * traction but do not deform with the body), mass, stress / density^2, artificial stress. */
+ * traction but do not deform with the body), mass, smoothing length over the usual one, stress / density^2,
+ * artificial stress. */
 struct updated_layout {
-    size_t velocity, volume, span, mass, tension, repulsion, size;
+    size_t velocity, volume, span, mass, length, tension, repulsion, size;
 };
 
 struct updated {
@@ -55,6 +56,9 @@ struct updated {
     double slope_scale;     /* W'/r over w'(q)/q */
     bool cubic;             /* the kernel is the cubic spline */
     double *mass;
+    double *length; /* smoothing length of a particle over the usual one */
+    bool even;      /* all of them are 1 */
+    double longest; /* the largest of them */
     size_t ghosts;
     struct updated_ghost *ghost;
     enum updated_wall wall[FACES];

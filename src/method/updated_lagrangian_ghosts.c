@@ -51,7 +51,8 @@ static size_t count_images(const struct updated *updated, int axis, double wall)
 {
     size_t count = 0;
     for (size_t i = 0; i < updated->cloud->points + updated->ghosts; i++)
-        if (fabs(updated->reference[3 * i + (size_t)axis] - wall) < updated->reach) count++;
+        if (fabs(updated->reference[3 * i + (size_t)axis] - wall) < updated->longest * updated->reach)
+            count++;
     return count;
 }
 
@@ -84,7 +85,7 @@ static bool mirror_at(struct updated *updated, enum face face)
     if (!grow(updated, count_images(updated, axis, wall))) return false;
     for (size_t i = 0; i < points + before; i++) {
         const double *place = updated->reference + 3 * i;
-        if (!(fabs(place[axis] - wall) < updated->reach)) continue;
+        if (!(fabs(place[axis] - wall) < updated->longest * updated->reach)) continue;
         struct updated_ghost ghost = {.source = (uint32_t)i};
         if (i >= points) ghost = updated->ghost[i - points];
         ghost.face[ghost.count++] = (unsigned char)face;
@@ -166,12 +167,13 @@ static void mirror(const struct updated *updated, const struct updated_ghost *gh
 }
 
 /* Packs one particle: place, velocity, volume, mass, s / rho^2, artificial stress. */
-static void pack(const struct updated *updated, size_t place, double mass, const struct image *image)
+static void pack(const struct updated *updated, size_t place, size_t source, const struct image *image)
 {
     const struct updated_layout layout = updated->layout;
     const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
     const double *reference = updated->reference + 3 * place;
     double *record = updated->record + layout.size * place;
+    const double mass = updated->mass[source];
     for (size_t a = 0; a < dimension; a++) {
         record[a] = reference[a] + image->u[a];
         record[layout.velocity + a] = image->v[a];
@@ -179,6 +181,7 @@ static void pack(const struct updated *updated, size_t place, double mass, const
     record[layout.volume] = mass / image->density;
     record[layout.span] = image->pressed ? 0 : record[layout.volume];
     record[layout.mass] = mass;
+    record[layout.length] = updated->length[source];
     const double square = image->density * image->density;
     for (size_t s = 0; s < stresses; s++)
         record[layout.tension + s] = image->stress[s] / square;
@@ -225,7 +228,7 @@ static void search_if_needed(struct updated *updated)
     struct messages unheard = {0};
     updated->search_failed =
         neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
-                        updated->reach + updated->skin, false, &unheard) != SELAS_OK;
+                        updated->longest * updated->reach + updated->skin, false, &unheard) != SELAS_OK;
     messages_free(&unheard);
 }
 
@@ -236,7 +239,7 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
     for (size_t i = 0; i < points; i++) {
         struct image image = {.pressed = false};
         load_particle(updated, y, i, &image);
-        pack(updated, i, updated->mass[i], &image);
+        pack(updated, i, i, &image);
     }
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t g = 0; g < updated->ghosts; g++) {
@@ -245,7 +248,7 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
         load_particle(updated, y, ghost->source, &image);
         for (int f = 0; f < ghost->count; f++)
             mirror(updated, ghost, ghost->face[f], drive, &image);
-        pack(updated, points + g, updated->mass[ghost->source], &image);
+        pack(updated, points + g, ghost->source, &image);
     }
     search_if_needed(updated);
 }

@@ -40,7 +40,8 @@ struct sums {
 struct batch {
     int count;
     double d[3][BATCH], change[3][BATCH]; /* x_i - x_j, v_j - v_i */
-    double square[BATCH], span[BATCH], volume[BATCH], mass[BATCH];
+    double square[BATCH], length[BATCH];  /* h of the pair over the usual one */
+    double span[BATCH], volume[BATCH], mass[BATCH];
     double tension[6][BATCH], repulsion[6][BATCH];
     double pressure[BATCH], strength[BATCH]; /* m Pi W'/r, m f^4 W'/r */
 };
@@ -62,7 +63,7 @@ static inline double cubic_shape(double q)
 __attribute__((always_inline)) static inline void
 add_viscosity(const struct updated *updated, const int dimension, double density, struct batch *batch)
 {
-    const double h = updated->smoothing_length, alpha = updated->alpha * updated->sound_speed,
+    const double usual = updated->smoothing_length, alpha = updated->alpha * updated->sound_speed,
                  beta = updated->beta;
     const bool both_sides = updated->both_sides;
 #pragma omp simd
@@ -70,6 +71,7 @@ add_viscosity(const struct updated *updated, const int dimension, double density
         double approach = 0;
         for (int a = 0; a < dimension; a++)
             approach -= batch->change[a][n] * batch->d[a][n];
+        const double h = usual * batch->length[n];
         const double phi = h * approach / (batch->square[n] + .01 * h * h);
         const double mean = (density + batch->mass[n] / batch->volume[n]) / 2;
         const double viscosity = batch->mass[n] * (beta * phi * phi - alpha * phi) / mean;
@@ -88,17 +90,22 @@ __attribute__((always_inline)) static inline void weigh(const struct updated *up
     if (updated->cubic) {
 #pragma omp simd
         for (int n = 0; n < batch->count; n++) {
-            const double q = sqrt(batch->square[n]) / h;
+            const double q = sqrt(batch->square[n]) / (h * batch->length[n]);
             slope[n] = scale * cubic_slope_over_q(q);
             if (repulsive) shape[n] = cubic_shape(q);
         }
     } else {
         for (int n = 0; n < batch->count; n++) {
-            const double q = sqrt(batch->square[n]) / h;
+            const double q = sqrt(batch->square[n]) / (h * batch->length[n]);
             slope[n] = scale * kernel->slope_over_q(dimension, q);
             if (repulsive) shape[n] = kernel->shape(dimension, q);
         }
     }
+    if (!updated->even)
+        for (int n = 0; n < batch->count; n++) {
+            const double g = batch->length[n], square = g * g;
+            slope[n] /= dimension == 1 ? square * g : dimension == 2 ? square * square : square * square * g;
+        }
     const int stresses = dimension * (dimension + 1) / 2;
 #pragma omp simd
     for (int n = 0; n < batch->count; n++) {
@@ -181,8 +188,10 @@ __attribute__((always_inline)) static inline void gather(const struct updated *u
             batch.d[a][n] = d;
             square += d * d;
         }
-        if (!(square < reach)) continue;
+        const double length = (own[layout.length] + other[layout.length]) / 2;
+        if (!(square < reach * length * length)) continue;
         batch.square[n] = square;
+        batch.length[n] = length;
         batch.volume[n] = other[layout.volume];
         batch.span[n] = other[layout.span];
         batch.mass[n] = other[layout.mass];
