@@ -180,7 +180,8 @@ static bool add_patch(const struct job *job, double complex *spectrum)
 #pragma omp for schedule(dynamic, 1)
             for (size_t i = 0; i < BATCH; i++) {
                 const size_t node = batch + i;
-                const double k = job->panel * ((double)(node / 12) + .5 + .5 * gauss12_node[node % 12]);
+                const size_t panel = node / 12;
+                const double k = job->panel * ((double)panel + .5 + .5 * gauss12_node[node % 12]);
                 if (line != NULL && sum != NULL)
                     one_wavenumber(job, k, .5 * job->panel * gauss12_weight[node % 12] * taper(job, k), line,
                                    sum, share + i * lines);
@@ -216,7 +217,7 @@ static selas_status prepare(struct job *job, struct messages *messages)
             messages, SELAS_BAD_SCENE,
             "reference 'lamb': a patch moves at %.4g; expected less than the slowest Rayleigh wave, %.4g",
             speed, slowest);
-    if (isinf(job->table.cutoff) || job->table.cutoff > 60 * rough)
+    if (!(history_cutoff(history, 1e-6) <= 60 * rough))
         return fail(messages, SELAS_BAD_SCENE,
                     "reference 'lamb': a moving patch needs a history without kinks; give it smoothing");
     double nearest = INFINITY, depth = INFINITY;
