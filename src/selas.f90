@@ -77,7 +77,7 @@ module selas
          import :: c_int, c_char, c_ptr, c_size_t
          character(kind=c_char), intent(in) :: path(*)
          integer(c_size_t), value :: count
-         type(c_ptr), intent(in) :: overrides(*)
+         type(c_ptr), intent(in) :: overrides(*) ! const char *const *
          type(c_ptr), intent(out) :: sim
          integer(c_int) :: c_open_deck_with
       end function
@@ -127,7 +127,7 @@ module selas
          type(c_ptr), value :: sim
          character(kind=c_char), intent(in) :: word(*)
          integer(c_size_t), value :: count
-         type(c_ptr), intent(in) :: values(*)
+         type(c_ptr), intent(in) :: values(*) ! const char *const *
          integer(c_int) :: c_set_text
       end function
       function c_set_points(sim, count, position, volume, material) bind(c, name='selas_set_points')
@@ -135,7 +135,7 @@ module selas
          type(c_ptr), value :: sim
          integer(c_size_t), value :: count
          real(c_double), intent(in) :: position(*), volume(*)
-         type(c_ptr), value :: material
+         type(c_ptr), value :: material ! const size_t *
          integer(c_int) :: c_set_points
       end function
       function c_build(sim) bind(c, name='selas_build')
@@ -198,7 +198,7 @@ module selas
          type(c_ptr), value :: sim
          character(kind=c_char), intent(in) :: name(*)
          integer(c_size_t), intent(out) :: rows
-         type(c_ptr), intent(out) :: time, val
+         type(c_ptr), intent(out) :: time, val ! const double **
          integer(c_int) :: c_history
       end function
       function c_record(sim) bind(c, name='selas_record')
@@ -226,12 +226,12 @@ module selas
       function c_message(sim) bind(c, name='selas_message')
          import :: c_ptr
          type(c_ptr), value :: sim
-         type(c_ptr) :: c_message
+         type(c_ptr) :: c_message ! const char *
       end function
       function c_output_directory(sim) bind(c, name='selas_output_directory')
          import :: c_ptr
          type(c_ptr), value :: sim
-         type(c_ptr) :: c_output_directory
+         type(c_ptr) :: c_output_directory ! const char *
       end function
       subroutine c_close(sim) bind(c, name='selas_close')
          import :: c_ptr
@@ -280,7 +280,7 @@ module selas
          import :: c_int, c_ptr, c_size_t
          type(c_ptr), value :: sim
          integer(c_size_t), intent(out) :: count
-         type(c_ptr), intent(out) :: position
+         type(c_ptr), intent(out) :: position ! const double **
          integer(c_int) :: c_points
       end function
       function c_field_values(sim, field, count, components, val) bind(c, name='selas_field_values')
@@ -288,7 +288,7 @@ module selas
          type(c_ptr), value :: sim
          integer(c_int), value :: field
          integer(c_size_t), intent(out) :: count, components
-         type(c_ptr), intent(out) :: val
+         type(c_ptr), intent(out) :: val ! const double **
          integer(c_int) :: c_field_values
       end function
       function c_energy(sim, kinetic, strain) bind(c, name='selas_energy')
@@ -317,16 +317,16 @@ module selas
       function c_status_gloss(status) bind(c, name='selas_status_gloss')
          import :: c_int, c_ptr
          integer(c_int), value :: status
-         type(c_ptr) :: c_status_gloss
+         type(c_ptr) :: c_status_gloss ! const char *
       end function
       function c_status_name(status) bind(c, name='selas_status_name')
          import :: c_int, c_ptr
          integer(c_int), value :: status
-         type(c_ptr) :: c_status_name
+         type(c_ptr) :: c_status_name ! const char *
       end function
       function c_version() bind(c, name='selas_version')
          import :: c_ptr
-         type(c_ptr) :: c_version
+         type(c_ptr) :: c_version ! const char *
       end function
       pure function c_strlen(text) bind(c, name='strlen')
          import :: c_ptr, c_size_t
@@ -720,7 +720,8 @@ contains
    end subroutine
 
    subroutine tell_line(context, key, value) bind(c, name='selas_fortran_tell')
-      type(c_ptr), value :: context, key, value
+      type(c_ptr), value :: context
+      type(c_ptr), value :: key, value ! const char *
       type(teller), pointer :: who
       call c_f_pointer(context, who)
       call who%tell(from_c(key), from_c(value))
