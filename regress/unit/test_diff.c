@@ -196,7 +196,7 @@ static void folders(void **state)
 {
     (void)state;
     struct messages messages = {0};
-    size_t differences = 99;
+    struct diff_report report = {NULL, NULL, 99};
     char other[128];
     for (int k = 0; k < 2; k++) {
         write_file(path[k], good);
@@ -205,28 +205,56 @@ static void folders(void **state)
         snprintf(other, sizeof other, "%s/line.dat", folder[k]);
         write_file(other, "# s x y z velocity_x\n0 0 0 0 1\n"); /* nor profiles */
     }
-    assert_int_equal(diff_paths(folder[0], folder[1], NULL, NULL, &differences, &messages), SELAS_OK);
-    assert_int_equal(differences, 0);
+    assert_int_equal(diff_paths(folder[0], folder[1], NULL, &report, &messages), SELAS_OK);
+    assert_int_equal(report.differences, 0);
     snprintf(other, sizeof other, "%s/r2.dat", folder[1]);
     write_file(other, good); /* one more there */
     char *table = NULL;
     size_t size = 0;
-    FILE *memory = open_memstream(&table, &size);
-    assert_int_equal(diff_paths(folder[0], folder[1], NULL, memory, &differences, &messages), SELAS_OK);
-    fclose(memory);
-    assert_int_equal(differences, 1);
+    report.table = open_memstream(&table, &size);
+    assert_int_equal(diff_paths(folder[0], folder[1], NULL, &report, &messages), SELAS_OK);
+    fclose(report.table);
+    report.table = NULL;
+    assert_int_equal(report.differences, 1);
     assert_non_null(strstr(table, "\nr2 "));
     assert_non_null(strstr(table, " is not in /tmp/selas-diff-"));
     free(table);
     unlink(other);
     write_file(path[1], "# t ux uy uz vx vy vz\n0 0 0 0 0 0 0\n0.1 0 0 1 0 0 2\n0.2 0 0 3 0 0 4.1\n");
-    assert_int_equal(diff_paths(folder[0], folder[1], NULL, NULL, &differences, &messages), SELAS_OK);
-    assert_int_equal(differences, 1);
-    assert_int_equal(diff_paths(path[0], path[1], NULL, NULL, &differences, &messages), SELAS_OK);
-    assert_int_equal(differences, 1);
+    assert_int_equal(diff_paths(folder[0], folder[1], NULL, &report, &messages), SELAS_OK);
+    assert_int_equal(report.differences, 1);
+    assert_int_equal(diff_paths(path[0], path[1], NULL, &report, &messages), SELAS_OK);
+    assert_int_equal(report.differences, 1);
     assert_null(messages.text);
-    assert_int_equal(diff_paths(path[0], folder[1], NULL, NULL, &differences, &messages), SELAS_BAD_ARGUMENT);
+    assert_int_equal(diff_paths(path[0], folder[1], NULL, &report, &messages), SELAS_BAD_ARGUMENT);
     messages_free(&messages);
+}
+
+/* A plot of each channel that differs, none of others, PNG files that are whole. */
+static void plots(void **state)
+{
+    (void)state;
+    struct messages messages = {0};
+    char there[64], one[128];
+    snprintf(there, sizeof there, "%s/plots", folder[0]);
+    write_file(path[0], good);
+    write_file(path[1], "# t ux uy uz vx vy vz\n0 0 0 0 0 0 0\n0.1 0 0 1 0 0 2\n0.2 0 0 3 0 nan 4.1\n");
+    struct diff_report report = {NULL, there, 0};
+    assert_int_equal(diff_paths(folder[0], folder[1], NULL, &report, &messages), SELAS_OK);
+    assert_int_equal(report.differences, 2);
+    assert_null(messages.text);
+    static const char *const expected[] = {"r1_vy.png", "r1_vz.png"};
+    for (size_t i = 0; i < 2; i++) {
+        unsigned char head[8] = {0};
+        snprintf(one, sizeof one, "%s/%s", there, expected[i]);
+        FILE *file = fopen(one, "rb");
+        assert_non_null(file);
+        assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+        assert_memory_equal(head, "\x89PNG\r\n\x1a\n", 8);
+        fclose(file);
+        unlink(one);
+    }
+    assert_int_equal(rmdir(there), 0); /* nothing else in it */
 }
 
 static void bad_histories(void **state)
@@ -270,6 +298,7 @@ int main(void)
         cmocka_unit_test(other_times),
         cmocka_unit_test(tolerance_rule),
         cmocka_unit_test_setup_teardown(folders, make_folders, remove_folders),
+        cmocka_unit_test_setup_teardown(plots, make_folders, remove_folders),
         cmocka_unit_test_setup_teardown(bad_histories, make_folders, remove_folders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

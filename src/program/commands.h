@@ -4,7 +4,7 @@
 
 enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
-/* selas diff A B [--atol=X] [--rtol=X]; words[0] is "diff". */
+/* selas diff A B [--atol=X] [--rtol=X] [--plots=FOLDER]; words[0] is "diff". */
 int diff_command(int count, char **words);
 
 #endif

@@ -1,5 +1,6 @@
-/* selas diff A B: compares two histories or the receivers of two run folders. Exit status 0: the same within
- * the tolerances, 1: they differ or cannot be read, 2: wrong usage. */
+/* selas diff A B: compares two histories or the receivers of two run folders, with a table and a plot of
+ * every channel that differs. Exit status 0: the same within the tolerances, 1: they differ or cannot be
+ * read, 2: wrong usage. */
 #include "program/commands.h"
 
 #include "record/diff.h"
@@ -11,14 +12,17 @@
 struct arguments {
     const char *path[2];
     struct tolerance tolerance;
+    const char *plots; /* folder */
     bool quiet;
 };
 
-enum { KEY_ABSOLUTE = 1000, KEY_RELATIVE };
+enum { KEY_ABSOLUTE = 1000, KEY_RELATIVE, KEY_PLOTS, KEY_NO_PLOTS };
 
 static const struct argp_option options[] = {
     {"atol", KEY_ABSOLUTE, "X", 0, "allowed part of the channel's range in A (1e-6)", 0},
     {"rtol", KEY_RELATIVE, "X", 0, "allowed part of the value itself (1e-6)", 0},
+    {"plots", KEY_PLOTS, "FOLDER", 0, "where the plots of channels that differ go (output/diff)", 0},
+    {"no-plots", KEY_NO_PLOTS, NULL, 0, "no plots", 0},
     {"quiet", 'q', NULL, 0, "no table", 0},
     {0},
 };
@@ -41,6 +45,12 @@ static error_t parse_option(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_RELATIVE:
         arguments->tolerance.relative = read_tolerance(text, state);
+        return 0;
+    case KEY_PLOTS:
+        arguments->plots = text;
+        return 0;
+    case KEY_NO_PLOTS:
+        arguments->plots = NULL;
         return 0;
     case 'q':
         arguments->quiet = true;
@@ -68,17 +78,19 @@ int diff_command(int count, char **words)
         NULL,
         NULL,
         NULL};
-    struct arguments arguments = {.tolerance = tolerance_default};
+    struct arguments arguments = {.tolerance = tolerance_default, .plots = "output/diff"};
     char name[] = "selas diff";
     words[0] = name;
     argp_err_exit_status = EXIT_BAD_INPUT;
     argp_parse(&parser, count, words, 0, NULL, &arguments);
     struct messages messages = {0};
-    size_t differences = 0;
-    const selas_status status = diff_paths(arguments.path[0], arguments.path[1], &arguments.tolerance,
-                                           arguments.quiet ? NULL : stdout, &differences, &messages);
+    struct diff_report report = {arguments.quiet ? NULL : stdout, arguments.plots, 0};
+    const selas_status status =
+        diff_paths(arguments.path[0], arguments.path[1], &arguments.tolerance, &report, &messages);
+    if (!arguments.quiet && report.plots != NULL && report.differences > 0)
+        printf("plots in %s/\n", report.plots);
     if (messages.text != NULL) fputs(messages.text, stderr);
     messages_free(&messages);
     if (status == SELAS_BAD_ARGUMENT) return EXIT_BAD_INPUT;
-    return status == SELAS_OK && differences == 0 ? EXIT_DONE : EXIT_RUN_FAILED;
+    return status == SELAS_OK && report.differences == 0 ? EXIT_DONE : EXIT_RUN_FAILED;
 }

@@ -6,6 +6,8 @@
 
 #include <stdio.h>
 
+enum { DIFF_CHANNELS = 6 }; /* ux uy uz vx vy vz */
+
 /* A history as read from NAME.dat. */
 struct history_file {
     size_t rows;
@@ -39,10 +41,38 @@ selas_status diff_histories(const struct history_file *a, const struct history_f
                             const struct tolerance *tolerance, struct channel_difference difference[6],
                             struct messages *messages);
 
-/* Two files or two folders; the table goes to `table` (NULL: none); *differences gets the number of channels
- * (and missing histories) that differ. */
-selas_status diff_paths(const char *a, const char *b, const struct tolerance *tolerance, FILE *table,
-                        size_t *differences, struct messages *messages);
+/* Where the outcome goes. */
+struct diff_report {
+    FILE *table;        /* one line a channel; NULL: none */
+    const char *plots;  /* folder for RECEIVER_CHANNEL.png of each channel that differs; NULL: none */
+    size_t differences; /* channels (and missing histories) that differ: set by diff_paths() */
+};
+
+/* Two files or two folders; tolerance NULL: the default. A plot that cannot be drawn is a warning. */
+selas_status diff_paths(const char *a, const char *b, const struct tolerance *tolerance,
+                        struct diff_report *report, struct messages *messages);
+
+/* diff_pair.c: both histories at the same times; SELAS_BAD_ARGUMENT if they have none in common. To be freed
+ * whatever the outcome. */
+struct history_pair {
+    size_t rows;
+    double *time, *a, *b; /* [rows], [6 * rows] */
+};
+selas_status history_pair_create(struct history_pair *pair, const struct history_file *a,
+                                 const struct history_file *b, struct messages *messages);
+void history_pair_free(struct history_pair *pair);
+/* Both begin and end at the same times. */
+bool same_span(const struct history_file *a, const struct history_file *b);
+/* One channel at times begin + i step, i < n, within the history. */
+void history_at_even_steps(const struct history_file *h, double begin, double step, size_t n, size_t channel,
+                           double *series);
+
+/* diff_plot.c: for each channel that differs both traces, the difference below on its own scale. `label`:
+ * what the two are called. */
+extern const char *const diff_channel[DIFF_CHANNELS];
+void diff_plots(const char *folder, const char *receiver, const char *const label[2],
+                const struct history_file *a, const struct history_file *b,
+                const struct channel_difference difference[DIFF_CHANNELS], struct messages *messages);
 
 /* time_frequency.c: envelope and phase misfit of b against a, n values each at equal steps. */
 selas_status time_frequency_misfit(size_t n, const double *a, const double *b, double *envelope,

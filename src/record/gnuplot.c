@@ -102,6 +102,41 @@ void gnuplot_quote(FILE *script, const char *text)
     fputc('\'', script);
 }
 
+void gnuplot_page(FILE *script, int width, int height, int top, const char *title)
+{
+    fprintf(script, "reset\nset terminal pngcairo size %d,%d font 'DejaVu Sans,13'\nset label 1 ", width,
+            height);
+    gnuplot_quote(script, title);
+    fprintf(script, " at screen 0.5, screen %.5f center noenhanced font 'DejaVu Sans,16'\n",
+            1.0 - 0.5 * top / height);
+    fprintf(script, "set grid lc rgb '#dddddd' lw 1 lt 1\nset border lw 1.2\nset tics nomirror\n"
+                    "set xzeroaxis lc rgb '#999999' lt 1\nset key samplen 3 horizontal right bottom at graph "
+                    "1, graph 1.005\n");
+}
+
+void gnuplot_panel(FILE *script, int width, int height, int top, int bottom)
+{
+    fprintf(script, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", 130.0 / width,
+            (width - 50.0) / width);
+    fprintf(script, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
+            1.0 - (double)top / (double)height, 1.0 - (double)bottom / (double)height);
+}
+
+void gnuplot_range(FILE *script, double low, double high, int tics)
+{
+    const double room = high > low ? 0.08 * (high - low) : fmax(fabs(high), 1.0);
+    fprintf(script, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", low - room, high + room,
+            gnuplot_tic_step(high - low + 2.0 * room, tics));
+}
+
+void gnuplot_time_axis(FILE *script, bool last)
+{
+    if (last)
+        fprintf(script, "set xlabel 'time (units of the deck)'\nset format x '%%g'\n");
+    else
+        fprintf(script, "unset xlabel\nset format x ''\n");
+}
+
 double gnuplot_tic_step(double range, double wanted)
 {
     const double rough = range / wanted;

@@ -59,30 +59,6 @@ static void write_data(FILE *script, const struct recorder *recorder, size_t rec
     fprintf(script, "END\n");
 }
 
-static void set_margins(FILE *script, int height, int top, int bottom)
-{
-    fprintf(script, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", 130.0 / WIDTH,
-            (WIDTH - 50.0) / WIDTH);
-    fprintf(script, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
-            1.0 - (double)top / (double)height, 1.0 - (double)bottom / (double)height);
-}
-
-static void last_panel(FILE *script, bool last)
-{
-    if (last)
-        fprintf(script, "set xlabel 'time (units of the deck)'\nset format x '%%g'\n");
-    else
-        fprintf(script, "unset xlabel\nset format x ''\n");
-}
-
-/* A flat curve needs a range of its own: gnuplot refuses an empty one. */
-static void set_range(FILE *script, double low, double high, int tics)
-{
-    const double room = high > low ? 0.08 * (high - low) : fmax(fabs(high), 1.0);
-    fprintf(script, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", low - room, high + room,
-            gnuplot_tic_step(high - low + 2.0 * room, tics));
-}
-
 static void range_of(const double *a, const double *b, size_t rows, size_t column, bool difference,
                      double range[2])
 {
@@ -118,9 +94,9 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     const double *exact = recorder->exact != NULL ? recorder->exact + receiver * recorder->rows * 6 : NULL;
     double range[2];
     range_of(value, exact, recorder->rows, column, false, range);
-    set_margins(script, height, *top, *top + MAIN);
-    last_panel(script, last && exact == NULL);
-    set_range(script, range[0], range[1], MAIN_TICS);
+    gnuplot_panel(script, WIDTH, height, *top, *top + MAIN);
+    gnuplot_time_axis(script, last && exact == NULL);
+    gnuplot_range(script, range[0], range[1], MAIN_TICS);
     fprintf(script, "set ylabel '{/:Italic %s} (units of the deck)'\n", name[column]);
     const size_t c = column - 3;
     if (exact != NULL)
@@ -136,9 +112,9 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     char error[128];
     write_error(recorder, value, exact, column, error, sizeof error);
     range_of(value, exact, recorder->rows, column, true, range);
-    set_margins(script, height, *top, *top + DIFFERENCE);
-    last_panel(script, last);
-    set_range(script, range[0], range[1], DIFFERENCE_TICS);
+    gnuplot_panel(script, WIDTH, height, *top, *top + DIFFERENCE);
+    gnuplot_time_axis(script, last);
+    gnuplot_range(script, range[0], range[1], DIFFERENCE_TICS);
     fprintf(script, "set ylabel 'difference'\n");
     fprintf(script, "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t 'computed - exact: %s'\n", 6 + 2 * c,
             error);
@@ -163,16 +139,10 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     plot_name(recorder, receiver, name, sizeof name);
     snprintf(title, sizeof title, "%s: %s at (%g, %g, %g)", scene->title, place->name, place->position[0],
              place->position[1], place->position[2]);
-    fprintf(script, "reset\nset terminal pngcairo size %d,%d font 'DejaVu Sans,13'\n", WIDTH, height);
+    gnuplot_page(script, WIDTH, height, TOP, title);
     gnuplot_output(script, scene->output.directory, name);
     write_data(script, recorder, receiver);
-    fprintf(script, "set multiplot\nset label 1 ");
-    gnuplot_quote(script, title);
-    fprintf(script, " at screen 0.5, screen %.5f center noenhanced font 'DejaVu Sans,16'\n",
-            1.0 - 0.5 * TOP / height);
-    fprintf(script, "set grid lc rgb '#dddddd' lw 1 lt 1\nset border lw 1.2\nset tics nomirror\n"
-                    "set xzeroaxis lc rgb '#999999' lt 1\nset key samplen 3 horizontal right bottom at graph "
-                    "1, graph 1.005\n");
+    fprintf(script, "set multiplot\n");
     fprintf(script, "set xrange [0:%.9g]\n", recorder->rows > 1 ? recorder->time[recorder->rows - 1] : 1.0);
     int top = TOP;
     for (int p = 0; p < panels; p++) {

@@ -28,34 +28,47 @@ struct spectra {
     fftw_plan forward_a, forward_b, backward_a, backward_b;
 };
 
-static void spectra_free(struct spectra *spectra)
+/* FFTW's planner is shared by all threads of the process: one at a time. */
+static void spectra_plan(struct spectra *s)
 {
-    if (spectra->forward_a != NULL) fftw_destroy_plan(spectra->forward_a);
-    if (spectra->forward_b != NULL) fftw_destroy_plan(spectra->forward_b);
-    if (spectra->backward_a != NULL) fftw_destroy_plan(spectra->backward_a);
-    if (spectra->backward_b != NULL) fftw_destroy_plan(spectra->backward_b);
-    fftw_free(spectra->a);
-    fftw_free(spectra->b);
-    fftw_free(spectra->line_a);
-    fftw_free(spectra->line_b);
+    const int length = (int)s->length;
+#pragma omp critical(selas_fftw_planner)
+    {
+        s->forward_a = fftw_plan_dft_1d(length, s->line_a, s->a, FFTW_FORWARD, FFTW_ESTIMATE);
+        s->forward_b = fftw_plan_dft_1d(length, s->line_b, s->b, FFTW_FORWARD, FFTW_ESTIMATE);
+        s->backward_a = fftw_plan_dft_1d(length, s->line_a, s->line_a, FFTW_BACKWARD, FFTW_ESTIMATE);
+        s->backward_b = fftw_plan_dft_1d(length, s->line_b, s->line_b, FFTW_BACKWARD, FFTW_ESTIMATE);
+    }
+}
+
+static void spectra_free(struct spectra *s)
+{
+#pragma omp critical(selas_fftw_planner)
+    {
+        if (s->forward_a != NULL) fftw_destroy_plan(s->forward_a);
+        if (s->forward_b != NULL) fftw_destroy_plan(s->forward_b);
+        if (s->backward_a != NULL) fftw_destroy_plan(s->backward_a);
+        if (s->backward_b != NULL) fftw_destroy_plan(s->backward_b);
+        fftw_free(s->a);
+        fftw_free(s->b);
+        fftw_free(s->line_a);
+        fftw_free(s->line_b);
+    }
 }
 
 static bool spectra_create(struct spectra *spectra, size_t n, const double *a, const double *b)
 {
     *spectra = (struct spectra){.length = 2 * n};
-    const int length = (int)spectra->length;
     spectra->a = fftw_alloc_complex(spectra->length);
     spectra->b = fftw_alloc_complex(spectra->length);
     spectra->line_a = fftw_alloc_complex(spectra->length);
     spectra->line_b = fftw_alloc_complex(spectra->length);
     if (spectra->a == NULL || spectra->b == NULL || spectra->line_a == NULL || spectra->line_b == NULL)
         return false;
-    spectra->forward_a = fftw_plan_dft_1d(length, spectra->line_a, spectra->a, FFTW_FORWARD, FFTW_ESTIMATE);
-    spectra->forward_b = fftw_plan_dft_1d(length, spectra->line_b, spectra->b, FFTW_FORWARD, FFTW_ESTIMATE);
-    spectra->backward_a =
-        fftw_plan_dft_1d(length, spectra->line_a, spectra->line_a, FFTW_BACKWARD, FFTW_ESTIMATE);
-    spectra->backward_b =
-        fftw_plan_dft_1d(length, spectra->line_b, spectra->line_b, FFTW_BACKWARD, FFTW_ESTIMATE);
+    spectra_plan(spectra);
+    if (spectra->forward_a == NULL || spectra->forward_b == NULL || spectra->backward_a == NULL ||
+        spectra->backward_b == NULL)
+        return false;
     for (size_t i = 0; i < spectra->length; i++) {
         spectra->line_a[i] = i < n ? a[i] : 0.0;
         spectra->line_b[i] = i < n ? b[i] : 0.0;
