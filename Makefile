@@ -90,6 +90,17 @@ $(BUILD)/test/lamb_grid: regress/lamb/lamb_grid.c $(BUILD)/libselas.a
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
+.PHONY: check-leaks bench-host
+check-leaks: $(BUILD)/test/test_api_wrong $(BUILD)/test/test_api_checkpoint ## wrong calls and checkpoints under valgrind (two minutes; installs valgrind)
+	@sh regress/setup leaks
+	OMP_NUM_THREADS=1 valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible $(BUILD)/test/test_api_wrong
+	OMP_NUM_THREADS=1 valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible $(BUILD)/test/test_api_checkpoint
+
+bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace.nml
+	@mkdir -p $(BUILD)/test
+	$(Q)$(FC) $(ALL_F) -I$(BUILD) -o $(BUILD)/test/overhead regress/hosts/overhead.f90 $(BUILD)/libselas_fortran.a $(BUILD)/whole/libselas.a $(LIBS) -fopenmp
+	OMP_NUM_THREADS=1 $(BUILD)/test/overhead input/halfspace.nml 0.125 40 7
+
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 

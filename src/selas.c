@@ -51,7 +51,8 @@ static selas_status check_points(selas_simulation *simulation)
     if (strcmp(scene->method.variant, "total-lagrangian") == 0) return SELAS_OK;
     return fail(
         &simulation->messages, SELAS_UNSUPPORTED,
-        "method '%s', variant '%s', has one material for all points; expected 'sph', 'total-lagrangian'",
+        "method '%s', variant '%s', has no materials point by point, only &layer where it takes layers; "
+        "expected 'sph', 'total-lagrangian'",
         scene->method.name, scene->method.variant);
 }
 

@@ -1,0 +1,205 @@
+/* Checkpoints through the library's door: what goes on from one is bit for bit what would have come without
+ * a stop, by every method and scheme and with a host that drives loads. */
+#include "api_scene.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum host { DECK, CALLBACK, HELD, MOTION };
+
+/* The body of every scene here; methods, dimensions and hosts differ. */
+struct tested {
+    const char *what, *method, *scheme;
+    int dimension;
+    enum host host;
+};
+
+static int shake(void *context, double time, const double position[3], double value[3])
+{
+    (void)context;
+    (void)position;
+    value[0] = 0.01 * time * time;
+    value[1] = value[2] = 0;
+    return 0;
+}
+
+static int press(void *context, double time, const double position[3], double value[3])
+{
+    (void)context;
+    value[0] = value[2] = 0;
+    value[1] = 0.01 * time * (2 - time) * position[0];
+    return 0;
+}
+
+static selas_simulation *open_tested(const struct tested *tested)
+{
+    static const char fixed[] = "fixed'",
+                      moving_in_the_plane[] =
+                          "displacement', direction = 1, 0, history = 'triangle', duration = 1",
+                      moving_in_space[] =
+                          "displacement', direction = 1, 0, 0, history = 'triangle', duration = 1";
+    char deck[2000];
+    const bool space = tested->dimension == 3;
+    snprintf(deck, sizeof deck,
+             "&scene dimension = %d, end_time = 2.0 /\n&method %s /\n&stepping scheme = '%s' /\n"
+             "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+             "&body material = 'rock', shape = 'box', low = 0, 0%s, high = 4, 4%s, spacing = 0.5 /\n"
+             "&boundary face = 'x-', kind = '%s /\n"
+             "&load name = 'hammer', face = 'y-', shape = 'square', centre = 2, 0%s, size = 2%s, direction "
+             "= 0, 1%s\n  amplitude = 0.01, history = 'triangle', duration = 1 /\n"
+             "&receiver name = 'r', position = 2, 0%s /\n"
+             "&profile name = 'line', from = 2, 0%s, to = 2, 4%s, points = 5, times = 0.2, 1.8, fields = "
+             "'displacement' /\n",
+             tested->dimension, tested->method, tested->scheme, space ? ", 0" : "", space ? ", 3" : "",
+             tested->host != MOTION ? fixed
+             : space                ? moving_in_space
+                                    : moving_in_the_plane,
+             space ? ", 1.5" : "", space ? ", 2" : "", space ? ", 0" : "", space ? ", 1.5" : "",
+             space ? ", 1.5" : "", space ? ", 1.5" : "");
+    selas_simulation *simulation = NULL;
+    if (selas_open_text("checkpoint", deck, &simulation) != SELAS_OK)
+        fail_msg("%s: %s", tested->what, selas_message(simulation));
+    return simulation;
+}
+
+/* Steps until `steps` are done, the host doing its part. */
+static void run_to(selas_simulation *simulation, const struct tested *tested, unsigned long steps)
+{
+    while (selas_steps(simulation) < steps) {
+        const double time = selas_time(simulation);
+        if (tested->host == HELD)
+            assert_int_equal(selas_set_load(simulation, "hammer", 0.01 * time * (2 - time)), SELAS_OK);
+        if (selas_step(simulation, 1) != SELAS_OK)
+            fail_msg("%s: %s", tested->what, selas_message(simulation));
+    }
+}
+
+static void drive(selas_simulation *simulation, const struct tested *tested)
+{
+    if (tested->host == CALLBACK)
+        assert_int_equal(selas_set_traction(simulation, "hammer", press, NULL), SELAS_OK);
+    if (tested->host == MOTION) assert_int_equal(selas_set_motion(simulation, "x-", shake, NULL), SELAS_OK);
+    if (tested->host == HELD) assert_int_equal(selas_set_load(simulation, "hammer", 0), SELAS_OK);
+}
+
+/* The same numbers to the last bit at the receiver and in the whole field. */
+static void compare(selas_simulation *whole, selas_simulation *second, const char *what)
+{
+    const double *time = NULL, *value = NULL, *other = NULL;
+    size_t rows = 0, other_rows = 0, points = 0, components = 0;
+    double field[3 * 1000];
+    assert_int_equal(selas_field_values(whole, SELAS_VELOCITY, &points, &components, &value), SELAS_OK);
+    assert_true(points * components <= 3000);
+    memcpy(field, value, points * components * sizeof *value);
+    assert_int_equal(selas_field_values(second, SELAS_VELOCITY, &points, &components, &value), SELAS_OK);
+    if (memcmp(field, value, points * components * sizeof *value) != 0) fail_msg("%s: the field", what);
+    assert_int_equal(selas_history(whole, "r", &rows, &time, &value), SELAS_OK);
+    assert_int_equal(selas_history(second, "r", &other_rows, &time, &other), SELAS_OK);
+    assert_true(rows == other_rows && rows > 4);
+    if (memcmp(value, other, 6 * rows * sizeof *value) != 0) fail_msg("%s: the histories", what);
+    double largest = 0;
+    for (size_t i = 0; i < 6 * rows; i++)
+        largest = fmax(largest, fabs(value[i]));
+    if (!(largest > 1e-4)) fail_msg("%s: nothing moved", what);
+}
+
+/* Saved half way and gone on in another simulation: the same bits as without a stop. */
+static void go_on(const struct tested *tested)
+{
+    char path[] = "/tmp/selas-checkpoint-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    selas_simulation *all[3];
+    for (int k = 0; k < 3; k++) {
+        all[k] = open_tested(tested);
+        drive(all[k], tested);
+    }
+    const unsigned long steps = selas_steps_needed(all[0]), half = steps / 2;
+    if (half < 3) fail_msg("%s: %lu steps; %s", tested->what, steps, selas_message(all[0]));
+    run_to(all[0], tested, steps);
+    run_to(all[1], tested, half);
+    assert_int_equal(selas_save(all[1], path), SELAS_OK);
+    assert_int_equal(selas_restore(all[2], path), SELAS_OK);
+    assert_true(selas_steps(all[2]) == half && selas_time(all[2]) == selas_time(all[1]));
+    run_to(all[2], tested, steps);
+    for (int k = 0; k < 3; k += 2)
+        assert_int_equal(selas_finish(all[k]), SELAS_OK);
+    compare(all[0], all[2], tested->what);
+    assert_int_not_equal(selas_save(all[2], path), SELAS_OK); /* finished */
+    for (int k = 0; k < 3; k++)
+        selas_close(&all[k]);
+    remove(path);
+}
+
+#define PLAIN "degree = 2"
+#define PAPER "variant = 'paper'"
+#define TOTAL "name = 'sph', variant = 'total-lagrangian', gradient = 'linear'"
+#define QUADRATIC "name = 'sph', variant = 'total-lagrangian', gradient = 'quadratic'"
+#define UPDATED "name = 'sph', variant = 'updated-lagrangian'"
+
+static void test_smoothed_point(void **state)
+{
+    (void)state;
+    static const struct tested all[] = {
+        {"consistent, leapfrog", PLAIN, "leapfrog", 3, DECK},
+        {"consistent, modified equation", PLAIN, "modified-equation", 3, DECK},
+        {"consistent, rk4", PLAIN, "rk4", 2, DECK},
+        {"consistent, lsrk54", PLAIN, "lsrk54", 2, DECK},
+        {"paper, leapfrog", PAPER, "leapfrog", 3, DECK},
+        {"paper, modified equation", PAPER, "modified-equation", 2, DECK},
+        {"paper, rk4", PAPER, "rk4", 2, DECK},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        go_on(&all[i]);
+}
+
+static void test_particles(void **state)
+{
+    (void)state;
+    static const struct tested all[] = {
+        {"total Lagrangian, leapfrog", TOTAL, "leapfrog", 3, DECK},
+        {"total Lagrangian, rk4", QUADRATIC, "rk4", 2, DECK},
+        {"updated Lagrangian, rkc", UPDATED, "rkc", 2, DECK},
+        {"updated Lagrangian, rk4", UPDATED, "rk4", 2, DECK},
+        {"updated Lagrangian, pc2", UPDATED, "pc2", 3, DECK},
+        {"updated Lagrangian, euler", UPDATED, "euler", 2, DECK},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        go_on(&all[i]);
+}
+
+static void test_driven(void **state)
+{
+    (void)state;
+    static const struct tested all[] = {
+        {"traction, consistent", PLAIN, "leapfrog", 3, CALLBACK},
+        {"traction, modified equation", PLAIN, "modified-equation", 2, CALLBACK},
+        {"traction, paper", PAPER, "leapfrog", 2, CALLBACK},
+        {"traction, total Lagrangian", QUADRATIC, "leapfrog", 2, CALLBACK},
+        {"traction, updated Lagrangian", UPDATED, "rk4", 2, CALLBACK},
+        {"held, consistent", PLAIN, "leapfrog", 3, HELD},
+        {"held, modified equation", PLAIN, "modified-equation", 2, HELD},
+        {"held, paper", PAPER, "leapfrog", 2, HELD},
+        {"held, total Lagrangian", TOTAL, "leapfrog", 2, HELD},
+        {"held, updated Lagrangian", UPDATED, "rk4", 2, HELD},
+        {"motion, consistent", PLAIN, "leapfrog", 3, MOTION},
+        {"motion, modified equation", PLAIN, "modified-equation", 2, MOTION},
+        {"motion, total Lagrangian", QUADRATIC, "leapfrog", 2, MOTION},
+        {"motion, updated Lagrangian", UPDATED, "rk4", 2, MOTION},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        go_on(&all[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_smoothed_point),
+        cmocka_unit_test(test_particles),
+        cmocka_unit_test(test_driven),
+    };
+    omp_set_num_threads(1);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
