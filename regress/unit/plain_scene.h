@@ -27,7 +27,7 @@ static void plain_material(struct material *material, double density, double lam
 
 /* Box from the origin with edges `size`; all faces free, no loads, at rest. The scene points into `plain`,
  * which must not move. */
-static void plain_box(struct plain_scene *plain, int dimension, const double size[3], double spacing)
+static inline void plain_box(struct plain_scene *plain, int dimension, const double size[3], double spacing)
 {
     memset(plain, 0, sizeof *plain);
     struct scene *scene = &plain->scene;
@@ -51,7 +51,8 @@ static void plain_box(struct plain_scene *plain, int dimension, const double siz
 }
 
 /* Uniform traction on a whole face; gives the load. */
-static struct load *plain_face_load(struct plain_scene *plain, enum face face, const double traction[3])
+static inline struct load *plain_face_load(struct plain_scene *plain, enum face face,
+                                           const double traction[3])
 {
     struct load *load = &plain->load[plain->scene.loads++];
     *load = (struct load){.kind = LOAD_TRACTION, .shape = LOAD_FACE, .face = face, .amplitude = 1};

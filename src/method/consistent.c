@@ -359,9 +359,6 @@ static selas_status check_options(const struct scene *scene, const struct consis
     return SELAS_OK;
 }
 
-/* The memory equations of the layers take one mass in all three axes. With another mass over depth in the
- * stiffness the free surface in a layer grows in three dimensions (doc/absorbing-faces.md), so scenes with
- * layers have depth_mass 'same'. */
 static bool has_layers(const struct consistent *c)
 {
     for (int face = 0; face < BOX_FACES; face++)
@@ -373,7 +370,6 @@ static selas_status build(struct consistent *c, struct messages *messages)
 {
     for (int face = 0; face < 2 * c->dimension; face++)
         c->layer[face] = layer_points(c->model.scene, face);
-    if (has_layers(c)) c->options.depth_exact = false;
     selas_status status = lay_axes(c, messages);
     if (status != SELAS_OK) return status;
     lay_faces(c);
@@ -434,14 +430,6 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     }
     if (group != NULL && deck_values(group, "depth_mass") > 0)
         options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        if (group != NULL && deck_given(group, "depth_mass") && options.depth_exact &&
-            layer_points(scene, face) > 0)
-            return deck_error(
-                scene->deck, group, "depth_mass", messages,
-                "depth_mass = 'exact' does not stay quiet with layer 'pml' on face '%s'; expected "
-                "'same', or layer = 'lysmer'",
-                face_name((enum face)face));
     if (group != NULL && deck_values(group, "dissipation") > 0)
         options.dissipation = deck_real(group, "dissipation", 0);
     if (group != NULL && deck_values(group, "ends") > 0)

@@ -377,7 +377,12 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         acceleration_plane(c, drive, omp_get_thread_num(), k, u, v, a);
-    if (drive->extra != NULL) pml_accelerate(c, drive->extra, a);
+    if (drive->extra != NULL) {
+        pml_accelerate(c, drive->extra, a);
+        for (int component = 0; component < c->dimension; component++)
+            for (size_t k = 0; k < c->n[DEPTH]; k++)
+                consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
+    }
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
 }
 

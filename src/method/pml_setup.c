@@ -47,6 +47,16 @@ static bool odd(struct input input, int axis)
     return (input.component == axis) != (input.slope_axis == axis);
 }
 
+/* Takes a matrix of an axis over, cut to the region along the slab's own axis. */
+static const struct band *fit(const struct consistent *c, struct slab *slab, int axis, struct band *whole)
+{
+    const int slot = c->slot[axis];
+    if (whole == NULL || axis != slab->axis) return keep(slab, whole);
+    struct band *part = cut(whole, slab->region.at[slot], slab->region.n[slot]);
+    band_free(whole);
+    return keep(slab, part);
+}
+
 /* left * (integral of the test functions of `to` and the trial functions of `from`, with a slope on either
  * one), cut to the region along the slab's own axis. */
 static const struct band *matrix(struct consistent *c, struct slab *slab, int axis, const struct band *left,
@@ -56,14 +66,33 @@ static const struct band *matrix(struct consistent *c, struct slab *slab, int ax
     const struct band *right =
         consistent_matrix(c, axis, test_slope, odd(to, axis), trial_slope, odd(from, axis), weight);
     if (left == NULL || right == NULL) return NULL;
-    struct band *product = band_product(left, right);
-    const int slot = c->slot[axis];
-    if (product != NULL && axis == slab->axis) {
-        struct band *part = cut(product, slab->region.at[slot], slab->region.n[slot]);
-        band_free(product);
-        product = part;
+    return fit(c, slab, axis, band_product(left, right));
+}
+
+/* Along an axis without derivatives: the identity (NULL), since N H = 1; over depth N M if M stands there in
+ * the stiffness too (hform.c, bare_matrix). What is a slope over depth already has its own N; it lives only
+ * in layers over depth, and takes the property over the density of the ground there. False: no memory. */
+static bool bare_matrix(struct consistent *c, struct slab *slab, int out, struct input from,
+                        enum weighting weight, const struct band **band)
+{
+    const int axis = c->dimension - 1;
+    const double *property = c->weighted[weight], *density = c->weighted[WEIGHT_DENSITY];
+    *band = NULL;
+    if (from.slope_axis != axis) {
+        if (property == NULL && !c->options.depth_exact) return true;
+        *band = matrix(c, slab, axis, c->hform->inverse[out][axis], (struct input){out, -1}, false, from,
+                       false, weight);
+        return *band != NULL;
     }
-    return keep(slab, product);
+    if (property == NULL) return true;
+    const struct spline *spline = c->spline[axis];
+    struct band *diagonal = band_new(spline->count, 0);
+    for (size_t i = 0; diagonal != NULL && i < spline->count; i++) {
+        const size_t element = spline_locate(spline, spline->greville[i]);
+        band_add(diagonal, i, i, property[element] / density[element]);
+    }
+    *band = fit(c, slab, axis, diagonal);
+    return *band != NULL;
 }
 
 /* Terms being collected for a plan of a slab. */
@@ -86,12 +115,14 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
     *term = (struct tensor_term){.out = out, .in = (int)in, .factor = sign};
     if (!varies) term->factor *= c->property[weight] / c->property[WEIGHT_DENSITY];
     for (int axis = 0; axis < c->dimension; axis++) {
-        if (axis != test && axis != trial && !(varies && c->slot[axis] == DEPTH)) continue;
-        /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
-        const struct band *band = matrix(c, t->slab, axis, c->hform->inverse[out][axis],
-                                         (struct input){out, -1}, axis == test, from, axis == trial, weight);
-        t->good = t->good && band != NULL;
-        term->matrix[c->slot[axis]] = band;
+        const struct band **band = &term->matrix[c->slot[axis]];
+        if (axis == test || axis == trial) {
+            /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
+            *band = matrix(c, t->slab, axis, c->hform->inverse[out][axis], (struct input){out, -1},
+                           axis == test, from, axis == trial, weight);
+            t->good = t->good && *band != NULL;
+        } else if (c->slot[axis] == DEPTH)
+            t->good = t->good && bare_matrix(c, t->slab, out, from, weight, band);
     }
 }
 
