@@ -5,7 +5,7 @@
  * mass is rho V_i. So M u'' + dE/du = F with M diagonal and E bounded below: in the linear regime the
  * spectrum is imaginary whatever the points and weights. Vignjevic, Reveles & Campbell 2006 for the
  * reference-configuration form, doc/sph-total-lagrangian.md for the derivation. */
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian_kernels.h"
 
 #include "base/memory.h"
 #include "scene/initial.h"
@@ -42,7 +42,10 @@ static void destroy(struct model *model)
     void *const arrays[] = {tl->deck_position,
                             tl->site_position,
                             tl->ghost,
-                            tl->row_sum,
+                            tl->source,
+                            tl->gradient_blocks.block,
+                            tl->stress_blocks.block,
+                            tl->force_blocks.block,
                             tl->mass,
                             tl->damper,
                             (void *)tl->material,
@@ -256,10 +259,9 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
     tl->material = array_new(n, sizeof(void *));
     tl->elastic = array_new(n, sizeof *tl->elastic);
     tl->deck_position = array_new(3 * n, sizeof *tl->deck_position);
-    tl->A = array_new(d * d * n, sizeof *tl->A);
     tl->found = array_new(n, sizeof *tl->found);
     if (tl->mass == NULL || tl->material == NULL || tl->elastic == NULL || tl->deck_position == NULL ||
-        tl->A == NULL || tl->found == NULL)
+        tl->found == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
     for (size_t i = 0; i < n; i++) {
         const double *x = tl->cloud->position + 3 * i;
@@ -318,10 +320,12 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     if (status == SELAS_OK) status = tl_make_rows(tl, messages);
     if (status == SELAS_OK) {
         const size_t d = (size_t)scene->dimension;
-        tl->site_u = array_new(d * tl->sites, sizeof(double));
+        tl->plane = (d * tl->sites + VEC - 1) / VEC * VEC; /* and room to read a vector at the last point */
+        tl->site_u = array_new(d * tl->sites + VEC, sizeof(double));
         tl->force = array_new(d * tl->sites, sizeof(double));
-        tl->H = array_new(d * d * tl->sites, sizeof(double));
-        if (tl->site_u == NULL || tl->force == NULL || tl->H == NULL)
+        tl->H = array_new(d * tl->plane + VEC, sizeof(double));
+        tl->A = array_new(d * tl->plane + VEC, sizeof(double));
+        if (tl->site_u == NULL || tl->force == NULL || tl->H == NULL || tl->A == NULL)
             status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu sites", tl->sites);
     }
     if (status == SELAS_OK) status = tl_make_loads(tl, messages);

@@ -34,6 +34,19 @@ struct tl_rows {
     double *weight; /* [width] numbers an entry */
 };
 
+/* Points (of a kind of row: sites) in sequence that one kernel does at a time. In a run all rows are that of
+ * the point `pattern`, moved along: total_lagrangian_runs.c. */
+struct tl_block {
+    uint32_t first, pattern;
+    uint16_t count;
+    bool run;
+};
+
+struct tl_blocks {
+    size_t count;
+    struct tl_block *block;
+};
+
 /* A ghost repeats a point mirrored in one or more faces: u = sign * u_source + prescribed motion. */
 struct tl_ghost {
     size_t source;
@@ -60,13 +73,14 @@ struct tl_model {
     double *site_position; /* [3 * sites], body frame */
     size_t sites, ghosts;
     struct tl_ghost *ghost;
-    bool moving;                      /* some face is prescribed to move */
-    struct tl_rows gradient;          /* rows of points over sites: G_ij */
-    struct tl_rows transposed;        /* rows of sites over points: G_ji */
-    struct tl_rows returned;          /* rows of points over ghosts (numbered from 0), no weights */
+    bool moving;               /* some face is prescribed to move */
+    struct tl_rows gradient;   /* rows of points over sites: G_ij */
+    struct tl_rows transposed; /* rows of sites over points: G_ji, G_ii = minus the sum over j of G_ij */
+    struct tl_rows returned;   /* rows of points over ghosts (numbered from 0), no weights */
+    size_t sources, *source;   /* points that have ghosts */
+    struct tl_blocks gradient_blocks, stress_blocks, force_blocks; /* of the points; the last of the sites */
     struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
     struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
-    double *row_sum;                  /* [dimension * points] sum over j of G_ij */
     double *mass;                     /* [points] */
     double *damper;                   /* [dimension * points] or NULL */
     const struct material **material; /* [points] */
@@ -75,18 +89,21 @@ struct tl_model {
     struct neighbours near;           /* of the points, for probes */
     uint32_t *found;                  /* [points] for tl_probe */
     double *site_u, *site_v;          /* [dimension * sites]; site_v NULL without viscosity */
-    double *H;                        /* [dimension^2 * sites] */
-    double *A;                        /* [dimension^2 * points] V P (and the hourglass part) */
-    double *force;                    /* [dimension * sites] */
-    double *extra;                    /* [dimension * points] hourglass forces */
-    bool linear;                      /* linearise() is on */
-    double displacement[FACES];       /* amplitudes of the last drive, for energy() */
+    size_t plane;                     /* at least dimension * sites */
+    double *H;                  /* [dimension * plane]: H_ab of site s at b * plane + dimension * s + a */
+    double *A;                  /* the same, of the points: V P (and the hourglass part) */
+    double *force;              /* [dimension * sites] */
+    double *extra;              /* [dimension * points] hourglass forces */
+    bool linear;                /* linearise() is on */
+    double displacement[FACES]; /* amplitudes of the last drive, for energy() */
 };
 
 /* total_lagrangian_ghosts.c: sites beyond and on the faces. */
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
 /* total_lagrangian_setup.c: gradient weights, hourglass pairs, viscosity pairs. */
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
+/* total_lagrangian_runs.c: cuts the points into blocks, after all rows are there. */
+selas_status tl_find_runs(struct tl_model *tl, struct messages *messages);
 double tl_spacing_at(const struct tl_model *tl, size_t i); /* of the points around point i */
 double tl_radius(const struct tl_model *tl);               /* of the weights, in length */
 double tl_search_radius(const struct tl_model *tl);        /* the largest a point's weights may take */
@@ -113,7 +130,17 @@ enum { TL_SERIAL = 3000 };
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
               const double *velocity);
 void tl_gradients(struct tl_model *tl);
-void tl_forces(struct tl_model *tl);
+void tl_stresses(struct tl_model *tl);
+void tl_divergence(struct tl_model *tl); /* of A, with the hourglass forces */
+void tl_forces(struct tl_model *tl);     /* the last two */
+/* H of site i from tl->H, row-major. */
+static inline void tl_tensor(const struct tl_model *tl, size_t i, double H[9])
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++)
+            H[d * a + b] = tl->H[b * tl->plane + d * i + a];
+}
 /* Adds to tl->force of the ghosts what the hourglass pairs pull at them. */
 void tl_ghost_hourglass(struct tl_model *tl);
 /* H of one point for displacements u (ghosts by the amplitudes of the last drive). */

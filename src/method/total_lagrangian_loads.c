@@ -161,13 +161,13 @@ static void uniform_stress(struct tl_model *tl, const double direction[3], enum 
 {
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t axis = (size_t)face_axis(face);
-    memset(tl->H, 0, d * d * tl->cloud->points * sizeof *tl->H);
-    memset(tl->A, 0, d * d * tl->cloud->points * sizeof *tl->A);
-    memset(tl->site_u, 0, d * tl->sites * sizeof *tl->site_u);
+    memset(tl->A, 0, d * tl->plane * sizeof *tl->A);
+    if (tl->extra != NULL) memset(tl->extra, 0, d * tl->cloud->points * sizeof *tl->extra);
     for (size_t i = 0; i < tl->cloud->points; i++)
         for (size_t a = 0; a < d; a++)
-            tl->A[d * d * i + d * a + axis] = -tl->cloud->volume[i] * direction[a] * face_sign(face);
-    tl_forces(tl);
+            tl->A[(size_t)axis * tl->plane + d * i + a] =
+                -tl->cloud->volume[i] * direction[a] * face_sign(face);
+    tl_divergence(tl);
 }
 
 static selas_status traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],

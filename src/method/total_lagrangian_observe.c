@@ -107,8 +107,10 @@ void tl_field(struct model *model, selas_field field, const double *y, const dou
     }
     for (size_t i = 0; i < model->points; i++) {
         if (!is_vector(field)) {
-            nonlinear_field(model, tl->material[i], &tl->elastic[i], tl->H + d * d * i,
-                            y + model->unknowns + d * i, field, value + components * i);
+            double H[9];
+            tl_tensor(tl, i, H);
+            nonlinear_field(model, tl->material[i], &tl->elastic[i], H, y + model->unknowns + d * i, field,
+                            value + components * i);
             continue;
         }
         double vector[3] = {0};

@@ -171,10 +171,8 @@ static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *
         for (size_t k = 0; k < count; k++) {
             if (work->index[k] == i) continue;
             tl->gradient.index[entries] = work->index[k];
-            for (size_t a = 0; a < d; a++) {
+            for (size_t a = 0; a < d; a++)
                 tl->gradient.weight[d * entries + a] = work->gradient[3 * k + a];
-                tl->row_sum[d * i + a] += work->gradient[3 * k + a];
-            }
             entries++;
         }
         tl->gradient.start[i + 1] = entries;
@@ -182,28 +180,58 @@ static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *
     return SELAS_OK;
 }
 
+/* G_ii = minus the sum over j of G_ij; false if that is 0 but for rounding, as inside a lattice. */
+static bool own_weight(const struct tl_model *tl, size_t i, double own[3])
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    double size = 0;
+    own[0] = own[1] = own[2] = 0;
+    for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++)
+        for (size_t a = 0; a < d; a++) {
+            own[a] -= tl->gradient.weight[d * k + a];
+            size += fabs(tl->gradient.weight[d * k + a]);
+        }
+    return fabs(own[0]) + fabs(own[1]) + fabs(own[2]) > 1e-13 * size;
+}
+
+/* Entries of each site, to start[site + 1]. */
+static void count_entries(const struct tl_model *tl, size_t *start)
+{
+    double own[3];
+    for (size_t k = 0; k < tl->gradient.start[tl->cloud->points]; k++)
+        start[tl->gradient.index[k] + 1]++;
+    for (size_t i = 0; i < tl->cloud->points; i++)
+        start[i + 1] += own_weight(tl, i, own);
+    for (size_t s = 0; s < tl->sites; s++)
+        start[s + 1] += start[s];
+}
+
 static selas_status transpose(struct tl_model *tl, struct messages *messages)
 {
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t n = tl->cloud->points;
-    const size_t entries = tl->gradient.start[n];
+    const size_t entries = tl->gradient.start[n] + n;
     struct tl_rows *rows = &tl->transposed;
     size_t *next = array_new(tl->sites + 1, sizeof *next);
     if (next == NULL || tl_rows_allocate(rows, tl->sites, entries, d) != SELAS_OK) {
         array_free(next);
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", entries);
     }
-    for (size_t k = 0; k < entries; k++)
-        rows->start[tl->gradient.index[k] + 1]++;
-    for (size_t s = 0; s < tl->sites; s++)
-        rows->start[s + 1] += rows->start[s];
+    count_entries(tl, rows->start);
     memcpy(next, rows->start, tl->sites * sizeof *next);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
+        double own[3];
+        if (own_weight(tl, i, own)) {
+            const size_t place = next[i]++;
+            rows->index[place] = (uint32_t)i;
+            memcpy(rows->weight + d * place, own, d * sizeof(double));
+        }
         for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++) {
             const size_t place = next[tl->gradient.index[k]]++;
             rows->index[place] = (uint32_t)i;
             memcpy(rows->weight + d * place, tl->gradient.weight + d * k, d * sizeof(double));
         }
+    }
     array_free(next);
     return SELAS_OK;
 }
@@ -226,6 +254,10 @@ static selas_status return_rows(struct tl_model *tl, struct messages *messages)
     for (size_t g = 0; g < tl->ghosts; g++)
         rows->index[next[tl->ghost[g].source]++] = (uint32_t)g;
     array_free(next);
+    tl->source = array_new(tl->ghosts, sizeof *tl->source);
+    if (tl->source == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu ghosts", tl->ghosts);
+    for (size_t i = 0; i < n; i++)
+        if (rows->start[i + 1] > rows->start[i]) tl->source[tl->sources++] = i;
     return SELAS_OK;
 }
 
@@ -324,8 +356,7 @@ selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
         status = neighbours_find(&near, (int)d, tl->sites, tl->site_position, tl_search_radius(tl), true,
                                  messages);
     if (status == SELAS_OK) {
-        tl->row_sum = array_new(d * n, sizeof(double));
-        if (!work_allocate(&work, longest_row(&near, n)) || tl->row_sum == NULL ||
+        if (!work_allocate(&work, longest_row(&near, n)) ||
             tl_rows_allocate(&tl->gradient, n, near.start[n], d) != SELAS_OK)
             status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", near.start[n]);
     }
@@ -335,6 +366,7 @@ selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
     if (status == SELAS_OK && tl->options.hourglass > 0) status = hourglass_pairs(tl, &near, messages);
     if (status == SELAS_OK && (tl->options.viscosity_alpha > 0 || tl->options.viscosity_beta > 0))
         status = viscosity_pairs(tl, &near, messages);
+    if (status == SELAS_OK) status = tl_find_runs(tl, messages);
     neighbours_free(&near);
     work_free(&work);
     return status;

@@ -1,0 +1,15 @@
+/* Blocks of points of total-Lagrangian SPH and the loops over their neighbours. */
+#ifndef SELAS_TOTAL_LAGRANGIAN_KERNELS_H
+#define SELAS_TOTAL_LAGRANGIAN_KERNELS_H
+
+#include "base/vectors.h"
+#include "method/total_lagrangian.h"
+
+/* Each takes a block of its own kind (tl->gradient_blocks, ...) and writes the block's points only, so blocks
+ * may be done in any order and at the same time: H from the displacements of the sites; A and the hourglass
+ * forces from H; the forces from A. */
+void tl_gradient_block(struct tl_model *tl, const struct tl_block *block);
+void tl_stress_block(struct tl_model *tl, const struct tl_block *block);
+void tl_force_block(struct tl_model *tl, const struct tl_block *block);
+
+#endif
