@@ -54,6 +54,22 @@ consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the
 lamb-check: $(BUILD)/test/lamb_grid ## hold the half-space's FFT against its closed form: ten receivers, four Poisson ratios
 	$(BUILD)/test/lamb_grid
 
+.PHONY: regress nightly faults regress-compilers verification
+regress: ## the quick half of the nightly regression; page in output/regress/index.html (a minute or two)
+	@regress/nightly -q
+
+nightly: ## the whole nightly regression: all cases, tests, planted faults, compilers, stability, accuracy
+	@regress/nightly
+
+faults: $(BUILD)/selas ## plant faults in a copy of the source and count that the regression finds each
+	@regress/faults $(BUILD)
+
+regress-compilers: ## one baseline for gcc and clang, -O2 and -O3, 1 and 2 threads (builds four programs)
+	@regress/compilers
+
+verification: ## write doc/verification.md anew from the cases and their recorded errors
+	@regress/verification
+
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
 
