@@ -37,7 +37,12 @@ run_case() { # run_case CASE BUILD FOLDER: leaves the results in FOLDER, the pro
     unset IFS
     set +f
     timeout "${REGRESS_TIMEOUT:-1800}" "$run_program" -q "$run_deck" "$@" output%plots="$run_plots" \
-        output%directory="$run_folder" >"$run_folder.log" 2>&1
+        output%directory="$run_folder" >"$run_folder.log" 2>&1 &
+    echo $! >"$run_folder.pid" # for who has to stop it
+    wait $!
+    run_status=$?
+    rm -f "$run_folder.pid"
+    return $run_status
 }
 
 errors_of() { # errors_of FOLDER: `NAME: VALUE` of every error of report.txt that is recorded

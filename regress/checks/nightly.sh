@@ -1,0 +1,91 @@
+#!/bin/sh
+# The nightly regression itself, on a copy with a handful of cases: a good night, a changed history, a broken case, a
+# night that is killed, two at once, accepting. Argument: the build folder. Prints TAP.
+build=$(cd "${1:-build}" && pwd)
+work=$(mktemp -d "${TMPDIR:-/tmp}/selas-nightly-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+check() { # check WHAT COMMAND...
+    what=$1
+    shift
+    if "$@" >"$work/said" 2>&1; then echo "ok - $what"; else echo "not ok - $what"; sed 's/^/# /' "$work/said" | head -20; fi
+}
+mkdir -p "$work/regress/cases" "$work/output"
+cp -r regress/nightly regress/nightly.d regress/accept "$work/regress/"
+cp -r input "$work/"
+for name in pulse-fixed pulse-transmitting bar-rk4; do cp -r "regress/cases/$name" "$work/regress/cases/"; done
+cd "$work" || exit 1
+page=output/regress/index.html
+summary=output/regress/summary.txt
+night() { regress/nightly -q -b "$build" "$@" >night.log 2>&1; }
+last() { tail -n 1 "$summary"; }
+
+check 'a good night ends with status 0' night
+check 'its page is green' grep -q '<header class="green">' $page
+check 'its summary ends N passed, 0 failed' sh -c "tail -n 1 $summary | grep -qxE '[1-9][0-9]* passed, 0 failed'"
+check 'every receiver is drawn' test "$(grep -o 'data:image/png;base64,iVBOR' $page | wc -l)" -ge 5
+check 'the page needs nothing from outside' sh -c "! grep -oE '(src|href)=\"[^\"]{0,12}' $page | grep -vE 'src=\"data:image/p'"
+check 'the page suits a phone' grep -q 'name="viewport" content="width=device-width' $page
+check 'every element that is opened is closed' sh -c "
+    for tag in details summary figure ul pre svg header body html; do
+        [ \$(grep -oE \"<\$tag[ >]\" $page | wc -l) -eq \$(grep -o \"</\$tag>\" $page | wc -l) ] || { echo \$tag; exit 1; }
+    done"
+check 'errors and CPU time are in the log' sh -c "[ \$(wc -l <output/regress/log.txt) -eq 3 ]"
+
+# one number of one history, by 1e-5 of it; a case that is refused
+awk '!/^#/ && $5 > 1 && !done { $5 *= 1.00001; done = 1 } { print }' regress/cases/pulse-fixed/accepted/far.dat >changed
+cp changed regress/cases/pulse-fixed/accepted/far.dat
+mkdir regress/cases/aa-broken
+printf 'what: refused\ndeck: input/plane-wave.nml\noverride: body%%spacing=-1\natol: 1e-7\nrtol: 1e-7\nhalf: quick\n' >regress/cases/aa-broken/case
+check 'a changed number and a refused deck: status 1' sh -c "! regress/nightly -q -b $build >night.log 2>&1"
+check 'the page is red' grep -q '<header class="red">' $page
+check 'all other cases were run' sh -c "grep -q '^passed bar-rk4' $summary && grep -q '^passed pulse-transmitting' $summary"
+check 'both failures are told' sh -c "grep -q '^FAILED aa-broken' $summary && grep -q 'not ok - pulse-fixed: histories as accepted' $summary"
+check 'failures stand first' sh -c "[ \$(grep -n 'id=\"pulse-fixed\"' $page | cut -d: -f1) -lt \$(grep -n 'id=\"bar-rk4\"' $page | cut -d: -f1) ]"
+check 'the difference is drawn' grep -q 'differs from what was accepted: far_vx' $page
+
+check 'accepting asks, and takes no for an answer' sh -c "
+    echo n | regress/accept -b $build pulse-fixed | grep -q 'left as it was' && cmp changed regress/cases/pulse-fixed/accepted/far.dat"
+check 'accepting shows the difference' sh -c "echo n | regress/accept -b $build pulse-fixed | grep -qE '^far +vx .* differs'"
+check 'accepting with --yes' sh -c "regress/accept --yes -b $build pulse-fixed | grep -q 'pulse-fixed: accepted'"
+rm -rf regress/cases/aa-broken
+check 'green again' night
+check 'an error 6 % above the recorded one is red' sh -c "
+    cp regress/cases/pulse-fixed/errors kept
+    awk -F': ' '{ printf \"%s: %.4e\\n\", \$1, \$2 / 1.06 }' kept >regress/cases/pulse-fixed/errors
+    ! regress/nightly -q -b $build pulse-fixed >night.log 2>&1 && grep -q 'not ok - pulse-fixed: error far velocity' $summary
+    status=\$?
+    cp kept regress/cases/pulse-fixed/errors
+    exit \$status"
+
+# a night that takes long is killed: one that hears the signal, one that does not
+mkdir regress/cases/slow
+printf 'what: slow\ndeck: input/plane-wave.nml\noverride: body%%spacing=0.0005\noverride: scene%%end_time=60\natol: 1\nrtol: 1\nhalf: quick\n' >regress/cases/slow/case
+begin() { # begin: starts a night in the background, waits until it is at the slow case alone
+    rm -f $page
+    regress/nightly -q -b "$build" >night.log 2>&1 &
+    night=$!
+    tries=0
+    while [ $tries -lt 300 ] && ! { [ -d output/regress/cases/slow ] && grep -q ' 4 of 5 ' $page 2>/dev/null; }; do
+        sleep .1
+        tries=$((tries + 1))
+    done
+}
+begin
+check 'a second night does not start beside it' sh -c "regress/nightly -q -b $build 2>&1 | grep -q 'another one is at work'"
+kill -TERM $night
+wait $night 2>/dev/null
+check 'killed: the page says so' grep -q 'NOT FINISHED: . of 5 done; killed by signal TERM at' $page
+check 'killed: the page is red, with what was done' sh -c "grep -q '<header class=\"red\">' $page && grep -q 'id=\"bar-rk4\"' $page && tail -1 $page | grep -q '</html>'"
+check 'killed: the summary counts it as failed' sh -c "tail -n 1 $summary | grep -qE ' passed, [1-9][0-9]* failed'"
+tries=0
+while [ $tries -lt 100 ] && ! flock -n output/regress/lock true; do sleep .1; tries=$((tries + 1)); done
+check 'killed: the next night can begin' flock -n output/regress/lock true
+begin
+kill -KILL $night
+wait $night 2>/dev/null
+check 'killed without a word: the page says so' grep -q 'NOT FINISHED: . of 5 done; running, or killed without a word' $page
+check 'killed without a word: the summary says so' sh -c "grep -q 'NOT FINISHED' $summary && tail -n 1 $summary | grep -qE ' passed, [1-9][0-9]* failed'"
+[ -s output/regress/cases/slow/run.pid ] && kill "$(cat output/regress/cases/slow/run.pid)" 2>/dev/null
+exec 9>output/regress/lock
+flock -w 20 9 # what the night had started is gone: the folder can be removed
+exit 0
