@@ -117,7 +117,8 @@ static void discard(selas_simulation *simulation)
     scene_free(&simulation->scene);
     array_free(simulation->scratch);
     array_free(simulation->values);
-    simulation->scratch = simulation->values = NULL;
+    array_free(simulation->lattice);
+    simulation->scratch = simulation->values = simulation->lattice = NULL;
     simulation->values_room = 0;
     simulation->prepared = simulation->dirty = simulation->broken = false;
 }

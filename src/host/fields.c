@@ -9,8 +9,18 @@ selas_status selas_points(selas_simulation *simulation, size_t *count, const dou
     if (status != SELAS_OK) return status;
     if (count == NULL || position == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no room for the count or the positions");
-    *count = simulation->model->points;
-    *position = simulation->model->position;
+    const struct model *model = simulation->model;
+    *count = 0;
+    *position = NULL;
+    if (model->position == NULL && simulation->lattice == NULL) {
+        simulation->lattice = array_new(3 * model->points, sizeof *simulation->lattice);
+        if (simulation->lattice == NULL)
+            return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for %zu positions", model->points);
+        for (size_t i = 0; i < model->points; i++)
+            model_position(model, i, simulation->lattice + 3 * i);
+    }
+    *count = model->points;
+    *position = model->position != NULL ? model->position : simulation->lattice;
     return SELAS_OK;
 }
 

@@ -59,6 +59,7 @@ struct selas_simulation {
     double *values; /* fields handed out: [values_room] */
     size_t values_room;
     double *scratch; /* [state_size] */
+    double *lattice; /* [3 * points]: positions, once a host asks and the model does not store them */
 };
 
 /* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */

@@ -41,7 +41,6 @@ static void destroy(struct model *model)
     array_free(c->class_plane);
     array_free(c->line_buffer);
     array_free(c->face_buffer);
-    array_free(c->position);
     array_free(c);
 }
 

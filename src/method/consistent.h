@@ -81,7 +81,6 @@ struct consistent {
     double *face_buffer;              /* [dimension * plane] */
     struct hform *hform;              /* NULL: exact mass */
     int threads;
-    double *position;
     struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
     struct band *collocation[3][2];     /* [axis][odd]: LU factors of the values at the Greville points */
 };

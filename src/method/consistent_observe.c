@@ -149,17 +149,6 @@ bool observe_create(struct consistent *c)
                 spline_at(c->spline[axis], odd, lattice_position(c, axis, i), &c->lattice[axis][odd][i]);
         }
     }
-    c->position = array_new(3 * model->points, sizeof *c->position);
-    model->position = c->position;
-    if (c->position == NULL) return false;
-    for (size_t p = 0; p < model->points; p++) {
-        const size_t at[3] = {p % model->grid[0], p / model->grid[0] % model->grid[1],
-                              p / (model->grid[0] * model->grid[1])};
-        double *position = c->position + 3 * p;
-        for (int axis = 0; axis < c->dimension; axis++)
-            position[axis] = lattice_position(c, axis, at[axis]);
-        if (body->rotated) body_to_deck(body, position, position);
-    }
     return true;
 }
 

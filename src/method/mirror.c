@@ -17,7 +17,6 @@ struct mirror {
     struct model *part;
     struct scene part_scene;
     unsigned axes;
-    double *position;
 };
 
 bool mirrors_wanted(const struct scene *scene)
@@ -156,11 +155,9 @@ static size_t folded_index(const struct mirror *mirror, int axis, size_t i, unsi
 
 /* The part's values fill the head of the array and spread from its end: a point's index in the whole is never
  * below its index in the part, so nothing is overwritten that is still needed. */
-static void unfold(struct mirror *mirror, size_t components, double *value,
-                   void (*turn)(const struct mirror *mirror, unsigned planes, size_t point, double *value,
-                                void *context),
-                   void *context)
+static void unfold(const struct mirror *mirror, selas_field field, double *value)
 {
+    const size_t components = (size_t)field_components(field);
     const size_t *whole = mirror->model.grid;
     const size_t *part = mirror->part->grid;
     for (size_t k = whole[2]; k-- > 0;)
@@ -174,18 +171,11 @@ static void unfold(struct mirror *mirror, size_t components, double *value,
                 const size_t to = i + whole[0] * (j + whole[1] * k);
                 for (size_t c = 0; c < components; c++)
                     value[components * to + c] = value[components * from + c];
-                turn(mirror, planes, to, value + components * to, context);
+                if (planes == 0) continue;
+                double h[3][3];
+                reflection(mirror, planes, h);
+                reflect(h, field, value + components * to);
             }
-}
-
-static void turn_value(const struct mirror *mirror, unsigned planes, size_t point, double *value,
-                       void *context)
-{
-    (void)point;
-    if (planes == 0) return;
-    double h[3][3];
-    reflection(mirror, planes, h);
-    reflect(h, *(const selas_field *)context, value);
 }
 
 static void whole_field(struct model *model, selas_field field, const double *y, const double *a,
@@ -193,7 +183,7 @@ static void whole_field(struct model *model, selas_field field, const double *y,
 {
     struct mirror *mirror = (struct mirror *)model;
     mirror->part->class->field(mirror->part, field, y, a, value);
-    unfold(mirror, (size_t)field_components(field), value, turn_value, &field);
+    unfold(mirror, field, value);
 }
 
 static double copies(const struct model *model)
@@ -235,7 +225,6 @@ static void destroy(struct model *model)
 {
     struct mirror *mirror = (struct mirror *)model;
     model_free(&mirror->part);
-    array_free(mirror->position);
     free(mirror);
 }
 
@@ -256,21 +245,9 @@ static const struct model_class mirror_class = {
     .describe = describe,
 };
 
-static void turn_position(const struct mirror *mirror, unsigned planes, size_t point, double *value,
-                          void *context)
-{
-    (void)point;
-    (void)context;
-    const struct body *body = &mirror->part_scene.body;
-    double place[3];
-    body_from_deck(body, value, place);
-    for (int axis = 0; axis < 3; axis++)
-        if ((planes & 1u << axis) != 0) place[axis] = 2.0 * middle(mirror, axis) - place[axis];
-    body_to_deck(body, place, value);
-}
-
-/* What the whole shows of the part: numbers of the state are the part's, points and positions the whole's. */
-static selas_status fill(struct mirror *mirror, struct messages *messages)
+/* What the whole shows of the part: numbers of the state are the part's, points the whole's: a lattice
+ * that fills the whole body, whose positions nobody stores. */
+static void fill(struct mirror *mirror)
 {
     const struct model *part = mirror->part;
     struct model *model = &mirror->model;
@@ -283,15 +260,6 @@ static selas_status fill(struct mirror *mirror, struct messages *messages)
     for (int axis = 0; axis < 3; axis++)
         if ((mirror->axes & 1u << axis) != 0) model->grid[axis] = 2 * part->grid[axis] - 1;
     model->points = model->grid[0] * model->grid[1] * model->grid[2];
-    mirror->position = array_new(3 * model->points, sizeof *mirror->position);
-    if (mirror->position == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", model->points);
-    for (size_t i = 0; i < 3 * part->points; i++)
-        mirror->position[i] = part->position[i];
-    unfold(mirror, 3, mirror->position, turn_position, NULL);
-    model->position = mirror->position;
-    model->bytes += 3 * model->points * sizeof *mirror->position;
-    return SELAS_OK;
 }
 
 selas_status mirror_create(const struct model_class *class, const struct scene *scene, unsigned axes,
@@ -304,10 +272,11 @@ selas_status mirror_create(const struct model_class *class, const struct scene *
     mirror->part_scene = scene_below_mirrors(scene, axes);
     selas_status status = class->create(&mirror->part_scene, &mirror->part, messages);
     mirror->model = (struct model){.class = &mirror_class, .scene = scene};
-    if (status == SELAS_OK) status = fill(mirror, messages);
-    if (status == SELAS_OK)
+    if (status == SELAS_OK) {
+        fill(mirror);
         *created = &mirror->model;
-    else
+    } else {
         destroy(&mirror->model);
+    }
     return status;
 }

@@ -108,7 +108,8 @@ struct model {
     const struct model_class *class;
     const struct scene *scene; /* borrowed */
     size_t points;             /* points of the body that users see */
-    const double *position;    /* [3 * points], deck coordinates */
+    const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not
+                                  stored. Ask model_position(). */
     size_t grid[3];            /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
     size_t unknowns;           /* numbers in u */
     size_t state_size;         /* numbers in y */
@@ -127,6 +128,9 @@ struct model {
 const struct model_class *model_find(const char *method, const char *variant);
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages);
 void model_free(struct model **model);
+
+/* method/positions.c: deck coordinates of a point that users see. */
+void model_position(const struct model *model, size_t point, double position[3]);
 
 /* What is known at one place, in the frame of the unknowns. */
 struct point_values {

@@ -11,11 +11,8 @@ static void body_position(const struct recorder *recorder, const struct snapshot
                           double position[3])
 {
     const size_t i = record->index != NULL ? record->index[point] : point;
-    const double *x = recorder->model->position + 3 * i;
-    if (recorder->scene->body.rotated)
-        body_from_deck(&recorder->scene->body, x, position);
-    else
-        memcpy(position, x, 3 * sizeof *position);
+    model_position(recorder->model, i, position);
+    if (recorder->scene->body.rotated) body_from_deck(&recorder->scene->body, position, position);
 }
 
 static void bounds_of(const struct recorder *recorder, const struct snapshot_record *record, double low[3],

@@ -69,6 +69,31 @@ hid_t hdf_group(hid_t place, const char *name)
     return H5Gcreate2(place, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
 }
 
+/* Positions of all points, in slabs: a lattice does not store them. */
+static bool write_positions(hid_t place, const struct model *model)
+{
+    enum { ROWS = 512 };
+    double slab[ROWS][3];
+    const hsize_t size[2] = {model->points, 3};
+    const hid_t space = H5Screate_simple(2, size, NULL);
+    const hid_t set =
+        H5Dcreate2(place, "position", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = set >= 0;
+    for (size_t first = 0; first < model->points && good; first += ROWS) {
+        const size_t left = model->points - first, rows = left < ROWS ? left : ROWS;
+        for (size_t i = 0; i < rows; i++)
+            model_position(model, first + i, slab[i]);
+        const hsize_t from[2] = {first, 0}, count[2] = {rows, 3};
+        const hid_t memory = H5Screate_simple(2, count, NULL);
+        good = H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, count, NULL) >= 0 &&
+               H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, slab) >= 0;
+        H5Sclose(memory);
+    }
+    good = set >= 0 && H5Dclose(set) >= 0 && good;
+    H5Sclose(space);
+    return good;
+}
+
 /* Positions of the whole body and of each region, with the indices of its points. */
 static bool write_points(const struct recorder *recorder, hid_t file)
 {
@@ -76,13 +101,12 @@ static bool write_points(const struct recorder *recorder, hid_t file)
     const hid_t points = hdf_group(file, "points");
     if (points < 0) return false;
     const double grid[3] = {(double)model->grid[0], (double)model->grid[1], (double)model->grid[2]};
-    bool good = hdf_table(points, "position", H5T_IEEE_F64LE, model->points, 3, model->position) &&
-                hdf_numbers(points, "lattice", 3, grid);
+    bool good = write_positions(points, model) && hdf_numbers(points, "lattice", 3, grid);
     for (size_t s = 0; s < recorder->scene->snapshots && good; s++) {
         const struct snapshot_record *record = &recorder->snapshot[s];
         if (record->index == NULL) continue;
         for (size_t i = 0; i < record->points; i++)
-            memcpy(record->buffer + 3 * i, model->position + 3 * record->index[i], 3 * sizeof(double));
+            model_position(model, record->index[i], record->buffer + 3 * i);
         char name[48];
         snprintf(name, sizeof name, "region_%zu", s + 1);
         const hid_t region = hdf_group(points, name);

@@ -44,6 +44,13 @@ static void sub_lattice(const size_t grid[3], const struct snapshot_record *reco
     if (part[0] * part[1] * part[2] != record->points) part[0] = part[1] = part[2] = 0;
 }
 
+/* Where the k-th point of a record is. */
+static void place_of(const struct model *model, const struct snapshot_record *record, size_t k,
+                     double position[3])
+{
+    model_position(model, record->index != NULL ? record->index[k] : k, position);
+}
+
 /* A lattice along the deck's axes with equal spacings can be told by origin and spacings alone. */
 static void look_regular(const struct model *model, struct snapshot_record *record)
 {
@@ -51,24 +58,23 @@ static void look_regular(const struct model *model, struct snapshot_record *reco
     if (grid[0] == 0) return;
     const size_t stride[3] = {1, grid[0], grid[0] * grid[1]};
     double size = 0.0;
+    place_of(model, record, 0, record->origin);
     for (int axis = 0; axis < 3; axis++) {
-        const size_t first = record->index != NULL ? record->index[0] : 0;
-        record->origin[axis] = model->position[3 * first + (size_t)axis];
         record->step[axis] = 0.0;
         if (grid[axis] < 2) continue;
-        const size_t end = (grid[axis] - 1) * stride[axis];
-        const size_t last = record->index != NULL ? record->index[end] : end;
-        record->step[axis] =
-            (model->position[3 * last + (size_t)axis] - record->origin[axis]) / (double)(grid[axis] - 1);
+        double last[3];
+        place_of(model, record, (grid[axis] - 1) * stride[axis], last);
+        record->step[axis] = (last[axis] - record->origin[axis]) / (double)(grid[axis] - 1);
         size = fmax(size, fabs(record->step[axis]));
     }
     record->regular = true;
     for (size_t k = 0; k < record->points && record->regular; k++) {
-        const size_t point = record->index != NULL ? record->index[k] : k;
+        double x[3];
+        place_of(model, record, k, x);
         const size_t at[3] = {k % grid[0], k / grid[0] % grid[1], k / stride[2]};
         for (size_t axis = 0; axis < 3; axis++)
-            if (!(fabs(model->position[3 * point + axis] - record->origin[axis] -
-                       (double)at[axis] * record->step[axis]) <= 1e-6 * size))
+            if (!(fabs(x[axis] - record->origin[axis] - (double)at[axis] * record->step[axis]) <=
+                  1e-6 * size))
                 record->regular = false;
     }
 }
@@ -88,8 +94,11 @@ static selas_status create_one(const struct model *model, size_t number, struct 
         if (record->index == NULL)
             return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", model->points);
         record->points = 0;
-        for (size_t i = 0; i < model->points; i++)
-            if (in_region(snapshot, model->position + 3 * i)) record->index[record->points++] = i;
+        for (size_t i = 0; i < model->points; i++) {
+            double x[3];
+            model_position(model, i, x);
+            if (in_region(snapshot, x)) record->index[record->points++] = i;
+        }
         if (record->points == 0)
             return fail(messages, SELAS_BAD_SCENE, "the region of snapshot group %zu holds no points",
                         number + 1);

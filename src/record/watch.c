@@ -99,7 +99,8 @@ static selas_status tell_place(const struct recorder *recorder, const struct sta
         if (!isfinite(speed)) break;
     }
     array_free(velocity);
-    const double *x = model->position + 3 * place;
+    double x[3];
+    model_position(model, place, x);
     return fail(
         messages, SELAS_UNSTABLE,
         "the run went unstable at t = %.6g (step %lu): %s; fastest at (%.6g, %.6g, %.6g), speed %.3g; "
