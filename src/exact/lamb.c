@@ -246,7 +246,8 @@ static void destroy(struct exact *exact)
     array_free(lamb);
 }
 
-static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
+selas_status lamb_create_within(const struct scene *scene, double tolerance, struct exact **exact,
+                                struct messages *messages)
 {
     *exact = NULL;
     selas_status status = check_scene(scene, messages);
@@ -255,6 +256,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     if (lamb == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
     lamb->exact.class = &exact_lamb;
     lamb->exact.scene = scene;
+    lamb->problem.tolerance = tolerance;
     const struct material *material = scene_material_at(scene, 0);
     half_space_set(&lamb->problem.ground, material->density, material->lambda, material->mu);
     if (scene->body.layers > 0) status = layered_create(scene, &lamb->layers, messages);
@@ -267,6 +269,11 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     }
     *exact = &lamb->exact;
     return SELAS_OK;
+}
+
+static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
+{
+    return lamb_create_within(scene, 0, exact, messages);
 }
 
 static void add_plane_wave(const struct half_space *ground, const struct lamb_load *load, double z, double t,

@@ -6,4 +6,8 @@
 
 extern const struct exact_class exact_lamb;
 
+/* exact_lamb.create with a wanted error of its own (struct lamb_problem); 0: the default. */
+selas_status lamb_create_within(const struct scene *scene, double tolerance, struct exact **exact,
+                                struct messages *messages);
+
 #endif

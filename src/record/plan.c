@@ -89,6 +89,7 @@ static double memory_of(const struct recorder *recorder)
 
 static void say_parts(const struct teller *teller, const struct scene *scene)
 {
+    if (scene->body.accuracy[0] != '\0') say(teller, "accuracy", "%s", scene->body.accuracy);
     if (scene->body.chosen) say(teller, "box chosen", "%s", scene->body.choice);
     say(teller, "loads", "%zu", scene->loads);
     say(teller, "receivers", "%zu", scene->receivers);

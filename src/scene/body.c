@@ -161,6 +161,26 @@ static bool read_rotation(struct builder *builder, const struct deck_group *grou
     return true;
 }
 
+bool take_spacing(const struct builder *builder, const struct deck_group *group, double *spacing)
+{
+    const struct scene *scene = builder->scene;
+    if (builder->accurate &&
+        !(builder->spacing > 0)) { /* a first guess: a sixteenth of what a P wave covers */
+        double fastest = 0;
+        for (size_t i = 0; i < scene->materials; i++)
+            fastest = fmax(fastest, scene->material[i].p_speed);
+        *spacing = fastest * scene->end_time / 16;
+        return *spacing > 0;
+    }
+    if (builder->accurate) {
+        *spacing = builder->spacing;
+        return true;
+    }
+    if (deck_values(group, "spacing") == 0) return false;
+    *spacing = deck_real(group, "spacing", 0);
+    return true;
+}
+
 static bool read_shape(struct builder *builder, const struct deck_group *group)
 {
     static const char *const hole_words[] = {"hole_centre", "hole_radius", NULL};
@@ -222,7 +242,8 @@ void build_body(struct builder *builder)
         complain(builder, group, "arrangement",
                  "arrangement '%s' is for shape 'plate-with-hole'; expected 'lattice'",
                  deck_text(group, "arrangement", 0));
-    const bool spaced = need_real(builder, group, "spacing", "a body of points", &body->spacing);
+    const bool spaced = take_spacing(builder, group, &body->spacing) ||
+                        need_real(builder, group, "spacing", "a body of points", &body->spacing);
     if (!right) return;
     body_set_frame(body);
     builder->body_known = true;

@@ -11,6 +11,8 @@ struct builder {
     struct messages *messages;
     selas_status status; /* SELAS_OK, or what went wrong first */
     bool body_known;     /* box and frame are right: places can be checked against them */
+    bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
+    double spacing;      /* ... but this one, or 0 for a first guess */
 };
 
 /* Adds a line with the place of `name` in the group (deck_error); the building goes on. */
@@ -58,6 +60,21 @@ void build_initial(struct builder *builder);
 void build_receivers(struct builder *builder);
 void build_profiles(struct builder *builder);
 void build_snapshots(struct builder *builder);
+
+/* body.c: spacing of the deck, or the one chosen for it; false (without complaint) if there is none. */
+bool take_spacing(const struct builder *builder, const struct deck_group *group, double *spacing);
+
+/* accuracy.c: refuses what scene%accuracy cannot serve or leaves no choice in (called when all else is
+ * built). */
+void check_accuracy(struct builder *builder);
+struct accuracy_choice {
+    double spacing;
+    char text[200]; /* what was chosen, for the plan */
+};
+/* Spacings that are to lead to the deck's scene%accuracy, without absorbing layers and with them, from a
+ * scene built with any spacing. */
+selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice choice[2],
+                             struct messages *messages);
 
 /* half_space.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */
 bool choose_half_space(struct builder *builder, const struct deck_group *group);

@@ -151,9 +151,8 @@ bool choose_half_space(struct builder *builder, const struct deck_group *group)
                  "a half-space without low and high is fitted around loads and receivers: give some");
         return false;
     }
-    if (deck_values(group, "spacing") == 0 || scene->materials == 0)
+    if (scene->materials == 0 || !take_spacing(builder, group, &body->spacing))
         return false; /* complained of elsewhere */
-    body->spacing = deck_real(group, "spacing", 0);
     const struct extents extents = find_extents(builder);
     struct span small[3];
     struct span large[3];

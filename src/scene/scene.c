@@ -21,8 +21,6 @@ static void build_settings(struct builder *builder)
     scene->plane = (enum plane)deck_choice(group, "plane", 0);
     if (scene->dimension == 3 && deck_given(group, "plane"))
         complain(builder, group, "plane", "plane has no meaning in three dimensions; leave it out");
-    if (deck_given(group, "accuracy"))
-        complain(builder, group, "accuracy", "accuracy is not offered yet; give body%%spacing");
 }
 
 /* The default of each family; a variant must belong to its family. */
@@ -116,11 +114,13 @@ static void build_reference(struct builder *builder)
     }
 }
 
-selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages)
+static selas_status build(const struct deck *deck, bool accurate, double spacing, struct scene **scene,
+                          struct messages *messages)
 {
     *scene = array_new(1, sizeof **scene);
     if (*scene == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the scene");
-    struct builder builder = {.deck = deck, .scene = *scene, .messages = messages};
+    struct builder builder = {
+        .deck = deck, .scene = *scene, .messages = messages, .accurate = accurate, .spacing = spacing};
     (*scene)->deck = deck;
     build_settings(&builder);
     build_method(&builder);
@@ -136,8 +136,41 @@ selas_status scene_build(const struct deck *deck, struct scene **scene, struct m
     build_receivers(&builder);
     build_profiles(&builder);
     build_snapshots(&builder);
+    if (accurate) check_accuracy(&builder);
     if (builder.status != SELAS_OK) scene_free(scene);
     return builder.status;
+}
+
+/* Builds a scene that asks for an accuracy: with a guess, then with a spacing that follows from it. It
+ * depends on whether the box has absorbing layers, which depends on the spacing: the larger one, that of
+ * boxes without them, is taken if its box has none. */
+static selas_status build_accurate(const struct deck *deck, double accuracy, struct scene **scene,
+                                   struct messages *messages)
+{
+    struct accuracy_choice choice[2];
+    struct messages scratch = {0}; /* the last building says everything */
+    selas_status status = build(deck, true, 0, scene, &scratch);
+    messages_free(&scratch);
+    if (status != SELAS_OK) return build(deck, true, 0, scene, messages);
+    status = accuracy_choose(*scene, accuracy, choice, messages);
+    scene_free(scene);
+    if (status != SELAS_OK) return status;
+    status = build(deck, true, choice[0].spacing, scene, &scratch);
+    messages_free(&scratch);
+    const bool layers = status == SELAS_OK && (*scene)->body.absorbing;
+    scene_free(scene);
+    status = build(deck, true, choice[layers].spacing, scene, messages);
+    if (status == SELAS_OK)
+        snprintf((*scene)->body.accuracy, sizeof(*scene)->body.accuracy, "%s", choice[layers].text);
+    return status;
+}
+
+selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages)
+{
+    const struct deck_group *group = deck_get(deck, "scene", 0);
+    return deck_given(group, "accuracy")
+               ? build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages)
+               : build(deck, false, 0, scene, messages);
 }
 
 void scene_free(struct scene **scene)

@@ -1,0 +1,221 @@
+/* The spacing that scene%accuracy leads to (doc/accuracy.md).
+ *
+ * The default method's error at a receiver has, at each frequency, three parts relative to the exact velocity
+ * (measured, regress/accuracy): that of the load's own field, of the source and the surface, and of the way,
+ *   e^2 = (S n^-s (size/r)^q)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c_R, (1) n the
+ * points along the load's shortest edge, r the distance, g = 1 along the axes of the lattice and less between
+ * them. With V the exact velocity's spectrum the relative L2 error of the history is E(h)^2 = sum e^2 |V|^2 /
+ * sum |V|^2,                                                                     (2) and the spacing is the
+ * largest h for which E(h) is AIM times the wanted error at every receiver. */
+#include "base/memory.h"
+#include "exact/half_space.h"
+#include "exact/lamb.h"
+#include "scene/build.h"
+
+#include <fftw3.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Coefficients of (1), fitted by regress/accuracy to runs of the default method: nu .1 to .4, 3 to 10 points
+ * along the load's edge, receivers up to two edges away; errors predicted within a factor of 1.4 (r.m.s.). */
+struct error_law {
+    double static_part, static_order, static_distance;
+    double source, source_order, way, way_order, diagonal;
+};
+static const struct error_law law[2] = {
+    /* mass over depth exact: large boxes without layers */
+    {17.6, 5.27, 2.57, 0.00690, 5.93, 0.000854, 3.39, 0.29},
+    /* the same in all axes: beside absorbing layers */
+    {12.3, 5.52, 0.46, 0.0170, 4.46, 0.00197, 3.34, 0.64},
+};
+/* What a frequency that the lattice cannot carry errs, relative; the middle of [1/5, 1]. */
+static const double LARGEST = 1.22, AIM = 0.45;
+static const double BURIED = 0.6; /* receivers in the ground err less (measured) */
+enum { ROWS = 4096 };
+
+void check_accuracy(struct builder *builder)
+{
+    static const char *const method[] = {"degree", "ends", "mass", "depth_mass", "dissipation", NULL};
+    static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
+    static const char *const body_words[] = {"spacing", NULL};
+    static const char *const output[] = {"low_pass", NULL};
+    const struct scene *scene = builder->scene;
+    const struct deck_group *group = deck_get(builder->deck, "scene", 0);
+    const char *purpose = "a deck with scene%accuracy, which makes that choice";
+    refuse(builder, deck_get(builder->deck, "method", 0), method, purpose);
+    refuse(builder, deck_get(builder->deck, "stepping", 0), step, purpose);
+    refuse(builder, deck_get(builder->deck, "output", 0), output, purpose);
+    if (deck_count(builder->deck, "body") > 0)
+        refuse(builder, deck_get(builder->deck, "body", 0), body_words, purpose);
+    const char *why = NULL;
+    if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
+        why = "method 'smoothed-point', variant 'consistent'";
+    else if (scene->dimension != 3 || scene->body.shape != BODY_HALF_SPACE || !scene->body.chosen)
+        why = "shape = 'half-space' without low and high in three dimensions";
+    else if (scene->body.layers > 0)
+        why = "ground of one material";
+    else if (scene->receivers == 0)
+        why = "scenes with receivers, where the error is taken";
+    else
+        for (size_t k = 0; k < scene->loads; k++) {
+            const double *velocity = scene->load[k].velocity;
+            if (scene->load[k].shape != LOAD_SQUARE && scene->load[k].shape != LOAD_DISC)
+                why = "loads on a square or a disc";
+            if (velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0) why = "loads that do not move";
+        }
+    if (why != NULL)
+        complain(builder, group, "accuracy",
+                 "there is no table of errors for this scene, only for %s; give body%%spacing in place of "
+                 "accuracy",
+                 why);
+}
+
+/* --- The exact velocity's spectrum -------------------------------------------------------------------- */
+
+struct place {
+    double distance, size; /* to the nearest load's centre; that load's shortest edge */
+    double diagonal;       /* 0 along an axis of the lattice, 1 halfway between two */
+    double depth;
+    double *power; /* [ROWS / 2 + 1] sum over components of |V|^2 */
+};
+
+static void set_place(const struct scene *scene, const double position[3], struct place *place)
+{
+    place->distance = INFINITY;
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        double away[3];
+        for (int c = 0; c < 3; c++)
+            away[c] = position[c] - load->centre[c];
+        body_direction_from_deck(&scene->body, away, away);
+        const double across = hypot(away[0], away[1]), distance = hypot(across, away[2]);
+        if (distance >= place->distance) continue;
+        place->distance = distance;
+        place->depth = away[2];
+        place->size = load->shape == LOAD_DISC ? load->size[0] : fmin(load->size[0], load->size[1]);
+        place->diagonal = across > 0 ? .5 - .5 * cos(4 * atan2(away[1], away[0])) : 0;
+    }
+}
+
+/* |V|^2 of three components; the history goes on for a quarter of its length, fading out, so that its end
+ * makes no frequencies. */
+static selas_status find_power(struct exact *exact, double end_time, const struct receiver *receiver,
+                               double *power, struct messages *messages)
+{
+    double *time = array_new(ROWS, sizeof *time);
+    double *value = array_new((size_t)6 * ROWS, sizeof *value);
+    double *in = fftw_malloc(ROWS * sizeof *in);
+    fftw_complex *out = fftw_malloc((ROWS / 2 + 1) * sizeof *out);
+    selas_status status = SELAS_OK;
+    fftw_plan plan = NULL;
+    const double step = 1.25 * end_time / ROWS;
+    if (time == NULL || value == NULL || in == NULL || out == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the spectrum of a receiver");
+    for (int i = 0; i < ROWS && status == SELAS_OK; i++)
+        time[i] = i * step;
+    if (status == SELAS_OK)
+        status = exact->class->history(exact, receiver->position, ROWS, time, value, messages);
+#pragma omp critical(selas_fftw_planner)
+    if (status == SELAS_OK) plan = fftw_plan_dft_r2c_1d(ROWS, in, out, FFTW_ESTIMATE);
+    for (int c = 3; c < 6 && plan != NULL; c++) {
+        for (int i = 0; i < ROWS; i++) {
+            const double late = fmax(0, time[i] / end_time - 1) * 4;
+            in[i] = value[6 * i + c] * .5 * (1 + cos(M_PI * late));
+        }
+        fftw_execute(plan);
+        for (int j = 0; j <= ROWS / 2; j++)
+            power[j] += creal(out[j] * conj(out[j]));
+    }
+#pragma omp critical(selas_fftw_planner)
+    if (plan != NULL) fftw_destroy_plan(plan);
+    fftw_free(in);
+    fftw_free(out);
+    array_free(time);
+    array_free(value);
+    return status;
+}
+
+/* --- The error law ------------------------------------------------------------------------------------ */
+
+static double predicted(const struct error_law *law_here, const struct place *place, double h,
+                        double end_time, double rayleigh_speed)
+{
+    const double near = law_here->static_part * pow(h / place->size, law_here->static_order) *
+                        pow(fmin(1, place->size / place->distance), law_here->static_distance);
+    const double way = law_here->way * place->distance / h * (1 - place->diagonal * (1 - law_here->diagonal));
+    const double step = 2 * M_PI / (1.25 * end_time);
+    double error = 0, whole = 0;
+    for (int j = 1; j <= ROWS / 2; j++) {
+        const double kappa = j * step * h / rayleigh_speed;
+        const double source = law_here->source * pow(kappa, law_here->source_order);
+        const double path = way * pow(kappa, law_here->way_order);
+        error += place->power[j] * fmin(near * near + source * source + path * path, LARGEST * LARGEST);
+        whole += place->power[j];
+    }
+    return sqrt(error / whole) * (place->depth > .5 * place->size ? BURIED : 1);
+}
+
+static double worst(const struct scene *scene, const struct error_law *law_here, const struct place *place,
+                    double h, double rayleigh_speed)
+{
+    double most = 0;
+    for (size_t i = 0; i < scene->receivers; i++)
+        most = fmax(most, predicted(law_here, &place[i], h, scene->end_time, rayleigh_speed));
+    return most;
+}
+
+/* Fails only if no spacing will do. */
+static selas_status choose(const struct scene *scene, const struct error_law *law_here,
+                           const struct place *place, double accuracy, struct accuracy_choice *choice,
+                           struct messages *messages)
+{
+    static const double finer = 1.01;
+    struct half_space ground;
+    const struct material *material = scene_material_at(scene, 0);
+    half_space_set(&ground, material->density, material->lambda, material->mu);
+    double h = ground.rayleigh_speed * scene->end_time, error = INFINITY;
+    const double least = h / 2000;
+    for (size_t k = 0; k < scene->receivers; k++)
+        h = fmin(h, place[k].size / 2); /* at least two points along an edge */
+    for (; h > least; h /= finer) {
+        error = worst(scene, law_here, place, h, ground.rayleigh_speed);
+        if (error <= AIM * accuracy) break;
+    }
+    if (!(error <= AIM * accuracy))
+        return fail(messages, SELAS_BAD_SCENE,
+                    "scene%%accuracy = %g is out of reach here: a spacing of %.3g would still leave %.2g",
+                    accuracy, h, error);
+    choice->spacing = h;
+    snprintf(
+        choice->text, sizeof choice->text,
+        "%g wanted: spacing %.6g, degree 2, mass vc3, leapfrog with the time-dispersion transform; predicted "
+        "error %.2g",
+        accuracy, h, error);
+    return SELAS_OK;
+}
+
+selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice choice[2],
+                             struct messages *messages)
+{
+    struct exact *exact = NULL;
+    struct scene longer = *scene;
+    longer.end_time *= 1.25;
+    struct place *place = array_new(scene->receivers, sizeof *place);
+    double *power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *power);
+    selas_status status = SELAS_OK;
+    if (place == NULL || power == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for scene%%accuracy");
+    if (status == SELAS_OK) status = lamb_create_within(&longer, 1e-3, &exact, messages);
+    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
+        place[i].power = power + i * (ROWS / 2 + 1);
+        set_place(scene, scene->receiver[i].position, &place[i]);
+        status = find_power(exact, scene->end_time, &scene->receiver[i], place[i].power, messages);
+    }
+    for (int i = 0; i < 2 && status == SELAS_OK; i++)
+        status = choose(scene, &law[i], place, accuracy, &choice[i], messages);
+    exact_free(&exact);
+    array_free(place);
+    array_free(power);
+    return status;
+}
