@@ -373,6 +373,12 @@ static void receivers_and_outputs(void **unused)
     REFUSE(cases);
 }
 
+#define ACCURATE                                                                                             \
+    "&scene dimension=3, end_time=6, accuracy=.01 /\n" ROCK "&body material='rock', shape='half-space' /\n"
+#define SEEN_PATCH                                                                                           \
+    "&receiver name='r', position=1,0,0 /\n&load face='z-', shape='square', centre=0,0,0, size=1,1, "        \
+    "direction=0,0,1, history='gaussian', width=.3, delay=2 /\n"
+
 static void settings(void **unused)
 {
     (void)unused;
@@ -381,8 +387,26 @@ static void settings(void **unused)
          "t.nml:1:33: error:",
          {"no meaning in three dimensions"}},
         {"&scene dimension=3, end_time=6, accuracy=.01 /\n" ROCK BODY,
+         "t.nml:3:47: error:",
+         {"'spacing' does not belong to a deck with scene%accuracy"}},
+        {"&scene dimension=3, end_time=6, accuracy=.01 /\n" ROCK BODY,
          "t.nml:1:33: error:",
-         {"give body%spacing"}},
+         {"no table of errors", "shape = 'half-space' without low and high", "give body%spacing"}},
+        {ACCURATE "&method degree=3 /\n" SEEN_PATCH, "t.nml:4:9: error:", {"'degree' does not belong"}},
+        {ACCURATE "&stepping courant=.2 /\n" SEEN_PATCH, "t.nml:4:11: error:", {"'courant' does not belong"}},
+        {ACCURATE "&output low_pass=9 /\n" SEEN_PATCH, "t.nml:4:9: error:", {"'low_pass' does not belong"}},
+        {ACCURATE
+         "&load face='z-', shape='point', centre=0,0,0, direction=0,0,1, history='gaussian', width=.3, "
+         "delay=2 /\n",
+         "t.nml:1:33: error:",
+         {"no table of errors", "with receivers"}},
+        {ACCURATE "&receiver name='r', position=1,0,0 /\n&load face='z-', shape='point', centre=0,0,0, "
+                  "direction=0,0,1, history='gaussian', width=.3, delay=2 /\n",
+         "t.nml:1:33: error:",
+         {"no table of errors", "loads on a square or a disc"}},
+        {ACCURATE SEEN_PATCH "&method name='sph' /\n",
+         "t.nml:1:33: error:",
+         {"no table of errors", "'consistent'"}},
         {BOX "&method variant='total-lagrangian' /\n",
          "t.nml:4:9: error:",
          {"'smoothed-point' has no variant", "'consistent' or 'paper'"}},

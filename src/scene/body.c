@@ -248,7 +248,8 @@ void build_body(struct builder *builder)
     body_set_frame(body);
     builder->body_known = true;
     const bool lattice = body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
-    if (spaced && check_memory(builder, group) && lattice) check_division(builder, group);
+    if (spaced && check_memory(builder, group) && lattice && !builder->accurate)
+        check_division(builder, group);
 }
 
 static int by_depth(const void *one, const void *other)

@@ -12,7 +12,8 @@ struct builder {
     selas_status status; /* SELAS_OK, or what went wrong first */
     bool body_known;     /* box and frame are right: places can be checked against them */
     bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
-    double spacing;      /* ... but this one, or 0 for a first guess */
+    double spacing;      /* ... but this one, or 0 for a first guess ... */
+    long layer_points;   /* ... with absorbing layers of so many points, where the program adds them */
 };
 
 /* Adds a line with the place of `name` in the group (deck_error); the building goes on. */
@@ -69,11 +70,11 @@ bool take_spacing(const struct builder *builder, const struct deck_group *group,
 void check_accuracy(struct builder *builder);
 struct accuracy_choice {
     double spacing;
-    char text[200]; /* what was chosen, for the plan */
+    long layer_points; /* of absorbing layers, where there are any */
+    char text[200];    /* for the plan */
 };
-/* Spacings that are to lead to the deck's scene%accuracy, without absorbing layers and with them, from a
- * scene built with any spacing. */
-selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice choice[2],
+/* What is to lead to the deck's scene%accuracy, from a scene built with any spacing. */
+selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
                              struct messages *messages);
 
 /* half_space.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */

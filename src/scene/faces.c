@@ -143,13 +143,15 @@ static void read_boundary(struct builder *builder, size_t index)
 
 /* Sides and bottom of a half-space that the program fitted absorb, if its choice needs it and the deck does
  * not name them. */
-static void open_sides(struct scene *scene)
+static void open_sides(const struct builder *builder)
 {
+    struct scene *scene = builder->scene;
     const int top = 2 * scene->dimension - 2;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         if (face == top || scene->boundary[face].given) continue;
         scene->boundary[face].kind = BOUNDARY_TRANSMITTING;
         scene->boundary[face].absorber = ABSORBER_PML;
+        scene->boundary[face].layer_points = builder->layer_points;
     }
 }
 
@@ -159,5 +161,5 @@ void build_boundaries(struct builder *builder)
         builder->scene->boundary[face].normal_factor = builder->scene->boundary[face].shear_factor = 1;
     for (size_t i = 0; i < deck_count(builder->deck, "boundary"); i++)
         read_boundary(builder, i);
-    if (builder->scene->body.absorbing) open_sides(builder->scene);
+    if (builder->scene->body.absorbing) open_sides(builder);
 }

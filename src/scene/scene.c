@@ -114,13 +114,17 @@ static void build_reference(struct builder *builder)
     }
 }
 
-static selas_status build(const struct deck *deck, bool accurate, double spacing, struct scene **scene,
+static selas_status build(const struct deck *deck, const struct accuracy_choice *choice, struct scene **scene,
                           struct messages *messages)
 {
     *scene = array_new(1, sizeof **scene);
     if (*scene == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the scene");
-    struct builder builder = {
-        .deck = deck, .scene = *scene, .messages = messages, .accurate = accurate, .spacing = spacing};
+    struct builder builder = {.deck = deck, .scene = *scene, .messages = messages};
+    if (choice != NULL) {
+        builder.accurate = true;
+        builder.spacing = choice->spacing;
+        builder.layer_points = choice->layer_points;
+    }
     (*scene)->deck = deck;
     build_settings(&builder);
     build_method(&builder);
@@ -136,41 +140,32 @@ static selas_status build(const struct deck *deck, bool accurate, double spacing
     build_receivers(&builder);
     build_profiles(&builder);
     build_snapshots(&builder);
-    if (accurate) check_accuracy(&builder);
+    if (choice != NULL) check_accuracy(&builder);
     if (builder.status != SELAS_OK) scene_free(scene);
     return builder.status;
 }
 
-/* Builds a scene that asks for an accuracy: with a guess, then with a spacing that follows from it. It
- * depends on whether the box has absorbing layers, which depends on the spacing: the larger one, that of
- * boxes without them, is taken if its box has none. */
+/* Builds a scene that asks for an accuracy: with a guess, then with the spacing that follows from it. */
 static selas_status build_accurate(const struct deck *deck, double accuracy, struct scene **scene,
                                    struct messages *messages)
 {
-    struct accuracy_choice choice[2];
-    struct messages scratch = {0}; /* the last building says everything */
-    selas_status status = build(deck, true, 0, scene, &scratch);
+    struct accuracy_choice choice = {0};
+    struct messages scratch = {0}; /* the second building says everything */
+    selas_status status = build(deck, &choice, scene, &scratch);
     messages_free(&scratch);
-    if (status != SELAS_OK) return build(deck, true, 0, scene, messages);
-    status = accuracy_choose(*scene, accuracy, choice, messages);
+    if (status != SELAS_OK) return build(deck, &choice, scene, messages);
+    status = accuracy_choose(*scene, accuracy, &choice, messages);
     scene_free(scene);
-    if (status != SELAS_OK) return status;
-    status = build(deck, true, choice[0].spacing, scene, &scratch);
-    messages_free(&scratch);
-    const bool layers = status == SELAS_OK && (*scene)->body.absorbing;
-    scene_free(scene);
-    status = build(deck, true, choice[layers].spacing, scene, messages);
-    if (status == SELAS_OK)
-        snprintf((*scene)->body.accuracy, sizeof(*scene)->body.accuracy, "%s", choice[layers].text);
+    if (status == SELAS_OK) status = build(deck, &choice, scene, messages);
+    if (status == SELAS_OK) memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
     return status;
 }
 
 selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages)
 {
     const struct deck_group *group = deck_get(deck, "scene", 0);
-    return deck_given(group, "accuracy")
-               ? build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages)
-               : build(deck, false, 0, scene, messages);
+    if (!deck_given(group, "accuracy")) return build(deck, NULL, scene, messages);
+    return build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages);
 }
 
 void scene_free(struct scene **scene)
