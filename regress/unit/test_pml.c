@@ -232,6 +232,35 @@ static void test_what_is_kept(void **state)
     run_free(&layered);
 }
 
+/* The fastest place in a layer is found and named; speeds that are not finite go before all others. */
+static void test_fastest_place(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    plain_box(&plain, 2, (double[]){1.5, 1.5, 0}, .25);
+    set_layer(&plain, FACE_X_HIGH, 4);
+    set_layer(&plain, FACE_Y_HIGH, 4);
+    struct run run = start(&plain);
+    const struct consistent *c = consistent_of(run.model);
+    const struct slab *upper = &c->pml->slab[1];
+    const size_t i = 3, k = upper->inside.at[DEPTH] + 2, at = k * c->plane + i;
+    double *v = run.y + run.n, x, y, z;
+    char place[160];
+    for (size_t j = 0; j < run.n; j++)
+        v[j] = 1e-3;
+    for (int bad = 0; bad < 2; bad++) {
+        v[at] = bad == 1 ? NAN : 3;
+        v[c->volume + at] = 4;
+        const double speed = run.model->class->unseen(run.model, run.y, sizeof place, place);
+        assert_true(bad == 1 ? isinf(speed) : fabs(speed - 5) < 1e-12);
+        assert_int_equal(sscanf(place, "in the layer behind face y+, at (%lf, %lf, %lf)", &x, &y, &z), 3);
+        assert_near(x, c->spline[0]->greville[i], 1e-5);
+        assert_near(y, c->spline[1]->greville[k], 1e-5);
+        assert_true(y > 1.5);
+    }
+    run_free(&run);
+}
+
 /* A layer is left out where no reflection is seen by end_time, and kept one wave path later or on request.
  */
 static void test_left_out(void **state)
@@ -272,7 +301,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reflection),      cmocka_unit_test(test_quiet),
         cmocka_unit_test(test_symmetry_planes), cmocka_unit_test(test_what_is_kept),
-        cmocka_unit_test(test_left_out),
+        cmocka_unit_test(test_left_out),        cmocka_unit_test(test_fastest_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

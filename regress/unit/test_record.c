@@ -259,6 +259,17 @@ static void nan_is_found(void **state)
     messages_free(&messages);
 }
 
+/* Places that are no points of the body are named where they are the fastest. */
+static double unseen_speed;
+
+static double unseen(struct model *model, const double *y, size_t size, char *place)
+{
+    (void)model;
+    (void)y;
+    snprintf(place, size, "in the layer behind face x+, at (9, 8, 7)");
+    return unseen_speed;
+}
+
 /* An oscillator-like body that is pushed: the model tells 1 unit of power; its energy may not exceed that. */
 static double energy_factor;
 
@@ -284,6 +295,7 @@ static selas_status worked_run(double factor, struct recorder **recorder, struct
     class = fake_class;
     class.energy = known_energy;
     class.power = known_power;
+    class.unseen = unseen;
     energy_factor = factor;
     fake_build(fake, 3, line, 0.25, 0.01, 20.0);
     fake->model.class = &class;
@@ -310,11 +322,17 @@ static void energy_against_work(void **state)
     assert_true(recorder->watch.largest_defect < 0.01);
     recorder_free(&recorder);
     fake_clear(&fake);
-    assert_int_equal(worked_run(12.0, &recorder, &fake, &messages), SELAS_UNSTABLE);
-    assert_non_null(strstr(messages.text, "but was given only"));
-    messages_free(&messages);
-    recorder_free(&recorder);
-    fake_clear(&fake);
+    for (int far = 0; far < 2; far++) {
+        unseen_speed = far == 1 ? 1e6 : 0.0;
+        assert_int_equal(worked_run(12.0, &recorder, &fake, &messages), SELAS_UNSTABLE);
+        assert_non_null(strstr(messages.text, "but was given only"));
+        assert_true(
+            (strstr(messages.text, "fastest in the layer behind face x+, at (9, 8, 7), speed 1e+06") !=
+             NULL) == (far == 1));
+        messages_free(&messages);
+        recorder_free(&recorder);
+        fake_clear(&fake);
+    }
 }
 
 static void steps_in_order(void **state)

@@ -399,6 +399,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     if (c->pml != NULL) {
         c->layered_class = consistent_class;
         c->layered_class.remember = pml_remember;
+        c->layered_class.unseen = layers_fastest;
         c->model.class = &c->layered_class;
     }
     if (status != SELAS_OK) {

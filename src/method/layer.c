@@ -141,3 +141,42 @@ void layers_describe(const struct consistent *c,
     snprintf(text, sizeof text, "%zu in %zu slabs", c->pml->extra, c->pml->slabs);
     tell(context, "memory variables of layers", text);
 }
+
+/* Speed of control value (i, j, k) of a slab, counted from its first; infinite if it is not finite. */
+static double speed_at(const struct consistent *c, const struct slab *slab, const double *v, size_t i,
+                       size_t j, size_t k)
+{
+    const size_t *at = slab->inside.at;
+    const size_t place = ((at[2] + k) * c->n[1] + at[1] + j) * c->n[0] + at[0] + i;
+    double sum = 0;
+    for (size_t component = 0; component < (size_t)c->dimension; component++)
+        sum += v[component * c->volume + place] * v[component * c->volume + place];
+    return isfinite(sum) ? sqrt(sum) : INFINITY;
+}
+
+double layers_fastest(struct model *model, const double *y, size_t size, char *place)
+{
+    const struct consistent *c = consistent_of(model);
+    const double *v = y + model->unknowns;
+    double fastest = -1, inside[3] = {0}, position[3];
+    int face = 0;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        for (size_t k = 0; k < slab->inside.n[2]; k++)
+            for (size_t j = 0; j < slab->inside.n[1]; j++)
+                for (size_t i = 0; i < slab->inside.n[0]; i++) {
+                    const double speed = speed_at(c, slab, v, i, j, k);
+                    const size_t at[3] = {slab->inside.at[0] + i, slab->inside.at[1] + j,
+                                          slab->inside.at[2] + k};
+                    if (speed <= fastest) continue;
+                    fastest = speed;
+                    face = 2 * slab->axis + slab->end;
+                    for (int axis = 0; axis < c->dimension; axis++)
+                        inside[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
+                }
+    }
+    body_to_deck(&model->scene->body, inside, position);
+    snprintf(place, size, "in the layer behind face %s, at (%.6g, %.6g, %.6g)", face_name((enum face)face),
+             position[0], position[1], position[2]);
+    return fastest;
+}

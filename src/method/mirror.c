@@ -112,6 +112,11 @@ static void remember(struct model *model, double dt, double *y)
     part_of(model)->class->remember(part_of(model), dt, y);
 }
 
+static double unseen(struct model *model, const double *y, size_t size, char *place)
+{
+    return part_of(model)->class->unseen(part_of(model), y, size, place);
+}
+
 static void initialise(struct model *model, double *y)
 {
     struct model *part = part_of(model);
@@ -255,6 +260,7 @@ static void fill(struct mirror *mirror)
     *model = *part;
     mirror->class = mirror_class;
     if (part->class->remember != NULL) mirror->class.remember = remember;
+    if (part->class->unseen != NULL) mirror->class.unseen = unseen;
     model->class = &mirror->class;
     model->scene = scene;
     for (int axis = 0; axis < 3; axis++)

@@ -99,6 +99,10 @@ struct model_class {
      */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed);
+    /* Where the body moves fastest among the places that are no points of the body (absorbing layers): gives
+     * the speed (infinite if it is not finite) and a text such as "in the layer behind face x+, at (1, 2,
+     * 3)". Only called when a run has failed. NULL: there are none. */
+    double (*unseen)(struct model *model, const double *y, size_t size, char *place);
     /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). */
     void (*describe)(const struct model *model,
                      void (*tell)(void *context, const char *key, const char *value), void *context);

@@ -8,6 +8,8 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 enum { EVERY = 50 };
 /* Energy of the state at a step may differ from the scheme's own conserved energy near the stability limit
@@ -101,11 +103,19 @@ static selas_status tell_place(const struct recorder *recorder, const struct sta
     array_free(velocity);
     double x[3];
     model_position(model, place, x);
-    return fail(
-        messages, SELAS_UNSTABLE,
-        "the run went unstable at t = %.6g (step %lu): %s; fastest at (%.6g, %.6g, %.6g), speed %.3g; "
-        "likely: %s",
-        state->time, state->step, what, x[0], x[1], x[2], fastest, likely_cause(recorder));
+    char where[160];
+    snprintf(where, sizeof where, "at (%.6g, %.6g, %.6g)", x[0], x[1], x[2]);
+    if (model->class->unseen != NULL && isfinite(fastest)) {
+        char beyond[160];
+        const double speed = model->class->unseen(recorder->model, state->y, sizeof beyond, beyond);
+        if (speed > fastest) {
+            fastest = speed;
+            memcpy(where, beyond, sizeof where);
+        }
+    }
+    return fail(messages, SELAS_UNSTABLE,
+                "the run went unstable at t = %.6g (step %lu): %s; fastest %s, speed %.3g; likely: %s",
+                state->time, state->step, what, where, fastest, likely_cause(recorder));
 }
 
 static bool state_finite(const struct recorder *recorder, const struct state *state)
