@@ -33,6 +33,8 @@ static const struct word method_words[] = {
     {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,
      "damping rate of the shortest waves where the inverse is by sweeps [fastest speed / spacing]; else "
      "none"},
+    {"fused", WORD_LOGICAL, 1, NULL, NULL, false,
+     "passes of the operator fused where the scene allows it, which is the default (consistent)"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
      "compute half or quarter of a body where the scene has mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", false, "precision of the state"},

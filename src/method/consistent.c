@@ -4,6 +4,7 @@
  *   M a + C v + K u = F.
  *
  * Here: the model's making, its acceleration and energies. */
+#include "method/fused.h"
 #include "method/moving_load.h"
 #include "method/pml.h"
 
@@ -156,6 +157,11 @@ static void describe(const struct model *model,
     snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form%s)", c->options.sweeps,
              c->options.depth_exact ? ", exact over depth in the stiffness" : "");
     tell(context, "mass", c->options.sweeps == 0 ? "exact (banded Cholesky per axis)" : text);
+    if (c->fused != NULL) {
+        snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,
+                 FUSED_STRIP);
+        tell(context, "operator", text);
+    }
     if (c->options.dissipation > 0) {
         snprintf(text, sizeof text, "%g c_p / spacing, largest damping rate at most %.4g",
                  c->options.dissipation, model->dissipation);
@@ -432,6 +438,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
         options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
     if (group != NULL && deck_values(group, "dissipation") > 0)
         options.dissipation = deck_real(group, "dissipation", 0);
+    if (group != NULL && deck_values(group, "fused") > 0) options.unfused = !deck_logical(group, "fused", 0);
     if (group != NULL && deck_values(group, "ends") > 0)
         options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     return consistent_create_with(scene, &options, model, messages);

@@ -18,6 +18,7 @@ struct consistent_options {
     bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
     double
         dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
+    bool unfused; /* H-form: passes one by one even where the fused operator (fused.h) would do */
 };
 
 enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };
@@ -80,6 +81,7 @@ struct consistent {
     double *line_buffer;              /* [threads * (n[0] + n[1])] */
     double *face_buffer;              /* [dimension * plane] */
     struct hform *hform;              /* NULL: exact mass */
+    struct fused *fused;              /* NULL: the scene is none for it, or it is not wanted */
     int threads;
     struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
     struct band *collocation[3][2];     /* [axis][odd]: LU factors of the values at the Greville points */

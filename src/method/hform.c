@@ -5,8 +5,8 @@
  * edges, A = N S,  C1 = N (G - mu / (lambda + mu) E),  C2 = N (G - lambda / (lambda + mu) E),  E = G + G^T.
  */
 #include "method/hform.h"
+#include "method/fused.h"
 #include "method/moving_load.h"
-
 #include "method/pml.h"
 
 #include "base/memory.h"
@@ -310,7 +310,7 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     h->face[0] = array_new(largest, sizeof(double));
     h->face[1] = array_new(largest, sizeof(double));
     if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) || !lay_plan(c) ||
-        !lay_forces(c) || !hform_dissipation_create(c))
+        !lay_forces(c) || !hform_dissipation_create(c) || (!c->options.unfused && !fused_create(c)))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     return SELAS_OK;
 }
@@ -320,12 +320,14 @@ size_t hform_bytes(const struct consistent *c)
     const struct hform *h = c->hform;
     if (h == NULL) return 0;
     return sizeof *h + c->model.unknowns * sizeof *h->work + tensor_plan_bytes(h->acceleration) +
+           (c->fused != NULL ? c->fused->bytes : 0) +
            (h->dissipation != NULL ? tensor_plan_bytes(h->dissipation) : 0);
 }
 
 void hform_free(struct consistent *c)
 {
     struct hform *h = c->hform;
+    fused_free(c->fused);
     if (h == NULL) return;
     for (int component = 0; component < 3; component++)
         array_free(h->upper[component]);
@@ -352,16 +354,35 @@ void hform_free(struct consistent *c)
     array_free(h);
 }
 
-static void acceleration_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
-                               const double *u, const double *v, double *a)
+/* Planes that are made together. */
+static size_t block_of(const struct consistent *c)
 {
-    const struct hform *h = c->hform;
+    return c->fused != NULL ? FUSED_PLANES : 1;
+}
+
+/* The operator alone, without edges, in a block of planes. */
+static void operator_block(const struct consistent *c, int thread, size_t k, const double *u, double *a)
+{
     double *out[3] = {NULL, NULL, NULL};
+    if (c->fused != NULL) {
+        fused_planes_double(c->fused, thread, k, u, a);
+        return;
+    }
     for (int component = 0; component < c->dimension; component++) {
         out[component] = a + (size_t)component * c->volume + k * c->plane;
         memset(out[component], 0, c->plane * sizeof *a);
     }
-    tensor_plane(h->acceleration, thread, k, 1, u, out);
+    tensor_plane(c->hform->acceleration, thread, k, 1, u, out);
+}
+
+/* What is added to the operator in plane k. */
+static void rest_of_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
+                          const double *u, const double *v, double *a)
+{
+    const struct hform *h = c->hform;
+    double *out[3] = {NULL, NULL, NULL};
+    for (int component = 0; component < c->dimension; component++)
+        out[component] = a + (size_t)component * c->volume + k * c->plane;
     hform_edges(c, k, u, out);
     if (h->dissipation != NULL && v != NULL) tensor_plane(h->dissipation, thread, k, 1, v, out);
     for (int component = 0; component < c->dimension; component++) {
@@ -374,9 +395,14 @@ static void acceleration_plane(const struct consistent *c, const struct drive *d
 void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
                       const double *v, double *a)
 {
+    const size_t block = block_of(c);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < c->n[DEPTH]; k++)
-        acceleration_plane(c, drive, omp_get_thread_num(), k, u, v, a);
+    for (size_t from = 0; from < c->n[DEPTH]; from += block) {
+        const int thread = omp_get_thread_num();
+        operator_block(c, thread, from, u, a);
+        for (size_t k = from; k < from + block && k < c->n[DEPTH]; k++)
+            rest_of_plane(c, drive, thread, k, u, v, a);
+    }
     if (drive->extra != NULL) {
         pml_accelerate(c, drive->extra, a);
         for (int component = 0; component < c->dimension; component++)

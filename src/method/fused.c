@@ -1,0 +1,218 @@
+/* Making of the fused operator: tables of weights (fused.h, F1). */
+#include "method/fused.h"
+
+#include "base/memory.h"
+#include "method/hform.h"
+
+#include <math.h>
+#include <string.h>
+
+static size_t rounded(size_t n, size_t unit)
+{
+    return (n + unit - 1) / unit * unit;
+}
+
+/* integral of test and trial functions of an axis, odd or even, with slopes or not, less `share` of the
+ * boundary term E (-1 at the low, 1 at the high end; 0 at mirrors). NULL: no memory. */
+static struct band *narrow_matrix(struct consistent *c, int axis, bool test_odd, bool test_slope,
+                                  bool trial_odd, bool trial_slope, double share)
+{
+    const struct band *known =
+        consistent_matrix(c, axis, test_slope, test_odd, trial_slope, trial_odd, WEIGHT_NONE);
+    struct band *matrix = known == NULL ? NULL : band_sum(known, 0, known);
+    if (matrix == NULL) return NULL;
+    if (!c->spline[axis]->mirror[0]) band_add(matrix, 0, 0, share);
+    if (!c->spline[axis]->mirror[1]) band_add(matrix, matrix->n - 1, matrix->n - 1, -share);
+    return matrix;
+}
+
+/* Narrow matrices of a side in the order of fused_side, from SIDE_S_EVEN. */
+static struct band *side_matrix(struct consistent *c, int axis, enum fused_side which, double *factor)
+{
+    const double lambda = c->property[WEIGHT_LAMBDA], mu = c->property[WEIGHT_MU];
+    const double density = c->property[WEIGHT_DENSITY], sum = lambda + mu;
+    *factor = which == SIDE_S_EVEN    ? -mu / density
+              : which == SIDE_S_ODD   ? -(lambda + 2 * mu) / density
+              : which == SIDE_G_FIRST ? 1
+                                      : sum / density;
+    switch (which) {
+    case SIDE_S_EVEN:
+        return narrow_matrix(c, axis, false, true, false, true, 0);
+    case SIDE_S_ODD:
+        return narrow_matrix(c, axis, true, true, true, true, 0);
+    case SIDE_G_FIRST:
+        return narrow_matrix(c, axis, false, false, true, true, mu / sum);
+    default:
+        return narrow_matrix(c, axis, true, false, false, true, lambda / sum);
+    }
+}
+
+/* Product over depth of component `in`: A, C or B of F1, with its factor. */
+static struct band *depth_matrix(struct consistent *c, int in, enum fused_depth which, double *factor)
+{
+    const double lambda = c->property[WEIGHT_LAMBDA], mu = c->property[WEIGHT_MU];
+    const double density = c->property[WEIGHT_DENSITY], sum = lambda + mu;
+    const bool odd = in == DEPTH, changes = which == OVER_DEPTH_C;
+    const bool to_odd = changes ? !odd : odd;
+    struct band *inner = NULL;
+    if (which == OVER_DEPTH_A) {
+        *factor = odd ? -(lambda + 2 * mu) / density : -mu / density;
+        inner = narrow_matrix(c, DEPTH, odd, true, odd, true, 0);
+    } else if (changes) {
+        *factor = odd ? 1 : sum / density;
+        inner = narrow_matrix(c, DEPTH, !odd, false, odd, true, (odd ? mu : lambda) / sum);
+    } else {
+        *factor = 1;
+        inner = narrow_matrix(c, DEPTH, odd, false, odd, false, 0);
+    }
+    const struct band *left = c->hform->inverse[to_odd ? DEPTH : 0][DEPTH];
+    struct band *product = inner == NULL ? NULL : band_product(left, inner);
+    band_free(inner);
+    return product;
+}
+
+/* Weights of each row, `taps` a row; rows up to `rows` are 0. */
+static double *by_rows(const struct band *band, double factor, int taps, size_t rows)
+{
+    double *table = array_new(rows * (size_t)taps, sizeof *table);
+    for (size_t i = 0; table != NULL && i < band->n; i++)
+        for (size_t t = 0; t < (size_t)taps; t++)
+            if (i + t >= (size_t)(taps / 2))
+                table[i * (size_t)taps + t] = factor * band_get(band, i, i + t - (size_t)(taps / 2));
+    return table;
+}
+
+/* The same by diagonals: [taps * width]. */
+static double *by_diagonals(const struct band *band, double factor, int taps, size_t width)
+{
+    double *rows = by_rows(band, factor, taps, band->n);
+    double *table = rows == NULL ? NULL : array_new((size_t)taps * width, sizeof *table);
+    for (size_t i = 0; table != NULL && i < band->n; i++)
+        for (size_t t = 0; t < (size_t)taps; t++)
+            table[t * width + i] = rows[i * (size_t)taps + t];
+    array_free(rows);
+    return table;
+}
+
+static bool lay_side(struct consistent *c, int axis)
+{
+    struct fused *f = c->fused;
+    const int other = 1 - axis;
+    for (int which = 0; which < SIDE_MATRICES; which++) {
+        const bool inverse = which == SIDE_N_EVEN || which == SIDE_N_ODD;
+        double factor = 1;
+        struct band *made = inverse ? NULL : side_matrix(c, axis, (enum fused_side)which, &factor);
+        const struct band *band =
+            inverse ? c->hform->inverse[which == SIDE_N_ODD ? axis : other][axis] : made;
+        const int taps = inverse ? f->wide : f->narrow;
+        double **table = axis == 0 ? &f->x[which] : &f->y[which];
+        if (band != NULL)
+            *table = axis == 0 ? by_diagonals(band, factor, taps, f->width)
+                               : by_rows(band, factor, taps, rounded(f->n[1], FUSED_ROWS));
+        band_free(made);
+        if (*table == NULL) return false;
+    }
+    return true;
+}
+
+static bool lay_depth(struct consistent *c)
+{
+    struct fused *f = c->fused;
+    for (int component = 0; component < 3; component++)
+        for (int which = 0; which < OVER_DEPTH_MATRICES; which++) {
+            double factor = 1;
+            struct band *band = depth_matrix(c, component, (enum fused_depth)which, &factor);
+            if (band != NULL)
+                f->z[component][which] = by_rows(band, factor, f->deep, rounded(f->n[2], FUSED_PLANES));
+            band_free(band);
+            if (f->z[component][which] == NULL) return false;
+        }
+    return true;
+}
+
+/* Groups of rows whose weights over y are all the same. */
+static bool find_plain(struct fused *f)
+{
+    const size_t groups = rounded(f->n[1], FUSED_ROWS) / FUSED_ROWS;
+    f->plain = array_new(groups, sizeof *f->plain);
+    if (f->plain == NULL) return false;
+    for (size_t group = 0; group < groups; group++) {
+        f->plain[group] = true;
+        for (int which = 0; which < SIDE_MATRICES; which++) {
+            const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
+            const double *row = f->y[which] + group * FUSED_ROWS * taps;
+            for (size_t i = taps; i < FUSED_ROWS * taps; i++)
+                f->plain[group] = f->plain[group] && row[i] == row[i - taps];
+        }
+    }
+    return true;
+}
+
+static bool lay_buffers(struct fused *f)
+{
+    f->ring_size = FUSED_FIELDS * f->ring * f->stride;
+    const size_t size = FUSED_PLANES * f->ring_size + 2 * FUSED_ROWS * f->stride + 2 * (f->stride - f->width);
+    f->buffer = array_new((size_t)f->threads, sizeof *f->buffer);
+    if (f->buffer == NULL) return false;
+    for (int t = 0; t < f->threads; t++) {
+        f->buffer[t] = array_new(size, sizeof(double));
+        if (f->buffer[t] == NULL) return false;
+    }
+    f->bytes = sizeof *f + (size_t)f->threads * size * sizeof(double);
+    return true;
+}
+
+/* Along each side the components across it share one inverse mass; else the passes could not be shared. */
+static bool shares_masses(const struct consistent *c)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const int one = axis == 0 ? 1 : 0, other = axis == 2 ? 1 : 2;
+        if (c->hform->inverse[one][axis] != c->hform->inverse[other][axis]) return false;
+    }
+    return true;
+}
+
+bool fused_create(struct consistent *c)
+{
+    const size_t degree = (size_t)c->options.degree, reach = degree * (size_t)c->options.sweeps;
+    if (c->dimension != 3 || c->weighted[WEIGHT_MU] != NULL || !shares_masses(c)) return true;
+    if (degree != 2 || c->n[0] * sizeof(double) < FUSED_VECTOR) return true;
+    for (int axis = 0; axis < 3; axis++)
+        if (c->n[axis] < 2 * reach + 2) return true;
+    struct fused *f = array_new(1, sizeof *f);
+    c->fused = f;
+    if (f == NULL) return false;
+    memcpy(f->n, c->n, sizeof f->n);
+    f->plane = c->plane;
+    f->volume = c->volume;
+    f->threads = c->threads;
+    f->bare = !c->options.depth_exact;
+    f->narrow = (int)(2 * degree + 1);
+    f->wide = (int)(2 * reach + 1);
+    f->deep = (int)(2 * (reach + degree) + 1);
+    f->width = rounded(f->n[0], FUSED_VECTOR / sizeof(double));
+    f->stride = f->width + rounded(reach, FUSED_VECTOR / sizeof(double));
+    f->late[0] = rounded(degree, FUSED_ROWS);
+    f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
+    f->ring = 16;
+    while (f->ring < FUSED_STRIP + f->late[1] + reach)
+        f->ring *= 2;
+    return lay_side(c, 0) && lay_side(c, 1) && lay_depth(c) && find_plain(f) && lay_buffers(f);
+}
+
+void fused_free(struct fused *fused)
+{
+    if (fused == NULL) return;
+    for (int which = 0; which < SIDE_MATRICES; which++) {
+        array_free(fused->x[which]);
+        array_free(fused->y[which]);
+    }
+    for (int component = 0; component < 3; component++)
+        for (int which = 0; which < OVER_DEPTH_MATRICES; which++)
+            array_free(fused->z[component][which]);
+    for (int t = 0; fused->buffer != NULL && t < fused->threads; t++)
+        array_free(fused->buffer[t]);
+    array_free(fused->buffer);
+    array_free(fused->plain);
+    array_free(fused);
+}

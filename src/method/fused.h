@@ -1,0 +1,75 @@
+/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/performance.md).
+ *
+ * With b = B_z u (N M over depth, or the identity), each line one pass over rows that stay in the cache,
+ *
+ *   a_x = A_z u_x + N_x [p S_x b_x + q G_x (N_y G_y b_y + C_z u_z)] + N_y m S_y b_x
+ *   a_y = A_z u_y + N_y [p S_y b_y + q G_y (N_x G_x b_x + C_z u_z)] + N_x m S_x b_y (F1) a_z = A_z u_z + N_x
+ * [m S_x b_z + G_x q C_z u_x] + N_y [m S_y b_z + G_y q C_z u_y]
+ *
+ * p = -(lambda + 2 mu) / rho, m = -mu / rho, q = (lambda + mu) / rho, G with its share of the boundary terms
+ * (Eq 17 of the manual). Edges, loads, dampers and layers are added by others. */
+#ifndef SELAS_FUSED_H
+#define SELAS_FUSED_H
+
+#include "method/consistent.h"
+
+/* Planes that are made together; rows that passes over y take together; rows of a strip; bytes of a vector;
+ * room for taps and the planes or rows made together. */
+enum { FUSED_PLANES = 4, FUSED_ROWS = 4, FUSED_STRIP = 8, FUSED_VECTOR = 64, FUSED_MOST_TAPS = 24 };
+
+/* Rows in the ring of a plane: inputs along the plane, what is summed, and what waits for its pass over y. */
+enum fused_row {
+    ROW_BX,
+    ROW_BY,
+    ROW_BZ,
+    ROW_CX,
+    ROW_CY,
+    ROW_CZ,
+    ROW_AX,
+    ROW_AY,
+    ROW_AZ,
+    ROW_G,
+    ROW_T1,
+    ROW_T2,
+    ROW_T3,
+    ROW_T4,
+    FUSED_FIELDS
+};
+
+/* Matrices along x and y, and over depth by the component they are applied to. */
+enum fused_side {
+    SIDE_N_EVEN,
+    SIDE_N_ODD,
+    SIDE_S_EVEN,
+    SIDE_S_ODD,
+    SIDE_G_FIRST,
+    SIDE_G_SECOND,
+    SIDE_MATRICES
+};
+enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_MATRICES };
+
+struct fused {
+    size_t n[3], plane, volume;
+    size_t width, stride, ring; /* numbers in a row, from row to row, rows in a ring */
+    int narrow, wide, deep;     /* taps of S and G, of N, of products over depth */
+    bool bare;                  /* B is the identity */
+    size_t late[2];             /* rows that narrow and wide passes over y lag behind */
+    double *x[SIDE_MATRICES];   /* [taps * width] by diagonals */
+    double *y[SIDE_MATRICES];   /* [rows * taps] */
+    bool *plain;                /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
+    double *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
+    int threads;
+    double **buffer;  /* [threads] */
+    size_t ring_size; /* numbers in the rings of a plane */
+    size_t bytes;
+};
+
+/* Builds c->fused if the scene is one for it (c->fused stays NULL if not); false: no memory. Needs c->hform.
+ */
+bool fused_create(struct consistent *c);
+void fused_free(struct fused *fused);
+/* a := (F1) in the planes first .. first + FUSED_PLANES - 1 (those that are there), first a multiple of
+ * FUSED_PLANES. */
+void fused_planes_double(const struct fused *fused, int thread, size_t first, const double *u, double *a);
+
+#endif

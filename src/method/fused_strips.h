@@ -1,0 +1,158 @@
+/* The order of the passes of the fused operator (fused.h, F1), for numbers of type REAL; included by
+ * fused_double.c and fused_single.c.
+ *
+ * FUSED_PLANES planes are made together, in strips of rows: passes over depth and those along x that need
+ * nothing of y where rows are new; narrow and wide passes over y so many rows behind that all their inputs
+ * are there. What must wait is kept in rings of rows that stay in the cache. */
+#include "method/fused.h"
+
+/* What the steps of a strip share. */
+struct strip {
+    const struct fused *f;
+    const struct kernels *kernel;
+    REAL *rings, *ring; /* of the first plane; of the plane being worked on */
+    REAL *spare, *zero; /* FUSED_ROWS rows each */
+};
+
+static REAL *row_of(const struct fused *f, REAL *ring, enum fused_row field, size_t j)
+{
+    return ring + ((size_t)field * f->ring + (j & (f->ring - 1))) * f->stride;
+}
+
+/* out := init + matrix `side` of y times a field, rows j .. j + 3; init may be out. Rows beyond the ends are
+ * read, times 0. */
+static void y_pass(const struct strip *s, bool wide, enum fused_side side, enum fused_row field, size_t j,
+                   const REAL *init, REAL *out)
+{
+    const struct fused *f = s->f;
+    const REAL *rows[FUSED_MOST_TAPS];
+    const size_t taps = (size_t)(wide ? f->wide : f->narrow);
+    const REAL *weight = (const REAL *)f->y[side] + j * taps;
+    for (size_t t = 0; t < taps + FUSED_ROWS - 1; t++)
+        rows[t] = row_of(f, s->ring, field, j + f->ring + t - taps / 2);
+    const bool plain = f->plain[j / FUSED_ROWS];
+    (wide    ? plain ? s->kernel->y_wide : s->kernel->y_wide_ends
+     : plain ? s->kernel->y_narrow
+             : s->kernel->y_narrow_ends)(weight, rows, init, f->width, f->stride, out);
+}
+
+static void x_pass(const struct strip *s, bool wide, enum fused_side side, const REAL *in, const REAL *init,
+                   REAL *out)
+{
+    (wide ? s->kernel->x_wide : s->kernel->x_narrow)((const REAL *)s->f->x[side], in, init, s->f->width,
+                                                     s->f->stride, out);
+}
+
+/* The passes along x that need nothing of y: g = C_z u_z + N_x G_x b_x, and what goes into a_y and a_z. */
+static void first_rows(const struct strip *s, size_t j)
+{
+    const struct fused *f = s->f;
+    REAL *ring = s->ring, *spare = s->spare;
+    REAL *ay = row_of(f, ring, ROW_AY, j), *az = row_of(f, ring, ROW_AZ, j);
+    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_BX, j), s->zero, spare);
+    x_pass(s, true, SIDE_N_EVEN, spare, row_of(f, ring, ROW_CZ, j), row_of(f, ring, ROW_G, j));
+    x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BY, j), s->zero, spare);
+    x_pass(s, true, SIDE_N_EVEN, spare, ay, ay);
+    x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BZ, j), s->zero, spare);
+    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_CX, j), spare, spare);
+    x_pass(s, true, SIDE_N_EVEN, spare, az, az);
+}
+
+/* Narrow passes over y. */
+static void second_rows(const struct strip *s, size_t j)
+{
+    const struct fused *f = s->f;
+    REAL *t1 = row_of(f, s->ring, ROW_T1, j), *t2 = row_of(f, s->ring, ROW_T2, j);
+    REAL *t3 = row_of(f, s->ring, ROW_T3, j), *t4 = row_of(f, s->ring, ROW_T4, j);
+    y_pass(s, false, SIDE_G_FIRST, ROW_BY, j, s->zero, t1);
+    y_pass(s, false, SIDE_S_EVEN, ROW_BX, j, s->zero, t2);
+    y_pass(s, false, SIDE_S_ODD, ROW_BY, j, s->zero, t3);
+    y_pass(s, false, SIDE_G_SECOND, ROW_G, j, t3, t3);
+    y_pass(s, false, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
+    y_pass(s, false, SIDE_G_FIRST, ROW_CY, j, t4, t4);
+}
+
+/* Wide passes over y, and along x of what waited for them. */
+static void third_rows(const struct strip *s, size_t j)
+{
+    const struct fused *f = s->f;
+    REAL *ring = s->ring, *spare = s->spare;
+    REAL *ax = row_of(f, ring, ROW_AX, j), *ay = row_of(f, ring, ROW_AY, j), *az = row_of(f, ring, ROW_AZ, j);
+    REAL *divergence = row_of(f, ring, ROW_CZ, j);
+    y_pass(s, true, SIDE_N_EVEN, ROW_T1, j, divergence, divergence);
+    y_pass(s, true, SIDE_N_EVEN, ROW_T2, j, ax, ax);
+    y_pass(s, true, SIDE_N_ODD, ROW_T3, j, ay, ay);
+    y_pass(s, true, SIDE_N_EVEN, ROW_T4, j, az, az);
+    x_pass(s, false, SIDE_S_ODD, row_of(f, ring, ROW_BX, j), s->zero, spare);
+    x_pass(s, false, SIDE_G_SECOND, divergence, spare, spare);
+    x_pass(s, true, SIDE_N_ODD, spare, ax, ax);
+}
+
+static void copy_row(size_t n, const REAL *restrict in, REAL *restrict out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = in[i];
+}
+
+/* Passes over depth for row j of FUSED_PLANES planes; planes that are not there have weight 0. */
+static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL *u)
+{
+    static const enum fused_row result[3][OVER_DEPTH_MATRICES] = {
+        {ROW_AX, ROW_CX, ROW_BX}, {ROW_AY, ROW_CY, ROW_BY}, {ROW_AZ, ROW_CZ, ROW_BZ}};
+    const struct fused *f = s->f;
+    const size_t half = (size_t)f->deep / 2;
+    for (int component = 0; component < 3; component++) {
+        const REAL *field = u + (size_t)component * f->volume + j * f->n[0];
+        const REAL *in[FUSED_MOST_TAPS], *weight[OVER_DEPTH_MATRICES];
+        REAL *out[OVER_DEPTH_MATRICES * FUSED_PLANES];
+        for (size_t t = 0; t < (size_t)f->deep + FUSED_PLANES - 1; t++) {
+            const size_t k = first + t < half ? 0 : first + t - half;
+            in[t] = field + (k < f->n[2] ? k : f->n[2] - 1) * f->plane;
+        }
+        for (size_t m = 0; m < OVER_DEPTH_MATRICES; m++) {
+            weight[m] = (const REAL *)f->z[component][m] + first * (size_t)f->deep;
+            for (size_t r = 0; r < FUSED_PLANES; r++)
+                out[m * FUSED_PLANES + r] = row_of(f, s->rings + r * f->ring_size, result[component][m], j);
+        }
+        (f->bare ? s->kernel->two : s->kernel->three)(in, weight, f->n[0], out);
+        for (size_t r = 0; f->bare && r < FUSED_PLANES; r++)
+            copy_row(f->n[0], in[r + half], out[OVER_DEPTH_B * FUSED_PLANES + r]);
+    }
+}
+
+static void store_row(const struct strip *s, size_t k, size_t j, REAL *a)
+{
+    const struct fused *f = s->f;
+    static const enum fused_row sum[3] = {ROW_AX, ROW_AY, ROW_AZ};
+    for (int component = 0; component < 3; component++)
+        copy_row(f->n[0], row_of(f, s->ring, sum[component], j),
+                 a + (size_t)component * f->volume + k * f->plane + j * f->n[0]);
+}
+
+void NAME(fused_planes)(const struct fused *fused, int thread, size_t first, const REAL *u, REAL *a)
+{
+    const struct fused *f = fused;
+    const size_t rows = (f->n[1] + FUSED_ROWS - 1) / FUSED_ROWS * FUSED_ROWS;
+    const size_t planes = f->n[2] - first < FUSED_PLANES ? f->n[2] - first : FUSED_PLANES;
+    struct strip s = {.f = f, .rings = (REAL *)f->buffer[thread] + (f->stride - f->width)};
+    s.spare = s.rings + FUSED_PLANES * f->ring_size;
+    s.zero = s.spare + FUSED_ROWS * f->stride;
+    for (size_t i = 0; i < sizeof kernel_table / sizeof kernel_table[0]; i++)
+        if (kernel_table[i].wide == f->wide) s.kernel = &kernel_table[i];
+    for (size_t j = 0; j < rows + f->late[1]; j += FUSED_STRIP) {
+        for (size_t row = j; row < j + FUSED_STRIP && row < f->n[1]; row++)
+            depth_rows(&s, first, row, u);
+        for (size_t plane = 0; plane < planes; plane++) {
+            s.ring = s.rings + plane * f->ring_size;
+            for (size_t row = j; row < j + FUSED_STRIP; row += FUSED_ROWS) {
+                if (row < rows) first_rows(&s, row);
+                if (row >= f->late[0] && row - f->late[0] < rows) second_rows(&s, row - f->late[0]);
+                if (row < f->late[1] || row - f->late[1] >= rows) continue;
+                const size_t done = row - f->late[1];
+                third_rows(&s, done);
+                for (size_t r = done; r < done + FUSED_ROWS && r < f->n[1]; r++)
+                    store_row(&s, first + plane, r, a);
+            }
+        }
+    }
+}
