@@ -119,8 +119,8 @@ static const double receivers[10][3] = {{.25, .1, 0},  {.5, .2, 0},   {.45, -.45
                                         {3, .4, 0},    {.6, 4.1, 0}};
 
 /* The FFT against the closed form at the receivers from..until. */
-static void compare_closed(double nu, const struct patch *patch, const struct history *history, size_t from,
-                           size_t until, double most)
+static void compare_closed_at(double nu, const struct patch *patch, const struct history *history, size_t n,
+                              const double (*at)[3], double most)
 {
     enum { ROWS = 24 };
     const double end = 5;
@@ -133,9 +133,8 @@ static void compare_closed(double nu, const struct patch *patch, const struct hi
         problem.tolerance = 6e-5; /* the closed form judges what is reached */
     half_space_set(&problem.ground, 1, lambda_of(nu), 1);
     struct lamb_signal signal[10] = {0};
-    const size_t n = until - from;
     for (size_t i = 0; i < n; i++)
-        memcpy(signal[i].position, receivers[from + i], sizeof receivers[0]);
+        memcpy(signal[i].position, at[i], sizeof at[0]);
     compute(&problem, end, n, signal);
     double time[ROWS], velocity[3 * ROWS], expected[3 * ROWS];
     for (size_t i = 0; i < ROWS; i++)
@@ -147,11 +146,17 @@ static void compare_closed(double nu, const struct patch *patch, const struct hi
             SELAS_OK);
         velocities(&problem, &signal[i], ROWS, time, velocity);
         const double error = l2_error(ROWS, velocity, expected);
-        if (!(error < most)) print_error("nu %g receiver %zu: %.2e\n", nu, from + i, error);
+        if (!(error < most)) print_error("nu %g at %g %g: %.2e\n", nu, x[0], x[1], error);
         assert_true(error < most);
         lamb_signal_free(&signal[i]);
     }
     messages_free(&messages);
+}
+
+static void compare_closed(double nu, const struct patch *patch, const struct history *history, size_t from,
+                           size_t until, double most)
+{
+    compare_closed_at(nu, patch, history, until - from, receivers + from, most);
 }
 
 static void kinked_pulse_meets_closed_form(void **state)
@@ -221,7 +226,9 @@ static void disc_meets_closed_form(void **state)
 {
     (void)state;
     const struct patch disc = {PATCH_DISC, {0, 0}, {.6, .6}};
+    static const double special[3][3] = {{0, 0, 0}, {.6, 0, 0}, {.36, -.48, 0}}; /* its centre and its rim */
     compare_closed(.3, &disc, &gaussian, 4, 5, 1e-5);
+    compare_closed_at(.3, &disc, &gaussian, 3, special, 1e-5);
 }
 
 /* Before the reflection from the edges the ground under the load is a plane wave, v = f/(rho cp); long after

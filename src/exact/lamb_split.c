@@ -179,8 +179,8 @@ void lamb_split_front(const struct half_space *ground, const struct lamb_load *l
     const double corner = disc ? 0 : edge[0] * edge[1];
     if (disc) {
         const double r = hypot(x, y), rim = edge_of(r, patch->half[0]);
-        edge[0] = rim * x / r;
-        edge[1] = rim * y / r;
+        edge[0] = rim != 0 ? rim * x / r : 0; /* at the centre r = 0 */
+        edge[1] = rim != 0 ? rim * y / r : 0;
     } else {
         edge[0] *= patch_side_share(y, patch->half[1]);
         edge[1] *= patch_side_share(x, patch->half[0]);

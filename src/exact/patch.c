@@ -185,7 +185,9 @@ static void disc_potentials(double radius, double x, double y, double depth, str
     const gsl_function function = {edge_integrand, &edge};
     gsl_integration_cquad_workspace *space = gsl_integration_cquad_workspace_alloc(400);
     double value[8] = {0};
+    const bool rim = depth <= 0 && patch_side_share(distance, radius) == .5;
     for (edge.which = 0; space != NULL && edge.which < (depth > 0 ? 8 : 6); edge.which++) {
+        if (rim && edge.which == 2) continue; /* infinite there; whoever takes it multiplies by the depth */
         /* symmetric about the line to the receiver; halves of the half circle so that the end near the
          * receiver is an end of the rule */
         double part = 0;

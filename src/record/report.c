@@ -13,7 +13,7 @@ static void tell_line(void *context, const char *key, const char *value)
 
 static double per(double amount, double whole)
 {
-    return whole > 0.0 ? amount / whole : 0.0;
+    return whole == 0.0 ? 0.0 : amount / whole; /* what is not finite has to show */
 }
 
 static double peak_memory(void)
@@ -104,7 +104,8 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
         write_errors_at(out, recorder, r);
         const struct misfit vector = misfit_of(recorder->rows, recorder->time, recorder->trace[r].value + 3,
                                                recorder->exact + r * recorder->rows * 6 + 3, 6, 3);
-        worst = fmax(worst, per(vector.l2, vector.l2_of));
+        const double error = per(vector.l2, vector.l2_of);
+        if (isnan(error) || error > worst) worst = error; /* NaN stays */
     }
     fprintf(out, "error largest: %.4e (L2 of the velocity vector, worst receiver)\n", worst);
 }
