@@ -49,6 +49,12 @@ check 'accepting shows the difference' sh -c "echo n | regress/accept -b $build 
 check 'accepting with --yes' sh -c "regress/accept --yes -b $build pulse-fixed | grep -q 'pulse-fixed: accepted'"
 rm -rf regress/cases/aa-broken
 check 'green again' night
+printf '#!/bin/sh\necho "ok - one"\necho "not ok - two <b>"\n' >regress/absorption
+check 'further checks count line by line, and a full night runs them' sh -c "
+    ! regress/nightly -b $build >night.log 2>&1 && grep -q '^    not ok - two <b>' $summary && grep -q 'two &lt;b&gt;' $page &&
+    tail -n 1 $summary | grep -q ', 1 failed$'"
+rm regress/absorption
+check 'from cron, with next to no environment' env -i PATH=/usr/bin:/bin sh -c "cd / && $work/regress/nightly -q -b $build pulse-fixed"
 check 'an error 6 % above the recorded one is red' sh -c "
     cp regress/cases/pulse-fixed/errors kept
     awk -F': ' '{ printf \"%s: %.4e\\n\", \$1, \$2 / 1.06 }' kept >regress/cases/pulse-fixed/errors

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Functions that regress/nightly, regress/accept and their parts share. A case is a folder regress/cases/NAME with
 #   case       key: value lines: what (one line for the page), deck, override (as often as wanted), atol and rtol of
 #              `selas diff` against accepted/, half (quick or night), plots (yes: also the program's own PNGs)
@@ -56,7 +57,7 @@ value_of() { # value_of FOLDER KEY: first number of a line of report.txt
 }
 
 # Profiles (columns s x y z FIELD_COMPONENT ...) by the rule of `selas diff`: |b - a| <= atol range + rtol |a|, the
-# range of a column being at least 1e-6 of the largest one of its field. Prints what differs; status 1 if anything does.
+# range of a column being at least 1e-3 of the largest one of its field. Prints what differs; status 1 if anything does.
 diff_profile() { # diff_profile A B ATOL RTOL
     awk -v atol="$3" -v rtol="$4" -v nameb="$2" '
         function finite(x) { return x == x && x - x == 0 }
@@ -83,7 +84,7 @@ diff_profile() { # diff_profile A B ATOL RTOL
                 if (high[i] - low[i] > widest[field[i]]) widest[field[i]] = high[i] - low[i]
             for (i = 1; i <= columns; i++) {
                 range = high[i] - low[i]
-                if (i > 4 && range < 1e-6 * widest[field[i]]) range = 1e-6 * widest[field[i]]
+                if (i > 4 && range < 1e-3 * widest[field[i]]) range = 1e-3 * widest[field[i]]
                 for (k = 1; k <= rows; k++) {
                     d = b[k, i] - a[k, i]
                     allowed = atol * range + rtol * (a[k, i] < 0 ? -a[k, i] : a[k, i])

@@ -12,7 +12,7 @@ const struct tolerance tolerance_default = {1e-6, 1e-6};
 
 /* A component smaller than this part of the receiver's largest one of its kind is rounding: it gets the
  * allowance of one that is just as large. */
-static const double rounding = 1e-6;
+static const double rounding = 1e-3;
 /* Most values that go into the transforms. */
 enum { MOST_VALUES = 4096, CHANNELS = DIFF_CHANNELS };
 
