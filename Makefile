@@ -86,8 +86,8 @@ $(BUILD)/libselas.a: $(OBJECTS)
 
 $(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"'
 
-# Multiplications and additions of the fused operator in one instruction where the machine has it
-$(BUILD)/obj/method/fused_%.o: ALL_C += -ffp-contract=fast
+# Multiplication and addition of the lattice operators in one instruction where the machine has it
+$(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)

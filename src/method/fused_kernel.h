@@ -4,12 +4,12 @@
  * Vectors are those of the compiler (GNU C), 64 bytes, as wide as any machine's; on others the compiler takes
  * two or four for one. With a constant number of taps all loops over taps and rows are unrolled and sums stay
  * in registers. */
+#include "base/machine.h"
 #include "method/fused.h"
 
 typedef REAL lanes __attribute__((vector_size(FUSED_VECTOR), aligned(sizeof(REAL)), may_alias));
 enum { LANE_COUNT = FUSED_VECTOR / sizeof(REAL) };
 
-#define INLINED static inline __attribute__((always_inline))
 #define UNROLLED _Pragma("GCC unroll 32")
 
 INLINED const lanes *at(const REAL *place)
@@ -72,12 +72,6 @@ INLINED void across_y(const int taps, const REAL *restrict weight, const size_t 
         UNROLLED for (int r = 0; r < FUSED_ROWS; r++) * (lanes *)(out + (size_t)r * stride + i) = sum[r];
     }
 }
-
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__)
-#define EACH_MACHINE __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define EACH_MACHINE
-#endif
 
 /* One function for each kernel and number of taps, once for each kind of machine; at run time that which fits
  * is taken. */

@@ -56,18 +56,21 @@ static void take_displacements(const struct consistent *c, const struct slab *sl
     }
 }
 
-/* Result of a plan on the region's fields in pml->in, component after component in pml->out. */
-static void work_out(const struct consistent *c, const struct slab *slab, const struct tensor_plan *plan)
+/* Result of a plan on the region's fields in pml->in, component after component in pml->out, at least in the
+ * block given (inside or region). */
+static void work_out(const struct consistent *c, const struct slab *slab, const struct tensor_plan *plan,
+                     const struct block *wanted)
 {
     const size_t plane = slab->region.n[0] * slab->region.n[1];
+    const size_t first = wanted->at[2] - slab->region.at[2], row = wanted->at[1] - slab->region.at[1];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < slab->region.n[2]; k++) {
+    for (size_t k = first; k < first + wanted->n[2]; k++) {
         double *out[3] = {NULL, NULL, NULL};
         for (int i = 0; i < c->dimension; i++) {
             out[i] = c->pml->out + (size_t)i * slab->volume + k * plane;
             memset(out[i], 0, plane * sizeof **out);
         }
-        tensor_plane(plan, omp_get_thread_num(), k, 1, c->pml->in, out);
+        tensor_rows(plan, omp_get_thread_num(), k, row, row + wanted->n[1], 1, c->pml->in, out);
     }
 }
 
@@ -99,7 +102,7 @@ static void move_gradients(const struct consistent *c, struct slab *slab, double
                            const double *v, double *extra)
 {
     take_displacements(c, slab, u, v, dt / 2);
-    work_out(c, slab, slab->gradient);
+    work_out(c, slab, slab->gradient, &slab->inside);
     for (size_t i = 0; i < (size_t)c->dimension; i++)
         move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->psi + i * slab->inner,
                 slab->middle + i * slab->inner);
@@ -128,7 +131,7 @@ static void move_forces(const struct consistent *c, const struct slab *slab, dou
     for (size_t k = 0; k < dimension; k++)
         if ((int)k != slab->axis)
             take_divergence(c, slab, (int)k, c->pml->in + (2 * dimension + k) * slab->volume);
-    work_out(c, slab, slab->outer);
+    work_out(c, slab, slab->outer, &slab->inside);
     for (size_t i = 0; i < dimension; i++)
         move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->phi + i * slab->inner, NULL);
 }
@@ -152,7 +155,7 @@ void pml_accelerate(const struct consistent *c, const double *extra, double *a)
         for (size_t i = 0; i < (size_t)c->dimension; i++)
             take_in(c, slab, c->pml->in + i * slab->volume, extra + slab->psi + i * slab->inner,
                     &slab->inside);
-        work_out(c, slab, slab->pull);
+        work_out(c, slab, slab->pull, &slab->region);
         for (size_t i = 0; i < (size_t)c->dimension; i++) {
             block_add(c->threads, a + i * c->volume, &whole, 1, c->pml->out + i * slab->volume,
                       &slab->region);

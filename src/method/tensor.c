@@ -2,6 +2,7 @@
 #include "method/tensor.h"
 
 #include "base/memory.h"
+#include "method/passes.h"
 
 #include <omp.h>
 #include <string.h>
@@ -138,75 +139,18 @@ size_t tensor_plan_bytes(const struct tensor_plan *plan)
     return (size_t)plan->threads * plan->thread_size * sizeof(double);
 }
 
-/* out[i] += sum over d of weight[d] * in[d * stride + i]; inlined with a constant number of taps, so that the
- * inner loop is unrolled, the sum stays in registers and the loop over i becomes a vector loop. */
-static inline __attribute__((always_inline)) void taps_across(size_t taps, const double *restrict weight,
-                                                              const double *restrict in, size_t stride,
-                                                              size_t n, double *restrict out)
-{
-    for (size_t i = 0; i < n; i++) {
-        double sum = out[i];
-        for (size_t d = 0; d < taps; d++)
-            sum += weight[d] * in[d * stride + i];
-        out[i] = sum;
-    }
-}
-
-/* out[i] += factor * sum over d of value[d * n + i] * in[d + i]. */
-static inline __attribute__((always_inline)) void taps_along(size_t taps, const double *restrict value,
-                                                             double factor, const double *restrict in,
-                                                             size_t n, double *restrict out)
-{
-    for (size_t i = 0; i < n; i++) {
-        double sum = 0;
-        for (size_t d = 0; d < taps; d++)
-            sum += value[d * n + i] * in[d + i];
-        out[i] += factor * sum;
-    }
-}
-
-/* Numbers of taps of the usual degrees and masses. */
-#define USUAL_TAPS(CASE) CASE(3) CASE(5) CASE(7) CASE(9) CASE(13) CASE(17) CASE(21)
-
-/* out[i] += factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n. */
+/* out[i] := init[i] + factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n;
+ * init NULL: 0. */
 static void pass_across(const struct band *matrix, size_t at, double factor, const double *in, size_t stride,
-                        size_t n, double *out)
+                        size_t n, const double *init, double *out)
 {
     const size_t half = matrix->half;
     const size_t from = at < half ? half - at : 0;
     const size_t end = matrix->n - at + half < 2 * half + 1 ? matrix->n - at + half : 2 * half + 1;
-    const double *first = in + (at + from - half) * stride;
     double weight[MAX_TAPS] = {0};
     for (size_t d = from; d < end; d++)
         weight[d - from] = factor * matrix->value[d * matrix->n + at];
-    switch (end - from) {
-#define CASE(taps)                                                                                           \
-    case taps:                                                                                               \
-        taps_across(taps, weight, first, stride, n, out);                                                    \
-        break;
-        USUAL_TAPS(CASE)
-#undef CASE
-    default:
-        for (size_t d = 0; d < end - from; d++)
-            taps_across(1, weight + d, first + d * stride, stride, n, out);
-    }
-}
-
-/* out[i] += factor * (A in)[i] along a row; in has zeros on both sides. */
-static void pass_along(const struct band *matrix, double factor, const double *in, double *out)
-{
-    const size_t n = matrix->n, half = matrix->half;
-    switch (2 * half + 1) {
-#define CASE(taps)                                                                                           \
-    case taps:                                                                                               \
-        taps_along(taps, matrix->value, factor, in - half, n, out);                                          \
-        break;
-        USUAL_TAPS(CASE)
-#undef CASE
-    default:
-        for (size_t d = 0; d <= 2 * half; d++)
-            taps_along(1, matrix->value + d * n, factor, in + d - half, n, out);
-    }
+    pass_over_rows(weight, end - from, in + (at + from - half) * stride, stride, n, init, out);
 }
 
 static void add_row(double factor, const double *restrict in, size_t n, double *restrict out)
@@ -219,14 +163,19 @@ static void add_row(double factor, const double *restrict in, size_t n, double *
 void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double factor, const double *u,
                   double *const *out)
 {
+    tensor_rows(plan, thread, k, 0, plan->n[1], factor, u, out);
+}
+
+void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
+                 const double *u, double *const *out)
+{
     const size_t nx = plan->n[0], plane = plan->plane, step = rounded(plane);
     double *buffer = plan->buffer[thread];
     double *row = buffer + plan->z_items * step + plan->pad;
     for (size_t i = 0; i < plan->z_items; i++) {
         const double *in = u + (size_t)plan->z[i].in * plan->volume;
         if (plan->z[i].matrix != NULL) {
-            memset(buffer + i * step, 0, plane * sizeof *buffer);
-            pass_across(plan->z[i].matrix, k, 1, in, plane, plane, buffer + i * step);
+            pass_across(plan->z[i].matrix, k, 1, in, plane, plane, NULL, buffer + i * step);
         } else
             memcpy(buffer + i * step, in + k * plane, plane * sizeof *in);
     }
@@ -235,7 +184,7 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
         size_t y_end = y;
         while (y_end < plan->y_items && plan->y[y_end].target == x)
             y_end++;
-        for (size_t j = 0; j < plan->n[1]; j++) {
+        for (size_t j = from; j < end; j++) {
             double *result = out[target->out] + j * nx;
             const bool along = target->matrix != NULL;
             double *sum = along ? row : result;
@@ -244,11 +193,13 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
             for (size_t i = y; i < y_end; i++) {
                 const double *in = buffer + plan->y[i].source * step;
                 if (plan->y[i].matrix != NULL)
-                    pass_across(plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum);
+                    pass_across(plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum, sum);
                 else
                     add_row(scale * plan->y[i].factor, in + j * nx, nx, sum);
             }
-            if (along) pass_along(target->matrix, factor, row, result);
+            if (along)
+                pass_over_neighbours(target->matrix->value, 2 * target->matrix->half + 1, factor,
+                                     row - target->matrix->half, nx, result);
         }
         y = y_end;
     }

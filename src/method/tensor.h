@@ -29,6 +29,10 @@ size_t tensor_plan_bytes(const struct tensor_plan *plan);
 void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double factor, const double *u,
                   double *const *out);
 
+/* The same for rows from .. end - 1 of the plane alone. */
+void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
+                 const double *u, double *const *out);
+
 /* w^T A u, summed plane by plane. */
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u);
 
