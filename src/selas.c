@@ -32,7 +32,7 @@ static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
 /* --- Opening and closing
  * --------------------------------------------------------------------------------------- */
 
-static selas_status new_simulation(selas_simulation **simulation)
+selas_status simulation_new(selas_simulation **simulation)
 {
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     *simulation = calloc(1, sizeof **simulation);
@@ -56,10 +56,24 @@ static selas_status check_points(selas_simulation *simulation)
         scene->method.name, scene->method.variant);
 }
 
+/* A run that goes on writes where it began. */
+static selas_status place_results(selas_simulation *simulation)
+{
+    if (simulation->results == NULL) return SELAS_OK;
+    const size_t size = strlen(simulation->results) + 1;
+    char *directory = array_new(size, 1);
+    if (directory == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
+    memcpy(directory, simulation->results, size);
+    array_free(simulation->scene->output.directory);
+    simulation->scene->output.directory = directory;
+    return SELAS_OK;
+}
+
 /* The scene of the deck, with what the host drives put into it. */
 static selas_status build_scene(selas_simulation *simulation)
 {
     selas_status status = scene_build(simulation->deck, &simulation->scene, &simulation->messages);
+    if (status == SELAS_OK) status = place_results(simulation);
     if (status == SELAS_OK) status = check_points(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);
     if (status != SELAS_OK) scene_free(&simulation->scene);
@@ -69,7 +83,7 @@ static selas_status build_scene(selas_simulation *simulation)
 selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
                                   selas_simulation **opened)
 {
-    const selas_status status = new_simulation(opened);
+    const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
     if (path == NULL || (count > 0 && overrides == NULL))
@@ -86,7 +100,7 @@ selas_status selas_open_deck(const char *path, selas_simulation **simulation)
 
 selas_status selas_open_text(const char *name, const char *text, selas_simulation **opened)
 {
-    const selas_status status = new_simulation(opened);
+    const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
     if (name == NULL || text == NULL)
@@ -98,7 +112,7 @@ selas_status selas_open_text(const char *name, const char *text, selas_simulatio
 
 selas_status selas_open_new(const char *name, selas_simulation **opened)
 {
-    const selas_status status = new_simulation(opened);
+    const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
     if (name == NULL || name[0] == '\0')
@@ -132,6 +146,8 @@ void selas_close(selas_simulation **closed)
     array_free(simulation->point_position);
     array_free(simulation->point_volume);
     array_free(simulation->point_material);
+    free(simulation->results);
+    free(simulation->work);
     deck_free(&simulation->deck);
     messages_free(&simulation->messages);
     free(simulation);
@@ -180,8 +196,7 @@ selas_status selas_build(selas_simulation *simulation)
     return simulation_scene(simulation);
 }
 
-/* Model, time step and recorder, without files. */
-static selas_status prepare(selas_simulation *simulation)
+selas_status simulation_prepare(selas_simulation *simulation)
 {
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK || simulation->prepared) return status;
@@ -203,13 +218,13 @@ static selas_status prepare(selas_simulation *simulation)
 /* The state at t = 0, seen by the recorder. */
 static selas_status start(selas_simulation *simulation)
 {
-    selas_status status = prepare(simulation);
+    selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
     const struct stopwatch watch = start_watch();
     simulation->model->evaluations = 0;
     status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
     if (status == SELAS_OK && simulation->recording)
-        status = recorder_open(simulation->recorder, &simulation->messages);
+        status = recorder_open(simulation->recorder, NULL, &simulation->messages);
     if (status == SELAS_OK)
         status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
     if (status == SELAS_OK) status = host_answer(simulation);
@@ -254,7 +269,7 @@ selas_status selas_step(selas_simulation *simulation, unsigned long steps)
 
 selas_status selas_advance(selas_simulation *simulation, double time)
 {
-    const selas_status status = prepare(simulation);
+    const selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK) return status;
     if (!isfinite(time))
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the time to advance to must be finite");
@@ -276,7 +291,7 @@ double selas_end_time(selas_simulation *simulation)
 
 double selas_time_step(selas_simulation *simulation)
 {
-    return prepare(simulation) == SELAS_OK ? simulation->stepper->dt : 0.0;
+    return simulation_prepare(simulation) == SELAS_OK ? simulation->stepper->dt : 0.0;
 }
 
 unsigned long selas_steps(const selas_simulation *simulation)
@@ -286,7 +301,7 @@ unsigned long selas_steps(const selas_simulation *simulation)
 
 unsigned long selas_steps_needed(selas_simulation *simulation)
 {
-    if (prepare(simulation) != SELAS_OK) return 0;
+    if (simulation_prepare(simulation) != SELAS_OK) return 0;
     return simulation->stepper->steps + simulation->stepper->extra;
 }
 
@@ -392,49 +407,12 @@ selas_status selas_write_exact(selas_simulation *simulation)
     return status;
 }
 
-static selas_status check_checkpoint(selas_simulation *simulation, const char *path)
-{
-    if (path == NULL || path[0] == '\0')
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the checkpoint's path is NULL or empty");
-    if (simulation->recording || simulation->finished)
-        return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                    "checkpoints are not offered with result files (selas_record) or after selas_finish");
-    if (simulation->failed != SELAS_OK)
-        return fail(&simulation->messages, simulation->failed, "the simulation has failed before");
-    return SELAS_OK;
-}
-
-selas_status selas_save(selas_simulation *simulation, const char *path)
-{
-    selas_status status = simulation_begin(simulation);
-    if (status == SELAS_OK) status = check_checkpoint(simulation, path);
-    if (status != SELAS_OK) return status;
-    return checkpoint_write(simulation->recorder, &simulation->state, path, &simulation->messages);
-}
-
-selas_status selas_restore(selas_simulation *simulation, const char *path)
-{
-    selas_status status = simulation_begin(simulation);
-    if (status == SELAS_OK) status = check_checkpoint(simulation, path);
-    if (status != SELAS_OK) return status;
-    if (simulation->state.step > 0)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "restore before the first step");
-    simulation->failed =
-        checkpoint_read(simulation->recorder, &simulation->state, path, &simulation->messages);
-    struct stepper *stepper = simulation->stepper;
-    if (simulation->failed != SELAS_OK) return simulation->failed;
-    if (stepper->host != NULL) drive_changed(stepper, 0);
-    /* the Runge-Kutta family keeps the rate at the start of a step; leapfrog's acceleration is in the file */
-    if (!stepper->scheme->needs_acceleration) stepper->scheme->start(stepper, &simulation->state);
-    return SELAS_OK;
-}
-
 selas_status selas_plan(selas_simulation *simulation,
                         void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     if (tell == NULL && simulation != NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
-    const selas_status status = prepare(simulation);
+    const selas_status status = simulation_prepare(simulation);
     if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
     return status;
 }

@@ -188,7 +188,10 @@ static void refuses_wrong_overrides(void **state)
                                     "receiver(4)%name=a",
                                     "body(2)%seed=1",
                                     "body%jitter=x",
-                                    "body%jitter=",
+                                    "body%jitter(1)=",
+                                    "body%jiter=",
+                                    "snapshot%every=",
+                                    "receiver(3)%name=",
                                     "body",
                                     "spacing=1",
                                     "body%seed=1 2",
@@ -205,7 +208,12 @@ static void refuses_wrong_overrides(void **state)
                   "override: error: there is no receiver(4): the deck has 2\n"
                   "override: error: there is no body(2): the deck has 1\n"
                   "override: error: expected a real number, found 'x'\n"
-                  "override: error: no value for 'jitter' of &body\n"
+                  "override: error: no value for 'jitter' of &body; a name without a subscript would be "
+                  "unset\n"
+                  "override: error: unknown name 'jiter' in &body; did you mean 'jitter'?\n"
+                  "override: error: 'snapshot%every=' would unset a name, but the deck has 0 groups &snapshot\n"
+                  "override: error: 'receiver(3)%name=' would unset a name, but the deck has 2 groups "
+                  "&receiver\n"
                   "override: error: no '=' in 'body'; expected group%name=value\n"
                   "override: error: no '%' between group and name in 'spacing=1'; expected group%name=value\n"
                   "override: error: too many values in 'seed=1 2'\n"
@@ -214,6 +222,27 @@ static void refuses_wrong_overrides(void **state)
                   "group%name=value\n"
                   "override: error: too many values in 'low_pass=.1 / body%seed=3'\n"
                   "override: error: -1 for 'spacing' in &body; expected a number in (0, inf)\n");
+}
+
+/* A name without a value is unset: an obligatory one is then missing, others have their defaults. */
+static void unsets_names(void **state)
+{
+    (void)state;
+    const char *const override[] = {"body%jitter=", "snapshot(2)%every= ", "snapshot(2)%times=1,2",
+                                    "output%directory=", "body%seed=4", "body%seed="};
+    struct reading r = read_with(SCENE "&body jitter=.2, seed=7 /\n&snapshot every=1 /\n&snapshot every=2 /\n"
+                                       "&output directory='there' /\n",
+                                 sizeof override / sizeof *override, override);
+    assert_int_equal(r.status, SELAS_OK);
+    const struct deck_group *body = deck_get(r.deck, "body", 0), *shot = deck_get(r.deck, "snapshot", 1);
+    assert_true(deck_real(body, "jitter", 0) == 0 && deck_integer(body, "seed", 0) == 1);
+    assert_true(deck_values(shot, "every") == 0 && deck_values(shot, "times") == 2);
+    assert_true(deck_real(deck_get(r.deck, "snapshot", 0), "every", 0) == 1);
+    assert_true(deck_values(deck_get(r.deck, "output", 0), "directory") == 0);
+    release(&r);
+    const char *const obligatory[] = {"receiver%position="};
+    expect_errors(SCENE "&receiver name='a' position=0/\n", 1, obligatory,
+                  "folder/case.nml:2:1: error: 'position' is missing in &receiver: position [length]\n");
 }
 
 static char *echo(const struct deck *deck)
@@ -376,7 +405,7 @@ int main(void)
         cmocka_unit_test(reports_all_errors_at_their_places),
         cmocka_unit_test(reports_groups_that_never_end),
         cmocka_unit_test(takes_overrides),
-        cmocka_unit_test(refuses_wrong_overrides),
+        cmocka_unit_test(refuses_wrong_overrides), cmocka_unit_test(unsets_names),
         cmocka_unit_test(echo_reads_again_to_the_same),
         cmocka_unit_test(numbers_do_not_depend_on_the_locale),
         cmocka_unit_test(hostile_files_end_in_messages),

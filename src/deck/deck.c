@@ -153,6 +153,18 @@ const char *deck_source(const struct deck *deck)
     return deck->source;
 }
 
+selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages)
+{
+    const size_t length = strlen(source);
+    char *copy = array_new(length + 1, 1);
+    if (copy == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
+    memcpy(copy, source, length + 1);
+    array_free(deck->source);
+    deck->source = copy;
+    deck->length = length;
+    return SELAS_OK;
+}
+
 static void message_at(const struct deck *deck, const struct deck_group *group, const char *name,
                        struct messages *messages, bool is_error, const char *text)
 {

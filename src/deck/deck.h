@@ -79,6 +79,8 @@ const char *deck_directory(const struct deck *deck); /* folder of the file, "." 
  * absolute; new memory (array_free), NULL if there is none. */
 char *deck_resolve(const struct deck *deck, const char *file);
 const char *deck_source(const struct deck *deck); /* the text as read, without overrides */
+/* Gives a deck that was made from an echo the text that it came from. */
+selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages);
 
 /* Prints the tables of all groups and names in Markdown (the deck reference of doc/deck.md). */
 void deck_reference(FILE *file);

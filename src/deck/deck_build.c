@@ -50,10 +50,7 @@ static void clear(struct deck *deck, const char *text)
     const char *name = strchr(text, '%') + 1;
     const struct word *word =
         &table->group[kind].word[words_find(&table->group[kind], name, strcspn(name, "(= "))];
-    for (size_t i = 0; word->type >= WORD_TEXT && i < item->room; i++)
-        array_free(item->value[i].as.text);
-    array_free(item->value);
-    *item = (struct item){0};
+    item_clear(word, item);
 }
 
 selas_status deck_set(struct deck *deck, const char *text, struct messages *messages)

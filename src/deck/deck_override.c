@@ -1,4 +1,5 @@
-/* Overrides of the command line: group%name=value, group(2)%name(1:2)=value, quotes around texts optional. */
+/* Overrides of the command line: group%name=value, group(2)%name(1:2)=value, quotes around texts optional;
+ * group%name= unsets the name. */
 #include "base/memory.h"
 #include "deck/deck_private.h"
 
@@ -43,6 +44,25 @@ static bool has_quotes(const char *text)
     return *text == '\'' || *text == '"';
 }
 
+static bool is_empty(const char *equals)
+{
+    return equals[1 + strspn(equals + 1, " ")] == '\0';
+}
+
+/* "snapshot%every=": as if the deck did not have the name. */
+static void unset(struct deck_group *group, const char *name, const char *equals, struct messages *messages)
+{
+    const size_t length = strcspn(name, "(= "), index = words_find(group->kind, name, length);
+    if (index == group->kind->words)
+        namelist_assign(group, name, strlen(name), messages); /* knows what may have been meant */
+    else if (strcspn(name, "(") < (size_t)(equals - name))
+        namelist_message(messages, NULL, (struct place){0, 0}, true,
+                         "no value for '%.*s' of &%s; a name without a subscript would be unset", (int)length,
+                         name, group->kind->name);
+    else
+        item_clear(&group->kind->word[index], &group->item[index]);
+}
+
 static void assign(struct deck_group *group, const char *name, const char *equals, struct messages *messages)
 {
     const size_t size = 2 * strlen(name) + 16;
@@ -56,16 +76,11 @@ static void assign(struct deck_group *group, const char *name, const char *equal
     memcpy(text, name, (size_t)(equals - name) + 1);
     char *value = text + (equals - name) + 1;
     const struct word *word = index < group->kind->words ? &group->kind->word[index] : NULL;
-    const bool empty = equals[1 + strspn(equals + 1, " ")] == '\0';
-    if (word != NULL && word->type >= WORD_TEXT && !empty && !has_quotes(equals + 1))
+    if (word != NULL && word->type >= WORD_TEXT && !has_quotes(equals + 1))
         quote_texts(equals + 1, word->count > 1, value);
     else
         memcpy(value, equals + 1, strlen(equals + 1));
-    if (empty)
-        namelist_message(messages, NULL, (struct place){0, 0}, true, "no value for '%.*s' of &%s",
-                         (int)name_length, name, group->kind->name);
-    else
-        namelist_assign(group, text, strlen(text), messages);
+    namelist_assign(group, text, strlen(text), messages);
     array_free(text);
 }
 
@@ -134,6 +149,18 @@ void deck_override(struct deck *deck, const char *text, struct messages *message
         unknown_group(deck, start, length, messages);
         return;
     }
+    const char *name = percent + 1 + strspn(percent + 1, " ");
+    const size_t there = deck->first[kind + 1] - deck->first[kind];
+    if (is_empty(equals) && (there == 0 || (size_t)number > there)) {
+        namelist_message(messages, NULL, (struct place){0, 0}, true,
+                         "'%.200s' would unset a name, but the deck has %zu groups &%.*s", text, there,
+                         (int)length, start);
+        return;
+    }
     struct deck_group *group = find(deck, kind, number, text, messages);
-    if (group != NULL) assign(group, percent + 1 + strspn(percent + 1, " "), equals, messages);
+    if (group == NULL) return;
+    if (is_empty(equals))
+        unset(group, name, equals, messages);
+    else
+        assign(group, name, equals, messages);
 }

@@ -15,6 +15,14 @@ static void free_items(struct item *item, size_t count)
     array_free(item);
 }
 
+void item_clear(const struct word *word, struct item *item)
+{
+    for (size_t i = 0; word->type >= WORD_TEXT && i < item->room; i++)
+        array_free(item->value[i].as.text);
+    array_free(item->value);
+    *item = (struct item){0};
+}
+
 static void free_texts(const struct word_group *kind, struct item *item)
 {
     for (size_t i = 0; item != NULL && i < kind->words; i++)
@@ -242,12 +250,7 @@ selas_status namelist_assign(struct deck_group *group, const char *text, size_t 
     const size_t index = words_find(group->kind, text, name_length);
     if (index < group->kind->words && scan_peek(&scanner, name_length) != '(') { /* replaces it all */
         struct item *item = &group->item[index];
-        if (item->place.line != 0) {
-            for (size_t i = 0; group->kind->word[index].type >= WORD_TEXT && i < item->room; i++)
-                array_free(item->value[i].as.text);
-            array_free(item->value);
-            *item = (struct item){0};
-        }
+        if (item->place.line != 0) item_clear(&group->kind->word[index], item);
     }
     if (scan_assignment(&scanner, group)) {
         scan_separator(&scanner);

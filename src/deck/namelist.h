@@ -68,6 +68,9 @@ selas_status namelist_read(struct namelist *list, const char *name, const char *
 selas_status namelist_assign(struct deck_group *group, const char *text, size_t length,
                              struct messages *messages);
 
+/* Takes all values away: as if the text did not have the name. */
+void item_clear(const struct word *word, struct item *item);
+
 /* An empty list for a table; false if there is no memory or the table's defaults cannot be read. */
 bool namelist_begin(struct namelist *list, const struct word_table *table, struct messages *messages);
 /* Adds a group with nothing but its defaults; NULL if there is no memory. */

@@ -203,6 +203,8 @@ static const struct word snapshot_words[] = {
 static const struct word output_words[] = {
     {"directory", WORD_TEXT, 1, NULL, NULL, false, "folder of the results; else output/DECKNAME"},
     {"checkpoint_every", WORD_INTEGER, 1, "0", NOT_NEGATIVE, false, "steps between checkpoints; 0: none"},
+    {"checkpoint_minutes", WORD_REAL, 1, "30", NOT_NEGATIVE, false,
+     "minutes by the clock between checkpoints; 0: none"},
     {"plots", WORD_LOGICAL, 1, ".true.", NULL, false, "draw the PNGs"},
     {"history_step", WORD_REAL, 1, "0", NOT_NEGATIVE, false,
      "time between rows of the histories [time]; 0: every step"},

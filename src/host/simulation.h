@@ -60,16 +60,35 @@ struct selas_simulation {
     size_t values_room;
     double *scratch; /* [state_size] */
     double *lattice; /* [3 * points]: positions, once a host asks and the model does not store them */
+    char *results;   /* folder of the results in place of the deck's; NULL */
+    char *work;      /* folder of the checkpoint from which the run goes on; NULL */
 };
+
+/* An empty handle. */
+selas_status simulation_new(selas_simulation **simulation);
 
 /* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
 selas_status simulation_check(selas_simulation *simulation);
 /* The same, with the scene built. */
 selas_status simulation_scene(selas_simulation *simulation);
+/* The same, with model, time step and recorder, without files. */
+selas_status simulation_prepare(selas_simulation *simulation);
 /* The same, with the state at t = 0 or later and the loads as they are now. */
 selas_status simulation_begin(selas_simulation *simulation);
 /* SELAS_OK as long as the scene may still be changed: before the first step; throws the model away. */
 selas_status simulation_change(selas_simulation *simulation);
+
+/* host/checkpoints.c */
+/* Opens the deck that a checkpoint keeps; selas_record and selas_restore make a run of it that goes on in the
+ * checkpoint's folder. SELAS_FILE_ERROR with the reason. */
+selas_status simulation_open_checkpoint(const char *path, selas_simulation **simulation);
+/* Opens the deck that run.h5 keeps, with overrides; results go to output/NAME-rerun. */
+selas_status simulation_open_run(const char *path, size_t count, const char *const *overrides,
+                                 selas_simulation **simulation);
+/* Path of the checkpoint of a run with result files (free it); NULL without memory. */
+char *simulation_checkpoint_path(selas_simulation *simulation);
+/* Saves the state there, if it is sound. */
+selas_status simulation_checkpoint(selas_simulation *simulation);
 
 /* host/drive.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */

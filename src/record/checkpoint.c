@@ -1,212 +1,351 @@
 /* Checkpoints: the state and what the recorder has seen, in one HDF5 file under its own name only when
- * complete.
+ * complete, on the disk, and read back.
  *
- * /y, /a: state; /trace_N: rows of receiver N, (u, v, a) of every step; /profile_N and /seen_N: what the
- * profiles have; /watch: the energy watch as this version of the library keeps it. Attributes: version, deck
- * (with all defaults: a checkpoint goes on only with the very same scene), step and time. Numbers have 64
- * bits: what is read back is what was written. */
-#include "record/run_file.h"
+ * /y, /a: state; /trace_N_u, _v, _a: rows of receiver N, one a step; /profile_N and /seen_N: what the profiles
+ * have; /due, /entry_group, /entry_time: snapshots so far (their files are snapshot_file.c's); /watch and
+ * /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with all
+ * defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
+ * Numbers have 64 bits: what is read back is what was written. The head is checkpoint_head.c's. */
+#include "record/kept.h"
 
 #include "base/memory.h"
+#include "record/checkpoint_head.h"
+#include "record/run_file.h"
 #include "record/safe_file.h"
+#include "record/sets.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-/* One array of the checkpoint, written or read by the same list. */
-struct piece {
-    char name[32];
-    hid_t type;
-    void *data;
-    size_t count;
+/* All that is no array, as one array. */
+enum figure {
+    STEP,
+    TIME,
+    LAST_TIME,
+    BEFORE_TIME,
+    TIME_STEP,
+    ENTRIES,
+    RECORDED, /* 1: with result files */
+    EVALUATIONS,
+    WALL_SECONDS,
+    CPU_SECONDS,
+    FILES_LOW, /* CRC of the files that the deck names, half and half */
+    FILES_HIGH,
+    FIGURES
+};
+enum { WATCH_NUMBERS = 14 };
+
+/* One way through all arrays of a checkpoint. */
+struct walk {
+    hid_t file;
+    enum { WALK_WRITE, WALK_READ, WALK_COMPARE } mode;
+    bool good;
 };
 
-static bool transfer(hid_t file, const struct piece *piece, bool write)
+static void pass(struct walk *walk, const char *name, hid_t type, void *data, size_t count)
 {
-    if (piece->count == 0) return true;
-    const hsize_t size = piece->count;
-    hid_t set = -1;
-    bool good = false;
-    if (write) {
-        const hid_t space = H5Screate_simple(1, &size, NULL);
-        set = H5Dcreate2(file, piece->name, piece->type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-        good = set >= 0 && H5Dwrite(set, piece->type, H5S_ALL, H5S_ALL, H5P_DEFAULT, piece->data) >= 0;
-        H5Sclose(space);
-    } else if ((set = H5Dopen2(file, piece->name, H5P_DEFAULT)) >= 0) {
-        const hid_t space = H5Dget_space(set);
-        good = H5Sget_simple_extent_npoints(space) == (hssize_t)piece->count &&
-               H5Dread(set, piece->type, H5S_ALL, H5S_ALL, H5P_DEFAULT, piece->data) >= 0;
-        H5Sclose(space);
-    }
-    if (set >= 0) H5Dclose(set);
-    return good;
+    if (count == 0 || !walk->good) return;
+    if (walk->mode == WALK_WRITE)
+        walk->good = set_write(walk->file, name, type, data, count);
+    else if (walk->mode == WALK_READ)
+        walk->good = set_read(walk->file, name, type, data, count);
+    else
+        walk->good = set_compare(walk->file, name, type, data, count);
 }
 
-/* State, receivers and profiles; `rows` is the number of steps seen. */
-static bool transfer_all(hid_t file, struct recorder *recorder, struct state *state, size_t rows, bool write)
+static void pass_real(struct walk *walk, const char *name, size_t number, const char *ending, double *data,
+                      size_t count)
 {
-    const struct model *model = recorder->model;
-    const struct scene *scene = recorder->scene;
-    const hid_t real = H5T_NATIVE_DOUBLE, byte = H5T_NATIVE_UCHAR;
-    const struct piece own[4] = {{"y", real, state->y, model->state_size},
-                                 {"a", real, state->a, model->unknowns},
-                                 {"watch", byte, &recorder->watch, sizeof recorder->watch},
-                                 {"before", byte, &recorder->before, sizeof recorder->before}};
-    bool good = true;
-    for (size_t i = 0; i < 4; i++)
-        good = good && transfer(file, &own[i], write);
-    for (size_t r = 0; good && r < scene->receivers; r++) {
+    char full[48];
+    snprintf(full, sizeof full, number > 0 ? "%s_%zu%s" : "%s", name, number, ending);
+    pass(walk, full, H5T_NATIVE_DOUBLE, data, count);
+}
+
+/* --- The parts of the recorder
+ * ------------------------------------------------------------------------------------- */
+
+static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
+{
+    double next = (double)watch->next;
+    double *const member[WATCH_NUMBERS] = {
+        &watch->work,         &watch->gross,          &watch->absorbed,
+        &watch->power,        &watch->power_absorbed, &watch->initial,
+        &watch->largest,      &watch->reference,      &watch->reference_until,
+        &watch->last.kinetic, &watch->last.strain,    &watch->largest_defect,
+        &watch->last_time,    &next};
+    double number[WATCH_NUMBERS];
+    for (size_t i = 0; i < WATCH_NUMBERS; i++)
+        number[i] = *member[i];
+    pass_real(walk, name, 0, "", number, WATCH_NUMBERS);
+    if (walk->mode != WALK_READ || !walk->good) return;
+    for (size_t i = 0; i < WATCH_NUMBERS; i++)
+        *member[i] = number[i];
+    watch->next = next >= 0.0 && next < 9e15 ? (unsigned long)next : 0;
+}
+
+static void pass_traces(struct walk *walk, struct recorder *recorder, size_t rows)
+{
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
         struct trace *trace = &recorder->trace[r];
-        double *const part[3] = {trace->u, trace->v, trace->a};
-        for (size_t k = 0; k < 3; k++) {
-            struct piece piece = {.type = real, .data = part[k], .count = 3 * rows};
-            snprintf(piece.name, sizeof piece.name, "trace_%zu_%c", r + 1, "uva"[k]);
-            good = good && transfer(file, &piece, write);
-        }
+        pass_real(walk, "trace", r + 1, "_u", trace->u, 3 * rows);
+        pass_real(walk, "trace", r + 1, "_v", trace->v, 3 * rows);
+        pass_real(walk, "trace", r + 1, "_a", trace->a, 3 * rows);
         trace->rows = rows;
     }
-    for (size_t p = 0; good && p < scene->profiles; p++) {
+}
+
+static void pass_profiles(struct walk *walk, struct recorder *recorder)
+{
+    for (size_t p = 0; p < recorder->scene->profiles; p++) {
         struct profile_record *record = &recorder->profile[p];
         const size_t times = record->profile->times;
-        struct piece value = {.type = real, .data = record->value};
-        struct piece seen = {.type = byte, .data = record->seen, .count = times};
-        value.count = times * record->profile->points * record->columns;
-        snprintf(value.name, sizeof value.name, "profile_%zu", p + 1);
-        snprintf(seen.name, sizeof seen.name, "seen_%zu", p + 1);
-        good = transfer(file, &value, write) && transfer(file, &seen, write);
+        char seen[32];
+        snprintf(seen, sizeof seen, "seen_%zu", p + 1);
+        pass_real(walk, "profile", p + 1, "", record->value,
+                  times * record->profile->points * record->columns);
+        pass(walk, seen, H5T_NATIVE_UCHAR, record->seen, times);
     }
-    return good;
 }
 
-/* The deck with all defaults as text (free it), "" without a deck; NULL without memory. */
-static char *scene_text(const struct scene *scene, struct messages *messages)
+/* Which snapshots there are; recorder->entry has room for them. */
+static void pass_entries(struct walk *walk, struct recorder *recorder, size_t entries)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (file == NULL) return NULL;
-    const selas_status status = scene->deck != NULL ? deck_write(scene->deck, file, messages) : SELAS_OK;
-    if (fclose(file) == 0 && status == SELAS_OK) return text;
-    free(text);
-    return NULL;
+    const size_t groups = recorder->scene->snapshots;
+    double *number = array_new(2 * entries + groups, sizeof *number);
+    if (number == NULL) walk->good = false;
+    if (number == NULL) return;
+    double *group = number, *time = number + entries, *due = number + 2 * entries;
+    for (size_t k = 0; k < entries; k++) {
+        group[k] = (double)recorder->entry[k].group;
+        time[k] = recorder->entry[k].time;
+    }
+    for (size_t s = 0; s < groups; s++)
+        due[s] = (double)recorder->snapshot[s].due;
+    pass_real(walk, "entry_group", 0, "", group, entries);
+    pass_real(walk, "entry_time", 0, "", time, entries);
+    pass_real(walk, "due", 0, "", due, groups);
+    for (size_t k = 0; walk->mode == WALK_READ && walk->good && k < entries; k++) {
+        walk->good = group[k] >= 0.0 && group[k] < (double)groups;
+        if (walk->good) recorder->entry[k] = (struct snapshot_entry){(size_t)group[k], k, time[k]};
+    }
+    for (size_t s = 0; walk->mode == WALK_READ && walk->good && s < groups; s++) {
+        walk->good = due[s] >= 0.0 && due[s] <= 1e15;
+        if (walk->good) recorder->snapshot[s].due = (size_t)due[s];
+    }
+    array_free(number);
 }
 
-static bool same_text(hid_t file, const char *name, const char *expected)
+static void pass_all(struct walk *walk, struct recorder *recorder, struct state *state,
+                     double figures[FIGURES])
 {
-    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
-    if (attribute < 0) return false;
-    const hid_t type = H5Aget_type(attribute);
-    const size_t size = H5Tget_size(type);
-    char *text = calloc(size + 1, 1);
-    const bool same = text != NULL && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
-                      H5Aread(attribute, type, text) >= 0 && strcmp(text, expected) == 0;
-    free(text);
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return same;
-}
-
-static bool read_numbers(hid_t file, const char *name, double value[4])
-{
-    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
-    if (attribute < 0) return false;
-    const hid_t space = H5Aget_space(attribute);
-    const bool good =
-        H5Sget_simple_extent_npoints(space) == 4 && H5Aread(attribute, H5T_NATIVE_DOUBLE, value) >= 0;
-    H5Sclose(space);
-    H5Aclose(attribute);
-    return good;
-}
-
-selas_status checkpoint_write(struct recorder *recorder, struct state *state, const char *path,
-                              struct messages *messages)
-{
-    char *text = scene_text(recorder->scene, messages), *temporary = NULL;
-    const size_t room = strlen(path) + 16;
-    temporary = malloc(room);
-    if (text == NULL || temporary == NULL) {
-        free(text);
-        free(temporary);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
-    }
-    snprintf(temporary, room, "%s.new", path);
-    const double figures[4] = {(double)state->step, state->time, recorder->last_time, recorder->before_time};
-    bool good = false;
-#pragma omp critical(selas_hdf5)
-    {
-        const struct quiet quiet = quiet_begin();
-        const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-        if (file >= 0) {
-            good = hdf_text(file, "version", selas_version()) && hdf_numbers(file, "figures", 4, figures) &&
-                   transfer_all(file, recorder, state, (size_t)state->step + 1, true);
-            const struct piece deck = {"deck", H5T_NATIVE_CHAR, text, strlen(text) + 1};
-            good = good && transfer(file, &deck, true);
-            good = H5Fclose(file) >= 0 && good;
-        }
-        quiet_end(quiet);
-    }
-    selas_status status = SELAS_OK;
-    if (good) {
-        status = safe_file_commit(temporary, path, messages);
-    } else {
-        remove(temporary);
-        status = fail(messages, SELAS_FILE_ERROR, "cannot write the checkpoint '%s'", path);
-    }
-    free(text);
-    free(temporary);
-    return status;
+    pass_real(walk, "y", 0, "", state->y, recorder->model->state_size);
+    pass_real(walk, "a", 0, "", state->a, recorder->model->unknowns);
+    pass_watch(walk, "watch", &recorder->watch);
+    pass_watch(walk, "before", &recorder->before);
+    pass_traces(walk, recorder, (size_t)figures[STEP] + 1);
+    pass_profiles(walk, recorder);
+    pass_entries(walk, recorder, (size_t)figures[ENTRIES]);
 }
 
 /* The same deck to the letter. */
 static bool same_deck(hid_t file, const char *text)
 {
-    const size_t size = strlen(text) + 1;
-    char *kept = malloc(size);
-    const struct piece deck = {"deck", H5T_NATIVE_CHAR, kept, size};
-    const bool same = kept != NULL && transfer(file, &deck, false) && memcmp(kept, text, size) == 0;
-    free(kept);
-    return same;
+    return set_compare(file, "deck", H5T_NATIVE_CHAR, text, strlen(text) + 1);
 }
 
-static const char *read_all(hid_t file, struct recorder *recorder, struct state *state, const char *text,
-                            struct messages *messages)
+/* --- Writing
+ * ----------------------------------------------------------------------------------------------- */
+
+struct text_piece {
+    const char *name, *text;
+};
+
+/* Writes or compares everything. */
+static bool walk_file(const char *path, struct recorder *recorder, struct state *state,
+                      const struct text_piece text[3], double figures[FIGURES], bool write)
 {
-    double figures[4];
-    if (!same_text(file, "version", selas_version()) || !read_numbers(file, "figures", figures))
-        return "it is no checkpoint of this version";
-    if (!same_deck(file, text)) return "it is of another scene";
-    if (!(figures[0] >= 0 && figures[0] < 9e15)) return "its step makes no sense";
-    const size_t rows = (size_t)figures[0] + 1;
-    if (trace_reserve(recorder, rows, messages) != SELAS_OK) return "there is no memory for its histories";
-    if (!transfer_all(file, recorder, state, rows, false)) return "it is damaged";
-    state->step = (unsigned long)figures[0];
-    state->time = figures[1];
-    recorder->last_step = state->step;
-    recorder->last_time = figures[2];
-    recorder->before_time = figures[3];
-    recorder->started = true;
-    return NULL;
+    struct walk walk = {.file = write ? hdf_create_file(path, CHECKPOINT_HEAD) : hdf_open_file(path),
+                        .mode = write ? WALK_WRITE : WALK_COMPARE};
+    if (walk.file < 0) return false;
+    walk.good = true;
+    pass_real(&walk, "figures", 0, "", figures, FIGURES);
+    pass_all(&walk, recorder, state, figures);
+    for (size_t i = 0; i < 3 && walk.good; i++) {
+        const size_t size = strlen(text[i].text) + 1;
+        walk.good = write ? set_write(walk.file, text[i].name, H5T_NATIVE_CHAR, text[i].text, size)
+                          : set_compare(walk.file, text[i].name, H5T_NATIVE_CHAR, text[i].text, size);
+    }
+    return H5Fclose(walk.file) >= 0 && walk.good;
 }
 
-selas_status checkpoint_read(struct recorder *recorder, struct state *state, const char *path,
-                             struct messages *messages)
+static selas_status write_checked(const char *temporary, struct recorder *recorder, struct state *state,
+                                  double figures[FIGURES], const char *deck, struct messages *messages)
 {
-    char *text = scene_text(recorder->scene, messages);
-    const char *wrong = "it cannot be opened";
-    if (text == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
+    const struct deck *source = recorder->scene->deck;
+    const struct text_piece text[3] = {{"deck", deck},
+                                       {"source", source != NULL ? deck_source(source) : ""},
+                                       {"name", source != NULL ? deck_name(source) : ""}};
+    bool written = false, same = false;
+    int error = 0;
 #pragma omp critical(selas_hdf5)
     {
         const struct quiet quiet = quiet_begin();
-        const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-        if (file >= 0) {
-            wrong = read_all(file, recorder, state, text, messages);
-            H5Fclose(file);
-        }
+        if (recorder->file != NULL) snapshot_files_sync(recorder);
+        errno = 0;
+        written = walk_file(temporary, recorder, state, text, figures, true);
+        error = errno;
+        same = written && walk_file(temporary, recorder, state, text, figures, false);
         quiet_end(quiet);
     }
+    if (!written) return hdf_cannot("write the checkpoint", temporary, error, messages);
+    if (!same)
+        return fail(messages, SELAS_FILE_ERROR,
+                    "the checkpoint '%s' does not read back as it was written (is the disk sound?)",
+                    temporary);
+    return checkpoint_seal(temporary, messages);
+}
+
+/* The last one stays as NAME_before.h5 (where the file system has hard links). */
+static void keep_before(const char *path)
+{
+    const size_t length = strlen(path), room = length + 16;
+    char *before = malloc(2 * room);
+    if (before == NULL) return;
+    char *linked = before + room;
+    const int stem = length > 3 && strcmp(path + length - 3, ".h5") == 0 ? (int)length - 3 : (int)length;
+    snprintf(before, room, "%.*s_before.h5", stem, path);
+    snprintf(linked, room, "%.*s_link", stem, path);
+    unlink(linked);
+    if (link(path, linked) == 0 && rename(linked, before) != 0) unlink(linked);
+    free(before);
+}
+
+selas_status checkpoint_write(struct recorder *recorder, struct state *state,
+                              const struct run_figures *spent, const char *path, bool keep,
+                              struct messages *messages)
+{
+    const uint64_t files = kept_files_checksum(recorder->scene);
+    double figures[FIGURES] = {[STEP] = (double)state->step,
+                               [TIME] = state->time,
+                               [LAST_TIME] = recorder->last_time,
+                               [BEFORE_TIME] = recorder->before_time,
+                               [TIME_STEP] = recorder->stepper->dt,
+                               [ENTRIES] = (double)recorder->entries,
+                               [RECORDED] = recorder->file != NULL ? 1.0 : 0.0,
+                               [EVALUATIONS] = (double)recorder->model->evaluations,
+                               [WALL_SECONDS] = spent->wall_seconds,
+                               [CPU_SECONDS] = spent->cpu_seconds,
+                               [FILES_LOW] = (double)(files & UINT32_MAX),
+                               [FILES_HIGH] = (double)(files >> 32)};
+    char *text = kept_text_of(recorder->scene, messages);
+    const size_t room = strlen(path) + 8;
+    char *temporary = malloc(room);
+    selas_status status = watch_sound(recorder, state, messages);
+    if (status == SELAS_OK && (text == NULL || temporary == NULL))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
+    if (status != SELAS_OK) {
+        free(text);
+        free(temporary);
+        return status;
+    }
+    snprintf(temporary, room, "%s.part", path);
+    status = write_checked(temporary, recorder, state, figures, text, messages);
+    if (status != SELAS_OK) remove(temporary);
+    if (status == SELAS_OK && keep) keep_before(path);
+    if (status == SELAS_OK) status = safe_file_commit(temporary, path, messages);
     free(text);
-    return wrong == NULL
-               ? SELAS_OK
-               : fail(messages, SELAS_FILE_ERROR, "the checkpoint '%s' cannot be used: %s", path, wrong);
+    free(temporary);
+    return status;
+}
+
+/* --- Reading
+ * ----------------------------------------------------------------------------------------------- */
+
+/* A reason why the checkpoint's own figures do not fit, or NULL. */
+static const char *misfit_of_figures(const struct recorder *recorder, const double figures[FIGURES])
+{
+    const uint64_t files = kept_files_checksum(recorder->scene);
+    const double dt = recorder->stepper->dt;
+    if (!(figures[STEP] >= 0.0 && figures[STEP] < 9e15) ||
+        !(figures[ENTRIES] >= 0.0 && figures[ENTRIES] < 1e9))
+        return "its step makes no sense";
+    if (!(fabs(figures[TIME_STEP] - dt) <= 1e-9 * dt)) return "its time step is another one";
+    if (figures[FILES_LOW] != (double)(files & UINT32_MAX) || figures[FILES_HIGH] != (double)(files >> 32))
+        return "a file that its deck names (points, table or reference) has changed since";
+    if (recorder->file != NULL && recorder->scene->snapshots > 0 && figures[RECORDED] == 0.0)
+        return "it was saved by a run without result files: its snapshots are not there";
+    return NULL;
+}
+
+static const char *make_room(struct recorder *recorder, const double figures[FIGURES],
+                             struct messages *messages)
+{
+    const size_t entries = (size_t)figures[ENTRIES];
+    if (entries > recorder->entry_room) {
+        struct snapshot_entry *grown = realloc(recorder->entry, entries * sizeof *grown);
+        if (grown == NULL) return "there is no memory for its list of snapshots";
+        recorder->entry = grown;
+        recorder->entry_room = entries;
+    }
+    if (entries > 0) memset(recorder->entry, 0, entries * sizeof *recorder->entry);
+    if (trace_reserve(recorder, (size_t)figures[STEP] + 1, messages) != SELAS_OK)
+        return "there is no memory for its histories";
+    return NULL;
+}
+
+static const char *read_all(hid_t file, struct recorder *recorder, struct state *state, const char *text,
+                            double figures[FIGURES], struct messages *messages)
+{
+    if (!same_deck(file, text)) return "it is of another scene";
+    if (!set_read(file, "figures", H5T_NATIVE_DOUBLE, figures, FIGURES)) return "it is damaged";
+    const char *wrong = misfit_of_figures(recorder, figures);
+    if (wrong == NULL) wrong = make_room(recorder, figures, messages);
+    if (wrong != NULL) return wrong;
+    struct walk walk = {file, WALK_READ, true};
+    pass_all(&walk, recorder, state, figures);
+    if (!walk.good) return "it is damaged";
+    state->step = (unsigned long)figures[STEP];
+    state->time = figures[TIME];
+    recorder->last_step = state->step;
+    recorder->last_time = figures[LAST_TIME];
+    recorder->before_time = figures[BEFORE_TIME];
+    recorder->entries = (size_t)figures[ENTRIES];
+    recorder->model->evaluations = (unsigned long)figures[EVALUATIONS];
+    recorder->started = true;
+    for (size_t k = 0; recorder->file != NULL && k < recorder->entries; k++)
+        if (!snapshot_file_there(recorder, k, recorder->entry[k].time))
+            return "a file snapshot_NNNN.h5 that belongs beside it is missing or damaged";
+    return NULL;
+}
+
+selas_status checkpoint_read(struct recorder *recorder, struct state *state, struct run_figures *spent,
+                             const char *path, struct messages *messages)
+{
+    char *text = kept_text_of(recorder->scene, messages), why[200] = "";
+    const char *wrong = why;
+    double figures[FIGURES] = {0};
+    if (text == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
+    if (checkpoint_whole(path, why, sizeof why)) {
+#pragma omp critical(selas_hdf5)
+        {
+            const struct quiet quiet = quiet_begin();
+            const hid_t file = hdf_open_file(path);
+            wrong = "it cannot be opened";
+            if (file >= 0) {
+                wrong = read_all(file, recorder, state, text, figures, messages);
+                H5Fclose(file);
+            }
+            quiet_end(quiet);
+        }
+    }
+    free(text);
+    if (wrong != NULL)
+        return fail(messages, SELAS_FILE_ERROR, "the checkpoint '%s' cannot be used: %s", path, wrong);
+    spent->wall_seconds = figures[WALL_SECONDS];
+    spent->cpu_seconds = figures[CPU_SECONDS];
+    /* a snapshot of this very step that could not be written is still due */
+    return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
 }

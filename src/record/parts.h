@@ -69,7 +69,7 @@ struct recorder {
     size_t rows;         /* finished */
     double *time;        /* [rows] */
     double *exact;       /* [receivers * rows * 6] or NULL */
-    bool finished;
+    bool finished, written;
     struct profile_record *profile;   /* [scene->profiles] */
     struct snapshot_record *snapshot; /* [scene->snapshots] */
     size_t entries, entry_room;
@@ -113,14 +113,16 @@ selas_status snapshot_observe(struct recorder *recorder, const struct state *sta
                               struct messages *messages);
 void snapshot_free(struct recorder *recorder);
 
-/* run_file.c: run.h5 */
-selas_status run_file_open(struct recorder *recorder, struct messages *messages);
+/* run_file.c: run.h5. `work`: folder of the run that goes on, or NULL (unfinished.h). */
+selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages);
+/* snapshot_file.c */
 selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_record *record,
                                const struct state *state, size_t number, struct messages *messages);
-/* Histories, settings, provenance; closes the file and gives it its name. */
+/* Points, snapshots, histories, settings, provenance: writes the file and gives it its name. */
 selas_status run_file_finish(struct recorder *recorder, const struct run_figures *figures,
                              struct messages *messages);
-void run_file_discard(struct recorder *recorder);
+/* Lets the folder go; when all results are there (`complete`), what was kept of the unfinished run goes too. */
+void run_file_close(struct recorder *recorder, bool complete);
 /* Reads `count` blocks of `block` rows, `stride` rows apart, of one field of one snapshot from the finished
  * run.h5; value [count * block * components]. */
 selas_status run_file_read(const struct recorder *recorder, size_t number, selas_field field, size_t start,
@@ -139,6 +141,9 @@ selas_status xdmf_write(const struct recorder *recorder, struct messages *messag
 /* watch.c: energy and finite values */
 void watch_start(struct recorder *recorder);
 selas_status watch_observe(struct recorder *recorder, const struct state *state, struct messages *messages);
+/* SELAS_UNSTABLE if the state is not finite: for a look out of turn, which leaves no trace. */
+selas_status watch_sound(const struct recorder *recorder, const struct state *state,
+                         struct messages *messages);
 
 /* histories.c: NAME.dat and NAME.exact.dat */
 selas_status histories_write(struct recorder *recorder, struct exact *exact, struct messages *messages);
@@ -169,8 +174,10 @@ void misfits_of(size_t rows, const double *time, const double *value, const doub
  * the error is then told relative to the largest component. */
 bool misfit_is_small(const struct misfit *misfit, const struct misfit *largest);
 
-/* provenance.c: name and version of the compiler that built the library */
+/* provenance.c: compiler that built the library, its flags, and the commit of the source ("unknown") */
 const char *compiler_name(void);
+const char *build_flags(void);
+const char *build_commit(void);
 
 /* names of files and data sets from names of the deck: '/' and control characters become '_' */
 void file_name_of(const char *name, const char *ending, char *text, size_t size);

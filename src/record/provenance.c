@@ -11,6 +11,19 @@
 #ifndef SELAS_FLAGS
 #define SELAS_FLAGS "not recorded"
 #endif
+#ifndef SELAS_COMMIT
+#define SELAS_COMMIT "unknown"
+#endif
+
+const char *build_flags(void)
+{
+    return SELAS_FLAGS;
+}
+
+const char *build_commit(void)
+{
+    return SELAS_COMMIT;
+}
 
 const char *compiler_name(void)
 {
@@ -98,8 +111,8 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
     const double threads = figures != NULL ? (double)figures->threads : 0.0;
     const struct stepper *stepper = recorder->stepper;
     const double steps = (double)recorder->last_step;
-    return hdf_text(place, "version", selas_version()) && hdf_text(place, "compiler", compiler_name()) &&
-           hdf_text(place, "flags", SELAS_FLAGS) && hdf_text(place, "host", host) &&
+    return hdf_text(place, "version", selas_version()) && hdf_text(place, "commit", build_commit()) &&
+           hdf_text(place, "compiler", compiler_name()) && hdf_text(place, "flags", SELAS_FLAGS) && hdf_text(place, "host", host) &&
            hdf_text(place, "date", date) && hdf_text(place, "hdf5", hdf) &&
            hdf_text(place, "fftw", fftw_version) && hdf_numbers(place, "threads", 1, &threads) &&
            hdf_text(place, "scheme", stepper->scheme->name) &&

@@ -26,9 +26,9 @@ struct run_figures {
 /* Prepares probes, buffers and the folder's name; writes nothing yet. */
 selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
                              struct recorder **recorder, struct messages *messages);
-/* Makes the folder and opens run.h5 (temporary name). Not called for `check` and by hosts that want no files.
- */
-selas_status recorder_open(struct recorder *recorder, struct messages *messages);
+/* Makes the folder and locks it against other runs. Not called for `check` and by hosts that want no files.
+ * `work`: folder with the snapshots of the run that goes on (checkpoint_read), NULL: begins anew. */
+selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages);
 /* To be called with the initial state and after every step: receivers, due snapshots and profiles, energy
  * watch. SELAS_UNSTABLE (with place and time) if the state is not finite or energy grows without work done.
  */
@@ -56,13 +56,17 @@ void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const 
                    void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
-/* checkpoint.c: state and recorder to a file and back, bit for bit; without result files (recorder_open).
- * Reading wants the same scene; SELAS_FILE_ERROR with the reason, after which state and recorder are of no
- * use. */
-selas_status checkpoint_write(struct recorder *recorder, struct state *state, const char *path,
+/* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it back
+ * before it gets its name; with `keep` the one before stays as NAME_before.h5. Reading wants the same scene, and
+ * with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR with the reason, after
+ * which state and recorder are of no use. `spent`: seconds of stepping, kept too. */
+selas_status checkpoint_write(struct recorder *recorder, struct state *state,
+                              const struct run_figures *spent, const char *path, bool keep,
                               struct messages *messages);
-selas_status checkpoint_read(struct recorder *recorder, struct state *state, const char *path,
-                             struct messages *messages);
+selas_status checkpoint_read(struct recorder *recorder, struct state *state, struct run_figures *spent,
+                             const char *path, struct messages *messages);
+/* The folder with what is not finished (recorder_open), made if it is not there. */
+selas_status recorder_unfinished(struct recorder *recorder, const char **folder, struct messages *messages);
 void recorder_free(struct recorder **recorder);
 
 #endif

@@ -27,11 +27,11 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
     return SELAS_OK;
 }
 
-selas_status recorder_open(struct recorder *recorder, struct messages *messages)
+selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
 {
     if (recorder->file != NULL) return SELAS_OK;
     const selas_status status = make_folder(recorder->scene->output.directory, messages);
-    return status == SELAS_OK ? run_file_open(recorder, messages) : status;
+    return status == SELAS_OK ? run_file_open(recorder, work, messages) : status;
 }
 
 selas_status recorder_observe(struct recorder *recorder, const struct state *state, struct messages *messages)
@@ -99,7 +99,8 @@ static selas_status write_deck(const struct recorder *recorder, struct messages 
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages)
 {
-    selas_status status = recorder_open(recorder, messages);
+    if (recorder->written) return SELAS_OK;
+    selas_status status = recorder_open(recorder, NULL, messages);
     if (status == SELAS_OK) status = recorder_finish(recorder, messages);
     if (status == SELAS_OK) status = write_deck(recorder, messages);
     if (status == SELAS_OK) status = histories_write(recorder, exact, messages);
@@ -107,9 +108,13 @@ selas_status recorder_write(struct recorder *recorder, struct exact *exact, cons
     if (status == SELAS_OK) status = run_file_finish(recorder, figures, messages);
     if (status == SELAS_OK) status = xdmf_write(recorder, messages);
     if (status == SELAS_OK) status = report_write(recorder, exact, figures, messages);
-    if (status != SELAS_OK || !recorder->scene->output.plots) return status;
-    plot_histories(recorder, messages);
-    plot_snapshots(recorder, messages);
+    if (status != SELAS_OK) return status;
+    if (recorder->scene->output.plots) {
+        plot_histories(recorder, messages);
+        plot_snapshots(recorder, messages);
+    }
+    run_file_close(recorder, true);
+    recorder->written = true;
     return SELAS_OK;
 }
 
@@ -117,7 +122,7 @@ void recorder_free(struct recorder **freed)
 {
     if (freed == NULL || *freed == NULL) return;
     struct recorder *recorder = *freed;
-    run_file_discard(recorder);
+    run_file_close(recorder, false);
     trace_free(recorder);
     profile_free(recorder);
     snapshot_free(recorder);

@@ -2,18 +2,20 @@
  *
  * /histories/NAME [rows x 7], /histories/NAME_exact; /points/position [points x 3]; /snapshots/NNNN/FIELD
  * [points x components] (single precision; attributes time, step, group); /settings/GROUP_N attributes;
- * /provenance attributes. The file has a temporary name until it is complete. */
+ * /provenance attributes. It is made when the run is over, under a temporary name until it is complete;
+ * snapshots come from the files of their own in which they were kept so far (snapshot_file.c). */
 #include "record/run_file.h"
 
 #include "record/safe_file.h"
 
-#include <math.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct quiet quiet_begin(void)
 {
     struct quiet quiet = {0};
+    errno = 0;
     H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     return quiet;
@@ -24,9 +26,44 @@ void quiet_end(struct quiet quiet)
     H5Eset_auto2(H5E_DEFAULT, quiet.function, quiet.data);
 }
 
-static selas_status cannot_write(const struct recorder *recorder, struct messages *messages)
+/* HDF5 tells only that it failed; what the system said is still in errno, if it was the system. */
+selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages)
 {
-    return fail(messages, SELAS_FILE_ERROR, "cannot write '%s' (is the disk full?)", recorder->file->path);
+    static const int told[] = {ENOSPC, EDQUOT, EFBIG,  EIO,   EROFS,  EACCES, EPERM,
+                               ENOENT, EMFILE, ENFILE, ENOMEM, EISDIR, ENOTDIR, ESTALE};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (error == told[i])
+            return fail(messages, SELAS_FILE_ERROR, "cannot %s '%s': %s", what, path, strerror(error));
+    return fail(messages, SELAS_FILE_ERROR, "cannot %s '%s'", what, path);
+}
+
+/* Files are locked by folder (unfinished.h): HDF5's own locks only keep readers out, or fail where the file
+ * system has none. */
+static hid_t without_locks(void)
+{
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+#if H5_VERSION_GE(1, 10, 7)
+    H5Pset_file_locking(access, false, true);
+#endif
+    return access;
+}
+
+hid_t hdf_create_file(const char *path, size_t head)
+{
+    const hid_t access = without_locks(), creation = H5Pcreate(H5P_FILE_CREATE);
+    if (head > 0) H5Pset_userblock(creation, head);
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
+    H5Pclose(access);
+    H5Pclose(creation);
+    return file;
+}
+
+hid_t hdf_open_file(const char *path)
+{
+    const hid_t access = without_locks();
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    H5Pclose(access);
+    return file;
 }
 
 bool hdf_text(hid_t place, const char *name, const char *text)
@@ -69,118 +106,6 @@ hid_t hdf_group(hid_t place, const char *name)
     return H5Gcreate2(place, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-/* Positions of all points, in slabs: a lattice does not store them. */
-static bool write_positions(hid_t place, const struct model *model)
-{
-    enum { ROWS = 512 };
-    double slab[ROWS][3];
-    const hsize_t size[2] = {model->points, 3};
-    const hid_t space = H5Screate_simple(2, size, NULL);
-    const hid_t set =
-        H5Dcreate2(place, "position", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = set >= 0;
-    for (size_t first = 0; first < model->points && good; first += ROWS) {
-        const size_t left = model->points - first, rows = left < ROWS ? left : ROWS;
-        for (size_t i = 0; i < rows; i++)
-            model_position(model, first + i, slab[i]);
-        const hsize_t from[2] = {first, 0}, count[2] = {rows, 3};
-        const hid_t memory = H5Screate_simple(2, count, NULL);
-        good = H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, count, NULL) >= 0 &&
-               H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, slab) >= 0;
-        H5Sclose(memory);
-    }
-    good = set >= 0 && H5Dclose(set) >= 0 && good;
-    H5Sclose(space);
-    return good;
-}
-
-/* Positions of the whole body and of each region, with the indices of its points. */
-static bool write_points(const struct recorder *recorder, hid_t file)
-{
-    const struct model *model = recorder->model;
-    const hid_t points = hdf_group(file, "points");
-    if (points < 0) return false;
-    const double grid[3] = {(double)model->grid[0], (double)model->grid[1], (double)model->grid[2]};
-    bool good = write_positions(points, model) && hdf_numbers(points, "lattice", 3, grid);
-    for (size_t s = 0; s < recorder->scene->snapshots && good; s++) {
-        const struct snapshot_record *record = &recorder->snapshot[s];
-        if (record->index == NULL) continue;
-        for (size_t i = 0; i < record->points; i++)
-            model_position(model, record->index[i], record->buffer + 3 * i);
-        char name[48];
-        snprintf(name, sizeof name, "region_%zu", s + 1);
-        const hid_t region = hdf_group(points, name);
-        good =
-            region >= 0 && hdf_table(region, "position", H5T_IEEE_F64LE, record->points, 3, record->buffer);
-        for (size_t i = 0; i < record->points; i++)
-            record->buffer[i] = (double)record->index[i];
-        good = good && hdf_table(region, "index", H5T_STD_U64LE, record->points, 1, record->buffer);
-        if (region >= 0) H5Gclose(region);
-    }
-    H5Gclose(points);
-    return good;
-}
-
-selas_status run_file_open(struct recorder *recorder, struct messages *messages)
-{
-    struct run_file *file = calloc(1, sizeof *file);
-    if (file == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for run.h5");
-    selas_status status =
-        safe_file_names(recorder->scene->output.directory, "run.h5", &file->path, &file->temporary, messages);
-    if (status != SELAS_OK) {
-        free(file);
-        return status;
-    }
-    recorder->file = file;
-    const struct quiet quiet = quiet_begin();
-    file->file = H5Fcreate(file->temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = file->file >= 0;
-    if (good) {
-        file->snapshots = hdf_group(file->file, "snapshots");
-        good = file->snapshots >= 0 && write_points(recorder, file->file) &&
-               H5Fflush(file->file, H5F_SCOPE_LOCAL) >= 0;
-    } else {
-        file->snapshots = -1;
-    }
-    quiet_end(quiet);
-    return good ? SELAS_OK : cannot_write(recorder, messages);
-}
-
-static bool write_field(struct recorder *recorder, const struct snapshot_record *record, hid_t group,
-                        selas_field field, const struct state *state)
-{
-    struct model *model = recorder->model;
-    const size_t components = (size_t)field_components(field);
-    double *value = record->buffer;
-    model->class->field(model, field, state->y, state->a, value);
-    for (size_t i = 0; record->index != NULL && i < record->points; i++) /* indices ascend: in place */
-        memmove(value + components * i, value + components * record->index[i], components * sizeof *value);
-    return hdf_table(group, field_name(field), H5T_IEEE_F32LE, record->points, components, value);
-}
-
-selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_record *record,
-                               const struct state *state, size_t number, struct messages *messages)
-{
-    char name[24];
-    snprintf(name, sizeof name, "%04zu", number);
-    const struct quiet quiet = quiet_begin();
-    const hid_t group = hdf_group(recorder->file->snapshots, name);
-    const double step = (double)state->step;
-    const double occurrence = (double)(record - recorder->snapshot) + 1.0;
-    bool good = group >= 0 && hdf_numbers(group, "time", 1, &state->time) &&
-                hdf_numbers(group, "step", 1, &step) && hdf_numbers(group, "group", 1, &occurrence) &&
-                hdf_text(group, "position", record->position) &&
-                (!recorder->stepper->unwarp ||
-                 hdf_text(group, "note", "keeps the time error of the scheme, which only receivers lose"));
-    for (int field = 0; field <= SELAS_ENERGY && good; field++)
-        if ((record->snapshot->fields >> field & 1U) != 0)
-            good = write_field(recorder, record, group, (selas_field)field, state);
-    if (group >= 0) H5Gclose(group);
-    good = good && H5Fflush(recorder->file->file, H5F_SCOPE_LOCAL) >= 0;
-    quiet_end(quiet);
-    return good ? SELAS_OK : cannot_write(recorder, messages);
-}
-
 static bool write_histories(const struct recorder *recorder, hid_t file)
 {
     const hid_t group = hdf_group(file, "histories");
@@ -208,13 +133,38 @@ static bool write_histories(const struct recorder *recorder, hid_t file)
     return good;
 }
 
-static bool close_file(struct run_file *file)
+static bool write_all(const struct recorder *recorder, const struct run_figures *figures, const char *path,
+                      struct messages *messages)
 {
-    bool good = true;
-    if (file->snapshots >= 0) H5Gclose(file->snapshots);
-    if (file->file >= 0) good = H5Fclose(file->file) >= 0;
-    file->snapshots = file->file = -1;
-    return good;
+    const hid_t file = hdf_create_file(path, 0);
+    if (file < 0) return false;
+    const bool good = hdf_points(recorder, file) && snapshots_gather(recorder, file) &&
+                      write_histories(recorder, file) &&
+                      write_provenance(recorder, file, figures, messages);
+    return H5Fclose(file) >= 0 && good;
+}
+
+selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages)
+{
+    const char *folder = recorder->scene->output.directory;
+    struct run_file *file = calloc(1, sizeof *file);
+    if (file == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for run.h5");
+    selas_status status = safe_file_names(folder, "run.h5", &file->path, &file->temporary, messages);
+    if (status == SELAS_OK) status = unfinished_open(folder, work, &file->unfinished, messages);
+    if (status == SELAS_OK) {
+        recorder->file = file;
+        return SELAS_OK;
+    }
+    free(file->path);
+    free(file->temporary);
+    free(file);
+    return status;
+}
+
+selas_status recorder_unfinished(struct recorder *recorder, const char **folder, struct messages *messages)
+{
+    *folder = recorder->file->unfinished.path;
+    return make_folder(*folder, messages);
 }
 
 selas_status run_file_finish(struct recorder *recorder, const struct run_figures *figures,
@@ -222,25 +172,20 @@ selas_status run_file_finish(struct recorder *recorder, const struct run_figures
 {
     struct run_file *file = recorder->file;
     const struct quiet quiet = quiet_begin();
-    bool good = write_histories(recorder, file->file) &&
-                write_provenance(recorder, file->file, figures, messages) &&
-                H5Fflush(file->file, H5F_SCOPE_LOCAL) >= 0;
-    good = close_file(file) && good;
+    const bool good = write_all(recorder, figures, file->temporary, messages);
+    const int error = errno;
     quiet_end(quiet);
-    if (!good) return cannot_write(recorder, messages);
-    const selas_status status = safe_file_commit(file->temporary, file->path, messages);
-    file->complete = status == SELAS_OK;
-    return status;
+    if (good) return safe_file_commit(file->temporary, file->path, messages);
+    remove(file->temporary);
+    return hdf_cannot("write", file->path, error, messages);
 }
 
-void run_file_discard(struct recorder *recorder)
+void run_file_close(struct recorder *recorder, bool complete)
 {
     struct run_file *file = recorder->file;
     if (file == NULL) return;
-    const struct quiet quiet = quiet_begin();
-    close_file(file);
-    quiet_end(quiet);
-    if (!file->complete) remove(file->temporary);
+    if (complete) unfinished_remove(&file->unfinished);
+    unfinished_close(&file->unfinished);
     free(file->path);
     free(file->temporary);
     free(file);
@@ -257,7 +202,7 @@ selas_status run_file_read(const struct recorder *recorder, size_t number, selas
     const hsize_t from[2] = {start, 0}, apart[2] = {stride, components}, times[2] = {count, 1};
     const hsize_t size[2] = {block, components}, whole[2] = {count * block, components};
     const struct quiet quiet = quiet_begin();
-    const hid_t file = H5Fopen(recorder->file->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t file = hdf_open_file(recorder->file->path);
     const hid_t set = file >= 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1;
     bool good = set >= 0;
     if (good) {

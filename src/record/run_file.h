@@ -1,19 +1,20 @@
-/* run.h5 and the helpers that write into it; shared by run_file.c, provenance.c and checkpoint.c only. The
- * helpers return false on failure. */
+/* run.h5 and the helpers that write into it; shared by the files of this room that speak HDF5. The helpers
+ * return false on failure. */
 #ifndef SELAS_RUN_FILE_H
 #define SELAS_RUN_FILE_H
 
 #include "record/parts.h"
+#include "record/unfinished.h"
 
 #include <hdf5.h>
 
 struct run_file {
     char *path, *temporary;
-    hid_t file, snapshots; /* -1 when closed */
-    bool complete;         /* has its name */
+    struct unfinished unfinished; /* its folder, and the lock on that of the results */
+    size_t synced;                /* snapshots whose files are known to be on the disk */
 };
 
-/* HDF5 prints its errors unless it is told not to; the library prints nothing. */
+/* HDF5 prints its errors unless it is told not to; the library prints nothing. errno is 0 from then on. */
 struct quiet {
     H5E_auto2_t function;
     void *data;
@@ -21,10 +22,23 @@ struct quiet {
 struct quiet quiet_begin(void);
 void quiet_end(struct quiet quiet);
 
+/* "cannot WHAT 'PATH': ..." with the system's reason, if `error` (errno after the failure) is one. */
+selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages);
+/* New file with `head` bytes before HDF5's own (0, 512, 1024, ...); negative on failure. */
+hid_t hdf_create_file(const char *path, size_t head);
+hid_t hdf_open_file(const char *path); /* for reading */
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);
 bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value);
 hid_t hdf_group(hid_t place, const char *name);
+
+/* snapshot_file.c: group /points, and /snapshots from the files of their own */
+bool hdf_points(const struct recorder *recorder, hid_t file);
+bool snapshots_gather(const struct recorder *recorder, hid_t file);
+/* True if the file of snapshot `number` can be read and shows the time given. */
+bool snapshot_file_there(const struct recorder *recorder, size_t number, double time);
+/* Brings the files of all snapshots so far on the disk. */
+void snapshot_files_sync(const struct recorder *recorder);
 
 /* provenance.c: groups /settings and /provenance */
 bool write_provenance(const struct recorder *recorder, hid_t file, const struct run_figures *figures,

@@ -156,6 +156,7 @@ selas_status snapshot_observe(struct recorder *recorder, const struct state *sta
     for (size_t s = 0; s < recorder->scene->snapshots && status == SELAS_OK; s++) {
         struct snapshot_record *record = &recorder->snapshot[s];
         const double until = state->time + 0.5 * recorder->stepper->dt;
+        const size_t due = record->due;
         if (!(next_time(recorder->scene, record) < until)) continue;
         if (record->snapshot->every > 0.0) /* one snapshot a step, however many times fall into it */
             record->due = (size_t)fmin(floor(until / record->snapshot->every) + 1.0, 1e15);
@@ -163,8 +164,11 @@ selas_status snapshot_observe(struct recorder *recorder, const struct state *sta
             while (next_time(recorder->scene, record) < until)
                 record->due++;
         status = keep_entry(recorder, s, state, messages);
-        if (status == SELAS_OK)
-            status = run_file_snapshot(recorder, record, state, recorder->entries - 1, messages);
+        if (status != SELAS_OK) break;
+        status = run_file_snapshot(recorder, record, state, recorder->entries - 1, messages);
+        if (status == SELAS_OK) continue;
+        recorder->entries--; /* still due: a restart makes it */
+        record->due = due;
     }
     return status;
 }

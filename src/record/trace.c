@@ -120,7 +120,7 @@ static double hermite(double s, double dt, double value0, double slope0, double 
            s * r * dt * (r * slope0 - s * slope1);
 }
 
-static void make_rows(const struct recorder *recorder, struct trace *trace)
+static void make_rows(const struct recorder *recorder, const struct trace *trace)
 {
     const double dt = recorder->stepper->dt;
     for (size_t i = 0; i < recorder->rows; i++) {
@@ -144,7 +144,7 @@ static void make_rows(const struct recorder *recorder, struct trace *trace)
     }
 }
 
-static selas_status filter_trace(const struct recorder *recorder, struct trace *trace,
+static selas_status filter_trace(const struct recorder *recorder, const struct trace *trace,
                                  struct messages *messages)
 {
     const double cutoff = recorder->scene->output.low_pass;
@@ -156,21 +156,45 @@ static selas_status filter_trace(const struct recorder *recorder, struct trace *
     return status;
 }
 
-selas_status trace_finish(struct recorder *recorder, struct messages *messages)
+/* A trace of the same rows as another, in memory of its own: what every step showed stays as it is, for a
+ * checkpoint. */
+static selas_status copy_trace(const struct trace *trace, struct trace *copy, struct messages *messages)
+{
+    *copy = (struct trace){.value = trace->value};
+    const selas_status status = trace_room(copy, trace->rows, messages);
+    if (status != SELAS_OK) return status;
+    copy->rows = trace->rows;
+    memcpy(copy->u, trace->u, 3 * trace->rows * sizeof *copy->u);
+    memcpy(copy->v, trace->v, 3 * trace->rows * sizeof *copy->v);
+    memcpy(copy->a, trace->a, 3 * trace->rows * sizeof *copy->a);
+    return SELAS_OK;
+}
+
+static selas_status finish_one(const struct recorder *recorder, struct trace *trace,
+                               struct messages *messages)
 {
     const struct stepper *stepper = recorder->stepper;
+    if (trace->value == NULL) trace->value = array_new(6 * recorder->rows, sizeof *trace->value);
+    if (trace->value == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu rows", recorder->rows);
+    struct trace copy;
+    selas_status status = copy_trace(trace, &copy, messages);
+    if (status == SELAS_OK && stepper->scheme->finish != NULL)
+        status = stepper->scheme->finish(stepper, copy.rows, copy.u, copy.v, copy.a, messages);
+    if (status == SELAS_OK && recorder->scene->output.low_pass > 0.0)
+        status = filter_trace(recorder, &copy, messages);
+    if (status == SELAS_OK) make_rows(recorder, &copy);
+    array_free(copy.u);
+    array_free(copy.v);
+    array_free(copy.a);
+    return status;
+}
+
+selas_status trace_finish(struct recorder *recorder, struct messages *messages)
+{
     selas_status status = make_times(recorder, messages);
-    for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++) {
-        struct trace *trace = &recorder->trace[r];
-        if (stepper->scheme->finish != NULL)
-            status = stepper->scheme->finish(stepper, trace->rows, trace->u, trace->v, trace->a, messages);
-        if (status == SELAS_OK && recorder->scene->output.low_pass > 0.0)
-            status = filter_trace(recorder, trace, messages);
-        trace->value = array_new(6 * recorder->rows, sizeof *trace->value);
-        if (trace->value == NULL)
-            return fail(messages, SELAS_NO_MEMORY, "no memory for %zu rows", recorder->rows);
-        if (status == SELAS_OK) make_rows(recorder, trace);
-    }
+    for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++)
+        status = finish_one(recorder, &recorder->trace[r], messages);
     return status;
 }
 

@@ -126,6 +126,13 @@ static bool state_finite(const struct recorder *recorder, const struct state *st
     return sum == 0.0;
 }
 
+selas_status watch_sound(const struct recorder *recorder, const struct state *state,
+                         struct messages *messages)
+{
+    if (state_finite(recorder, state)) return SELAS_OK;
+    return tell_place(recorder, state, "the state is not finite", messages);
+}
+
 static selas_status judge(struct recorder *recorder, const struct state *state, double total,
                           struct messages *messages)
 {

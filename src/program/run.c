@@ -1,0 +1,211 @@
+/* A run of the program (see the header).
+ *
+ * Checkpoints go to `unfinished/checkpoint.h5` in the folder of the results: before the first step and every
+ * output%checkpoint_every steps, every output%checkpoint_minutes minutes, on a signal, and when the results cannot be
+ * written. One that cannot be written is told once and the run goes on with the one before. */
+#include "program/run.h"
+
+#include "host/simulation.h"
+#include "program/signals.h"
+#include "record/progress.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The watch finds what goes wrong within so many steps: a checkpoint older than that is good. */
+enum { WATCHED = 100 };
+
+struct run {
+    selas_simulation *simulation;
+    bool quiet;
+    size_t *told;
+    char *path;                        /* of the checkpoint */
+    unsigned long saved, saved_before; /* steps of the last two checkpoints ... */
+    bool any, any_before;              /* ... if there are */
+    bool complained;
+    double next_moment; /* by the clock, seconds */
+};
+
+void tell_messages(const selas_simulation *simulation, size_t *told)
+{
+    const char *text = simulation != NULL ? selas_message(simulation) : "error: no memory\n";
+    const size_t length = strlen(text);
+    if (length > *told) fputs(text + *told, stderr);
+    *told = length;
+}
+
+static void print_text(void *context, const char *text)
+{
+    fputs(text, context);
+    fflush(context);
+}
+
+/* --- Checkpoints
+ * -------------------------------------------------------------------------------------------------- */
+
+static double minutes_between(const struct run *run)
+{
+    return run->simulation->scene->output.checkpoint_minutes;
+}
+
+static selas_status save(struct run *run)
+{
+    const unsigned long step = selas_steps(run->simulation);
+    const selas_status status = simulation_checkpoint(run->simulation);
+    run->next_moment = wall_seconds() + 60.0 * minutes_between(run);
+    if (status != SELAS_OK) return status;
+    if (run->any && run->saved == step) return status;
+    run->any_before = run->any;
+    run->saved_before = run->saved;
+    run->any = true;
+    run->saved = step;
+    return status;
+}
+
+static bool due(const struct run *run)
+{
+    const long every = run->simulation->scene->output.checkpoint_every;
+    if (every > 0 && selas_steps(run->simulation) % (unsigned long)every == 0) return true;
+    return minutes_between(run) > 0.0 && wall_seconds() >= run->next_moment;
+}
+
+/* A run is worth more than one of its checkpoints. */
+static selas_status save_on_the_way(struct run *run)
+{
+    const selas_status status = save(run);
+    if (status == SELAS_OK || status == SELAS_UNSTABLE) return status;
+    if (!run->complained) {
+        tell_messages(run->simulation, run->told);
+        fprintf(stderr, "warning: the run goes on without this checkpoint\n");
+    }
+    *run->told = strlen(selas_message(run->simulation));
+    run->complained = true;
+    return SELAS_OK;
+}
+
+/* Where to go on after a failure that has left no new checkpoint. */
+static void tell_last(const struct run *run, bool unstable)
+{
+    const bool recent = unstable && run->any && run->saved + WATCHED > selas_steps(run->simulation);
+    if (!run->any) {
+        if (run->simulation->state.step > 0) fprintf(stderr, "there is no checkpoint of this run\n");
+    } else if (!recent) {
+        fprintf(stderr, "the last good checkpoint is that of step %lu: selas restart %s\n", run->saved,
+                run->path);
+    } else if (run->any_before) {
+        fprintf(stderr,
+                "the last checkpoint (step %lu) may be touched already; the one before (step %lu): selas "
+                "restart %.*s_before.h5\n",
+                run->saved, run->saved_before, (int)strlen(run->path) - 3, run->path);
+    } else {
+        fprintf(stderr, "the only checkpoint (step %lu) may be touched already: %s\n", run->saved, run->path);
+    }
+}
+
+/* The run ends here, its state is kept. */
+static void keep_state(struct run *run, const char *why)
+{
+    const unsigned long step = selas_steps(run->simulation);
+    const selas_status status = save(run);
+    tell_messages(run->simulation, run->told);
+    if (status == SELAS_OK)
+        fprintf(stderr, "%s at step %lu, t = %.6g; the state is kept, go on with: selas restart %s\n", why,
+                step, selas_time(run->simulation), run->path);
+    else
+        fprintf(stderr, "%s at step %lu, t = %.6g; the state could not be kept\n", why, step,
+                selas_time(run->simulation));
+    if (status != SELAS_OK) tell_last(run, false);
+}
+
+/* --- Stepping
+ * ----------------------------------------------------------------------------------------------------- */
+
+static selas_status step_on(struct run *run, struct progress *progress, unsigned long needed)
+{
+    selas_simulation *simulation = run->simulation;
+    selas_status status = SELAS_OK;
+    while (status == SELAS_OK && selas_steps(simulation) < needed && signals_stop() == NULL) {
+        status = selas_step(simulation, 1);
+        if (status == SELAS_OK && (signals_save() || due(run))) status = save_on_the_way(run);
+        if (!run->quiet) progress_update(progress, selas_time(simulation), selas_steps(simulation));
+    }
+    return status;
+}
+
+static selas_status begin(struct run *run, const char *from)
+{
+    selas_simulation *simulation = run->simulation;
+    selas_status status = selas_record(simulation);
+    if (status == SELAS_OK && from != NULL) status = selas_restore(simulation, from);
+    if (status == SELAS_OK) status = selas_step(simulation, 0); /* builds everything; says what cannot be */
+    if (status != SELAS_OK) return status;
+    run->path = simulation_checkpoint_path(simulation);
+    run->next_moment = wall_seconds() + 60.0 * minutes_between(run);
+    run->any = from != NULL;
+    run->saved = selas_steps(simulation);
+    if (from == NULL && simulation->scene->output.checkpoint_every > 0) status = save_on_the_way(run);
+    return run->path != NULL ? status : SELAS_NO_MEMORY;
+}
+
+static selas_status run_with_progress(struct run *run, const char *from)
+{
+    struct progress progress;
+    selas_simulation *simulation = run->simulation;
+    selas_status status = begin(run, from);
+    if (status != SELAS_OK) return status;
+    const unsigned long needed = selas_steps_needed(simulation);
+    tell_messages(simulation, run->told);
+    signals_watch();
+    progress_start(&progress, selas_end_time(simulation), isatty(STDERR_FILENO) != 0, print_text, stderr);
+    status = step_on(run, &progress, needed);
+    const bool stopped = status == SELAS_OK && selas_steps(simulation) < needed;
+    if (!run->quiet)
+        progress_finish(&progress, selas_time(simulation), selas_steps(simulation),
+                        status == SELAS_OK && !stopped);
+    if (stopped) {
+        char why[32];
+        snprintf(why, sizeof why, "stopped by %s", signals_stop());
+        keep_state(run, why);
+        return SELAS_STOPPED;
+    }
+    if (status == SELAS_FILE_ERROR) {
+        keep_state(run, "stopped");
+    } else if (status != SELAS_OK) {
+        tell_messages(simulation, run->told);
+        tell_last(run, status == SELAS_UNSTABLE);
+    }
+    return status;
+}
+
+/* The report's last part, speed against error, for the eye. */
+static void print_summary(selas_simulation *simulation)
+{
+    char path[4096];
+    char line[1024];
+    snprintf(path, sizeof path, "%s/report.txt", selas_output_directory(simulation));
+    FILE *report = fopen(path, "r");
+    if (report == NULL) return;
+    while (fgets(line, sizeof line, report) != NULL)
+        if (strncmp(line, "point-steps", 11) == 0 || strncmp(line, "CPU seconds", 11) == 0 ||
+            (strncmp(line, "error", 5) == 0 &&
+             (strstr(line, "velocity") != NULL || strstr(line, " vz:") != NULL)))
+            fputs(line, stdout);
+    fclose(report);
+    printf("results in %s/\n", selas_output_directory(simulation));
+}
+
+selas_status run_program(selas_simulation *simulation, const char *from, bool quiet, size_t *told)
+{
+    struct run run = {.simulation = simulation, .quiet = quiet, .told = told};
+    selas_status status = run_with_progress(&run, from);
+    if (status == SELAS_OK) {
+        status = selas_write(simulation);
+        if (status == SELAS_FILE_ERROR) keep_state(&run, "the results could not be written");
+    }
+    if (status == SELAS_OK && !quiet) print_summary(simulation);
+    free(run.path);
+    return status;
+}
