@@ -208,13 +208,14 @@ SELAS_API selas_status selas_energy(selas_simulation *simulation, double *kineti
 /* --- Checkpoints
  * -------------------------------------------------------------------------------------------------- */
 
-/* Saves state, time and histories in the file `path` (HDF5; it has its name only when it is complete).
- * Errors: SELAS_FILE_ERROR, SELAS_UNSUPPORTED (after selas_record, after selas_finish). */
+/* Saves state, time and histories in the file `path` (HDF5; it has its name only when it is complete, on the
+ * disk, and read back). With result files the snapshots so far are kept in the folder `unfinished` of the
+ * output directory. Errors: SELAS_FILE_ERROR, SELAS_UNSTABLE (the state is not finite). */
 SELAS_API selas_status selas_save(selas_simulation *simulation, const char *path);
 /* Goes on where selas_save left off: on a simulation of the same scene before its first step, with the same
- * loads driven by the host. What follows is bit for bit what the saved simulation would have given. Errors:
- * SELAS_FILE_ERROR (no checkpoint, another version or scene, damaged: no step can follow),
- * SELAS_BAD_ARGUMENT, SELAS_UNSUPPORTED. */
+ * loads driven by the host; with result files right after selas_record. What follows is bit for bit what the
+ * saved simulation would have given. Errors: SELAS_FILE_ERROR (no checkpoint, another version, byte order or
+ * scene, cut short, damaged, snapshots missing: no step can follow), SELAS_BAD_ARGUMENT. */
 SELAS_API selas_status selas_restore(selas_simulation *simulation, const char *path);
 
 /* --- Names
