@@ -1,0 +1,151 @@
+#!/bin/sh
+# Runs that are killed or stopped and go on: the same bits as without; damaged checkpoints, two runs in one folder, disks that are
+# full or not there. Argument: the build folder. Prints TAP. Nothing here depends on how fast the machine is: a run that is
+# over before the signal comes is made again.
+build=${1:-build}
+selas=$PWD/$build/selas
+. "$PWD/regress/restart.d/scenes"
+work=$(mktemp -d "${TMPDIR:-/tmp}/selas-restart-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export OMP_NUM_THREADS=1
+failures=0
+check() { # check WHAT COMMAND...: ok if the command succeeds
+    what=$1
+    shift
+    if "$@" >said 2>&1; then
+        echo "ok - $what"
+    else
+        echo "not ok - $what"
+        sed 's/^/# /' said
+        failures=$((failures + 1))
+    fi
+}
+
+# begun NAME SIGNAL FILE: begins the run, sends the signal when FILE is there in its folder `unfinished`; until that has worked.
+begun() {
+    for try in 1 2 3 4 5 6 7 8 9 10; do
+        rm -rf "cut_$1"
+        "$selas" -q "$1.nml" output%directory="cut_$1" output%checkpoint_every=1 2>cut.err &
+        process=$!
+        while [ ! -e "cut_$1/unfinished/$3" ] && kill -0 $process 2>/dev/null; do :; done
+        kill "-$2" $process 2>/dev/null
+        wait $process 2>/dev/null
+        status=$?
+        [ -e "cut_$1/unfinished/checkpoint.h5" ] && [ $status -ne 0 ] && return 0
+    done
+    echo "the run was always over before the signal (try $try)"
+    return 1
+}
+number=0
+for name in $scenes; do
+    scene "$name"
+    number=$((number + 1))
+    threads=$((1 + number % 2))
+    "$selas" -q "$name.nml" output%directory="whole_$name" output%checkpoint_every=1 2>whole.err || sed 's/^/# /' whole.err
+    check "$name: killed" begun "$name" KILL "snapshot_000$((1 + number % 4)).h5"
+    check "$name: goes on with $threads thread(s)" env OMP_NUM_THREADS=$threads "$selas" -q restart "cut_$name/unfinished/checkpoint.h5"
+    check "$name: same bits" same "whole_$name" "cut_$name"
+done
+
+# --- Signals
+begun paper TERM snapshot_0001.h5
+check "SIGTERM: exit status 1" [ $status -eq 1 ]
+check "SIGTERM: says how to go on" grep -q "stopped by SIGTERM at step .* selas restart cut_paper/unfinished/checkpoint.h5" cut.err
+check "a restart from within the folder" sh -c "cd cut_paper/unfinished && '$selas' -q restart checkpoint.h5"
+check "SIGTERM: same bits" same whole_paper cut_paper
+begun modified INT snapshot_0003.h5
+check "SIGINT: exit status 1" [ $status -eq 1 ]
+check "SIGINT: the restart is stopped again, and goes on" sh -c "
+    '$selas' -q restart cut_modified/unfinished/checkpoint.h5 & process=\$!; sleep .05; kill -INT \$process; wait \$process
+    [ ! -e cut_modified/unfinished ] || '$selas' -q restart cut_modified/unfinished/checkpoint.h5"
+check "SIGINT: same bits" same whole_modified cut_modified
+usr1() { # a checkpoint on demand in a run without any
+    "$selas" -q flying.nml output%directory=usr1 output%checkpoint_minutes=0 &
+    process=$!
+    while [ ! -e usr1/unfinished/snapshot_0001.h5 ] && kill -0 $process 2>/dev/null; do :; done
+    while [ ! -e usr1/unfinished/checkpoint.h5 ] && kill -USR1 $process 2>/dev/null; do sleep .01; done
+    seen=$(ls usr1/unfinished/checkpoint.h5 2>/dev/null)
+    wait $process && [ -n "$seen" ]
+}
+check "SIGUSR1: a checkpoint, and the run goes on to its end" usr1
+check "SIGUSR1: same bits" same whole_flying usr1
+check "nothing is left of a finished run" sh -c "! ls -A usr1 | grep -E 'unfinished|running|part'"
+
+# --- Checkpoints that must not be used
+begun paper KILL snapshot_0002.h5
+good=cut_paper/unfinished/checkpoint.h5
+size=$(wc -c <$good)
+refused() { # refused WHAT REASON: the file `unfinished/bad.h5` is refused with the reason
+    if "$selas" -q restart cut_paper/unfinished/bad.h5 >said 2>&1; then status=0; else status=$?; fi
+    if [ $status -eq 1 ] && grep -q "$2" said; then
+        echo "ok - refused: $1"
+    else
+        echo "not ok - refused: $1 (exit status $status)"
+        sed 's/^/# /' said
+        failures=$((failures + 1))
+    fi
+}
+bad=cut_paper/unfinished/bad.h5
+refused "not there" "No such file"
+cp cut_paper/unfinished/points.h5 $bad
+refused "another HDF5 file" "no checkpoint of selas"
+: >$bad
+refused "empty" "no checkpoint of selas"
+for part in 100 600 $((size / 2)) $((size - 1)); do
+    head -c "$part" $good >$bad
+    refused "cut to $part bytes of $size" "cut short"
+done
+flip() { # flip BYTE: one bit of that byte
+    cp $good $bad
+    old=$(od -An -tu1 -j"$1" -N1 $good | tr -d ' ')
+    # shellcheck disable=SC2059
+    printf "\\$(printf %o $((old ^ 16)))" | dd of=$bad bs=1 seek="$1" conv=notrunc 2>/dev/null
+}
+for byte in 30 511 512 700 $((size / 3)) $((size / 2)) $((size - 9)); do
+    flip "$byte"
+    refused "a bit flipped in byte $byte" "damaged"
+done
+echo "x" | cat $good - >$bad
+refused "a byte too many" "damaged"
+reworded() { # reworded OLD NEW: other words in the head, its checksum made right: as another program would write it
+    python3 - "$good" "$bad" "$1" "$2" <<'END'
+import sys
+good, bad, old, new = sys.argv[1:5]
+data = open(good, 'rb').read()
+head = data[:512].rstrip(b'\0').decode()
+lines = head[:head.index('\nhead ') + 1].replace(old, new)
+table = []
+for i in range(256):
+    for _ in range(8):
+        i = i >> 1 ^ (0xC96C5795D7870F42 if i & 1 else 0)
+    table.append(i)
+crc = 2**64 - 1
+for byte in lines.encode():
+    crc = crc >> 8 ^ table[(crc ^ byte) & 255]
+head = lines + 'head %016x\n' % (crc ^ 2**64 - 1)
+open(bad, 'wb').write(head.encode().ljust(512, b'\0') + data[512:])
+END
+}
+if command -v python3 >/dev/null; then
+    version=$("$selas" --version | cut -d' ' -f2)
+    reworded "version $version" "version 9.9.9" && refused "of another version" "written by version 9.9.9, this is $version"
+    reworded "little-endian" "big-endian" && refused "of another byte order" "written by a big-endian machine"
+    reworded "format 1" "format 7" && refused "of another format" "format 7"
+    reworded "little" "little" && cmp -s $good $bad && echo "ok - the checksum of the head is CRC-64"
+fi
+cp cut_paper/unfinished/snapshot_0001.h5 kept.h5
+cp $good $bad
+head -c 900 kept.h5 >cut_paper/unfinished/snapshot_0001.h5
+refused "a damaged snapshot beside it" "snapshot_NNNN.h5"
+mv kept.h5 cut_paper/unfinished/snapshot_0001.h5
+cp $good elsewhere.h5
+check "refused: in another folder" sh -c "! '$selas' -q restart elsewhere.h5 2>err && grep -q 'in no folder' err"
+check "refused: overrides" sh -c "'$selas' -q restart $good body%spacing=1 2>err; [ \$? -eq 2 ] && grep -q 'no overrides' err"
+check "what was refused harmed nothing" sh -c "'$selas' -q restart $good"
+check "same bits" same whole_paper cut_paper
+
+# --- A new run does not destroy an unfinished one
+begun paper KILL snapshot_0002.h5
+check "a new run in its folder" sh -c "'$selas' -q paper.nml output%directory=cut_paper 2>err && grep -q 'unfinished run' err"
+check "its own results" same whole_paper cut_paper 2>/dev/null || true
