@@ -28,7 +28,7 @@ begun() {
         rm -rf "cut_$1"
         "$selas" -q "$1.nml" output%directory="cut_$1" output%checkpoint_every=1 2>cut.err &
         process=$!
-        while [ ! -e "cut_$1/unfinished/$3" ] && kill -0 $process 2>/dev/null; do :; done
+        while [ ! -e "cut_$1/unfinished/$3" ] && kill -0 $process 2>/dev/null; do sleep .01; done
         kill "-$2" $process 2>/dev/null
         wait $process 2>/dev/null
         status=$?
@@ -41,7 +41,7 @@ number=0
 for name in $scenes; do
     scene "$name"
     number=$((number + 1))
-    threads=$((1 + number % 2))
+    threads=$((2 - number % 2))
     "$selas" -q "$name.nml" output%directory="whole_$name" output%checkpoint_every=1 2>whole.err || sed 's/^/# /' whole.err
     check "$name: killed" begun "$name" KILL "snapshot_000$((1 + number % 4)).h5"
     check "$name: goes on with $threads thread(s)" env OMP_NUM_THREADS=$threads "$selas" -q restart "cut_$name/unfinished/checkpoint.h5"
@@ -63,7 +63,7 @@ check "SIGINT: same bits" same whole_modified cut_modified
 usr1() { # a checkpoint on demand in a run without any
     "$selas" -q flying.nml output%directory=usr1 output%checkpoint_minutes=0 &
     process=$!
-    while [ ! -e usr1/unfinished/snapshot_0001.h5 ] && kill -0 $process 2>/dev/null; do :; done
+    while [ ! -e usr1/unfinished/snapshot_0001.h5 ] && kill -0 $process 2>/dev/null; do sleep .01; done
     while [ ! -e usr1/unfinished/checkpoint.h5 ] && kill -USR1 $process 2>/dev/null; do sleep .01; done
     seen=$(ls usr1/unfinished/checkpoint.h5 2>/dev/null)
     wait $process && [ -n "$seen" ]
@@ -142,10 +142,20 @@ mv kept.h5 cut_paper/unfinished/snapshot_0001.h5
 cp $good elsewhere.h5
 check "refused: in another folder" sh -c "! '$selas' -q restart elsewhere.h5 2>err && grep -q 'in no folder' err"
 check "refused: overrides" sh -c "'$selas' -q restart $good body%spacing=1 2>err; [ \$? -eq 2 ] && grep -q 'no overrides' err"
+rm -f $bad
 check "what was refused harmed nothing" sh -c "'$selas' -q restart $good"
 check "same bits" same whole_paper cut_paper
 
 # --- A new run does not destroy an unfinished one
 begun paper KILL snapshot_0002.h5
 check "a new run in its folder" sh -c "'$selas' -q paper.nml output%directory=cut_paper 2>err && grep -q 'unfinished run' err"
-check "its own results" same whole_paper cut_paper 2>/dev/null || true
+check "the unfinished one goes on" "$selas" -q restart cut_paper/unfinished-old/checkpoint.h5
+check "same bits" same whole_paper cut_paper
+
+# --- The deck in run.h5
+check "rerun" "$selas" -q rerun whole_bar/run.h5
+check "rerun: same bits" same whole_bar output/bar-rerun
+check "rerun with overrides" "$selas" -q rerun whole_bar/run.h5 output%directory=finer body%spacing=0.005
+check "rerun with overrides: they count" grep -q '^points: 200' finer/report.txt
+check "rerun: no run.h5" sh -c "! '$selas' rerun cut_paper/p.dat 2>err && grep -q 'p.dat' err"
+exit $failures

@@ -198,38 +198,39 @@ static void refuses_wrong_overrides(void **state)
                                     "body%seed=2",
                                     "receiver(0)%name=a",
                                     "output%low_pass=.1 / body%seed=3"};
-    expect_errors(SCENE "&body /\n&receiver name='a' position=0/\n&receiver name='b' position=0/\n",
-                  sizeof override / sizeof *override, override,
-                  "override: error: unknown group 'boddy'; did you mean 'body'?\n"
-                  "override: error: unknown name 'spcing' in &body; did you mean 'spacing'?\n"
-                  "override: error: too many values in 'low=0,0,0,0'\n"
-                  "override: error: which of the 2 groups &receiver does 'receiver%name=a' mean? Write "
-                  "receiver(1)%... to receiver(2)%...\n"
-                  "override: error: there is no receiver(4): the deck has 2\n"
-                  "override: error: there is no body(2): the deck has 1\n"
-                  "override: error: expected a real number, found 'x'\n"
-                  "override: error: no value for 'jitter' of &body; a name without a subscript would be "
-                  "unset\n"
-                  "override: error: unknown name 'jiter' in &body; did you mean 'jitter'?\n"
-                  "override: error: 'snapshot%every=' would unset a name, but the deck has 0 groups &snapshot\n"
-                  "override: error: 'receiver(3)%name=' would unset a name, but the deck has 2 groups "
-                  "&receiver\n"
-                  "override: error: no '=' in 'body'; expected group%name=value\n"
-                  "override: error: no '%' between group and name in 'spacing=1'; expected group%name=value\n"
-                  "override: error: too many values in 'seed=1 2'\n"
-                  "override: error: 'seed' is given twice\n"
-                  "override: error: bad number of the group in 'receiver(0)%name=a'; expected "
-                  "group%name=value\n"
-                  "override: error: too many values in 'low_pass=.1 / body%seed=3'\n"
-                  "override: error: -1 for 'spacing' in &body; expected a number in (0, inf)\n");
+    expect_errors(
+        SCENE "&body /\n&receiver name='a' position=0/\n&receiver name='b' position=0/\n",
+        sizeof override / sizeof *override, override,
+        "override: error: unknown group 'boddy'; did you mean 'body'?\n"
+        "override: error: unknown name 'spcing' in &body; did you mean 'spacing'?\n"
+        "override: error: too many values in 'low=0,0,0,0'\n"
+        "override: error: which of the 2 groups &receiver does 'receiver%name=a' mean? Write "
+        "receiver(1)%... to receiver(2)%...\n"
+        "override: error: there is no receiver(4): the deck has 2\n"
+        "override: error: there is no body(2): the deck has 1\n"
+        "override: error: expected a real number, found 'x'\n"
+        "override: error: no value for 'jitter' of &body; a name without a subscript would be "
+        "unset\n"
+        "override: error: unknown name 'jiter' in &body; did you mean 'jitter'?\n"
+        "override: error: 'snapshot%every=' would unset a name, but the deck has 0 groups &snapshot\n"
+        "override: error: 'receiver(3)%name=' would unset a name, but the deck has 2 groups "
+        "&receiver\n"
+        "override: error: no '=' in 'body'; expected group%name=value\n"
+        "override: error: no '%' between group and name in 'spacing=1'; expected group%name=value\n"
+        "override: error: too many values in 'seed=1 2'\n"
+        "override: error: 'seed' is given twice\n"
+        "override: error: bad number of the group in 'receiver(0)%name=a'; expected "
+        "group%name=value\n"
+        "override: error: too many values in 'low_pass=.1 / body%seed=3'\n"
+        "override: error: -1 for 'spacing' in &body; expected a number in (0, inf)\n");
 }
 
 /* A name without a value is unset: an obligatory one is then missing, others have their defaults. */
 static void unsets_names(void **state)
 {
     (void)state;
-    const char *const override[] = {"body%jitter=", "snapshot(2)%every= ", "snapshot(2)%times=1,2",
-                                    "output%directory=", "body%seed=4", "body%seed="};
+    const char *const override[] = {"body%jitter=",      "snapshot(2)%every= ", "snapshot(2)%times=1,2",
+                                    "output%directory=", "body%seed=4",         "body%seed="};
     struct reading r = read_with(SCENE "&body jitter=.2, seed=7 /\n&snapshot every=1 /\n&snapshot every=2 /\n"
                                        "&output directory='there' /\n",
                                  sizeof override / sizeof *override, override);
@@ -405,7 +406,8 @@ int main(void)
         cmocka_unit_test(reports_all_errors_at_their_places),
         cmocka_unit_test(reports_groups_that_never_end),
         cmocka_unit_test(takes_overrides),
-        cmocka_unit_test(refuses_wrong_overrides), cmocka_unit_test(unsets_names),
+        cmocka_unit_test(refuses_wrong_overrides),
+        cmocka_unit_test(unsets_names),
         cmocka_unit_test(echo_reads_again_to_the_same),
         cmocka_unit_test(numbers_do_not_depend_on_the_locale),
         cmocka_unit_test(hostile_files_end_in_messages),

@@ -1,5 +1,5 @@
-/* Saving a simulation and going on with it; runs that go on from a checkpoint, or are made again from the deck
- * in run.h5. */
+/* Saving a simulation and going on with it; runs that go on from a checkpoint, or are made again from the
+ * deck in run.h5. */
 #include "host/simulation.h"
 
 #include "record/kept.h"
@@ -88,18 +88,18 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
 /* --- Runs of the program
  * --------------------------------------------------------------------------------------- */
 
-static selas_status open_kept(selas_simulation *simulation, const struct kept_deck *kept, const char *suffix,
-                              size_t count, const char *const *overrides)
+static selas_status read_kept(selas_simulation *simulation, const struct kept_deck *kept, size_t count,
+                              const char *const *overrides)
 {
-    const size_t size = strlen(kept->name) + strlen(suffix) + sizeof ".nml";
+    const size_t size = strlen(kept->name) + sizeof ".nml";
     char *name = malloc(size);
     if (name == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
-    snprintf(name, size, "%s%s.nml", kept->name, suffix);
+    snprintf(name, size, "%s.nml", kept->name);
     selas_status status = deck_read_text(name, kept->text, strlen(kept->text), count, overrides,
                                          &simulation->deck, &simulation->messages);
     free(name);
     if (status == SELAS_OK) status = deck_set_source(simulation->deck, kept->source, &simulation->messages);
-    return status == SELAS_OK ? simulation_scene(simulation) : status;
+    return status;
 }
 
 static bool named_unfinished(const char *folder)
@@ -120,7 +120,8 @@ static selas_status find_results(selas_simulation *simulation, const char *path)
     if (folder != NULL && !named_unfinished(folder)) {
         free(folder);
         return fail(&simulation->messages, SELAS_FILE_ERROR,
-                    "'%s' lies in no folder 'unfinished': a run goes on beside the snapshots that it has", path);
+                    "'%s' lies in no folder 'unfinished': a run goes on beside the snapshots that it has",
+                    path);
     }
     simulation->work = folder;
     simulation->results = folder != NULL ? folder_of(folder) : NULL;
@@ -136,9 +137,22 @@ selas_status simulation_open_checkpoint(const char *path, selas_simulation **ope
     selas_simulation *simulation = *opened;
     status = kept_deck_of_checkpoint(path, &kept, &simulation->messages);
     if (status == SELAS_OK) status = find_results(simulation, path);
-    if (status == SELAS_OK) status = open_kept(simulation, &kept, "", 0, NULL);
+    if (status == SELAS_OK) status = read_kept(simulation, &kept, 0, NULL);
     kept_deck_free(&kept);
-    return status;
+    return status == SELAS_OK ? simulation_scene(simulation) : status;
+}
+
+/* The results that run.h5 belongs to stay as they are, unless the user says where to go. */
+static selas_status place_rerun(selas_simulation *simulation)
+{
+    const char *name = deck_name(simulation->deck);
+    const size_t size = strlen(name) + sizeof "output/-rerun";
+    if (deck_given(deck_get(simulation->deck, "output", 0), "directory")) return SELAS_OK;
+    simulation->results = malloc(size);
+    if (simulation->results == NULL)
+        return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
+    snprintf(simulation->results, size, "output/%s-rerun", name);
+    return SELAS_OK;
 }
 
 selas_status simulation_open_run(const char *path, size_t count, const char *const *overrides,
@@ -151,16 +165,17 @@ selas_status simulation_open_run(const char *path, size_t count, const char *con
     status = kept_deck_of_run(path, &kept, &simulation->messages);
     const char **all = status == SELAS_OK ? malloc((count + 1) * sizeof *all) : NULL;
     if (all != NULL) {
-        all[0] = "output%directory="; /* the results that the file belongs to stay as they are */
+        all[0] = "output%directory=";
         for (size_t i = 0; i < count; i++)
             all[i + 1] = overrides[i];
-        status = open_kept(simulation, &kept, "-rerun", count + 1, all);
+        status = read_kept(simulation, &kept, count + 1, all);
     } else if (status == SELAS_OK) {
         status = fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the overrides");
     }
+    if (status == SELAS_OK) status = place_rerun(simulation);
     free(all);
     kept_deck_free(&kept);
-    return status;
+    return status == SELAS_OK ? simulation_scene(simulation) : status;
 }
 
 char *simulation_checkpoint_path(selas_simulation *simulation)

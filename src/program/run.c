@@ -1,8 +1,8 @@
 /* A run of the program (see the header).
  *
  * Checkpoints go to `unfinished/checkpoint.h5` in the folder of the results: before the first step and every
- * output%checkpoint_every steps, every output%checkpoint_minutes minutes, on a signal, and when the results cannot be
- * written. One that cannot be written is told once and the run goes on with the one before. */
+ * output%checkpoint_every steps, every output%checkpoint_minutes minutes, on a signal, and when the results
+ * cannot be written. One that cannot be written is told once and the run goes on with the one before. */
 #include "program/run.h"
 
 #include "host/simulation.h"

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* From now on signals are remembered; a second SIGINT or SIGTERM ends the program at once. Files that become too
- * long are errors, not signals. */
+/* From now on signals are remembered; a second SIGINT or SIGTERM ends the program at once. Files that become
+ * too long are errors, not signals. */
 void signals_watch(void);
 /* Name of the signal that asked to stop, NULL if none did. */
 const char *signals_stop(void);

@@ -1,10 +1,10 @@
 /* Checkpoints: the state and what the recorder has seen, in one HDF5 file under its own name only when
  * complete, on the disk, and read back.
  *
- * /y, /a: state; /trace_N_u, _v, _a: rows of receiver N, one a step; /profile_N and /seen_N: what the profiles
- * have; /due, /entry_group, /entry_time: snapshots so far (their files are snapshot_file.c's); /watch and
- * /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with all
- * defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
+ * /y, /a: state; /trace_N_u, _v, _a: rows of receiver N, one a step; /profile_N and /seen_N: what the
+ * profiles have; /due, /entry_group, /entry_time: snapshots so far (their files are snapshot_file.c's);
+ * /watch and /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with
+ * all defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
  * Numbers have 64 bits: what is read back is what was written. The head is checkpoint_head.c's. */
 #include "record/kept.h"
 
@@ -70,12 +70,20 @@ static void pass_real(struct walk *walk, const char *name, size_t number, const 
 static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
 {
     double next = (double)watch->next;
-    double *const member[WATCH_NUMBERS] = {
-        &watch->work,         &watch->gross,          &watch->absorbed,
-        &watch->power,        &watch->power_absorbed, &watch->initial,
-        &watch->largest,      &watch->reference,      &watch->reference_until,
-        &watch->last.kinetic, &watch->last.strain,    &watch->largest_defect,
-        &watch->last_time,    &next};
+    double *const member[WATCH_NUMBERS] = {&watch->work,
+                                           &watch->gross,
+                                           &watch->absorbed,
+                                           &watch->power,
+                                           &watch->power_absorbed,
+                                           &watch->initial,
+                                           &watch->largest,
+                                           &watch->reference,
+                                           &watch->reference_until,
+                                           &watch->last.kinetic,
+                                           &watch->last.strain,
+                                           &watch->largest_defect,
+                                           &watch->last_time,
+                                           &next};
     double number[WATCH_NUMBERS];
     for (size_t i = 0; i < WATCH_NUMBERS; i++)
         number[i] = *member[i];
@@ -223,9 +231,8 @@ static void keep_before(const char *path)
     free(before);
 }
 
-selas_status checkpoint_write(struct recorder *recorder, struct state *state,
-                              const struct run_figures *spent, const char *path, bool keep,
-                              struct messages *messages)
+selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,
+                              const char *path, bool keep, struct messages *messages)
 {
     const uint64_t files = kept_files_checksum(recorder->scene);
     double figures[FIGURES] = {[STEP] = (double)state->step,

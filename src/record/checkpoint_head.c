@@ -65,19 +65,17 @@ selas_status checkpoint_seal(const char *path, struct messages *messages)
     const int file = open(path, O_RDWR | O_CLOEXEC);
     bool good = file >= 0 && fstat(file, &about) == 0 && body_checksum(file, &body);
     if (good) {
-        const int length =
-            snprintf(head, sizeof head,
-                     "%s%d\nversion %s\ncommit %.60s\nbytes %s\nsize %" PRIu64 "\nbody %016" PRIx64 "\n",
-                     first_line, FORMAT, selas_version(), build_commit(), byte_order(),
-                     (uint64_t)about.st_size, body);
+        const int length = snprintf(
+            head, sizeof head,
+            "%s%d\nversion %s\ncommit %.60s\nbytes %s\nsize %" PRIu64 "\nbody %016" PRIx64 "\n", first_line,
+            FORMAT, selas_version(), build_commit(), byte_order(), (uint64_t)about.st_size, body);
         snprintf(head + length, sizeof head - (size_t)length, "head %016" PRIx64 "\n",
                  text_checksum(head, (size_t)length));
         good = pwrite(file, head, sizeof head, 0) == (ssize_t)sizeof head && fsync(file) == 0;
     }
     const int error = errno;
     if (file >= 0) close(file);
-    return good ? SELAS_OK
-                : fail(messages, SELAS_FILE_ERROR, "cannot write '%s': %s", path, strerror(error));
+    return good ? SELAS_OK : fail(messages, SELAS_FILE_ERROR, "cannot write '%s': %s", path, strerror(error));
 }
 
 /* The rest of the line that begins with `word`, in value[size]; "" if there is none. */
@@ -112,7 +110,8 @@ static bool body_whole(int file, const char *head, char *why, size_t size)
     line_of(head, "size", kept, sizeof kept);
     const uint64_t wanted = strtoull(kept, NULL, 10);
     if (fstat(file, &about) != 0 || (uint64_t)about.st_size < wanted) {
-        snprintf(why, size, "it is cut short: %" PRIu64 " bytes of %" PRIu64, (uint64_t)about.st_size, wanted);
+        snprintf(why, size, "it is cut short: %" PRIu64 " bytes of %" PRIu64, (uint64_t)about.st_size,
+                 wanted);
         return false;
     }
     const bool read = body_checksum(file, &body);

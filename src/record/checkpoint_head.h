@@ -1,6 +1,6 @@
-/* The head of a checkpoint: 512 bytes of text before HDF5's own. It says who wrote the file, how long it is, and the
- * checksums of head and body, so that a file that is cut short or has a flipped bit anywhere is known before
- * HDF5 sees it. */
+/* The head of a checkpoint: 512 bytes of text before HDF5's own. It says who wrote the file, how long it is,
+ * and the checksums of head and body, so that a file that is cut short or has a flipped bit anywhere is known
+ * before HDF5 sees it. */
 #ifndef SELAS_CHECKPOINT_HEAD_H
 #define SELAS_CHECKPOINT_HEAD_H
 

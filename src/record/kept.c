@@ -86,8 +86,9 @@ static char *provenance_text(hid_t place, const char *name)
     const bool right = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
                        H5Sget_simple_extent_npoints(space) == 1 && size < (size_t)1 << 30;
     char *text = right ? calloc(size + 1, 1) : NULL;
-    const bool good = text != NULL && (attribute ? H5Aread(from, type, text)
-                                                 : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)) >= 0;
+    const bool good =
+        text != NULL && (attribute ? H5Aread(from, type, text)
+                                   : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)) >= 0;
     H5Sclose(space);
     H5Tclose(type);
     if (attribute)
@@ -117,8 +118,8 @@ selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct m
     if (kept->text != NULL && kept->source != NULL && kept->name != NULL) return SELAS_OK;
     kept_deck_free(kept);
     if (file < 0) return hdf_cannot("read", path, error, messages);
-    return fail(messages, SELAS_FILE_ERROR, "'%s' holds no deck (/provenance/deck_echo): is it the run.h5 of a run?",
-                path);
+    return fail(messages, SELAS_FILE_ERROR,
+                "'%s' holds no deck (/provenance/deck_echo): is it the run.h5 of a run?", path);
 }
 
 void kept_deck_free(struct kept_deck *kept)

@@ -121,7 +121,8 @@ selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_
 /* Points, snapshots, histories, settings, provenance: writes the file and gives it its name. */
 selas_status run_file_finish(struct recorder *recorder, const struct run_figures *figures,
                              struct messages *messages);
-/* Lets the folder go; when all results are there (`complete`), what was kept of the unfinished run goes too. */
+/* Lets the folder go; when all results are there (`complete`), what was kept of the unfinished run goes too.
+ */
 void run_file_close(struct recorder *recorder, bool complete);
 /* Reads `count` blocks of `block` rows, `stride` rows apart, of one field of one snapshot from the finished
  * run.h5; value [count * block * components]. */

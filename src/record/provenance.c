@@ -112,8 +112,8 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
     const struct stepper *stepper = recorder->stepper;
     const double steps = (double)recorder->last_step;
     return hdf_text(place, "version", selas_version()) && hdf_text(place, "commit", build_commit()) &&
-           hdf_text(place, "compiler", compiler_name()) && hdf_text(place, "flags", SELAS_FLAGS) && hdf_text(place, "host", host) &&
-           hdf_text(place, "date", date) && hdf_text(place, "hdf5", hdf) &&
+           hdf_text(place, "compiler", compiler_name()) && hdf_text(place, "flags", SELAS_FLAGS) &&
+           hdf_text(place, "host", host) && hdf_text(place, "date", date) && hdf_text(place, "hdf5", hdf) &&
            hdf_text(place, "fftw", fftw_version) && hdf_numbers(place, "threads", 1, &threads) &&
            hdf_text(place, "scheme", stepper->scheme->name) &&
            hdf_numbers(place, "time_step", 1, &stepper->dt) && hdf_numbers(place, "steps", 1, &steps) &&

@@ -56,13 +56,12 @@ void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const 
                    void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
-/* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it back
- * before it gets its name; with `keep` the one before stays as NAME_before.h5. Reading wants the same scene, and
- * with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR with the reason, after
- * which state and recorder are of no use. `spent`: seconds of stepping, kept too. */
-selas_status checkpoint_write(struct recorder *recorder, struct state *state,
-                              const struct run_figures *spent, const char *path, bool keep,
-                              struct messages *messages);
+/* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it
+ * back before it gets its name; with `keep` the one before stays as NAME_before.h5. Reading wants the same
+ * scene, and with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR with the
+ * reason, after which state and recorder are of no use. `spent`: seconds of stepping, kept too. */
+selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,
+                              const char *path, bool keep, struct messages *messages);
 selas_status checkpoint_read(struct recorder *recorder, struct state *state, struct run_figures *spent,
                              const char *path, struct messages *messages);
 /* The folder with what is not finished (recorder_open), made if it is not there. */

@@ -29,7 +29,7 @@ void quiet_end(struct quiet quiet)
 /* HDF5 tells only that it failed; what the system said is still in errno, if it was the system. */
 selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages)
 {
-    static const int told[] = {ENOSPC, EDQUOT, EFBIG,  EIO,   EROFS,  EACCES, EPERM,
+    static const int told[] = {ENOSPC, EDQUOT, EFBIG,  EIO,    EROFS,  EACCES,  EPERM,
                                ENOENT, EMFILE, ENFILE, ENOMEM, EISDIR, ENOTDIR, ESTALE};
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
         if (error == told[i])
@@ -139,8 +139,7 @@ static bool write_all(const struct recorder *recorder, const struct run_figures 
     const hid_t file = hdf_create_file(path, 0);
     if (file < 0) return false;
     const bool good = hdf_points(recorder, file) && snapshots_gather(recorder, file) &&
-                      write_histories(recorder, file) &&
-                      write_provenance(recorder, file, figures, messages);
+                      write_histories(recorder, file) && write_provenance(recorder, file, figures, messages);
     return H5Fclose(file) >= 0 && good;
 }
 

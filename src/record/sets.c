@@ -21,8 +21,8 @@ static hid_t set_open(hid_t file, const char *name, size_t count)
     const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return set;
     const hid_t space = H5Dget_space(set);
-    const bool right = H5Sget_simple_extent_npoints(space) == (hssize_t)count &&
-                       H5Sget_simple_extent_ndims(space) == 1;
+    const bool right =
+        H5Sget_simple_extent_npoints(space) == (hssize_t)count && H5Sget_simple_extent_ndims(space) == 1;
     H5Sclose(space);
     if (right) return set;
     H5Dclose(set);
@@ -67,8 +67,7 @@ char *set_text(hid_t file, const char *name)
     const hid_t space = H5Dget_space(set);
     const hssize_t size = H5Sget_simple_extent_npoints(space);
     char *text = size > 0 && size < (hssize_t)1 << 30 ? calloc((size_t)size + 1, 1) : NULL;
-    const bool good =
-        text != NULL && H5Dread(set, H5T_NATIVE_CHAR, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
+    const bool good = text != NULL && H5Dread(set, H5T_NATIVE_CHAR, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
     H5Sclose(space);
     H5Dclose(set);
     if (good) return text;

@@ -1,6 +1,6 @@
-/* Snapshots while a run goes on: each is a file of its own in the folder `unfinished`, complete from the moment
- * it has its name, so that a run that is killed loses none and a restart finds them. When the run is over they are
- * gathered into run.h5.
+/* Snapshots while a run goes on: each is a file of its own in the folder `unfinished`, complete from the
+ * moment it has its name, so that a run that is killed loses none and a restart finds them. When the run is
+ * over they are gathered into run.h5.
  *
  * unfinished/snapshot_NNNN.h5: /snapshots/NNNN as in run.h5; unfinished/points.h5: /points. */
 #include "record/run_file.h"
@@ -150,7 +150,8 @@ selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_
     selas_status status = SELAS_OK;
     if (!file->unfinished.made) {
         status = unfinished_make(&file->unfinished, messages);
-        if (status == SELAS_OK) status = write_file(&(struct content){.recorder = recorder}, "points.h5", messages);
+        if (status == SELAS_OK)
+            status = write_file(&(struct content){.recorder = recorder}, "points.h5", messages);
         file->unfinished.made = status == SELAS_OK;
     }
     if (status != SELAS_OK) return status;
@@ -196,8 +197,7 @@ bool snapshot_file_there(const struct recorder *recorder, size_t number, double 
     snprintf(inside, sizeof inside, "/snapshots/%04zu", number);
     double shown = NAN;
     const hid_t part = hdf_open_file(path);
-    const hid_t attribute =
-        part >= 0 ? H5Aopen_by_name(part, inside, "time", H5P_DEFAULT, H5P_DEFAULT) : -1;
+    const hid_t attribute = part >= 0 ? H5Aopen_by_name(part, inside, "time", H5P_DEFAULT, H5P_DEFAULT) : -1;
     if (attribute >= 0) {
         if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &shown) < 0) shown = NAN;
         H5Aclose(attribute);

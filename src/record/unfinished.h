@@ -1,6 +1,6 @@
-/* What a run that is not over keeps beside its results: the folder `unfinished` in theirs, with checkpoints and the
- * snapshots so far, each a file of its own; gone when all results are there. And the lock by which two runs never
- * write into one folder. */
+/* What a run that is not over keeps beside its results: the folder `unfinished` in theirs, with checkpoints
+ * and the snapshots so far, each a file of its own; gone when all results are there. And the lock by which
+ * two runs never write into one folder. */
 #ifndef SELAS_UNFINISHED_H
 #define SELAS_UNFINISHED_H
 
@@ -15,7 +15,8 @@ struct unfinished {
 
 /* Locks the folder of the results, which must be there (SELAS_FILE_ERROR, with who holds it, if another run
  * writes there). `work` is the folder of an earlier run that goes on, or NULL: begins anew in
- * `results`/unfinished; if there is a checkpoint in it, it is kept as `results`/unfinished-old with a warning. */
+ * `results`/unfinished; if there is a checkpoint in it, it is kept as `results`/unfinished-old with a
+ * warning. */
 selas_status unfinished_open(const char *results, const char *work, struct unfinished *unfinished,
                              struct messages *messages);
 /* Makes the folder; to be called before anything is written there. */

@@ -169,8 +169,8 @@ struct stepping_choice {
 struct output_choice {
     char *directory; /* resolved: output/DECKNAME or as given */
     bool plots;
-    double history_step; /* 0: every step */
-    double low_pass;     /* angular frequency of the zero-phase low-pass, 0: none */
+    double history_step;       /* 0: every step */
+    double low_pass;           /* angular frequency of the zero-phase low-pass, 0: none */
     long checkpoint_every;     /* steps between checkpoints; 0: none */
     double checkpoint_minutes; /* the same by the clock */
 };
