@@ -355,11 +355,6 @@ static selas_status check_options(const struct scene *scene, const struct consis
                         "face %s: layer 'pml' needs method%%mass = 'vc1', 'vc2' or 'vc3'; with 'exact' take "
                         "layer = 'lysmer'",
                         face_name((enum face)face));
-        if (scene->body.layers > 1)
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "face %s: layer 'pml' does not stay quiet beside ground that varies with depth; take "
-                        "layer = 'lysmer' or a larger body",
-                        face_name((enum face)face));
     }
     return SELAS_OK;
 }

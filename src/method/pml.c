@@ -8,6 +8,7 @@
  * step. Regions are worked on plane by plane; sums do not depend on the number of threads. */
 #include "method/pml.h"
 
+#include <math.h>
 #include <omp.h>
 #include <string.h>
 
@@ -136,15 +137,34 @@ static void move_forces(const struct consistent *c, const struct slab *slab, dou
         move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->phi + i * slab->inner, NULL);
 }
 
+/* v := exp(-rate dt) v in the slab (Eq 11). */
+static void drag(const struct consistent *c, const struct slab *slab, double dt, double *v)
+{
+    const struct block *in = &slab->inside;
+    const int slot = c->slot[slab->axis];
+    for (size_t i = 0; i < in->n[slot]; i++)
+        slab->kept[i] = exp(-slab->drag[i] * dt);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = 0; k < in->n[2]; k++)
+        for (size_t component = 0; component < (size_t)c->dimension; component++)
+            for (size_t j = 0; j < in->n[1]; j++) {
+                double *row = v + component * c->volume + (k + in->at[2]) * c->plane +
+                              (j + in->at[1]) * c->n[0] + in->at[0];
+                for (size_t i = 0; i < in->n[0]; i++)
+                    row[i] *= slab->kept[slot == 0 ? i : slot == 1 ? j : k];
+            }
+}
+
 void pml_remember(struct model *model, double dt, double *y)
 {
     struct consistent *c = consistent_of(model);
-    const double *v = y + model->unknowns;
-    double *extra = y + 2 * model->unknowns;
+    double *v = y + model->unknowns, *extra = v + model->unknowns;
     for (size_t s = 0; s < c->pml->slabs; s++)
         move_gradients(c, &c->pml->slab[s], dt, y, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
         move_forces(c, &c->pml->slab[s], dt, y, v, extra);
+    for (size_t s = 0; s < c->pml->slabs; s++)
+        if (c->pml->slab[s].drag != NULL) drag(c, &c->pml->slab[s], dt, v);
 }
 
 void pml_accelerate(const struct consistent *c, const double *extra, double *a)

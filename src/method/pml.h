@@ -29,6 +29,8 @@ struct slab {
     size_t inner, volume;
     double relaxation; /* alpha: the rate at which the layer forgets */
     double *damping;   /* d at the control values inside, along the axis */
+    double *drag;      /* rates at which velocities there are damped besides; NULL: not at all */
+    double *kept;      /* what is left of them after a step */
     size_t psi, phi;   /* their places in the extra part: component i at psi + i * inner */
     double *middle;    /* [dimension * inner] psi at the middle of a step */
     size_t bands;

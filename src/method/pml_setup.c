@@ -200,6 +200,38 @@ static struct tensor_plan *plan_pull(struct consistent *c, struct slab *slab)
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
 static const double layer_relaxation = .1;
 
+/* True if the scene can carry waves along a layered face whose phase and group velocities are opposite:
+ * ground that varies over depth, or an axis along which neither end lets waves out. (Between two symmetry
+ * planes or rollers all waves are plane ones.) */
+static bool guides_waves(const struct consistent *c)
+{
+    if (c->weighted[WEIGHT_DENSITY] != NULL) return true;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        int mirrors = 0, ways_out = 0;
+        for (int end = 0; end < 2; end++) {
+            const enum boundary_kind kind = c->model.scene->boundary[2 * axis + end].kind;
+            mirrors += kind == BOUNDARY_SYMMETRY || kind == BOUNDARY_ROLLER;
+            ways_out += kind == BOUNDARY_TRANSMITTING;
+        }
+        if (ways_out == 0 && mirrors < 2) return true;
+    }
+    return false;
+}
+
+/* Where waves are guided: velocities are damped at the rate share * d(x) * (d(x) / largest d)^2 (Eq 11; the
+ * share by measurement). */
+static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count, double most)
+{
+    static const double share = .3;
+    if (!guides_waves(c)) return true;
+    slab->drag = array_new(count, sizeof *slab->drag);
+    slab->kept = array_new(count, sizeof *slab->kept);
+    if (slab->drag == NULL || slab->kept == NULL) return false;
+    for (size_t i = 0; i < count; i++)
+        slab->drag[i] = share * slab->damping[i] * pow(slab->damping[i] / most, 2);
+    return true;
+}
+
 /* d(x) = (p + 1) c_p ln(1/R) / (2 L) * (distance / L)^p: then the integral of d over the layer's thickness L,
  * there and back, takes the amplitude down to R at normal incidence (Eq 10). */
 static bool lay_damping(struct consistent *c, struct slab *slab)
@@ -226,7 +258,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     slab->inside = (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
     slab->inside.at[slot] = first;
     slab->inside.n[slot] = count;
-    return true;
+    return lay_drag(c, slab, count, most);
 }
 
 /* The region: the slab and as much before it as the widest matrix reaches. */
@@ -292,6 +324,8 @@ void pml_free(struct consistent *c)
         for (size_t i = 0; i < slab->bands; i++)
             band_free(slab->band[i]);
         array_free(slab->damping);
+        array_free(slab->drag);
+        array_free(slab->kept);
         array_free(slab->middle);
     }
     array_free(c->pml->in);
