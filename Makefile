@@ -41,6 +41,15 @@ halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots i
 absorption: $(BUILD)/selas ## table of doc/absorbing-faces.md: what comes back from transmitting faces
 	@sh regress/absorption $(BUILD)
 
+.PHONY: quiet
+quiet: $(BUILD)/test/quiet ## energy beside absorbing faces to t = 1000 (twenty minutes): doc/absorbing-faces.md
+	@sh regress/quiet $(BUILD)
+
+$(BUILD)/test/quiet: regress/quiet.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
+
 paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
 	@sh regress/paper-figures $(BUILD)
 
