@@ -51,9 +51,11 @@ static double safe_step(const struct run *run)
 
 /* A pulse in a box, 0 .. 4 along each axis, whose faces in the mask have layers, and in one so large that
  * nothing comes back; v at three places over the whole time. Gives the norms of the difference and of v. */
-static void compare(int dimension, double nu, unsigned layered, long points, double end, double *off,
-                    double *norm)
+static void compare(int dimension, double nu, unsigned layered, long points, double end, bool soft_top,
+                    double *off, double *norm)
 {
+    static struct layer ground[2] = {{.material = 1, .top = 0}, {.material = 0, .top = 1}};
+    struct material material[2];
     static const double places[3][3] = {{1, 1.5, 0}, {3.25, .5, 0}, {2, 3.5, 0}};
     struct plain_scene plain[2];
     struct run run[2];
@@ -61,6 +63,14 @@ static void compare(int dimension, double nu, unsigned layered, long points, dou
         plain_box(&plain[i], dimension, (double[]){4, 4, 4}, .25);
         struct scene *scene = &plain[i].scene;
         plain_material(&plain[i].material[0], 1, 2 * nu / (1 - 2 * nu), 1);
+        if (soft_top) { /* half as stiff */
+            material[0] = plain[i].material[0];
+            plain_material(&material[1], 1, nu / (1 - 2 * nu), .5);
+            scene->material = material;
+            scene->materials = 2;
+            scene->body.layer = ground;
+            scene->body.layers = 2;
+        }
         for (int face = 0; face < 2 * dimension; face++) {
             if ((layered & 1u << face) == 0) continue;
             if (i == 0) set_layer(&plain[i], face, points);
@@ -109,12 +119,15 @@ static void test_reflection(void **state)
         unsigned layered;
         long points;
         double nu, end, most;
-    } cases[] = {{1, 3, 8, .25, 6, 5e-3},     {1, 3, 12, .25, 6, 3e-4}, {2, 15, 8, .25, 6, 2.5e-3},
-                 {2, 15, 12, .25, 6, 1.5e-4}, {2, 11, 8, .25, 6, 2e-3}, {2, 11, 8, .45, 3, 3e-3}};
+        bool soft_top;
+    } cases[] = {{1, 3, 8, .25, 6, 5e-3, false},    {1, 3, 12, .25, 6, 3e-4, false},
+                 {2, 15, 8, .25, 6, 2.5e-3, false}, {2, 15, 12, .25, 6, 1.5e-4, false},
+                 {2, 11, 8, .25, 6, 2e-3, false},   {2, 11, 8, .45, 3, 3e-3, false},
+                 {2, 11, 8, .25, 6, 3e-3, true},    {2, 11, 12, .25, 6, 9e-4, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double off, norm;
-        compare(cases[i].dimension, cases[i].nu, cases[i].layered, cases[i].points, cases[i].end, &off,
-                &norm);
+        compare(cases[i].dimension, cases[i].nu, cases[i].layered, cases[i].points, cases[i].end,
+                cases[i].soft_top, &off, &norm);
         print_message("# reflection %zu: %.3g of %.3g: %.3g\n", i, off, norm, off / norm);
         assert_true(norm > .1);
         assert_true(off < cases[i].most * norm);

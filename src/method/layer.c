@@ -9,8 +9,8 @@
  * comes back from the outer end and what the lattice makes of the profile are about equal (measured). A pulse
  * that meets the layer at right angles sees twice that (measured); waves along a surface far less. */
 static const double decay_per_point = .78, measured_part = 2;
-/* What the damping against guided waves sends back, times the points squared (measured). */
-static const double dragged_part = .28;
+/* What the damping against guided waves sends back, times the points squared, per share (measured). */
+static const double dragged_part = .9;
 
 double layer_profile_reflection(size_t points)
 {
@@ -135,12 +135,10 @@ void layers_describe(const struct consistent *c,
             used += snprintf(text + used, sizeof text - (size_t)used,
                              " = %.2g P wavelengths at the source's cutoff",
                              thickness * cutoff / (two_pi * consistent_fastest(c, face)));
-        const bool dragged = c->pml != NULL && c->pml->slab[0].drag != NULL;
-        const double points = (double)c->layer[face];
+        const double drag = c->pml == NULL ? 0 : c->pml->drag, points = (double)c->layer[face];
         snprintf(text + used, sizeof text - (size_t)used, ", expected reflection %.1g %%%s",
-                 100 * (layer_expected_reflection(c->layer[face]) +
-                        (dragged ? dragged_part / (points * points) : 0)),
-                 dragged ? ", damped against guided waves" : "");
+                 100 * (layer_expected_reflection(c->layer[face]) + dragged_part * drag / (points * points)),
+                 drag > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
     }
     if (c->pml == NULL) return;

@@ -43,6 +43,7 @@ struct slab {
 struct pml {
     size_t slabs, extra;
     struct slab slab[BOX_FACES];
+    double drag;      /* share of d at which velocities are damped against guided waves; 0: none */
     double *in, *out; /* fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
     size_t bytes;
 };

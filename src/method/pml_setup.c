@@ -200,12 +200,13 @@ static struct tensor_plan *plan_pull(struct consistent *c, struct slab *slab)
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
 static const double layer_relaxation = .1;
 
-/* True if the scene can carry waves along a layered face whose phase and group velocities are opposite:
- * ground that varies over depth, or an axis along which neither end lets waves out. (Between two symmetry
- * planes or rollers all waves are plane ones.) */
-static bool guides_waves(const struct consistent *c)
+/* Waves along a layered face whose phase and group velocities are opposite would grow in the layer: plates,
+ * that is an axis along which neither end lets waves out (between two symmetry planes or rollers all waves
+ * are plane ones), and ground that varies over depth. There velocities are damped at the rate share * d(x) *
+ * (d(x) / largest d)^2 (Eq 11; shares by measurement). */
+static double drag_share(const struct consistent *c)
 {
-    if (c->weighted[WEIGHT_DENSITY] != NULL) return true;
+    static const double plate = .3, ground = .1;
     for (int axis = 0; axis < c->dimension; axis++) {
         int mirrors = 0, ways_out = 0;
         for (int end = 0; end < 2; end++) {
@@ -213,17 +214,15 @@ static bool guides_waves(const struct consistent *c)
             mirrors += kind == BOUNDARY_SYMMETRY || kind == BOUNDARY_ROLLER;
             ways_out += kind == BOUNDARY_TRANSMITTING;
         }
-        if (ways_out == 0 && mirrors < 2) return true;
+        if (ways_out == 0 && mirrors < 2) return plate;
     }
-    return false;
+    return c->weighted[WEIGHT_DENSITY] != NULL ? ground : 0;
 }
 
-/* Where waves are guided: velocities are damped at the rate share * d(x) * (d(x) / largest d)^2 (Eq 11; the
- * share by measurement). */
 static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count, double most)
 {
-    static const double share = .3;
-    if (!guides_waves(c)) return true;
+    const double share = c->pml->drag = drag_share(c);
+    if (share == 0) return true;
     slab->drag = array_new(count, sizeof *slab->drag);
     slab->kept = array_new(count, sizeof *slab->kept);
     if (slab->drag == NULL || slab->kept == NULL) return false;
