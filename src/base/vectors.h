@@ -19,6 +19,9 @@
 typedef double vec4 __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double vec8 __attribute__((vector_size(64), aligned(8), may_alias));
 
+/* What comparisons of vec8 give: all bits where they hold. */
+typedef long long mask8 __attribute__((vector_size(64), aligned(8), may_alias));
+
 enum { VEC = 8 };
 
 /* The vectors that stand at an address. */

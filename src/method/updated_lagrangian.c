@@ -94,7 +94,8 @@ static void choose_layout(struct updated *updated)
     layout->volume = 2 * dimension;
     layout->span = layout->volume + 1;
     layout->mass = layout->span + 1;
-    layout->length = layout->mass + 1;
+    layout->density = layout->mass + 1;
+    layout->length = layout->density + 1;
     layout->tension = layout->length + 1;
     layout->repulsion = layout->tension + stresses;
     layout->size = layout->repulsion + stresses;
@@ -161,8 +162,10 @@ static selas_status take_memory(struct updated *updated, struct messages *messag
             updated->load_direction[3 * k + a] *= scene->load[k].amplitude;
     }
     memcpy(updated->searched, updated->reference, 3 * places * sizeof(double));
-    return neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
-                           updated->longest * updated->reach + updated->skin, false, messages);
+    const selas_status status =
+        neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
+                        updated->longest * updated->reach + updated->skin, false, messages);
+    return status == SELAS_OK ? updated_choose_order(updated, messages) : status;
 }
 
 static void destroy(struct model *model)
@@ -176,6 +179,9 @@ static void destroy(struct model *model)
     array_free(updated->reference);
     array_free(updated->searched);
     array_free(updated->record);
+    array_free(updated->planes);
+    array_free(updated->shifts);
+    array_free(updated->shift);
     array_free(updated->deck_position);
     array_free(updated->load_direction);
     array_free(updated);
@@ -196,7 +202,8 @@ static void fill_public_face(struct updated *updated)
     model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
     model->bytes = neighbours_bytes(&updated->neighbours) +
                    (points + updated->ghosts) * (6 + updated->layout.size) * sizeof(double) +
-                   points * 8 * sizeof(double);
+                   (updated->ordered ? updated->layout.size * updated->stride * sizeof(double) : 0) +
+                   updated->shift_room * sizeof *updated->shift + points * 8 * sizeof(double);
 }
 
 static selas_status build(struct updated *updated, struct messages *messages)

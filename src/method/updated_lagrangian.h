@@ -34,10 +34,18 @@ struct updated_ghost {
 enum updated_wall { WALL_NONE, WALL_STICK, WALL_SLIP, WALL_TRACTION };
 
 /* Components of a packed particle: place, velocity, volume, span (the volume, or 0 for ghosts that carry a
- * traction but do not deform with the body), mass, smoothing length over the usual one, stress / density^2,
- * artificial stress. */
+ * traction but do not deform with the body), mass, density, smoothing length over the usual one, stress /
+ * density^2, artificial stress. */
 struct updated_layout {
-    size_t velocity, volume, span, mass, length, tension, repulsion, size;
+    size_t velocity, volume, span, mass, density, length, tension, repulsion, size;
+};
+
+/* Sums over the neighbours of one particle. */
+struct updated_sums {
+    double matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
+    double full[6];        /* the same over all: with the ghosts of loaded faces */
+    double velocity[3][3]; /* V (v_j - v_i) grad W */
+    double push[6][3];     /* m (s_j/rho_j^2 + s_i/rho_i^2 - Pi I + f^4 (R_i + R_j)) grad W */
 };
 
 struct updated {
@@ -68,7 +76,13 @@ struct updated {
     double *searched;           /* the same at the last search for neighbours */
     double skin;                /* lists reach this much further than the kernel */
     double *record;             /* [layout.size * (points + ghosts)] */
-    double *deck_position;      /* model.position */
+    bool ordered;               /* particles are summed eight at a time: chosen from the reference places */
+    size_t stride;              /* of the planes */
+    double *planes;   /* [layout.size * stride] component by component, 8 empty places at both ends */
+    uint32_t *shifts; /* [points / 8] number of distances in memory of each eight particles ... */
+    int32_t *shift;   /* ... which stand from neighbours.start of the first of them on */
+    size_t shift_room, merged; /* pairs that were merged into them */
+    double *deck_position;     /* model.position */
     struct updated_layout layout;
     struct neighbours neighbours;
     bool search_failed; /* no memory: rates become NaN, which the run notices */
@@ -106,6 +120,11 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
 /* updated_lagrangian_stress.c: R of Eqs 20-23 in any dimension from s / rho^2: minus epsilon times its
  * positive (tensile) part. */
 void updated_artificial_stress(int dimension, double epsilon, const double *tension, double *repulsion);
+
+/* updated_lagrangian_order.c: the lists of eight particles at a time, after each search ... */
+selas_status updated_merge_lists(struct updated *updated, struct messages *messages);
+/* ... and whether that pays; takes the memory for it. */
+selas_status updated_choose_order(struct updated *updated, struct messages *messages);
 
 /* updated_lagrangian_rate.c: dy/dt. */
 void updated_rate(struct model *model, const struct drive *drive, const double *y, double *dydt);

@@ -14,6 +14,7 @@
  * first particles of the bar with stresses of 3.2, 1.1, .7, 1.3 ... times the applied one; without it they
  * are right to 1e-3. */
 #include "base/memory.h"
+#include "base/vectors.h"
 #include "method/updated_lagrangian.h"
 
 #include <math.h>
@@ -181,6 +182,7 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
     record[layout.volume] = mass / image->density;
     record[layout.span] = image->pressed ? 0 : record[layout.volume];
     record[layout.mass] = mass;
+    record[layout.density] = image->density;
     record[layout.length] = updated->length[source];
     const double square = image->density * image->density;
     for (size_t s = 0; s < stresses; s++)
@@ -188,6 +190,8 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
     if (updated->repulsive)
         updated_artificial_stress(updated->dimension, updated->options.artificial_stress,
                                   record + layout.tension, record + layout.repulsion);
+    for (size_t c = 0; updated->ordered && c < layout.size; c++)
+        updated->planes[c * updated->stride + VEC + place] = record[c];
 }
 
 static void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
@@ -228,7 +232,8 @@ static void search_if_needed(struct updated *updated)
     struct messages unheard = {0};
     updated->search_failed =
         neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
-                        updated->longest * updated->reach + updated->skin, false, &unheard) != SELAS_OK;
+                        updated->longest * updated->reach + updated->skin, false, &unheard) != SELAS_OK ||
+        (updated->ordered && updated_merge_lists(updated, &unheard) != SELAS_OK);
     messages_free(&unheard);
 }
 

@@ -8,204 +8,14 @@
  *
  * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
  * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
- * threads. Pairs within reach are packed into batches, component by component, so that the arithmetic runs in
- * vectors; a batch is full when it holds BATCH pairs within reach, so that it does not depend on when the
- * lists were made either. */
-#include "method/updated_lagrangian.h"
+ * threads. Particles in some order (lattices, rings) are summed eight at a time
+ * (updated_lagrangian_eight.h), others one by one (updated_lagrangian_batch.h). */
+#include "method/updated_lagrangian_batch.h"
+#include "method/updated_lagrangian_eight.h"
 
-#include <math.h>
 #include <string.h>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
-#else
-#define VECTOR_CLONES
-#endif
-
-enum { BATCH = 64, BLOCK = 32 };
-
-/* Sums over the neighbours of one particle. */
-struct sums {
-    double matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
-    double full[6];        /* the same over all: with the ghosts of loaded faces */
-    double velocity[3][3]; /* V (v_j - v_i) grad W */
-    double mass[3];        /* m grad W */
-    double tension[6][3];  /* m (s_j/rho_j^2 + f^4 R_j) grad W */
-    double viscous[3];     /* m Pi grad W */
-    double repulsive[3];   /* m f^4 grad W */
-};
-
-/* Pairs of one particle that are within reach. After weigh() span, volume and mass carry the factor W'/r, so
- * that times d they are V grad W, m grad W. */
-struct batch {
-    int count;
-    double d[3][BATCH], change[3][BATCH]; /* x_i - x_j, v_j - v_i */
-    double square[BATCH], length[BATCH];  /* h of the pair over the usual one */
-    double span[BATCH], volume[BATCH], mass[BATCH];
-    double tension[6][BATCH], repulsion[6][BATCH];
-    double pressure[BATCH], strength[BATCH]; /* m Pi W'/r, m f^4 W'/r */
-};
-
-/* The cubic spline by truncated powers, w = ((2 - q)^3 - 4 (1 - q)^3) / 6, each where positive: no branch. */
-static inline double cubic_slope_over_q(double q)
-{
-    const double outer = q < 2 ? 2 - q : 0, inner = q < 1 ? 1 - q : 0;
-    return (2 * inner * inner - outer * outer / 2) / q;
-}
-
-static inline double cubic_shape(double q)
-{
-    const double outer = q < 2 ? 2 - q : 0, inner = q < 1 ? 1 - q : 0;
-    return (outer * outer * outer - 4 * inner * inner * inner) / 6;
-}
-
-/* Monaghan's viscosity, Eq 17 with r_ij read as a vector, between pairs that approach each other. */
-__attribute__((always_inline)) static inline void
-add_viscosity(const struct updated *updated, const int dimension, double density, struct batch *batch)
-{
-    const double usual = updated->smoothing_length, alpha = updated->alpha * updated->sound_speed,
-                 beta = updated->beta;
-    const bool both_sides = updated->both_sides;
-#pragma omp simd
-    for (int n = 0; n < batch->count; n++) {
-        double approach = 0;
-        for (int a = 0; a < dimension; a++)
-            approach -= batch->change[a][n] * batch->d[a][n];
-        const double h = usual * batch->length[n];
-        const double phi = h * approach / (batch->square[n] + .01 * h * h);
-        const double mean = (density + batch->mass[n] / batch->volume[n]) / 2;
-        const double viscosity = batch->mass[n] * (beta * phi * phi - alpha * phi) / mean;
-        batch->pressure[n] = both_sides || approach < 0 ? viscosity : 0;
-    }
-}
-
-/* Kernel factors of a batch. */
-__attribute__((always_inline)) static inline void weigh(const struct updated *updated, const int dimension,
-                                                        const bool viscous, const bool repulsive,
-                                                        struct batch *batch)
-{
-    const struct kernel *kernel = updated->options.kernel;
-    const double h = updated->smoothing_length, scale = updated->slope_scale;
-    double slope[BATCH], shape[BATCH];
-    if (updated->cubic) {
-#pragma omp simd
-        for (int n = 0; n < batch->count; n++) {
-            const double q = sqrt(batch->square[n]) / (h * batch->length[n]);
-            slope[n] = scale * cubic_slope_over_q(q);
-            if (repulsive) shape[n] = cubic_shape(q);
-        }
-    } else {
-        for (int n = 0; n < batch->count; n++) {
-            const double q = sqrt(batch->square[n]) / (h * batch->length[n]);
-            slope[n] = scale * kernel->slope_over_q(dimension, q);
-            if (repulsive) shape[n] = kernel->shape(dimension, q);
-        }
-    }
-    if (!updated->even)
-        for (int n = 0; n < batch->count; n++) {
-            const double g = batch->length[n], square = g * g;
-            slope[n] /= dimension == 1 ? square * g : dimension == 2 ? square * square : square * square * g;
-        }
-    const int stresses = dimension * (dimension + 1) / 2;
-#pragma omp simd
-    for (int n = 0; n < batch->count; n++) {
-        batch->span[n] *= slope[n];
-        batch->volume[n] *= slope[n];
-        batch->mass[n] *= slope[n];
-        if (viscous) batch->pressure[n] *= slope[n];
-        if (repulsive) {
-            const double f = updated->repulsion_scale * shape[n], power = f * f * f * f;
-            batch->strength[n] = batch->mass[n] * power;
-            for (int s = 0; s < stresses; s++)
-                batch->tension[s][n] += power * batch->repulsion[s][n];
-        }
-    }
-}
-
-__attribute__((always_inline)) static inline double dot(const struct batch *batch, const double *weight,
-                                                        const double *x)
-{
-    double sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (int n = 0; n < batch->count; n++)
-        sum += weight[n] * x[n];
-    return sum;
-}
-
-__attribute__((always_inline)) static inline void add_batch(const struct updated *updated,
-                                                            const int dimension, const bool viscous,
-                                                            const bool repulsive, double density,
-                                                            struct batch *batch, struct sums *sums)
-{
-    if (viscous) add_viscosity(updated, dimension, density, batch);
-    weigh(updated, dimension, viscous, repulsive, batch);
-    const int stresses = dimension * (dimension + 1) / 2;
-    double product[BATCH];
-    for (int a = 0; a < dimension; a++) {
-        const double *d = batch->d[a];
-        sums->mass[a] += dot(batch, batch->mass, d);
-        if (viscous) sums->viscous[a] += dot(batch, batch->pressure, d);
-        if (repulsive) sums->repulsive[a] += dot(batch, batch->strength, d);
-#pragma omp simd
-        for (int n = 0; n < batch->count; n++)
-            product[n] = batch->mass[n] * d[n];
-        for (int s = 0; s < stresses; s++)
-            sums->tension[s][a] += dot(batch, batch->tension[s], product);
-#pragma omp simd
-        for (int n = 0; n < batch->count; n++)
-            product[n] = batch->span[n] * d[n];
-        for (int b = 0; b < dimension; b++)
-            sums->velocity[b][a] += dot(batch, batch->change[b], product);
-        for (int b = a; b < dimension; b++)
-            sums->matrix[updated_component[dimension][a][b]] -= dot(batch, batch->d[b], product);
-        if (!updated->pressed) continue;
-#pragma omp simd
-        for (int n = 0; n < batch->count; n++)
-            product[n] = batch->volume[n] * d[n];
-        for (int b = a; b < dimension; b++)
-            sums->full[updated_component[dimension][a][b]] -= dot(batch, batch->d[b], product);
-    }
-    batch->count = 0;
-}
-
-__attribute__((always_inline)) static inline void gather(const struct updated *updated, const int dimension,
-                                                         const bool viscous, const bool repulsive, size_t i,
-                                                         struct sums *sums)
-{
-    const struct updated_layout layout = updated->layout;
-    const int stresses = dimension * (dimension + 1) / 2;
-    const double reach = updated->reach * updated->reach;
-    const double *own = updated->record + layout.size * i;
-    const double density = own[layout.mass] / own[layout.volume];
-    struct batch batch;
-    batch.count = 0;
-    for (size_t k = updated->neighbours.start[i]; k < updated->neighbours.start[i + 1]; k++) {
-        const double *other = updated->record + layout.size * updated->neighbours.index[k];
-        const int n = batch.count;
-        double square = 0;
-        for (int a = 0; a < dimension; a++) {
-            const double d = own[a] - other[a];
-            batch.d[a][n] = d;
-            square += d * d;
-        }
-        const double length = (own[layout.length] + other[layout.length]) / 2;
-        if (!(square < reach * length * length)) continue;
-        batch.square[n] = square;
-        batch.length[n] = length;
-        batch.volume[n] = other[layout.volume];
-        batch.span[n] = other[layout.span];
-        batch.mass[n] = other[layout.mass];
-        for (int a = 0; a < dimension; a++)
-            batch.change[a][n] = other[layout.velocity + (size_t)a] - own[layout.velocity + (size_t)a];
-        for (int s = 0; s < stresses; s++)
-            batch.tension[s][n] = other[layout.tension + (size_t)s];
-        if (repulsive)
-            for (int s = 0; s < stresses; s++)
-                batch.repulsion[s][n] = other[layout.repulsion + (size_t)s];
-        if (++batch.count == BATCH) add_batch(updated, dimension, viscous, repulsive, density, &batch, sums);
-    }
-    add_batch(updated, dimension, viscous, repulsive, density, &batch, sums);
-}
+enum { BLOCK = 32 };
 
 /* Inverse of L; the identity where the neighbours do not span the space. */
 static inline void invert(const int dimension, const double matrix[6], double inverse[3][3])
@@ -257,51 +67,53 @@ static inline void stress_rate(const struct updated *updated, const int dimensio
         }
 }
 
-/* Rates of the particles first ... last - 1. */
-__attribute__((always_inline)) static inline void rates(const struct updated *updated, const int dimension,
-                                                        const bool viscous, const bool repulsive,
-                                                        size_t first, size_t last, const double *y,
-                                                        double *dydt)
+/* Rates of particle i from its sums. */
+INLINED void contract(const struct updated *updated, const int dimension, size_t i, struct updated_sums *sums,
+                      const double *y, double *dydt)
 {
     const size_t points = updated->cloud->points, unknowns = updated->model.unknowns;
     const size_t dim = (size_t)dimension, stresses = dim * (dim + 1) / 2;
-    const struct updated_layout layout = updated->layout;
     const double *density = y + 2 * unknowns, *stress = density + points;
     double *acceleration = dydt + unknowns, *density_rate = dydt + 2 * unknowns,
            *stresses_rate = density_rate + points;
-    for (size_t i = first; i < last; i++) {
-        struct sums sums = {0};
-        gather(updated, dimension, viscous, repulsive, i, &sums);
-        double inverse[3][3];
-        if (!updated->options.correction) {
-            memset(sums.matrix, 0, sizeof sums.matrix);
-            memset(sums.full, 0, sizeof sums.full);
-        }
-        invert(dimension, sums.matrix, inverse);
-        double gradient[3][3] = {{0}}, trace = 0;
-        for (int a = 0; a < dimension; a++) {
+    double inverse[3][3], gradient[3][3] = {{0}}, trace = 0;
+    if (!updated->options.correction) {
+        memset(sums->matrix, 0, sizeof sums->matrix);
+        memset(sums->full, 0, sizeof sums->full);
+    }
+    invert(dimension, sums->matrix, inverse);
+    for (int a = 0; a < dimension; a++) {
+        for (int b = 0; b < dimension; b++)
+            for (int c = 0; c < dimension; c++)
+                gradient[a][b] += sums->velocity[a][c] * inverse[b][c];
+        trace += gradient[a][a];
+    }
+    if (updated->pressed) invert(dimension, sums->full, inverse);
+    for (int a = 0; a < dimension; a++) {
+        double sum = 0;
+        for (int c = 0; c < dimension; c++)
             for (int b = 0; b < dimension; b++)
-                for (int c = 0; c < dimension; c++)
-                    gradient[a][b] += sums.velocity[a][c] * inverse[b][c];
-            trace += gradient[a][a];
-        }
-        const double *own = updated->record + layout.size * i;
-        if (updated->pressed) invert(dimension, sums.full, inverse);
-        for (int a = 0; a < dimension; a++) {
-            double sum = 0;
-            for (int c = 0; c < dimension; c++) {
-                for (int b = 0; b < dimension; b++) {
-                    const size_t s = (size_t)updated_component[dimension][a][b];
-                    double tension = sums.tension[s][c] + own[layout.tension + s] * sums.mass[c];
-                    if (repulsive) tension += own[layout.repulsion + s] * sums.repulsive[c];
-                    sum += tension * inverse[b][c];
-                }
-                if (viscous) sum -= sums.viscous[c] * inverse[a][c];
-            }
-            acceleration[dim * i + (size_t)a] = sum;
-        }
-        density_rate[i] = -density[i] * trace;
-        stress_rate(updated, dimension, gradient, stress + stresses * i, stresses_rate + stresses * i);
+                sum += sums->push[updated_component[dimension][a][b]][c] * inverse[b][c];
+        acceleration[dim * i + (size_t)a] = sum;
+    }
+    density_rate[i] = -density[i] * trace;
+    stress_rate(updated, dimension, gradient, stress + stresses * i, stresses_rate + stresses * i);
+}
+
+/* Rates of the particles first ... last - 1; first is a multiple of VEC. */
+INLINED void rates(const struct updated *updated, const int dimension, const bool viscous,
+                   const bool repulsive, size_t first, size_t last, const double *y, double *dydt)
+{
+    for (size_t i = first; updated->ordered && i < last; i += VEC) {
+        struct updated_sums sums[VEC];
+        updated_eight(updated, dimension, viscous, repulsive, i, sums);
+        for (size_t lane = 0; lane < VEC && i + lane < last; lane++)
+            contract(updated, dimension, i + lane, &sums[lane], y, dydt);
+    }
+    for (size_t i = first; !updated->ordered && i < last; i++) {
+        struct updated_sums sums = {0};
+        updated_gather(updated, dimension, viscous, repulsive, i, &sums);
+        contract(updated, dimension, i, &sums, y, dydt);
     }
 }
 
