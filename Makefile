@@ -93,7 +93,14 @@ $(BUILD)/libselas.a: $(OBJECTS)
 	@rm -f $@
 	$(Q)ar rcs $@ $^
 
-$(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"'
+# the commit that is built, "+" behind it if files were changed; provenance.c is compiled anew when it changes
+COMMIT   = $(shell git describe --always --exclude='*' --dirty=+ 2>/dev/null || echo unknown)
+$(BUILD)/commit: always
+	@mkdir -p $(BUILD)
+	@echo '$(COMMIT)' | cmp -s - $@ || echo '$(COMMIT)' >$@
+.PHONY: always
+$(BUILD)/obj/record/provenance.o: $(BUILD)/commit
+$(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
 
 # Multiplication and addition of the lattice operators in one instruction where the machine has it
 $(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
@@ -128,6 +135,10 @@ bench-host: all ## what stepping one step at a time from Fortran costs on input/
 	@mkdir -p $(BUILD)/test
 	$(Q)$(FC) $(ALL_F) -I$(BUILD) -o $(BUILD)/test/overhead regress/hosts/overhead.f90 $(BUILD)/libselas_fortran.a $(BUILD)/whole/libselas.a $(LIBS) -fopenmp
 	OMP_NUM_THREADS=1 $(BUILD)/test/overhead input/halfspace.nml 0.125 40 7
+
+.PHONY: kills
+kills: $(BUILD)/selas ## 200 runs killed at random times: each must go on to the same bits (some minutes)
+	@regress/kills $(BUILD)
 
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')

@@ -179,6 +179,8 @@ bool misfit_is_small(const struct misfit *misfit, const struct misfit *largest);
 const char *compiler_name(void);
 const char *build_flags(void);
 const char *build_commit(void);
+/* Version, commit, compiler, flags, libraries, host, and date. */
+void provenance_tell(void (*tell)(void *context, const char *key, const char *value), void *context);
 
 /* names of files and data sets from names of the deck: '/' and control characters become '_' */
 void file_name_of(const char *name, const char *ending, char *text, size_t size);

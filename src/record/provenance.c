@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <fftw3.h>
+#include <gsl/gsl_version.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -98,7 +99,7 @@ static void write_setting(void *pointer, const char *group, size_t occurrence, c
     context->good = context->good && good;
 }
 
-static bool write_origin(const struct recorder *recorder, hid_t place, const struct run_figures *figures)
+void provenance_tell(void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     char host[256] = "", date[64] = "", hdf[32];
     if (gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
@@ -108,13 +109,31 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
     unsigned major = 0, minor = 0, release = 0;
     H5get_libversion(&major, &minor, &release);
     snprintf(hdf, sizeof hdf, "%u.%u.%u", major, minor, release);
+    tell(context, "version", selas_version());
+    tell(context, "commit", build_commit());
+    tell(context, "compiler", compiler_name());
+    tell(context, "flags", build_flags());
+    tell(context, "hdf5", hdf);
+    tell(context, "fftw", fftw_version);
+    tell(context, "gsl", gsl_version);
+    tell(context, "host", host);
+    tell(context, "date", date);
+}
+
+static void write_line(void *pointer, const char *key, const char *value)
+{
+    struct settings_context *context = pointer;
+    context->good = hdf_text(context->settings, key, value) && context->good;
+}
+
+static bool write_origin(const struct recorder *recorder, hid_t place, const struct run_figures *figures)
+{
     const double threads = figures != NULL ? (double)figures->threads : 0.0;
     const struct stepper *stepper = recorder->stepper;
     const double steps = (double)recorder->last_step;
-    return hdf_text(place, "version", selas_version()) && hdf_text(place, "commit", build_commit()) &&
-           hdf_text(place, "compiler", compiler_name()) && hdf_text(place, "flags", SELAS_FLAGS) &&
-           hdf_text(place, "host", host) && hdf_text(place, "date", date) && hdf_text(place, "hdf5", hdf) &&
-           hdf_text(place, "fftw", fftw_version) && hdf_numbers(place, "threads", 1, &threads) &&
+    struct settings_context context = {place, true};
+    provenance_tell(write_line, &context);
+    return context.good && hdf_numbers(place, "threads", 1, &threads) &&
            hdf_text(place, "scheme", stepper->scheme->name) &&
            hdf_numbers(place, "time_step", 1, &stepper->dt) && hdf_numbers(place, "steps", 1, &steps) &&
            hdf_text(place, "method", recorder->model->class->method) &&

@@ -118,7 +118,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
         safe_file_open(recorder->scene->output.directory, "report.txt", &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
-    fprintf(out, "version: %s\ncompiler: %s\n", selas_version(), compiler_name());
+    provenance_tell(tell_line, out);
     plan_tell(recorder, tell_line, out);
     fprintf(out, "steps done: %lu\ntime reached: %.9g\n", recorder->last_step, recorder->last_time);
     if (exact != NULL) {
