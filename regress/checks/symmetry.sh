@@ -47,6 +47,12 @@ judge() {
     fi
     part=$(awk -v a="$(value "$2-on" unknowns)" -v b="$(value "$2-off" unknowns)" 'BEGIN { printf "%.3f", a / b }')
     calls=$(awk -v a="$(value "$2-on" 'operator calls')" -v b="$(value "$2-off" 'operator calls')" 'BEGIN { print a - b }')
+    memory=$(awk -v a="$(value "$2-on" 'planned memory bytes')" -v b="$(value "$2-off" 'planned memory bytes')" 'BEGIN { printf "%.3f", a / b }')
+    if awk -v p="$memory" -v w="$3" 'BEGIN { exit !(p > 0 && p <= 1.3 * w + .01) }'; then
+        echo "ok - $1: $memory of the memory"
+    else
+        echo "not ok - $1: $memory of the memory (expected $3)"
+    fi
     if awk -v p="$part" -v w="$3" -v c="$calls" 'BEGIN { exit !(p >= w && p <= 1.3 * w && (w == 1 || c == 0)) }'; then
         echo "ok - $1: $part of the unknowns at the same number of operator calls"
     else

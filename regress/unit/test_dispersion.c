@@ -22,23 +22,32 @@ static const char *const wave_name[2] = {"S", "P"};
 /* Rows of the 1-D matrices with spacing 1, offsets 0, 1, 2, 3: integrals of products of B-splines, from the
  * values and derivatives of the B-spline of degree 2p + 1 at whole numbers. */
 static const struct rows {
-    double mass[4], stiffness[4], gradient[4];
-} rows[4] = {
+    double mass[5], stiffness[5], gradient[5];
+} rows[5] = {
     [1] = {{4 / 6., 1 / 6.}, {2, -1}, {0, 1 / 2.}},
     [2] = {{66 / 120., 26 / 120., 1 / 120.}, {1, -1 / 3., -1 / 6.}, {0, 5 / 12., 1 / 24.}},
     [3] = {{2416 / 5040., 1191 / 5040., 120 / 5040., 1 / 5040.},
            {2 / 3., -1 / 8., -1 / 5., -1 / 120.},
            {0, 49 / 144., 7 / 90., 1 / 720.}},
+    [4] = {{156190 / 362880., 88234 / 362880., 14608 / 362880., 502 / 362880., 1 / 362880.},
+           {2450 / 5040., -154 / 5040., -952 / 5040., -118 / 5040., -1 / 5040.},
+           {0, 11326 / 40320., 4046 / 40320., 246 / 40320., 1 / 40320.}},
 };
 
-static double even(const double row[4], double angle)
+static double even(const double row[5], double angle)
 {
-    return row[0] + 2 * (row[1] * cos(angle) + row[2] * cos(2 * angle) + row[3] * cos(3 * angle));
+    double sum = row[0];
+    for (int j = 1; j < 5; j++)
+        sum += 2 * row[j] * cos(j * angle);
+    return sum;
 }
 
-static double odd(const double row[4], double angle)
+static double odd(const double row[5], double angle)
 {
-    return 2 * (row[1] * sin(angle) + row[2] * sin(2 * angle) + row[3] * sin(3 * angle));
+    double sum = 0;
+    for (int j = 1; j < 5; j++)
+        sum += 2 * row[j] * sin(j * angle);
+    return sum;
 }
 
 /* Eigenvalues, ascending, of a symmetric 3 x 3 matrix. */
@@ -111,7 +120,7 @@ struct lattice {
 static void lattice_create(struct lattice *lattice, struct consistent_options options, size_t cells,
                            const char *scheme)
 {
-    static const double decay[4] = {0, .268, .431, .536}; /* largest root of the mass symbol */
+    static const double decay[5] = {0, .268, .431, .536, .608}; /* largest root of the mass symbol */
     const double size = (double)cells;
     *lattice = (struct lattice){0};
     plain_box(&lattice->plain, 3, (double[]){size, size, size}, 1);
@@ -241,6 +250,9 @@ static void test_van_cittert(void **state)
     compare((struct consistent_options){.degree = 2, .sweeps = 3}, 35, "2, vc3", "modified-equation");
     compare((struct consistent_options){.degree = 2, .sweeps = 3, .depth_exact = true}, 27,
             "2, vc3, exact over depth", "leapfrog");
+    compare((struct consistent_options){.degree = 1, .sweeps = 3}, 15, "1, vc3", "leapfrog");
+    compare((struct consistent_options){.degree = 3, .sweeps = 3}, 37, "3, vc3", "leapfrog");
+    compare((struct consistent_options){.degree = 4, .sweeps = 3}, 49, "4, vc3", "leapfrog");
 }
 
 /* Theory of theory: on the axis the error of the exact mass falls with the power 2p of the angle k dx per

@@ -24,10 +24,12 @@ static const struct word method_words[] = {
     {"variant", WORD_CHOICE, 1, NULL, "consistent|paper|total-lagrangian|updated-lagrangian", false,
      "form of the method: consistent or paper (smoothed-point), total-lagrangian or updated-lagrangian "
      "(sph)"},
-    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", false, "degree of the B-splines (consistent)"},
+    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", false,
+     "degree of the B-splines (consistent; 2, and 4 on layered ground)"},
     {"ends", WORD_CHOICE, 1, NULL, "open|mapped", false, "knots at the faces (consistent)"},
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", false,
-     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent)"},
+     "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
+     "else vc3)"},
     {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", false,
      "mass in the stiffness over depth where the inverse is by sweeps: exact, or the same as elsewhere"},
     {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,

@@ -83,8 +83,12 @@ static double memory_of(const struct recorder *recorder)
     const struct model *model = recorder->model;
     const double vectors = (double)stepper->scheme->vectors + 1.0;
     const double rows = (double)(stepper->steps + stepper->extra + 2);
-    return (double)model->bytes + 8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +
-           72.0 * rows * (double)recorder->scene->receivers;
+    double bytes = (double)model->bytes +
+                   8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +
+                   72.0 * rows * (double)recorder->scene->receivers;
+    for (size_t s = 0; s < recorder->scene->snapshots; s++) /* a buffer of 6 numbers a point; a region's list */
+        bytes += (recorder->scene->snapshot[s].whole ? 48.0 : 56.0) * (double)model->points;
+    return bytes;
 }
 
 static void say_parts(const struct teller *teller, const struct scene *scene)

@@ -1,0 +1,75 @@
+#!/bin/sh
+# Only what the scene needs. Layers behind faces that no reflection can be seen from are left out: histories with and without
+# (boundary%always) agree to 1e-5 of the largest value: what is felt ahead of the first wave. Parts that a deck does not ask for are not in the plan and take no
+# memory: each adds its line and its bytes to those of the bare deck.
+build=${1:-build}
+out=$build/test/needed
+rm -rf "$out"
+mkdir -p "$out"
+OMP_NUM_THREADS=1
+export OMP_NUM_THREADS
+
+cat >"$out/far.nml" <<'D'
+&scene dimension = 3, end_time = 2.2 /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', low = 0, 0, 0, high = 3, 3, 3, spacing = 0.25 /
+&boundary face = 'x-', 'y-', kind = 'symmetry' /
+&boundary face = 'x+', 'y+', 'z+', kind = 'transmitting', layer = 'pml' /
+&load face = 'z-', shape = 'square', centre = 0, 0, 0, size = 1, 1, direction = 0, 0, 1
+  history = 'gaussian', width = 0.3, delay = 1 /
+&stepping time_step = 0.04 /
+&receiver name = 'r1', position = 0.5, 0, 0 /
+&receiver name = 'r2', position = 0.25, 0.25, 0.5 /
+D
+run() { # run NAME DECK WORDS...
+    name=$1 deck=$2
+    shift 2
+    "$build/selas" -q "$out/$deck.nml" output%plots=F output%directory="$out/$name" "$@" >"$out/$name.log" 2>&1 ||
+        cat "$out/$name.log"
+}
+value() { sed -n "s/^$2: \([^ ]*\).*/\1/p" "$out/$1/report.txt"; }
+check() { # check TITLE CONDITION...
+    title=$1
+    shift
+    if "$@"; then echo "ok - $title"; else echo "not ok - $title"; fi
+}
+less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
+
+run without far
+run with far 'boundary(2)%always=T'
+cat "$out/with/"r?.dat | grep -v '^#' >"$out/with.txt"
+difference=$(cat "$out/without/"r?.dat | grep -v '^#' | paste - "$out/with.txt" | awk '{
+    for (i = 2; i <= 7; i++) {
+        d = $i - $(i + 7); if (d < 0) d = -d; if (d > worst) worst = d
+        a = $i < 0 ? -$i : $i; if (a > largest) largest = a
+    } } END { if (largest > 0 && NR > 100) printf "%.2e", worst / largest }')
+check "layers that nothing can be seen of: histories differ by $difference" less "$difference" 1e-5
+check "three layers are left out" test "$(grep -c '^layer .*: none' "$out/without/report.txt")" = 3
+check "and kept on request" test "$(grep -c '^layer .*: C-PML' "$out/with/report.txt")" = 3
+check "memory without them $(value without 'planned memory bytes') of $(value with 'planned memory bytes')" \
+    less "$(value without 'planned memory bytes')" "$(awk -v m="$(value with 'planned memory bytes')" 'BEGIN { print .2 * m }')"
+
+# The bare deck, and each part alone.
+sed -e "s/, layer = 'pml'/, layer = 'lysmer'/" "$out/far.nml" >"$out/bare.nml"
+run bare bare
+parts='^(layer |memory variables|dissipation|snapshot groups|profiles|low-pass|symmetry)'
+check "the bare plan lists none of the parts" test "$(grep -Ec "$parts" "$out/bare/report.txt")" = 0
+points=$(value bare points)
+vectors=$(awk -v m="$(value bare 'planned memory bytes')" -v u="$(value bare 'unknowns')" -v h="$(value bare 'model memory bytes')" \
+    -v r="$(value bare steps)" -v x="$(value bare 'steps beyond end_time')" \
+    'BEGIN { printf "%g", (m - h - 2 * 72 * (r + x + 2)) / (8 * u) }')
+check "the bare state holds $vectors numbers per unknown" less "$vectors" 6
+part() { # part NAME LINE BYTES-AT-LEAST DECK-TEXT
+    { cat "$out/bare.nml"; echo "$4"; } >"$out/$1.nml"
+    run "$1" "$1"
+    lines=$(grep -E "$parts" "$out/$1/report.txt" | cut -d: -f1 | sort -u | tr '\n' ' ')
+    check "$1: the plan lists it and nothing else ($lines)" test "$lines" = "$2 "
+    more=$(awk -v a="$(value "$1" 'planned memory bytes')" -v b="$(value bare 'planned memory bytes')" 'BEGIN { printf "%d", a - b }')
+    check "$1: $more bytes more than the bare deck" less "$(($3 - 1))" "$more"
+}
+part dissipation dissipation 1 "&method dissipation = 0.3 /"
+part snapshots 'snapshot groups' $((48 * points)) "&snapshot times = 1.0, fields = 'velocity' /"
+part low_pass low-pass 0 "&output low_pass = 20 /"
+part profile profiles 0 "&profile name = 'p', from = 0, 0, 0, to = 1, 0, 0, points = 5, times = 1.0 /"
+echo "# $points points"
+rm -rf "$out"
