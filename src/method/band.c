@@ -2,8 +2,11 @@
 #include "method/band.h"
 
 #include "base/memory.h"
+#include "method/passes.h"
 
 #include <math.h>
+
+enum { MOST_HALF = 63 };
 
 static size_t smaller(size_t a, size_t b)
 {
@@ -125,21 +128,28 @@ static void scale(double factor, size_t lanes, double *row)
         row[lane] *= factor;
 }
 
+/* Each row of the solution is a sum over rows that are known, and itself. */
 void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
+    double weight[MOST_HALF + 1];
     for (size_t i = 0; i < n; i++) {
-        for (size_t d = 1; d <= smaller(i, half); d++)
-            subtract(factor[d * n + i], x + (i - d) * stride, lanes, x + i * stride);
-        scale(factor[i], lanes, x + i * stride);
+        const size_t reach = smaller(i, half);
+        for (size_t d = 1; d <= reach; d++)
+            weight[reach - d] = -factor[i] * factor[d * n + i];
+        weight[reach] = factor[i];
+        pass_over_rows(weight, reach + 1, x + (i - reach) * stride, stride, lanes, NULL, x + i * stride);
     }
 }
 
 void band_backward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
+    double weight[MOST_HALF + 1];
     for (size_t i = n; i-- > 0;) {
-        for (size_t d = 1; d <= smaller(n - 1 - i, half); d++)
-            subtract(factor[d * n + i + d], x + (i + d) * stride, lanes, x + i * stride);
-        scale(factor[i], lanes, x + i * stride);
+        const size_t reach = smaller(n - 1 - i, half);
+        for (size_t d = 1; d <= reach; d++)
+            weight[d] = -factor[i] * factor[d * n + i + d];
+        weight[0] = factor[i];
+        pass_over_rows(weight, reach + 1, x + i * stride, stride, lanes, NULL, x + i * stride);
     }
 }
 

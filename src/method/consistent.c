@@ -129,6 +129,23 @@ static void energy(struct model *model, const double *y, struct energy *energy)
     energy->strain = tensor_form(c->stiffness, y, y) / 2;
 }
 
+static void weigh(struct model *model, const double *v, double *product)
+{
+    struct consistent *c = consistent_of(model);
+    if (c->hform != NULL) {
+        hform_weigh(c, v, product);
+        return;
+    }
+    memset(product, 0, model->unknowns * sizeof *product);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = 0; k < c->n[DEPTH]; k++) {
+        double *out[3] = {NULL, NULL, NULL};
+        for (int component = 0; component < c->dimension; component++)
+            out[component] = product + (size_t)component * c->volume + k * c->plane;
+        tensor_plane(c->mass, omp_get_thread_num(), k, 1, v, out);
+    }
+}
+
 static void power(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed)
 {
@@ -470,6 +487,7 @@ const struct model_class consistent_class = {
     .observe = consistent_observe,
     .field = consistent_field,
     .energy = energy,
+    .weigh = weigh,
     .power = power,
     .describe = describe,
 };

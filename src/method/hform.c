@@ -427,8 +427,17 @@ static double product(size_t n, const double *x, const double *y)
     return sum;
 }
 
-/* v.Mv / 2 with M = rho H (x) H (x) H, and u.Ku / 2 = -u.M(-M^-1 K u) / 2; mass_solve() with the factors of N
- * gives H (x) H (x) H over the density. */
+/* M v, M = rho H (x) H (x) H: mass_solve() with the factors of N gives H (x) H (x) H over the density. */
+void hform_weigh(struct consistent *c, const double *v, double *product)
+{
+    const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    memcpy(product, v, c->model.unknowns * sizeof *product);
+    mass_solve(c, &c->hform->factors, product);
+    for (size_t i = 0; density != 1 && i < c->model.unknowns; i++)
+        product[i] *= density * density;
+}
+
+/* v.Mv / 2, and u.Ku / 2 = -u.M(-M^-1 K u) / 2. */
 void hform_energy(struct consistent *c, const double *y, struct energy *energy)
 {
     const size_t n = c->model.unknowns;
@@ -437,9 +446,8 @@ void hform_energy(struct consistent *c, const double *y, struct energy *energy)
     double *work = c->hform->work;
     *energy = (struct energy){0};
     if (!all_zero(n, y + n)) {
-        memcpy(work, y + n, n * sizeof *work);
-        mass_solve(c, &c->hform->factors, work);
-        energy->kinetic = scale * product(n, work, y + n) / 2;
+        hform_weigh(c, y + n, work);
+        energy->kinetic = product(n, work, y + n) / 2;
     }
     if (!all_zero(n, y)) {
         hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);

@@ -45,6 +45,7 @@ size_t hform_bytes(const struct consistent *c); /* fields and buffers; 0 without
 struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd);
 void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
                       const double *v, double *a);
+void hform_weigh(struct consistent *c, const double *v, double *product); /* M v */
 void hform_energy(struct consistent *c, const double *y, struct energy *energy);
 double hform_damper_power(struct consistent *c, const double *v);
 

@@ -206,6 +206,12 @@ static void whole_energy(struct model *model, const double *y, struct energy *en
     energy->strain *= copies(model);
 }
 
+/* That of the part: Lanczos needs no more than an inner product. */
+static void weigh(struct model *model, const double *v, double *product)
+{
+    part_of(model)->class->weigh(part_of(model), v, product);
+}
+
 static void whole_power(struct model *model, const struct drive *drive, const double *y, double *load,
                         double *absorbed)
 {
@@ -260,6 +266,7 @@ static void fill(struct mirror *mirror)
     *model = *part;
     mirror->class = mirror_class;
     if (part->class->remember != NULL) mirror->class.remember = remember;
+    if (part->class->weigh != NULL) mirror->class.weigh = weigh;
     if (part->class->unseen != NULL) mirror->class.unseen = unseen;
     model->class = &mirror->class;
     model->scene = scene;

@@ -95,6 +95,9 @@ struct model_class {
     /* Field at all body points, value[components * i + c], deck coordinates. */
     void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
     void (*energy)(struct model *model, const double *y, struct energy *energy);
+    /* product := M v, in the inner product of energy() or a multiple of it; v is 0 where it is prescribed.
+     * NULL: Lanczos takes two calls of energy() in its place. */
+    void (*weigh)(struct model *model, const double *v, double *product);
     /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out).
      */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,

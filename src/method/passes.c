@@ -14,7 +14,7 @@ INLINED const lanes *at(const double *place)
 }
 
 /* The sums of `count` vectors from i on. */
-INLINED void rows_at(const int count, const double *restrict weight, size_t taps, const double *restrict in,
+INLINED void rows_at(const int count, const double *restrict weight, size_t taps, const double *in,
                      size_t stride, size_t i, lanes *sum)
 {
     for (size_t d = 0; d < taps; d++)

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* out[i] := init[i] + sum over d < taps of weight[d] * in[d * stride + i], i < n; init NULL: 0; init may be
- * out. */
+/* out[i] := init[i] + sum over d < taps of weight[d] * in[d * stride + i], i < n; init NULL: 0; init
+ * and single rows of `in` may be out. */
 void pass_over_rows(const double *weight, size_t taps, const double *in, size_t stride, size_t n,
                     const double *init, double *out);
 /* out[i] += factor * sum over d < taps of value[d * n + i] * in[d + i], i < n. */

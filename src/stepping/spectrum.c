@@ -1,10 +1,10 @@
 /* The largest frequency of the undamped operator, M^-1 K x = omega^2 x.
  *
  * Self-adjoint models: Lanczos iteration in the inner product of the mass (Parlett 1998, chapter 13). It
- * needs no product with M: the energies give the coefficients, alpha = q.Kq = 2 strain(q), beta^2 = r.Mr = 2
- * kinetic(r). The largest Ritz value theta is a lower bound, and some eigenvalue lies within beta |last
- * component of the Ritz vector| of it: that is the error told. Other models: power iteration in the Euclidean
- * norm. */
+ * takes one call of the operator and one product with M a step; models that cannot tell M v give energies in
+ * their place, alpha = q.Kq = 2 strain(q), beta^2 = r.Mr = 2 kinetic(r). The largest Ritz value theta is a
+ * lower bound, and some eigenvalue lies within beta |last component of the Ritz vector| of it: that is the
+ * error told. Other models: power iteration in the Euclidean norm. */
 #include "stepping/stepping.h"
 
 #include "base/memory.h"
@@ -66,38 +66,60 @@ static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
     return room;
 }
 
+static double dot(size_t n, const double *x, const double *y)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+/* Norm of r; the v part of y gets M r where the model can tell it. */
 static double mass_norm(struct model *model, double *y, const double *r)
 {
+    const size_t n = model->unknowns;
     struct energy energy;
-    for (size_t i = 0; i < model->unknowns; i++)
-        y[model->unknowns + i] = r[i];
+    double *v = y + n;
+    if (model->class->weigh != NULL) {
+        model->class->weigh(model, r, v);
+        return sqrt(fmax(0.0, dot(n, r, v)));
+    }
+    for (size_t i = 0; i < n; i++)
+        v[i] = r[i];
     model->class->energy(model, y, &energy);
     return sqrt(2.0 * energy.kinetic);
+}
+
+/* a := -M^-1 K q, q in the u part of y; gives q.Kq. `norm`: that of the vector whose M times it is in the v
+ * part, and q that vector over its norm. */
+static double rayleigh(struct model *model, double *y, double norm, double *a)
+{
+    const struct drive quiet = {.time = 0.0};
+    struct energy energy = {0};
+    if (model->class->weigh == NULL) model->class->energy(model, y, &energy);
+    model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+    if (model->class->weigh == NULL) return 2.0 * energy.strain;
+    return -dot(model->unknowns, a, y + model->unknowns) / norm;
 }
 
 static bool lanczos(struct model *model, double *y, double *a, double *before, double *theta, double *bound)
 {
     const size_t n = model->unknowns;
-    const struct drive quiet = {.time = 0.0};
     struct tridiagonal t = {0};
     first_vector(model, y, a);
-    double beta = mass_norm(model, y, a);
+    double norm = mass_norm(model, y, a), beta = 0.0;
     *theta = 0.0;
     *bound = 0.0;
-    if (!(beta > 0.0)) return true; /* nothing moves: no stiffness */
+    if (!(norm > 0.0)) return true; /* nothing moves: no stiffness */
     for (size_t i = 0; i < n; i++) {
-        y[i] = a[i] / beta;
+        y[i] = a[i] / norm;
         before[i] = 0.0;
     }
-    beta = 0.0;
     while (t.n < LANCZOS_STEPS) {
-        struct energy energy;
-        model->class->energy(model, y, &energy);
-        const double alpha = 2.0 * energy.strain;
-        model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+        const double alpha = rayleigh(model, y, norm, a);
         for (size_t i = 0; i < n; i++)
             a[i] = -a[i] - alpha * y[i] - beta * before[i];
-        beta = mass_norm(model, y, a);
+        norm = beta = mass_norm(model, y, a);
         t.alpha[t.n] = alpha;
         t.beta[t.n++] = beta;
         const bool exhausted = !(beta > 1e-12 * fabs(t.alpha[0]));
