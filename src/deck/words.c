@@ -64,8 +64,8 @@ static const struct word method_words[] = {
      "kernel gradient correction L (updated-lagrangian)"},
     {"jaumann", WORD_LOGICAL, 1, NULL, NULL, false, "Jaumann rate of the stress (updated-lagrangian)"},
     {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "hourglass control (total-lagrangian)"},
-    {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic", false,
-     "fields whose gradient is exact (total-lagrangian)"},
+    {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", false,
+     "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
     {"law", WORD_CHOICE, 1, NULL, "linear|saint-venant-kirchhoff|neo-hookean", false,
      "elastic law (total-lagrangian)"},
 };

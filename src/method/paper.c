@@ -264,6 +264,23 @@ static selas_status fill(struct paper *paper, struct messages *messages)
     return status;
 }
 
+static selas_status create(const struct scene *scene, struct model **model, struct messages *messages);
+
+/* Without the filter of Eq 35 every time scheme may be had. */
+static const struct model_class unfiltered_class = {
+    .method = "smoothed-point",
+    .variant = "paper",
+    .create = create,
+    .destroy = destroy,
+    .accelerate = accelerate,
+    .initialise = paper_initialise,
+    .probe = paper_probe,
+    .field = paper_field,
+    .energy = paper_energy,
+    .power = paper_power,
+    .describe = paper_describe,
+};
+
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
                           struct model **model, struct messages *messages)
 {
@@ -275,7 +292,7 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->options = *options;
     paper->dimension = scene->dimension;
     paper->material = &scene->material[scene->body.material];
-    paper->model.class = &paper_class;
+    paper->model.class = options->filter > 0 ? &paper_class : &unfiltered_class;
     paper->model.scene = scene;
     status = fill(paper, messages);
     if (status != SELAS_OK) {

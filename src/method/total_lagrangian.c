@@ -200,7 +200,10 @@ static void describe(const struct model *model,
 {
     const struct tl_model *tl = (const struct tl_model *)model;
     char text[64];
-    tell(context, "gradient", tl->options.degree == 2 ? "quadratic" : "linear");
+    tell(context, "gradient",
+         tl->options.central       ? "central"
+         : tl->options.degree == 2 ? "quadratic"
+                                   : "linear");
     tell(context, "law", elastic_law_name(tl->options.law));
     snprintf(text, sizeof text, "%s", tl->options.kernel->name);
     tell(context, "kernel", text);
@@ -316,6 +319,11 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     tl->model.class = &total_lagrangian_class;
     tl->options = *options;
     selas_status status = cloud_create(scene, &tl->cloud, messages);
+    if (status == SELAS_OK && options->central && tl->cloud->grid[0] == 0)
+        status =
+            fail(messages, SELAS_UNSUPPORTED,
+                 "method%%gradient = 'central' needs points on a lattice without jitter; take 'quadratic' or "
+                 "'linear'");
     if (status == SELAS_OK) status = fill_points(tl, messages);
     if (status == SELAS_OK) status = tl_make_rows(tl, messages);
     if (status == SELAS_OK) {
@@ -350,7 +358,10 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     const struct deck_group *group = scene->method.group;
     if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
     if (deck_values(group, "gradient") > 0)
-        options.degree = strcmp(deck_text(group, "gradient", 0), "linear") == 0 ? 1 : 2;
+        options.degree = strcmp(deck_text(group, "gradient", 0), "quadratic") == 0 ? 2 : 1;
+    if (deck_values(group, "gradient") > 0)
+        options.central = strcmp(deck_text(group, "gradient", 0), "central") == 0;
+    if (options.central) options.hourglass = 0.5; /* doc/sph-total-lagrangian.md, section 11 */
     if (deck_values(group, "law") > 0)
         options.law = (enum elastic_law)elastic_law_find(deck_text(group, "law", 0));
     read_real(group, "smoothing_length", &options.smoothing_length);

@@ -15,6 +15,7 @@
 
 struct tl_options {
     int degree;                  /* 1: linear (TL1), 2: quadratic (TL2) gradients */
+    bool central;                /* degree 1 by differences along the axes of a lattice */
     const struct kernel *kernel; /* shape of the weights */
     double smoothing_length;     /* in spacings; 0: the degree's default */
     double hourglass;            /* strength of the penalty on what the gradients do not see; 0: none */
@@ -110,6 +111,15 @@ double tl_search_radius(const struct tl_model *tl);        /* the largest a poin
 /* Neighbours that a quadratic fit should have: those of a point inside a lattice; linear ones take what there
  * is. */
 size_t tl_wanted(const struct tl_model *tl);
+/* total_lagrangian_lattice.c: gradient = 'central'. Weights of a point over sites into index and gradient (3
+ * numbers a site, at most 12 sites), 0 if it has no neighbour along an axis; weights of a value at a place of
+ * the body over at most 64 points. */
+size_t tl_central_row(const struct tl_model *tl, const struct neighbours *near, size_t i, uint32_t *index,
+                      double *gradient);
+size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], size_t *index, double *weight,
+                        double *gradient);
+/* A place of the body's frame on a symmetry plane or roller across the axis. */
+bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis);
 /* total_lagrangian_loads.c */
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);

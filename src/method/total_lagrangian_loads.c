@@ -20,6 +20,10 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
     double offset[3 * TL_PROBE_ROOM];
     double kernel[TL_PROBE_ROOM];
     double work[FIT_TERMS * TL_PROBE_ROOM];
+    if (tl->options.central) {
+        *count = tl_lattice_probe(tl, body_position, index, weight, gradient);
+        return SELAS_OK;
+    }
     const int d = tl->cloud->dimension;
     const size_t wanted = tl_wanted(tl);
     const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);

@@ -75,8 +75,12 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
 {
     const struct tl_model *tl = (const struct tl_model *)model;
     const size_t d = (size_t)tl->cloud->dimension;
+    double place[3];
+    body_from_deck(&model->scene->body, probe->position, place);
     if (is_vector(field)) {
         probe_observe(model, probe, field, y, a, value);
+        for (int axis = 0; axis < (int)d && model->frame == NULL; axis++)
+            if (tl_on_mirror(tl, place, axis)) value[axis] = 0;
         return;
     }
     double H[9] = {0};
@@ -89,6 +93,9 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
         for (size_t c = 0; c < d; c++)
             velocity[c] += probe->weight[k] * y[model->unknowns + d * probe->index[k] + c];
     }
+    for (int axis = 0; axis < (int)d; axis++)
+        for (int c = 0; c < (int)d; c++)
+            if (c != axis && tl_on_mirror(tl, place, axis)) H[axis * (int)d + c] = H[c * (int)d + axis] = 0;
     const struct elastic elastic = elastic_of(probe->material, tl->options.law, (int)d, model->scene->plane);
     nonlinear_field(model, probe->material, &elastic, H, velocity, field, value);
 }

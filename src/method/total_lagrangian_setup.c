@@ -33,7 +33,7 @@ double tl_spacing_at(const struct tl_model *tl, size_t i)
 double tl_radius(const struct tl_model *tl)
 {
     double length = tl->options.smoothing_length;
-    if (!(length > 0)) length = tl->options.degree == 2 ? 1.3 : 1.5;
+    if (!(length > 0)) length = tl->options.central ? 0.8 : tl->options.degree == 2 ? 1.3 : 1.5;
     return length * tl->options.kernel->support * tl->cloud->spacing;
 }
 
@@ -135,6 +135,7 @@ size_t tl_wanted(const struct tl_model *tl)
  * one-sided fit over few points has large weights, which would limit the time step. */
 static size_t fit_point(const struct tl_model *tl, const struct neighbours *near, size_t i, struct work *work)
 {
+    if (tl->options.central) return tl_central_row(tl, near, i, work->index, work->gradient);
     const double reach = tl_radius(tl) / tl->cloud->spacing;
     const bool quadratic = tl->options.degree == 2;
     const size_t wanted = tl_wanted(tl);

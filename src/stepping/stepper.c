@@ -201,6 +201,12 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
         return fail(messages, SELAS_UNSUPPORTED,
                     "scheme '%s' knows how loads vary in time, not how they move; take scheme 'leapfrog'",
                     name);
+    if (class->after_step != NULL && !stepper->scheme->needs_acceleration)
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "the filter of method '%s', variant '%s', acts on leapfrog's half-step velocity and cannot "
+            "be had with scheme '%s'; take scheme 'leapfrog' or method%%filter = 0",
+            class->method, class->variant, name);
     if (class->remember != NULL && stepper->scheme != &scheme_leapfrog)
         return fail(messages, SELAS_UNSUPPORTED,
                     "absorbing layers (boundary%%layer = 'pml') need scheme 'leapfrog', not '%s'", name);
