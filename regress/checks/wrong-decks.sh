@@ -72,6 +72,9 @@ changed "two materials of one name" '2{p;}' "3:[0-9]*: error: .*rock.*"
 changed "two bodies" '3,6{H;};7{x;s/^\n//;G;}' "7:1: error: &body is given twice.*"
 refused "negative spacing by an override" right.nml "override: error: -1 for 'spacing'.*" body%spacing=-1
 refused "unknown name in an override" right.nml "override: error: unknown name 'spcing'.*" body%spcing=1
+refused "a filter with a Runge-Kutta scheme" right.nml \
+    "error: the filter of method 'smoothed-point', variant 'paper', acts on leapfrog's half-step velocity.*" \
+    method%variant=paper stepping%scheme=rk4
 refused "no file" none.nml "none.nml:1:1: error: cannot be opened: .*"
 refused "directory" . ".:1:1: error: is a directory, not a deck"
 

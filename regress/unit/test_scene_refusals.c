@@ -409,7 +409,7 @@ static void settings(void **unused)
          {"no table of errors", "'consistent'"}},
         {BOX "&method variant='total-lagrangian' /\n",
          "t.nml:4:9: error:",
-         {"'smoothed-point' has no variant", "'consistent' or 'paper'"}},
+         {"'smoothed-point' has no variant", "'paper' or 'cloud'"}},
         {BOX "&method name='sph', variant='paper' /\n",
          "t.nml:4:21: error:",
          {"'total-lagrangian' or 'updated-lagrangian'"}},

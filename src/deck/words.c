@@ -21,8 +21,9 @@ static const struct word scene_words[] = {
 
 static const struct word method_words[] = {
     {"name", WORD_CHOICE, 1, "'smoothed-point'", "smoothed-point|sph", false, "family of methods"},
-    {"variant", WORD_CHOICE, 1, NULL, "consistent|paper|total-lagrangian|updated-lagrangian", false,
-     "form of the method: consistent or paper (smoothed-point), total-lagrangian or updated-lagrangian "
+    {"variant", WORD_CHOICE, 1, NULL, "consistent|paper|cloud|total-lagrangian|updated-lagrangian", false,
+     "form of the method: consistent, paper or cloud (smoothed-point), total-lagrangian or "
+     "updated-lagrangian "
      "(sph)"},
     {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", false,
      "degree of the B-splines (consistent; 2, and 4 on layered ground)"},

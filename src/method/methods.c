@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const struct model_class *const methods[] = {
-    &consistent_class, &paper_class, &total_lagrangian_class, &model_updated_lagrangian, NULL,
+    &consistent_class, &paper_class, &cloud_class, &total_lagrangian_class, &model_updated_lagrangian, NULL,
 };
 
 const struct model_class *model_find(const char *method, const char *variant)

@@ -8,6 +8,7 @@
 #include "method/total_lagrangian_kernels.h"
 
 #include "base/memory.h"
+#include "method/cloud_method.h"
 #include "scene/initial.h"
 
 #include <math.h>
@@ -48,6 +49,7 @@ static void destroy(struct model *model)
                             tl->force_blocks.block,
                             tl->mass,
                             tl->damper,
+                            tl->held,
                             (void *)tl->material,
                             tl->elastic,
                             tl->load,
@@ -104,6 +106,8 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
             const double force = damped ? tl->force[k] - damper * v[k] : tl->force[k];
             a[k] = force / (tl->mass[i] + half_step * damper);
         }
+    for (size_t k = 0; k < tl->held_count; k++)
+        a[tl->held[k]] = 0;
 }
 
 static void rate(struct model *model, const struct drive *drive, const double *y, double *dydt)
@@ -201,7 +205,8 @@ static void describe(const struct model *model,
     const struct tl_model *tl = (const struct tl_model *)model;
     char text[64];
     tell(context, "gradient",
-         tl->options.central       ? "central"
+         tl->options.cloud         ? "summation by parts"
+         : tl->options.central     ? "central"
          : tl->options.degree == 2 ? "quadratic"
                                    : "linear");
     tell(context, "law", elastic_law_name(tl->options.law));
@@ -224,6 +229,24 @@ static const struct model_class linear_class = {
     .method = "sph",
     .variant = "total-lagrangian",
     .create = create,
+    .destroy = destroy,
+    .accelerate = accelerate,
+    .rate = rate,
+    .initialise = initialise,
+    .probe = tl_model_probe,
+    .observe = tl_observe,
+    .field = tl_field,
+    .energy = energy,
+    .power = power,
+    .describe = describe,
+};
+
+static selas_status create_cloud(const struct scene *scene, struct model **model, struct messages *messages);
+
+const struct model_class cloud_class = {
+    .method = "smoothed-point",
+    .variant = "cloud",
+    .create = create_cloud,
     .destroy = destroy,
     .accelerate = accelerate,
     .rate = rate,
@@ -291,6 +314,7 @@ static void fill_model(struct tl_model *tl)
     const size_t n = tl->cloud->points;
     const bool viscous = tl->site_v != NULL;
     model->class = tl->options.law == LAW_LINEAR && !viscous ? &linear_class : &total_lagrangian_class;
+    if (tl->options.cloud) model->class = &cloud_class;
     model->points = n;
     model->position = tl->deck_position;
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
@@ -318,7 +342,8 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     tl->model.scene = scene;
     tl->model.class = &total_lagrangian_class;
     tl->options = *options;
-    selas_status status = cloud_create(scene, &tl->cloud, messages);
+    selas_status status = options->cloud ? cloud_method_points(scene, &tl->cloud, messages)
+                                         : cloud_create(scene, &tl->cloud, messages);
     if (status == SELAS_OK && options->central && tl->cloud->grid[0] == 0)
         status =
             fail(messages, SELAS_UNSUPPORTED,
@@ -326,6 +351,7 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
                  "'linear'");
     if (status == SELAS_OK) status = fill_points(tl, messages);
     if (status == SELAS_OK) status = tl_make_rows(tl, messages);
+    if (status == SELAS_OK && options->cloud) status = cloud_hold(tl, messages);
     if (status == SELAS_OK) {
         const size_t d = (size_t)scene->dimension;
         tl->plane = (d * tl->sites + VEC - 1) / VEC * VEC; /* and room to read a vector at the last point */
@@ -368,5 +394,19 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     read_real(group, "hourglass", &options.hourglass);
     read_real(group, "viscosity_alpha", &options.viscosity_alpha);
     read_real(group, "viscosity_beta", &options.viscosity_beta);
+    return total_lagrangian_create(scene, &options, model, messages);
+}
+
+/* Smoothed points on clouds: the same forces with gradients that sum by parts (cloud_method.h). */
+static selas_status create_cloud(const struct scene *scene, struct model **model, struct messages *messages)
+{
+    struct tl_options options = tl_default_options();
+    const struct deck_group *group = scene->method.group;
+    options.cloud = true;
+    options.law = LAW_LINEAR;
+    options.hourglass = 1; /* doc/cloud-method.md, section 4 */
+    if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
+    read_real(group, "smoothing_length", &options.smoothing_length);
+    read_real(group, "hourglass", &options.hourglass);
     return total_lagrangian_create(scene, &options, model, messages);
 }

@@ -15,6 +15,7 @@
 
 struct tl_options {
     int degree;                  /* 1: linear (TL1), 2: quadratic (TL2) gradients */
+    bool cloud;                  /* the cloud method (cloud_method.h): points on the faces too */
     bool central;                /* degree 1 by differences along the axes of a lattice */
     const struct kernel *kernel; /* shape of the weights */
     double smoothing_length;     /* in spacings; 0: the degree's default */
@@ -23,7 +24,7 @@ struct tl_options {
     enum elastic_law law;
 };
 
-extern const struct model_class total_lagrangian_class;
+extern const struct model_class total_lagrangian_class, cloud_class;
 struct tl_options tl_default_options(void);
 selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
                                      struct model **model, struct messages *messages);
@@ -83,6 +84,7 @@ struct tl_model {
     struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
     struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
     double *mass;                     /* [points] */
+    size_t held_count, *held;         /* numbers of u that rest (cloud method) */
     double *damper;                   /* [dimension * points] or NULL */
     const struct material **material; /* [points] */
     struct elastic *elastic;          /* [points] */

@@ -37,6 +37,8 @@ void tl_sites(struct tl_model *tl, const double *u, const double *v, const doubl
 {
     const size_t bytes = tl->model.unknowns * sizeof *u;
     memcpy(tl->site_u, u, bytes);
+    for (size_t k = 0; k < tl->held_count; k++)
+        tl->site_u[tl->held[k]] = 0;
     fill_ghosts(tl, tl->site_u, displacement);
     if (tl->site_v == NULL || v == NULL) return;
     memcpy(tl->site_v, v, bytes);

@@ -9,6 +9,7 @@
 #include "method/total_lagrangian.h"
 
 #include "base/memory.h"
+#include "method/cloud_method.h"
 #include "points/least_squares.h"
 
 #include <math.h>
@@ -41,6 +42,8 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
             kernel[*count] =
                 kernel_value(tl->options.kernel, d, sqrt(square), radius / tl->options.kernel->support);
             kernel[*count] *= tl->cloud->volume[tl->found[k]];
+            if (tl->options.cloud) /* interpolates: a receiver at a point reads that point */
+                kernel[*count] /= 1e-6 + square / (spacing * spacing);
             if (!(kernel[*count] > 0)) continue;
             index[(*count)++] = tl->found[k];
         }
@@ -246,6 +249,8 @@ static selas_status collect_load(struct tl_model *tl, const struct load *load, s
                 gather->force[d * i + a] = tl->cloud->volume[i] * load->amplitude * direction[a];
         return SELAS_OK;
     }
+    if (tl->options.cloud && load->face != FACE_HOLE)
+        return cloud_traction(tl, load, centre, direction, gather->force, gather->messages);
     if (load->face != FACE_HOLE && (scene->body.shape != BODY_POINTS || load->shape == LOAD_FACE))
         return traction_on_box(tl, load, centre, direction, gather);
     if (load->shape != LOAD_FACE)

@@ -3,6 +3,7 @@
 #include "method/total_lagrangian.h"
 
 #include "base/memory.h"
+#include "method/cloud_method.h"
 #include "points/least_squares.h"
 
 #include <math.h>
@@ -27,6 +28,7 @@ void tl_rows_free(struct tl_rows *rows)
 
 double tl_spacing_at(const struct tl_model *tl, size_t i)
 {
+    if (tl->options.cloud) return tl->cloud->spacing; /* points on faces have half volumes */
     return pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
 }
 
@@ -361,7 +363,9 @@ selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
             tl_rows_allocate(&tl->gradient, n, near.start[n], d) != SELAS_OK)
             status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", near.start[n]);
     }
-    if (status == SELAS_OK) status = fill_gradient(tl, &near, &work, messages);
+    if (status == SELAS_OK)
+        status = tl->options.cloud ? cloud_gradients(tl, &near, messages)
+                                   : fill_gradient(tl, &near, &work, messages);
     if (status == SELAS_OK) status = transpose(tl, messages);
     if (status == SELAS_OK) status = return_rows(tl, messages);
     if (status == SELAS_OK && tl->options.hourglass > 0) status = hourglass_pairs(tl, &near, messages);

@@ -23,29 +23,38 @@ static void build_settings(struct builder *builder)
         complain(builder, group, "plane", "plane has no meaning in three dimensions; leave it out");
 }
 
+/* True if the points of the body are no lattice, so that the cloud variant is the one that fits. */
+static bool scattered(const struct deck *deck)
+{
+    if (deck_count(deck, "body") == 0) return false;
+    const struct deck_group *body = deck_get(deck, "body", 0);
+    return (deck_values(body, "jitter") > 0 && deck_real(body, "jitter", 0) > 0) ||
+           strcmp(deck_text(body, "shape", 0), "points") == 0;
+}
+
 /* The default of each family; a variant must belong to its family. */
 static void build_method(struct builder *builder)
 {
     static const char *const families[2] = {"smoothed-point", "sph"};
-    static const char *const variants[2][2] = {{"consistent", "paper"},
-                                               {"total-lagrangian", "updated-lagrangian"}};
+    static const char *const variants[5] = {"consistent", "paper", "cloud", "total-lagrangian",
+                                            "updated-lagrangian"}; /* in the order of deck/words.c */
+    static const size_t first[3] = {0, 3, 5};                      /* of each family */
     struct method_choice *method = &builder->scene->method;
     const struct deck_group *group = deck_get(builder->deck, "method", 0);
     const size_t family = deck_choice(group, "name", 0);
-    size_t choice = 0;
+    size_t choice = family == 0 && scattered(builder->deck) ? 2 : first[family];
     method->group = group;
     if (deck_given(group, "variant")) {
         choice = deck_choice(group, "variant", 0);
-        if (choice / 2 != family) {
-            complain(builder, group, "variant", "method '%s' has no variant '%s'; expected '%s' or '%s'",
-                     families[family], deck_text(group, "variant", 0), variants[family][0],
-                     variants[family][1]);
-            choice = 2 * family;
+        if (choice < first[family] || choice >= first[family + 1]) {
+            complain(builder, group, "variant", "method '%s' has no variant '%s'; expected '%s'%s or '%s'",
+                     families[family], deck_text(group, "variant", 0), variants[first[family]],
+                     family == 0 ? ", 'paper'" : "", variants[first[family + 1] - 1]);
+            choice = first[family];
         }
-        choice %= 2;
     }
     snprintf(method->name, sizeof method->name, "%s", families[family]);
-    snprintf(method->variant, sizeof method->variant, "%s", variants[family][choice]);
+    snprintf(method->variant, sizeof method->variant, "%s", variants[choice]);
 }
 
 static void build_stepping(struct builder *builder)

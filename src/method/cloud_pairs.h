@@ -1,0 +1,36 @@
+/* The pairs of a cloud and the sparse system of its pair correction (internal to the cloud method). */
+#ifndef SELAS_CLOUD_PAIRS_H
+#define SELAS_CLOUD_PAIRS_H
+
+#include "base/messages.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Lengths in spacings. A multiplier has 1 + d numbers a point: l_i, then the vector g_i. */
+struct cloud_pairs {
+    size_t points, d;
+    const double *position; /* [3 * points] */
+    double low[3], high[3]; /* of the box */
+    size_t *start;          /* [points + 1] */
+    uint32_t *index;        /* [pairs] */
+    uint32_t *back;         /* [pairs]: place of i in the row of j, counted from its start */
+    double *offset;         /* [d * pairs]: x_j - x_i */
+    double *weight;         /* [pairs] */
+    double *value;          /* [d * pairs]: a_ij of each axis */
+};
+
+/* What pair k of row i sees of the multipliers: l_i - l_j + (g_i + g_j).(x_j - x_i). */
+double cloud_pair_sees(const struct cloud_pairs *pairs, const double *multiplier, size_t i, size_t k);
+
+/* cloud_solver.c: (C w C^T) x = r by conjugate gradients. The system is not negative, its null space are the
+ * quadratic functions (x = (f, grad f / 2)); r must be orthogonal to them. */
+struct cloud_solver;
+selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_solver **solver,
+                                 struct messages *messages);
+void cloud_solver_free(struct cloud_solver **solver);
+/* Until the root mean square of the residual is below `small`; r is spent. Number of iterations, -1 if it
+ * does not get there. */
+int cloud_solve(struct cloud_solver *solver, double *r, double small, double *x);
+
+#endif
