@@ -50,8 +50,10 @@ static void gradients(void **state)
                 for (size_t c = 0; c < n; c++) {
                     const double x = model->position[3 * i + (c + 1) % n];
                     const double slope = (double)(c + 1) + cubic * (3 * x * x - 4 * x);
+                    double H[9];
+                    tl_tensor(tl, i, H);
                     for (size_t b = 0; b < n; b++)
-                        assert_near(tl->H[n * n * i + n * c + b], b == (c + 1) % n ? slope : 0, 1e-12);
+                        assert_near(H[n * c + b], b == (c + 1) % n ? slope : 0, 1e-12);
                 }
             }
         }
@@ -199,7 +201,7 @@ static void receivers(void **state)
     box.scene.boundary[FACE_X_LOW].kind = BOUNDARY_SYMMETRY;
     struct model *model = make(&box.scene, 1, true, .5);
     double *y = array_new(model->state_size, sizeof *y);
-    static const double place[4][3] = {{0, 0}, {.37, 0}, {.31, .52}, {1, 1}};
+    static const double place[3][3] = {{0, 0}, {.37, 0}, {.31, .52}};
     for (size_t i = 0; i < model->points; i++) {
         const double *x = model->position + 3 * i;
         y[2 * i] = x[0] * (2 - x[1]);

@@ -93,19 +93,7 @@ static selas_status find_pairs(const struct tl_model *tl, const struct neighbour
     return SELAS_OK;
 }
 
-/* True if no face cuts the neighbourhood of point i. */
-static bool inside(const struct tl_model *tl, size_t i)
-{
-    const struct body *body = &tl->model.scene->body;
-    for (int c = 0; c < tl->cloud->dimension; c++) {
-        const double x = tl->cloud->position[3 * i + (size_t)c];
-        if (fmin(x - body->low[c], body->high[c] - x) < tl_radius(tl)) return false;
-    }
-    return true;
-}
-
-/* V_i times the moving-least-squares gradient weights of point i: cubic inside, quadratic near faces, less
- * where points are few. */
+/* V_i times the moving-least-squares gradient weights of point i: quadratic, linear where points are few. */
 static bool least_squares(const struct tl_model *tl, struct cloud_pairs *pairs, size_t i, double *work)
 {
     const size_t d = pairs->d;
@@ -121,7 +109,7 @@ static bool least_squares(const struct tl_model *tl, struct cloud_pairs *pairs, 
     }
     weight[count - 1] = kernel_value(tl->options.kernel, tl->cloud->dimension, 0,
                                      tl_radius(tl) / tl->cloud->spacing / tl->options.kernel->support);
-    struct fit fit = {(int)d, inside(tl, i) ? 3 : 2, 1, count, offset, weight, gradient + 3 * count};
+    struct fit fit = {(int)d, 2, 1, count, offset, weight, gradient + 3 * count};
     bool done = fit_free(&fit, NULL, gradient);
     while (!done && fit.degree > 1) {
         fit.degree--;
@@ -248,10 +236,8 @@ selas_status cloud_gradients(struct tl_model *tl, const struct neighbours *near,
     for (size_t i = 0; i < pairs.points && status == SELAS_OK; i++) {
         for (size_t k = pairs.start[i]; k < pairs.start[i + 1]; k++) {
             tl->gradient.index[k] = pairs.index[k];
-            for (size_t c = 0; c < d; c++) {
+            for (size_t c = 0; c < d; c++)
                 tl->gradient.weight[d * k + c] = pairs.value[d * k + c] / tl->cloud->volume[i];
-                tl->row_sum[d * i + c] += tl->gradient.weight[d * k + c];
-            }
         }
         tl->gradient.start[i + 1] = pairs.start[i + 1];
     }

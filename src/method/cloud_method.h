@@ -17,7 +17,7 @@ selas_status cloud_method_points(const struct scene *scene, struct cloud **cloud
 selas_status cloud_fit_weights(size_t count, size_t terms, const double *basis, const double *target,
                                double *weight, struct messages *messages);
 
-/* cloud_gradients.c. The antisymmetric pair correction; fills tl->gradient and tl->row_sum. */
+/* cloud_gradients.c. The antisymmetric pair correction; fills tl->gradient. */
 selas_status cloud_gradients(struct tl_model *tl, const struct neighbours *near, struct messages *messages);
 
 /* cloud_boundary.c: unknowns at rest (tl->held), tractions on faces into force[dimension * points]. */

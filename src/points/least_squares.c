@@ -17,11 +17,11 @@ static const double dependence = 0.02;
 
 size_t fit_terms(int dimension, int degree)
 {
-    static const size_t terms[3][4] = {{1, 2, 3, 4}, {1, 3, 6, 10}, {1, 4, 10, 20}};
+    static const size_t terms[3][3] = {{1, 2, 3}, {1, 3, 6}, {1, 4, 10}};
     return terms[dimension - 1][degree];
 }
 
-/* Constant, linear, quadratic, then cubic terms at d. */
+/* Constant, linear, then quadratic terms at d. */
 static void basis(int dimension, int degree, const double *offset, double scale, double p[FIT_TERMS])
 {
     size_t k = 0;
@@ -33,11 +33,6 @@ static void basis(int dimension, int degree, const double *offset, double scale,
     for (int a = 0; a < dimension; a++)
         for (int b = a; b < dimension; b++)
             p[k++] = p[1 + a] * p[1 + b];
-    if (degree == 2) return;
-    for (int a = 0; a < dimension; a++)
-        for (int b = a; b < dimension; b++)
-            for (int c = b; c < dimension; c++)
-                p[k++] = p[1 + a] * p[1 + b] * p[1 + c];
 }
 
 static double dot(size_t n, const double *a, const double *b)

@@ -9,10 +9,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { FIT_TERMS = 20 }; /* full cubic in three dimensions */
+enum { FIT_TERMS = 10 }; /* full quadratic in three dimensions */
 
 struct fit {
-    int dimension, degree; /* degree 0 to 3 */
+    int dimension, degree; /* degree 0, 1 or 2 */
     double scale;          /* length of the order of the neighbourhood */
     size_t count;          /* neighbours */
     const double *offset;  /* [3 * count] x_j - centre */
@@ -20,7 +20,7 @@ struct fit {
     double *work;          /* [FIT_TERMS * count] */
 };
 
-/* Number of terms with the constant: 1, 2, 3, 4 in 1D; 1, 3, 6, 10 in 2D; 1, 4, 10, 20 in 3D. */
+/* Number of terms with the constant: 1, 2, 3 in 1D; 1, 3, 6 in 2D; 1, 4, 10 in 3D. */
 size_t fit_terms(int dimension, int degree);
 /* value[j] and gradient[3 * j + axis]; false if the neighbours do not determine the polynomial. Either output
  * may be NULL. */
