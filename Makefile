@@ -59,6 +59,13 @@ sph-figures: $(BUILD)/selas ## Figs 4-13 and 15-19 of He & Seaid (2016), in outp
 consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/consistent-tables.md
 	@sh regress/consistent-tables $(BUILD)
 
+.PHONY: stability accuracy
+stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots of doc/stability.md (minutes)
+	@sh regress/stability $(BUILD)
+
+accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/accuracy.md (some 20 minutes)
+	@sh regress/accuracy $(BUILD)
+
 .PHONY: lamb-check
 lamb-check: $(BUILD)/test/lamb_grid ## hold the half-space's FFT against its closed form: ten receivers, four Poisson ratios
 	$(BUILD)/test/lamb_grid
@@ -139,6 +146,11 @@ bench-host: all ## what stepping one step at a time from Fortran costs on input/
 .PHONY: kills
 kills: $(BUILD)/selas ## 200 runs killed at random times: each must go on to the same bits (some minutes)
 	@regress/kills $(BUILD)
+
+$(BUILD)/test/stability-%: regress/stability.d/%.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
