@@ -127,7 +127,7 @@ cases() {
     printed=method%variant=paper
     row paper said "published smoothed points, all faces free, without filter" "spectrum: growth $(growing "$out/box.nml" $printed method%filter=0)" "$out/box.nml" $printed method%filter=0
     row paper-zero said "the same, zero row sums" "spectrum: growth $(growing "$out/box.nml" $printed method%filter=0 method%row_sums=zero)" "$out/box.nml" $printed method%filter=0 method%row_sums=zero
-    row paper-short said "the same, as printed, to t = 7" "" "$out/box.nml" $printed method%filter=0 scene%end_time=7
+    row paper-short said "the same, as printed, to t = 7.6" "" "$out/box.nml" $printed method%filter=0 scene%end_time=7.6
     row paper-default said "published smoothed points with their own defaults" "" "$out/box.nml" $printed
     quarter_deck "$(late 1000 60)"
     row pml-25 stable "C-PML, quarter of a half-space, nu = .25, the quiet tail" "" "$out/quarter.nml"
