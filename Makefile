@@ -66,6 +66,13 @@ stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability
 accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/accuracy.md (some 20 minutes)
 	@sh regress/accuracy $(BUILD)
 
+.PHONY: bench bench-all
+bench: $(BUILD)/selas $(BUILD)/test/bench ## speed beside the machine's own, under a minute: output/bench/
+	@sh regress/bench/run $(BUILD)
+
+bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: doc/performance.md (some minutes, 12 GB)
+	@sh regress/bench/run $(BUILD) all
+
 .PHONY: lamb-check
 lamb-check: $(BUILD)/test/lamb_grid ## hold the half-space's FFT against its closed form: ten receivers, four Poisson ratios
 	$(BUILD)/test/lamb_grid
@@ -126,6 +133,11 @@ tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/tables.md (some 20 min
 	@sh regress/setup tables
 	@$(MAKE) --no-print-directory all
 	@regress/tables $(BUILD)
+
+$(BUILD)/test/bench: regress/bench/bench.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -ffp-contract=fast -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
 $(BUILD)/test/lamb_grid: regress/lamb/lamb_grid.c $(BUILD)/libselas.a
 	@mkdir -p $(@D)

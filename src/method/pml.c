@@ -45,16 +45,21 @@ static void take_in(const struct consistent *c, const struct slab *slab, double 
     block_add(c->threads, region, &slab->region, 1, field, block);
 }
 
-/* Displacements in the region; with v != NULL those half a step earlier. */
+/* Displacements in the region, half_step * v earlier. */
 static void take_displacements(const struct consistent *c, const struct slab *slab, const double *u,
                                const double *v, double half_step)
 {
-    const struct block whole = whole_of(c);
-    for (size_t i = 0; i < (size_t)c->dimension; i++) {
-        double *region = c->pml->in + i * slab->volume;
-        take_in(c, slab, region, u + i * c->volume, &whole);
-        if (v != NULL) block_add(c->threads, region, &slab->region, -half_step, v + i * c->volume, &whole);
-    }
+    const struct block *region = &slab->region;
+    const size_t rows = region->n[1] * region->n[2], dimension = (size_t)c->dimension;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t row = 0; row < rows; row++)
+        for (size_t component = 0; component < dimension; component++) {
+            const size_t from = component * c->volume + (row / region->n[1] + region->at[2]) * c->plane +
+                                (row % region->n[1] + region->at[1]) * c->n[0] + region->at[0];
+            double *in = c->pml->in + component * slab->volume + row * region->n[0];
+            for (size_t i = 0; i < region->n[0]; i++)
+                in[i] = u[from + i] - half_step * v[from + i];
+        }
 }
 
 /* Result of a plan on the region's fields in pml->in, component after component in pml->out, at least in the

@@ -126,6 +126,47 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
     }
 }
 
+/* Two terms in one where the ground is the same everywhere: trial / density N G - test / density N G^T along
+ * an axis, and N G along the other (-1: none). */
+static void add_pair(struct terms *t, int out, size_t in, struct input from, int axis, int other,
+                     enum weighting trial, enum weighting test)
+{
+    struct consistent *c = t->c;
+    const struct input to = {out, -1};
+    const double density = c->property[WEIGHT_DENSITY], factor = c->property[trial] / density;
+    struct tensor_term *term = &t->term[t->count++];
+    *term = (struct tensor_term){.out = out, .in = (int)in, .factor = 1};
+    const struct band *inverse = c->hform->inverse[out][axis];
+    const struct band *slope = consistent_matrix(c, axis, 0, odd(to, axis), 1, odd(from, axis), WEIGHT_NONE);
+    const struct band *turned = consistent_matrix(c, axis, 1, odd(to, axis), 0, odd(from, axis), WEIGHT_NONE);
+    struct band *scaled = slope == NULL ? NULL : band_sum(slope, factor - 1, slope);
+    struct band *sum =
+        scaled == NULL || turned == NULL ? NULL : band_sum(scaled, -c->property[test] / density, turned);
+    const struct band *band = sum == NULL ? NULL : fit(c, t->slab, axis, band_product(inverse, sum));
+    band_free(scaled);
+    band_free(sum);
+    term->matrix[c->slot[axis]] = band;
+    t->good = t->good && band != NULL;
+    for (int bare = 0; bare < c->dimension; bare++) {
+        const struct band **place = &term->matrix[c->slot[bare]];
+        if (bare == other) {
+            *place = matrix(c, t->slab, bare, c->hform->inverse[out][bare], to, false, from, true, trial);
+            t->good = t->good && *place != NULL;
+        } else if (bare != axis && c->slot[bare] == DEPTH)
+            t->good = t->good && bare_matrix(c, t->slab, out, from, trial, place);
+    }
+}
+
+/* The boundary term of the slab's axis plays no part: its outer end is held, the other is a symmetry plane or
+ * out of the region's reach. */
+static bool far_end_out(const struct consistent *c, const struct slab *slab)
+{
+    const int slot = c->slot[slab->axis];
+    const size_t from = slab->region.at[slot], n = slab->region.n[slot];
+    return c->spline[slab->axis]->mirror[1 - slab->end] ||
+           (slab->end == 1 ? from > 0 : from + n < c->n[slot]);
+}
+
 static struct tensor_plan *plan(struct terms *t)
 {
     const struct consistent *c = t->c;
@@ -175,6 +216,11 @@ static struct tensor_plan *plan_outer(struct consistent *c, struct slab *slab)
     for (int k = 0; k < c->dimension; k++) {
         if (k == j) continue;
         const size_t slope = 2 * dimension + (size_t)k;
+        if (c->weighted[WEIGHT_MU] == NULL && far_end_out(c, slab)) {
+            add_pair(&t, j, (size_t)k, (struct input){k, -1}, k, j, WEIGHT_LAMBDA, WEIGHT_MU);
+            add_pair(&t, j, slope, (struct input){k, k}, j, -1, WEIGHT_MU, WEIGHT_LAMBDA);
+            continue;
+        }
         add(&t, j, (size_t)k, (struct input){k, -1}, j, k, WEIGHT_LAMBDA, -1);
         add(&t, j, (size_t)k, (struct input){k, -1}, k, j, WEIGHT_MU, -1);
         add(&t, j, slope, (struct input){k, k}, j, -1, WEIGHT_LAMBDA, -1);
@@ -191,6 +237,10 @@ static struct tensor_plan *plan_pull(struct consistent *c, struct slab *slab)
     for (int i = 0; i < c->dimension; i++) {
         add(&t, i, (size_t)i, (struct input){i, j}, -1, j, i == j ? WEIGHT_P : WEIGHT_MU, 1);
         if (i == j) continue;
+        if (c->weighted[WEIGHT_MU] == NULL) {
+            add_pair(&t, i, (size_t)j, (struct input){j, j}, i, -1, WEIGHT_MU, WEIGHT_LAMBDA);
+            continue;
+        }
         add(&t, i, (size_t)j, (struct input){j, j}, i, -1, WEIGHT_LAMBDA, -1);
         add(&t, i, (size_t)j, (struct input){j, j}, -1, i, WEIGHT_MU, 1);
     }
