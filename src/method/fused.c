@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "method/hform.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -130,7 +131,7 @@ static bool lay_depth(struct consistent *c)
     return true;
 }
 
-/* Groups of rows whose weights over y are all the same. */
+/* Groups of rows whose weights over y are all the same, but for rounding. */
 static bool find_plain(struct fused *f)
 {
     const size_t groups = rounded(f->n[1], FUSED_ROWS) / FUSED_ROWS;
@@ -141,8 +142,12 @@ static bool find_plain(struct fused *f)
         for (int which = 0; which < SIDE_MATRICES; which++) {
             const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
             const double *row = f->y[which] + group * FUSED_ROWS * taps;
+            double largest = 0;
+            for (size_t i = 0; i < taps; i++)
+                largest = fmax(largest, fabs(row[i]));
             for (size_t i = taps; i < FUSED_ROWS * taps; i++)
-                f->plain[group] = f->plain[group] && row[i] == row[i - taps];
+                f->plain[group] =
+                    f->plain[group] && fabs(row[i] - row[i - taps]) <= 4 * DBL_EPSILON * largest;
         }
     }
     return true;

@@ -18,7 +18,8 @@ INLINED const lanes *at(const REAL *place)
 }
 
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
- * for one row of n points. */
+ * for one row of n points. Without the last matrix, B, which is then the identity, its results are the input.
+ */
 INLINED void over_depth(const int taps, const int matrices, const REAL *const *in, const REAL *const *weight,
                         size_t n, REAL *const *result)
 {
@@ -28,6 +29,8 @@ INLINED void over_depth(const int taps, const int matrices, const REAL *const *i
         UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
         {
             const lanes value = *at(in[t] + i);
+            if (matrices < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
+                *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
             UNROLLED for (int m = 0; m < matrices; m++)
                 UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
                 weight[m][r * taps + t - r] * value;

@@ -115,8 +115,6 @@ static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL
                 out[m * FUSED_PLANES + r] = row_of(f, s->rings + r * f->ring_size, result[component][m], j);
         }
         (f->bare ? s->kernel->two : s->kernel->three)(in, weight, f->n[0], out);
-        for (size_t r = 0; f->bare && r < FUSED_PLANES; r++)
-            copy_row(f->n[0], in[r + half], out[OVER_DEPTH_B * FUSED_PLANES + r]);
     }
 }
 
