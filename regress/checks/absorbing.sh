@@ -29,4 +29,12 @@ for words in material%lambda=1 material%lambda=9 method%depth_mass=same; do
         echo "not ok - runs to the end, $words: $(head -c 300 "$out/log")"
     fi
 done
+# Beside layered ground the layers stand too (with sweeps, their only mass), and degree 4 of layered ground gives way.
+sed 's/^&body.*/\&material name = "soil", density = 1, lambda = 0.25, mu = 0.25 \/\n\&layer material = "soil", top = 0 \/\n\&layer material = "rock", top = 1 \/\n&/' \
+    "$out/quarter.nml" >"$out/layered.nml"
+if "$build/selas" check "$out/layered.nml" >"$out/log" 2>&1; then
+    echo "ok - layered ground may have absorbing layers"
+else
+    echo "not ok - layered ground may have absorbing layers: $(head -c 300 "$out/log")"
+fi
 rm -rf "$out"

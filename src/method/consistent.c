@@ -271,6 +271,9 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
     array_free(interface);
     c->plane = c->n[0] * c->n[1];
     c->volume = c->plane * c->n[2];
+    /* a thread that has less than this many values to work on costs more than it helps */
+    const size_t worth = 1 + c->volume / 4000, all = (size_t)omp_get_max_threads();
+    c->threads = (int)(worth < all ? worth : all);
     c->model.unknowns = (size_t)c->dimension * c->volume;
     return status;
 }
@@ -358,6 +361,14 @@ static bool layered(const struct body *body)
     return body->layers > 1 || (body->layers == 1 && body->layer[0].top > 0);
 }
 
+/* Has a face a C-PML? It is built on sweeps only. */
+static bool absorbing(const struct scene *scene)
+{
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        if (layer_points(scene, face) > 0) return true;
+    return false;
+}
+
 static selas_status check_options(const struct scene *scene, const struct consistent_options *options,
                                   struct messages *messages)
 {
@@ -373,11 +384,6 @@ static selas_status check_options(const struct scene *scene, const struct consis
                     "method%%variant = 'paper' or method%%name = 'sph'");
     for (int face = 0; face < 2 * scene->dimension; face++) {
         if (layer_points(scene, face) == 0) continue;
-        if (layered(&scene->body))
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "face %s: layer 'pml' does not stay quiet beside ground that varies with depth; take "
-                        "layer = 'lysmer' or a larger body",
-                        face_name((enum face)face));
         if (options->sweeps == 0)
             return fail(messages, SELAS_UNSUPPORTED,
                         "face %s: layer 'pml' needs method%%mass = 'vc1', 'vc2' or 'vc3'; with 'exact' take "
@@ -420,7 +426,6 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     if (c == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
     c->options = *options;
     c->dimension = scene->dimension;
-    c->threads = omp_get_max_threads();
     c->model.class = &consistent_class;
     c->model.scene = scene;
     c->model.self_adjoint = true;
@@ -457,7 +462,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 {
     const struct deck_group *group = scene->method.group;
     struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
-    if (layered(&scene->body) && !given(group, "mass") && !given(group, "depth_mass") &&
+    if (layered(&scene->body) && !absorbing(scene) && !given(group, "mass") && !given(group, "depth_mass") &&
         !given(group, "dissipation")) {
         options.degree = 4;
         options.sweeps = 0;
