@@ -23,27 +23,27 @@ half_space_runs() { # half_space_runs SCENE
         for h in $spacings; do measure "$scene_name" "$method_name" vector "$deck" "body%spacing=$h" "$@"; done
     }
     deck=$out/half-space.nml
-    series default "$(some '.32 .24 .18 .13 .095 .07' '.24 .16')"
+    series default "$(some '.25 .2 .1666666666666667 .125 .1' '.25 .1666666666666667')"
     check_falls "$scene_name" default
     [ "$quick" = quick ] && return
-    series vc2 '.24 .18 .13 .095' method%mass=vc2
-    series vc1 '.24 .18 .13 .095' method%mass=vc1
-    series degree1 '.24 .18 .13 .095' method%degree=1
-    series degree3 '.24 .18 .13 .095' method%degree=3
-    series mapped '.24 .18 .13 .095' method%ends=mapped
-    series no-transform '.24 .18 .13 .095' stepping%unwarp=F
-    series depth-mass-same '.24 .18 .13 .095' method%depth_mass=same
-    series dissipation '.24 .18 .13 .095' method%dissipation=.05
-    series low-pass '.24 .18 .13 .095' output%low_pass=18
-    series layer-12 '.24 .18 .13 .095' boundary%face=x-,x+,y-,y+,z+ boundary%kind=transmitting boundary%layer=pml boundary%layer_points=12
-    series lysmer '.24 .18 .13 .095' boundary%face=x-,x+,y-,y+,z+ boundary%kind=transmitting boundary%layer=lysmer
+    series vc2 '.25 .1666666666666667 .125 .1' method%mass=vc2
+    series layer-12 '.1666666666666667 .125 .1 .0714285714285714' boundary%face=x-,x+,y-,y+,z+ boundary%kind=transmitting boundary%layer=pml boundary%layer_points=12
+    series vc1 '.25 .1666666666666667 .125 .1' method%mass=vc1
+    series degree1 '.25 .1666666666666667 .125 .1' method%degree=1
+    series degree3 '.25 .1666666666666667 .125 .1' method%degree=3
+    series mapped '.25 .1666666666666667 .125 .1' method%ends=mapped
+    series no-transform '.25 .1666666666666667 .125 .1' stepping%unwarp=F
+    series depth-mass-same '.25 .1666666666666667 .125 .1' method%depth_mass=same
+    series dissipation '.25 .1666666666666667 .125 .1' method%dissipation=.05
+    series low-pass '.25 .1666666666666667 .125 .1' output%low_pass=18
+    series lysmer '.25 .1666666666666667 .125 .1' boundary%face=x-,x+,y-,y+,z+ boundary%kind=transmitting boundary%layer=lysmer
     deck=$out/box.nml
     series large-box '.6 .3 .2 .15'
     series exact-mass '.6 .3 .2 .15' method%mass=exact
     series degree3-exact-o4 '.6 .3 .2 .15' method%degree=3 method%mass=exact stepping%scheme=modified-equation
     series sph-quadratic '.6 .4 .3 .24' method%name=sph method%gradient=quadratic method%law=linear method%hourglass=2
     series sph-linear '.6 .4 .3 .24' method%name=sph method%gradient=linear method%law=linear method%hourglass=2
-    series published '.6 .4 .3 .24' method%variant=paper
+    series published '.6 .3 .2 .15' method%variant=paper
 }
 runs_smooth() {
     half_space "history = 'triangle', duration = 2, smoothing = 1"
@@ -108,8 +108,8 @@ runs_bar() {
         series total-leapfrog-$alpha $total method%viscosity_alpha=$alpha method%viscosity_beta=$alpha
     done
     sed "/viscosity/d; /artificial/d; s/name = 'sph'.*/name = 'smoothed-point'/; s/'rkc'/'leapfrog'/" input/bar.nml >"$out/bar-spline.nml"
-    for h in .016 .008 .004 .002; do measure bar consistent vector "$out/bar-spline.nml" "body%spacing=$h"; done
-    for h in .016 .008 .004 .002; do measure bar consistent-dissipation vector "$out/bar-spline.nml" "body%spacing=$h" method%dissipation=.1; done
+    for h in .02 .01 .004 .002; do measure bar consistent vector "$out/bar-spline.nml" "body%spacing=$h"; done
+    for h in .02 .01 .004 .002; do measure bar consistent-dissipation vector "$out/bar-spline.nml" "body%spacing=$h" method%dissipation=.1; done
 }
 
 # The clamped beam: its frequency against two-dimensional elasticity.
@@ -156,11 +156,11 @@ ligament() {
 }
 runs_plate() {
     for arrangement in conformal equally-radial radial lattice; do
-        for h in .08 .057 .0425 .0304; do
+        for h in .12 .08 .057 .0425; do
             measure plate "$arrangement" ligament input/plate.nml "body%spacing=$h" body%arrangement=$arrangement
         done
     done
-    for h in .08 .057 .0425 .0304; do measure plate conformal-linear ligament input/plate.nml "body%spacing=$h" method%gradient=linear; done
+    for h in .12 .08 .057 .0425; do measure plate conformal-linear ligament input/plate.nml "body%spacing=$h" method%gradient=linear; done
 }
 
 # scene%accuracy on scenes outside its table: reached between a fifth of the wanted error and the wanted error.
