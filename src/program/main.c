@@ -5,8 +5,10 @@
 #include "host/simulation.h"
 #include "program/commands.h"
 #include "program/run.h"
+#include "program/signals.h"
 
 #include <argp.h>
+#include <hdf5.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,6 +145,9 @@ int main(int count, char **words)
     argp_parse(&parser, count, words, 0, NULL, &arguments);
     selas_simulation *simulation = NULL;
     size_t told = 0;
+    signals_no_size_limit();
+    H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
+                        here */
     selas_status status = open_named(&arguments, &simulation);
     if (status == SELAS_OK) status = carry_out(simulation, &arguments, &told);
     tell_messages(simulation, &told);

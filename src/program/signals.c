@@ -26,6 +26,10 @@ void signals_watch(void)
     on(SIGINT, note, SA_RESTART | (int)SA_RESETHAND);
     on(SIGTERM, note, SA_RESTART | (int)SA_RESETHAND);
     on(SIGUSR1, note, SA_RESTART);
+}
+
+void signals_no_size_limit(void)
+{
     on(SIGXFSZ, SIG_IGN, 0);
 }
 

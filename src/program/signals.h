@@ -4,9 +4,10 @@
 
 #include <stdbool.h>
 
-/* From now on signals are remembered; a second SIGINT or SIGTERM ends the program at once. Files that become
- * too long are errors, not signals. */
+/* From now on signals are remembered; a second SIGINT or SIGTERM ends the program at once. */
 void signals_watch(void);
+/* From now on a file that becomes too long is an error, not a signal that ends the program. */
+void signals_no_size_limit(void);
 /* Name of the signal that asked to stop, NULL if none did. */
 const char *signals_stop(void);
 /* True once for each SIGUSR1. */

@@ -78,16 +78,21 @@ static bool write_field(struct recorder *recorder, const struct snapshot_record 
     return hdf_table(group, field_name(field), H5T_IEEE_F32LE, record->points, components, value);
 }
 
+/* What a snapshot says of itself. */
+static bool write_marks(const struct recorder *recorder, const struct snapshot_record *record, hid_t group,
+                        double time, double step)
+{
+    const double occurrence = (double)(record - recorder->snapshot) + 1.0;
+    return hdf_numbers(group, "time", 1, &time) && hdf_numbers(group, "step", 1, &step) &&
+           hdf_numbers(group, "group", 1, &occurrence) && hdf_text(group, "position", record->position) &&
+           (!recorder->stepper->unwarp ||
+            hdf_text(group, "note", "keeps the time error of the scheme, which only receivers lose"));
+}
+
 static bool write_group(struct recorder *recorder, const struct snapshot_record *record,
                         const struct state *state, hid_t group)
 {
-    const double step = (double)state->step;
-    const double occurrence = (double)(record - recorder->snapshot) + 1.0;
-    bool good = hdf_numbers(group, "time", 1, &state->time) && hdf_numbers(group, "step", 1, &step) &&
-                hdf_numbers(group, "group", 1, &occurrence) &&
-                hdf_text(group, "position", record->position) &&
-                (!recorder->stepper->unwarp ||
-                 hdf_text(group, "note", "keeps the time error of the scheme, which only receivers lose"));
+    bool good = write_marks(recorder, record, group, state->time, (double)state->step);
     for (int field = 0; field <= SELAS_ENERGY && good; field++)
         if ((record->snapshot->fields >> field & 1U) != 0)
             good = write_field(recorder, record, group, (selas_field)field, state);
@@ -160,13 +165,50 @@ selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_
     return write_file(&(struct content){recorder, record, state, number}, name, messages);
 }
 
-static bool gather_one(const char *path, const char *name, hid_t group)
+/* The number that an attribute of a snapshot holds; NaN if there is none. */
+static double mark_of(hid_t file, const char *inside, const char *name)
 {
+    double number = NAN;
+    const hid_t attribute = H5Aopen_by_name(file, inside, name, H5P_DEFAULT, H5P_DEFAULT);
+    if (attribute < 0) return number;
+    if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) < 0) number = NAN;
+    H5Aclose(attribute);
+    return number;
+}
+
+static bool copy_field(const struct snapshot_record *record, hid_t part, const char *inside,
+                       selas_field field, hid_t group)
+{
+    char name[80];
+    const size_t components = (size_t)field_components(field);
+    snprintf(name, sizeof name, "%s/%s", inside, field_name(field));
+    const hid_t set = H5Dopen2(part, name, H5P_DEFAULT);
+    if (set < 0) return false;
+    const hid_t space = H5Dget_space(set);
+    const bool good = H5Sget_simple_extent_npoints(space) == (hssize_t)(record->points * components) &&
+                      H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, record->buffer) >= 0;
+    H5Sclose(space);
+    H5Dclose(set);
+    return good &&
+           hdf_table(group, field_name(field), H5T_IEEE_F32LE, record->points, components, record->buffer);
+}
+
+/* Read and written by hand: H5Ocopy of HDF5 1.10 crashes when the disk is full. */
+static bool gather_one(const struct recorder *recorder, const struct snapshot_entry *entry, const char *path,
+                       hid_t all)
+{
+    const struct snapshot_record *record = &recorder->snapshot[entry->group];
+    char inside[48];
+    snprintf(inside, sizeof inside, "/snapshots/%04zu", entry->number);
     const hid_t part = hdf_open_file(path);
     if (part < 0) return false;
-    char inside[48];
-    snprintf(inside, sizeof inside, "/snapshots/%s", name);
-    const bool good = H5Ocopy(part, inside, group, name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
+    const hid_t group = hdf_group(all, strrchr(inside, '/') + 1);
+    bool good = group >= 0 && write_marks(recorder, record, group, mark_of(part, inside, "time"),
+                                          mark_of(part, inside, "step"));
+    for (int field = 0; field <= SELAS_ENERGY && good; field++)
+        if ((record->snapshot->fields >> field & 1U) != 0)
+            good = copy_field(record, part, inside, (selas_field)field, group);
+    if (group >= 0) H5Gclose(group);
     H5Fclose(part);
     return good;
 }
@@ -178,10 +220,8 @@ bool snapshots_gather(const struct recorder *recorder, hid_t file)
     char *path = malloc(size);
     bool good = group >= 0 && path != NULL;
     for (size_t k = 0; k < recorder->entries && good; k++) {
-        char name[24];
-        snprintf(name, sizeof name, "%04zu", k);
         file_of(recorder, k, path, size);
-        good = gather_one(path, name, group);
+        good = gather_one(recorder, &recorder->entry[k], path, group);
     }
     free(path);
     if (group >= 0) H5Gclose(group);
