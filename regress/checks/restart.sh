@@ -152,6 +152,57 @@ check "a new run in its folder" sh -c "'$selas' -q paper.nml output%directory=cu
 check "the unfinished one goes on" "$selas" -q restart cut_paper/unfinished-old/checkpoint.h5
 check "same bits" same whole_paper cut_paper
 
+# --- Disks and folders
+limited() { # limited BLOCKS: no file may become longer than so many blocks of 512 bytes or 1024
+    (ulimit -f "$1" && "$selas" -q paper.nml output%directory=full output%checkpoint_every=5) 2>full.err
+    [ $? -eq 1 ] && grep -q 'File too large' full.err && ! find full -name '*.part' | grep . && ! ls -A full | grep running
+}
+for blocks in 8 20 100; do
+    rm -rf full
+    check "files too long ($blocks blocks): a message, exit status 1, no half files" limited $blocks
+done
+check "files too long: says that the state is kept" grep -q 'state is kept' full.err
+check "files too long: with room again it goes on" "$selas" -q restart full/unfinished/checkpoint.h5
+check "same bits" same whole_paper full
+if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=300k tmpfs small 2>/dev/null; then
+    check "a full disk: a message, exit status 1" sh -c "'$selas' -q paper.nml output%directory=small/out 2>err; [ \$? -eq 1 ] && grep -q 'No space left on device' err"
+    check "a full disk: no half files" sh -c "! find small -name '*.part' | grep ."
+    mount -o remount,size=3m small
+    check "a full disk: with room again it goes on" "$selas" -q restart small/out/unfinished/checkpoint.h5
+    check "same bits" same whole_paper small/out
+    umount small
+fi
+: >in_the_way
+check "a file in the folder's place" sh -c "'$selas' -q paper.nml output%directory=in_the_way/out 2>err; [ \$? -eq 1 ] && grep -q 'in_the_way' err"
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir locked && chmod 555 locked
+    check "a folder that cannot be written" sh -c "'$selas' -q paper.nml output%directory=locked/out 2>err; [ \$? -eq 1 ] && grep -q 'Permission denied' err"
+fi
+held() { # held FILE: begins a run and stops the clock for it when FILE is there
+    for try in 1 2 3 4 5 6 7 8 9 10; do
+        rm -rf held
+        "$selas" -q flying.nml output%directory=held output%checkpoint_every=1 2>held.err &
+        process=$!
+        while [ ! -e "held/unfinished/$1" ] && kill -0 $process 2>/dev/null; do sleep .01; done
+        kill -STOP $process 2>/dev/null && [ -e held/.running ] && return 0
+        wait $process
+    done
+    echo "the run was always over (try $try)"
+    return 1
+}
+held snapshot_0001.h5
+check "two runs in one folder: the second is told who is there" sh -c "
+    '$selas' -q paper.nml output%directory=held 2>err; [ \$? -eq 1 ] && grep -q 'another run writes into .held.: process $process on ' err"
+kill -CONT $process
+wait $process
+check "two runs in one folder: the first ends well" same whole_flying held
+held snapshot_0001.h5
+rm -rf held/unfinished
+kill -CONT $process
+wait $process
+check "the folder vanishes on the way: exit status 1" [ $? -eq 1 ]
+check "the folder vanishes on the way: a message" grep -q 'No such file' held.err
+
 # --- The deck in run.h5
 check "rerun" "$selas" -q rerun whole_bar/run.h5
 check "rerun: same bits" same whole_bar output/bar-rerun
