@@ -103,6 +103,9 @@ static void remove_folder(const char *path)
 {
     DIR *folder = opendir(path);
     if (folder == NULL) return;
+    /* first what needs the others: a kill in between must not leave a checkpoint without its snapshots */
+    unlinkat(dirfd(folder), "checkpoint.h5", 0);
+    unlinkat(dirfd(folder), "checkpoint_before.h5", 0);
     for (const struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
         if (is_own(entry->d_name)) unlinkat(dirfd(folder), entry->d_name, 0);
     closedir(folder);
