@@ -75,6 +75,8 @@ refused "unknown name in an override" right.nml "override: error: unknown name '
 refused "a filter with a Runge-Kutta scheme" right.nml \
     "error: the filter of method 'smoothed-point', variant 'paper', acts on leapfrog's half-step velocity.*" \
     method%variant=paper stepping%scheme=rk4
+refused "single precision" right.nml "override: error: no method has a state in single precision.*" \
+    method%precision=single
 refused "no file" none.nml "none.nml:1:1: error: cannot be opened: .*"
 refused "directory" . ".:1:1: error: is a directory, not a deck"
 

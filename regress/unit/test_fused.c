@@ -133,12 +133,52 @@ static void test_threads(void **state)
     free(result[1]);
 }
 
+/* A bump at one end of a long body, with and without the planes that it has not reached. */
+static void test_quiet(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    plain_box(&plain, 3, (double[3]){14, 14, 100}, 1);
+    struct run run[2];
+    for (int i = 0; i < 2; i++) {
+        const struct consistent_options options = {
+            .degree = 2, .sweeps = 3, .depth_exact = true, .quiet = i == 0 ? 1e-12 : 0};
+        run[i] = run_new(&plain, options);
+        const struct consistent *c = consistent_of(run[i].model);
+        for (size_t k = 0; k < 20; k++)
+            for (size_t p = 0; p < c->plane; p++)
+                run[i].y[2 * c->volume + k * c->plane + p] = exp(-.1 * (double)(k * k + p % c->n[0]));
+    }
+    const size_t n = run[0].n;
+    const struct fused *fused = consistent_of(run[0].model)->fused;
+    double error = 0, largest = 0;
+    unsigned long early = 0;
+    for (int step = 0; step < 400; step++) {
+        for (int i = 0; i < 2; i++)
+            leap(&run[i], &(struct drive){0}, .2);
+        if (step == 20) early = fused->skipped;
+        for (size_t i = 0; i < n; i++) {
+            error = fmax(error, fabs(run[0].y[i] - run[1].y[i]));
+            largest = fmax(largest, fabs(run[1].y[i]));
+        }
+    }
+    print_message("# difference %.1e of the largest displacement, %lu of %lu blocks skipped\n",
+                  error / largest, fused->skipped, fused->blocks);
+    assert_true(error < 1e-12 * largest);
+    assert_true(early > 21 * 26 / 3);
+    assert_true(fused->skipped < fused->blocks / 2);
+    assert_int_equal(consistent_of(run[1].model)->fused->skipped, 0);
+    run_free(&run[0]);
+    run_free(&run[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_random_scenes),
         cmocka_unit_test(test_thin),
         cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_quiet),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests_name("fused operator", tests, NULL, NULL);

@@ -178,6 +178,14 @@ static void describe(const struct model *model,
         snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,
                  FUSED_STRIP);
         tell(context, "operator", text);
+        snprintf(text, sizeof text, "planes below %g of the largest displacement move nothing",
+                 c->fused->quiet);
+        tell(context, "quiet planes", c->fused->quiet > 0 ? text : "all are computed");
+        if (c->fused->skipped > 0) {
+            snprintf(text, sizeof text, "%.1f %% of blocks of planes, all calls so far",
+                     100 * (double)c->fused->skipped / (double)c->fused->blocks);
+            tell(context, "operator skipped", text);
+        }
     }
     if (c->options.dissipation > 0) {
         snprintf(text, sizeof text, "%g c_p / spacing, largest damping rate at most %.4g",
@@ -475,6 +483,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     if (given(group, "depth_mass"))
         options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
     if (given(group, "dissipation")) options.dissipation = deck_real(group, "dissipation", 0);
+    options.quiet = given(group, "quiet") ? deck_real(group, "quiet", 0) : 1e-12;
     if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
     if (given(group, "ends")) options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     return consistent_create_with(scene, &options, model, messages);

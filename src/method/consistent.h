@@ -18,7 +18,8 @@ struct consistent_options {
     bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
     double
         dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
-    bool unfused; /* H-form: passes one by one even where the fused operator (fused.h) would do */
+    double quiet;    /* fused operator: displacements below this times the largest move nothing; 0: all do */
+    bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
 };
 
 enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "method/hform.h"
+#include "method/passes.h"
 
 #include <float.h>
 #include <math.h>
@@ -163,6 +164,9 @@ static bool lay_buffers(struct fused *f)
         f->buffer[t] = array_new(size, sizeof(double));
         if (f->buffer[t] == NULL) return false;
     }
+    f->size = array_new(f->n[2], sizeof *f->size);
+    f->computed = array_new(rounded(f->n[2], FUSED_PLANES) / FUSED_PLANES, sizeof *f->computed);
+    if (f->size == NULL || f->computed == NULL) return false;
     f->bytes = sizeof *f + (size_t)f->threads * size * sizeof(double);
     return true;
 }
@@ -192,6 +196,7 @@ bool fused_create(struct consistent *c)
     f->volume = c->volume;
     f->threads = c->threads;
     f->bare = !c->options.depth_exact;
+    f->quiet = c->options.quiet;
     f->narrow = (int)(2 * degree + 1);
     f->wide = (int)(2 * reach + 1);
     f->deep = (int)(2 * (reach + degree) + 1);
@@ -203,6 +208,29 @@ bool fused_create(struct consistent *c)
     while (f->ring < FUSED_STRIP + f->late[1] + reach)
         f->ring *= 2;
     return lay_side(c, 0) && lay_side(c, 1) && lay_depth(c) && find_plain(f) && lay_buffers(f);
+}
+
+void fused_look(struct fused *fused, const double *u)
+{
+    struct fused *f = fused;
+    double largest = 0;
+    const size_t reach = (size_t)f->deep / 2;
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < f->n[2]; k++) {
+        f->size[k] = 0;
+        for (size_t component = 0; f->quiet > 0 && component < 3; component++)
+            f->size[k] = fmax(f->size[k], largest_size(u + component * f->volume + k * f->plane, f->plane));
+    }
+    for (size_t k = 0; k < f->n[2]; k++)
+        largest = fmax(largest, f->size[k]);
+    for (size_t from = 0; from < f->n[2]; from += FUSED_PLANES) {
+        bool *computed = &f->computed[from / FUSED_PLANES];
+        *computed = !(f->quiet > 0);
+        for (size_t k = from < reach ? 0 : from - reach; k < from + FUSED_PLANES + reach && k < f->n[2]; k++)
+            *computed = *computed || f->size[k] > f->quiet * largest;
+        f->blocks++;
+        f->skipped += !*computed;
+    }
 }
 
 void fused_free(struct fused *fused)
@@ -219,5 +247,7 @@ void fused_free(struct fused *fused)
         array_free(fused->buffer[t]);
     array_free(fused->buffer);
     array_free(fused->plain);
+    array_free(fused->size);
+    array_free(fused->computed);
     array_free(fused);
 }

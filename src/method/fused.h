@@ -58,6 +58,10 @@ struct fused {
     double *y[SIDE_MATRICES];   /* [rows * taps] */
     bool *plain;                /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
     double *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
+    double quiet;   /* planes whose displacements are all below this times the largest do not move others */
+    double *size;   /* [n[2]] largest displacement in each plane */
+    bool *computed; /* [blocks of planes] in this call */
+    unsigned long blocks, skipped; /* of planes so far */
     int threads;
     double **buffer;  /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */
@@ -68,6 +72,8 @@ struct fused {
  */
 bool fused_create(struct consistent *c);
 void fused_free(struct fused *fused);
+/* Sets computed[] for the displacements given: blocks of planes within reach of one that is not quiet. */
+void fused_look(struct fused *fused, const double *u);
 /* a := (F1) in the planes first .. first + FUSED_PLANES - 1 (those that are there), first a multiple of
  * FUSED_PLANES. */
 void fused_planes_double(const struct fused *fused, int thread, size_t first, const double *u, double *a);

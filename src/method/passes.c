@@ -107,3 +107,15 @@ void pass_over_neighbours(const double *value, size_t taps, double factor, const
     FOR_THE_REST(NEIGHBOURS)
 #undef NEIGHBOURS
 }
+
+EACH_MACHINE
+double largest_size(const double *x, size_t n)
+{
+    double largest = 0;
+#pragma omp simd reduction(max : largest)
+    for (size_t i = 0; i < n; i++) {
+        const double size = x[i] < 0 ? -x[i] : x[i];
+        largest = size > largest ? size : largest;
+    }
+    return largest;
+}

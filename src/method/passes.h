@@ -12,4 +12,7 @@ void pass_over_rows(const double *weight, size_t taps, const double *in, size_t 
 void pass_over_neighbours(const double *value, size_t taps, double factor, const double *in, size_t n,
                           double *out);
 
+/* Largest |x[i]|, i < n. */
+double largest_size(const double *x, size_t n);
+
 #endif
