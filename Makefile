@@ -164,6 +164,14 @@ $(BUILD)/test/stability-%: regress/stability.d/%.c $(BUILD)/libselas.a
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
+.PHONY: bench-sph instructions
+bench-sph: $(BUILD)/selas ## what an evaluation of the SPH operators costs: table of doc/performance.md
+	@sh regress/bench-sph $(BUILD)
+
+instructions: $(BUILD)/selas ## instructions of three small scenes against those recorded (two minutes; installs valgrind)
+	@sh regress/setup leaks
+	@sh regress/instructions $(BUILD)
+
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 
