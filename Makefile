@@ -9,7 +9,7 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(WERROR),-Werror
 PKGS     = gsl fftw3 hdf5
 Q        = $(if $(V),,@)
 # errno of libm and floating-point traps are not used: without them loops with sqrt and choices run in vectors
-ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-math-errno -fno-trapping-math -ffp-contract=fast \
+ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-math-errno -fno-trapping-math \
            $(WARNINGS) $(CFLAGS) \
            $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
@@ -116,8 +116,9 @@ $(BUILD)/commit: always
 $(BUILD)/obj/record/provenance.o: $(BUILD)/commit
 $(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
 
-# Multiplication and addition of the lattice operators in one instruction where the machine has it
+# Multiplication and addition of the lattice and SPH operators in one instruction where the machine has it
 $(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
+$(BUILD)/obj/method/total_lagrangian_kernels.o $(BUILD)/obj/method/updated_lagrangian_rate.o: ALL_C += -ffp-contract=fast
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)

@@ -1,19 +1,10 @@
-/* Vectors for the innermost loops: versions of a function for newer machines, chosen at run time, and short
- * vectors of doubles as C extensions of gcc and clang, which compile on any machine.
- *
- * A function with VECTOR_CLONES is compiled for plain x86-64, for AVX2 with FMA (x86-64-v3) and for AVX-512
- * (x86-64-v4). What it calls must be inlined into it (INLINED), and parallel regions stand outside: the
- * functions that the compiler makes of them are not cloned. */
+/* Short vectors of doubles as C extensions of gcc and clang, which compile on any machine. Functions that use
+ * them are EACH_MACHINE (base/machine.h): what they call must be inlined into them (INLINED), and parallel
+ * regions stand outside, as the functions that the compiler makes of those exist once only. */
 #ifndef SELAS_VECTORS_H
 #define SELAS_VECTORS_H
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define VECTOR_CLONES
-#endif
-
-#define INLINED __attribute__((always_inline)) static inline
+#include "base/machine.h"
 
 /* Aligned as a double is, so that they can be loaded from anywhere in an array. */
 typedef double vec4 __attribute__((vector_size(32), aligned(8), may_alias));

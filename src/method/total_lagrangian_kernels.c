@@ -331,21 +331,21 @@ INLINED void force_points(struct tl_model *tl, const struct tl_block *block, con
  * ---------------------------------------------------------------------------------------------------- */
 
 #define BLOCK_FUNCTIONS(d)                                                                                   \
-    VECTOR_CLONES static void gradient_##d(struct tl_model *tl, const struct tl_block *block)                \
+    EACH_MACHINE static void gradient_##d(struct tl_model *tl, const struct tl_block *block)                 \
     {                                                                                                        \
         if (block->run)                                                                                      \
             gradient_run(tl, block, d);                                                                      \
         else                                                                                                 \
             gradient_points(tl, block, d);                                                                   \
     }                                                                                                        \
-    VECTOR_CLONES static void stress_##d(struct tl_model *tl, const struct tl_block *block)                  \
+    EACH_MACHINE static void stress_##d(struct tl_model *tl, const struct tl_block *block)                   \
     {                                                                                                        \
         if (block->run)                                                                                      \
             stress_run(tl, block, d);                                                                        \
         else                                                                                                 \
             stress_points(tl, block, d);                                                                     \
     }                                                                                                        \
-    VECTOR_CLONES static void force_##d(struct tl_model *tl, const struct tl_block *block)                   \
+    EACH_MACHINE static void force_##d(struct tl_model *tl, const struct tl_block *block)                    \
     {                                                                                                        \
         if (block->run)                                                                                      \
             force_run(tl, block, d);                                                                         \

@@ -119,8 +119,8 @@ INLINED void rates(const struct updated *updated, const int dimension, const boo
 
 /* Instances with constant dimension and switches: what is off is not there. */
 #define RATES(dimension)                                                                                     \
-    VECTOR_CLONES static void rates_##dimension(const struct updated *updated, size_t first, size_t last,    \
-                                                const double *y, double *dydt)                               \
+    EACH_MACHINE static void rates_##dimension(const struct updated *updated, size_t first, size_t last,     \
+                                               const double *y, double *dydt)                                \
     {                                                                                                        \
         const bool viscous = updated->alpha > 0 || updated->beta > 0;                                        \
         if (viscous && updated->repulsive)                                                                   \
