@@ -115,6 +115,7 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
     *term = (struct tensor_term){.out = out, .in = (int)in, .factor = sign};
     if (!varies) term->factor *= c->property[weight] / c->property[WEIGHT_DENSITY];
     for (int axis = 0; axis < c->dimension; axis++) {
+        /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
         const struct band **band = &term->matrix[c->slot[axis]];
         if (axis == test || axis == trial) {
             /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
@@ -126,8 +127,10 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
     }
 }
 
+enum { NO_AXIS = 3 };
+
 /* Two terms in one where the ground is the same everywhere: trial / density N G - test / density N G^T along
- * an axis, and N G along the other (-1: none). */
+ * an axis, and N G along the other (NO_AXIS: none). */
 static void add_pair(struct terms *t, int out, size_t in, struct input from, int axis, int other,
                      enum weighting trial, enum weighting test)
 {
@@ -150,6 +153,7 @@ static void add_pair(struct terms *t, int out, size_t in, struct input from, int
     for (int bare = 0; bare < c->dimension; bare++) {
         const struct band **place = &term->matrix[c->slot[bare]];
         if (bare == other) {
+            /* cppcheck-suppress arrayIndexOutOfBoundsCond ; bare is an axis, other may be none */
             *place = matrix(c, t->slab, bare, c->hform->inverse[out][bare], to, false, from, true, trial);
             t->good = t->good && *place != NULL;
         } else if (bare != axis && c->slot[bare] == DEPTH)
@@ -218,7 +222,7 @@ static struct tensor_plan *plan_outer(struct consistent *c, struct slab *slab)
         const size_t slope = 2 * dimension + (size_t)k;
         if (c->weighted[WEIGHT_MU] == NULL && far_end_out(c, slab)) {
             add_pair(&t, j, (size_t)k, (struct input){k, -1}, k, j, WEIGHT_LAMBDA, WEIGHT_MU);
-            add_pair(&t, j, slope, (struct input){k, k}, j, -1, WEIGHT_MU, WEIGHT_LAMBDA);
+            add_pair(&t, j, slope, (struct input){k, k}, j, NO_AXIS, WEIGHT_MU, WEIGHT_LAMBDA);
             continue;
         }
         add(&t, j, (size_t)k, (struct input){k, -1}, j, k, WEIGHT_LAMBDA, -1);
@@ -238,7 +242,7 @@ static struct tensor_plan *plan_pull(struct consistent *c, struct slab *slab)
         add(&t, i, (size_t)i, (struct input){i, j}, -1, j, i == j ? WEIGHT_P : WEIGHT_MU, 1);
         if (i == j) continue;
         if (c->weighted[WEIGHT_MU] == NULL) {
-            add_pair(&t, i, (size_t)j, (struct input){j, j}, i, -1, WEIGHT_MU, WEIGHT_LAMBDA);
+            add_pair(&t, i, (size_t)j, (struct input){j, j}, i, NO_AXIS, WEIGHT_MU, WEIGHT_LAMBDA);
             continue;
         }
         add(&t, i, (size_t)j, (struct input){j, j}, i, -1, WEIGHT_LAMBDA, -1);
