@@ -49,11 +49,12 @@ struct arguments {
     const char *deck;
     size_t overrides;
     const char **override;
-    bool quiet;
+    bool quiet, strict;
 };
 
 static const struct argp_option options[] = {
     {"quiet", 'q', NULL, 0, "No progress, no summary; only what is wrong", 0},
+    {"strict", 's', NULL, 0, "Warnings of the deck and the scene are errors", 0},
     {0},
 };
 
@@ -64,6 +65,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     switch (key) {
     case 'q':
         arguments->quiet = true;
+        return 0;
+    case 's':
+        arguments->strict = true;
         return 0;
     case ARGP_KEY_ARG:
         if (arguments->deck == NULL && strcmp(arguments->command, "") == 0) {
@@ -121,6 +125,21 @@ static selas_status open_named(const struct arguments *arguments, selas_simulati
     return selas_open_deck_with(arguments->deck, arguments->overrides, arguments->override, simulation);
 }
 
+static void print_error(void *context, const char *key, const char *value)
+{
+    (void)key;
+    fprintf(context, "error: %s\n", value);
+}
+
+/* --strict: what would be a warning ends the program before anything is run. */
+static selas_status be_strict(selas_simulation *simulation)
+{
+    selas_status status = selas_steps_needed(simulation) > 0 ? SELAS_OK : SELAS_BAD_SCENE;
+    if (status != SELAS_OK) return status;
+    const size_t wrong = advice_tell(simulation->scene, simulation->stepper, print_error, stderr);
+    return wrong + simulation->messages.warnings > 0 ? SELAS_BAD_SCENE : SELAS_OK;
+}
+
 static selas_status carry_out(selas_simulation *simulation, const struct arguments *arguments, size_t *told)
 {
     if (strcmp(arguments->command, "check") == 0) return selas_plan(simulation, print_line, stdout);
@@ -149,6 +168,7 @@ int main(int count, char **words)
     H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
                         here */
     selas_status status = open_named(&arguments, &simulation);
+    if (status == SELAS_OK && arguments.strict) status = be_strict(simulation);
     if (status == SELAS_OK) status = carry_out(simulation, &arguments, &told);
     tell_messages(simulation, &told);
     selas_close(&simulation);

@@ -153,6 +153,9 @@ selas_status histories_write(struct recorder *recorder, struct exact *exact, str
 void plan_tell(const struct recorder *recorder,
                void (*tell)(void *context, const char *key, const char *value), void *context);
 
+/* Of the slowest wave at the loads' cutoff; 0 if nothing tells. */
+double points_per_wavelength(const struct scene *scene);
+
 /* report.c: report.txt */
 selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                           struct messages *messages);

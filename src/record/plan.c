@@ -38,19 +38,24 @@ static double largest_source_frequency(const struct scene *scene)
     return omega;
 }
 
-static void say_resolution(const struct teller *teller, const struct scene *scene)
+double points_per_wavelength(const struct scene *scene)
 {
     const double omega = largest_source_frequency(scene);
     double slowest = INFINITY;
     for (size_t m = 0; m < scene->materials; m++)
         slowest =
             fmin(slowest, scene->dimension == 1 ? scene->material[m].p_speed : scene->material[m].s_speed);
-    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return;
-    const double two_pi = 6.283185307179586477;
-    say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)", omega,
-        100.0 * counting);
-    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)",
-        two_pi * slowest / omega / scene->body.spacing);
+    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return 0.0;
+    return 6.283185307179586477 * slowest / omega / scene->body.spacing;
+}
+
+static void say_resolution(const struct teller *teller, const struct scene *scene)
+{
+    const double points = points_per_wavelength(scene);
+    if (!(points > 0.0)) return;
+    say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
+        largest_source_frequency(scene), 100.0 * counting);
+    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)", points);
 }
 
 static double operator_calls(const struct stepper *stepper)
@@ -86,7 +91,8 @@ static double memory_of(const struct recorder *recorder)
     double bytes = (double)model->bytes +
                    8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +
                    72.0 * rows * (double)recorder->scene->receivers;
-    for (size_t s = 0; s < recorder->scene->snapshots; s++) /* a buffer of 6 numbers a point; a region's list */
+    for (size_t s = 0; s < recorder->scene->snapshots;
+         s++) /* a buffer of 6 numbers a point; a region's list */
         bytes += (recorder->scene->snapshot[s].whole ? 48.0 : 56.0) * (double)model->points;
     return bytes;
 }
@@ -135,6 +141,7 @@ void plan_tell(const struct recorder *recorder,
     const double memory = memory_of(recorder);
     say(&teller, "planned memory bytes", "%.0f", memory);
     say(&teller, "planned bytes per point", "%.1f", memory / (double)(model->points > 0 ? model->points : 1));
+    advice_tell(scene, recorder->stepper, tell, context);
 }
 
 /* Seconds of one operator call on a state at rest, the best of a few; negative if there is no room. */
