@@ -173,6 +173,40 @@ instructions: $(BUILD)/selas ## instructions of three small scenes against those
 	@sh regress/setup leaks
 	@sh regress/instructions $(BUILD)
 
+# Readers under libFuzzer with AddressSanitizer and UBSan: clang, in a folder of its own (doc/robustness.md).
+SECONDS      ?= 30
+SANITIZED     = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
+FUZZ_TARGETS  = $(patsubst regress/fuzz/%.c,$(BUILD)/fuzz/%,$(wildcard regress/fuzz/fuzz_*.c))
+.PHONY: fuzz fuzz-build fuzz-replay check-sanitize check-threads coverage
+fuzz: ## fuzz the readers of decks, tables, points and checkpoints, SECONDS=30 each (clang)
+	@$(MAKE) --no-print-directory fuzz-build CC=clang BUILD=$(BUILD)/sanitized \
+	    CFLAGS='$(SANITIZED) -fsanitize=fuzzer-no-link' LDFLAGS='-fsanitize=address,undefined'
+	@regress/fuzz/run $(BUILD)/sanitized/fuzz $(SECONDS)
+
+fuzz-build: $(FUZZ_TARGETS)
+
+$(BUILD)/fuzz/fuzz_%: regress/fuzz/fuzz_%.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -fsanitize=fuzzer -o $@ $< $(BUILD)/libselas.a $(LIBS)
+
+# The same targets on the inputs that are kept, with any compiler and no sanitizer
+fuzz-replay: $(patsubst regress/fuzz/%.c,$(BUILD)/replay/%,$(wildcard regress/fuzz/fuzz_*.c))
+
+$(BUILD)/replay/fuzz_%: regress/fuzz/fuzz_%.c regress/fuzz/replay.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) $(LDFLAGS) -o $@ $< regress/fuzz/replay.c $(BUILD)/libselas.a $(LIBS)
+
+check-sanitize: ## all tests under AddressSanitizer, UBSan and LeakSanitizer, some under valgrind (long)
+	@regress/sanitize $(BUILD)/asan
+
+check-threads: ## tests with threads under ThreadSanitizer (clang, libomp with Archer)
+	@regress/threads $(BUILD)/threads
+
+coverage: ## line coverage of src/ by all tests (gcov), per file in output/coverage.txt
+	@regress/coverage $(BUILD)/coverage
+
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
 

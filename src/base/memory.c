@@ -1,17 +1,29 @@
 /* Memory: zeroed arrays on cache-line (64 byte) boundaries, so that vector loads are aligned. */
 #include "base/memory.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { ALIGNMENT = 64 };
+
+/* Systems grant more than they have and end the program when it is used: an array that no machine of this
+ * size holds is refused here. */
+static bool beyond_machine(size_t bytes)
+{
+    if (bytes < (size_t)1 << 30) return false;
+    const double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    return memory > 0 && (double)bytes > memory;
+}
 
 void *array_new(size_t count, size_t size)
 {
     if (count == 0) count = 1;
     if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
     const size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (beyond_machine(bytes)) return NULL;
     void *array = aligned_alloc(ALIGNMENT, bytes);
     if (array != NULL) memset(array, 0, bytes);
     return array;

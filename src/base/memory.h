@@ -4,7 +4,8 @@
 
 #include <stddef.h>
 
-/* Zeroed array of count * size bytes, or NULL if there is no room or the product overflows (count 0 gives one
+/* Zeroed array of count * size bytes, or NULL if there is no room, the product overflows or is
+ * more than the memory of the machine (count 0 gives one
  * element). Free with array_free, which takes NULL. */
 void *array_new(size_t count, size_t size);
 void array_free(void *array);

@@ -8,9 +8,11 @@
  * agree. */
 #include "points/cloud.h"
 
+#include "base/lines.h"
 #include "base/memory.h"
+#include "base/stored.h"
 
-#include <hdf5.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -71,16 +73,21 @@ static selas_status add_row(struct table *table, size_t d, int count, const doub
 static selas_status read_text(const char *path, size_t d, struct table *table, struct messages *messages)
 {
     FILE *file = fopen(path, "r");
-    if (file == NULL) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s'", path);
+    if (file == NULL) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s': %s", path, strerror(errno));
     selas_status status = SELAS_OK;
-    char *line = NULL;
-    size_t length = 0;
-    for (size_t number = 1; status == SELAS_OK && getline(&line, &length, file) >= 0; number++) {
+    char line[LINE_SIZE];
+    enum line_found next = LINE_END;
+    for (size_t number = 1; status == SELAS_OK && (next = line_next(file, line)) != LINE_END; number++) {
         double value[COLUMNS] = {0};
+        if (next != LINE_READ) {
+            status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
+            break;
+        }
         const int count = numbers(line, value);
         if (count != 0) status = add_row(table, d, count, value, path, number, messages);
     }
-    free(line);
+    if (status == SELAS_OK && ferror(file) != 0)
+        status = fail(messages, SELAS_FILE_ERROR, "cannot read '%s': %s", path, strerror(errno));
     fclose(file);
     return status;
 }
@@ -88,7 +95,7 @@ static selas_status read_text(const char *path, size_t d, struct table *table, s
 /* Reads dataset `name` of n x columns into the table from column `at` on. */
 static bool read_dataset(hid_t file, const char *name, size_t columns, size_t at, struct table *table)
 {
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t set = stored_set(file, name);
     if (set < 0) return false;
     const hid_t space = H5Dget_space(set);
     hsize_t extent[2] = {0, 1};
@@ -119,10 +126,11 @@ static selas_status read_hdf5(const char *path, size_t d, struct table *table, s
         right = read_dataset(file, "normal", d, 4, table) && read_dataset(file, "area", 1, 7, table);
     H5Fclose(file);
     if (!right)
-        return fail(
-            messages, SELAS_FILE_ERROR,
-            "'%s': expected datasets position [n, %zu], volume [n] and, if any, normal [n, %zu], area [n]",
-            path, d, d);
+        return fail(messages, SELAS_FILE_ERROR,
+                    "'%s': expected datasets position [n, %zu], volume [n] and, if any, normal [n, %zu], "
+                    "area [n], in "
+                    "the file itself",
+                    path, d, d);
     return SELAS_OK;
 }
 
@@ -158,10 +166,14 @@ static selas_status take(const struct scene *scene, const struct table *table, s
         const double *row = table->row[i];
         memcpy(cloud->position + 3 * i, row, 3 * sizeof *row);
         cloud->volume[i] = row[3];
-        if (!(row[3] > 0) || !isfinite(row[0] + row[1] + row[2]))
+        if (!(row[3] > 0) || !isfinite(row[0] + row[1] + row[2] + row[3]))
             return fail(messages, SELAS_BAD_SCENE,
-                        "'%s': point %zu needs a finite position and a volume above 0",
+                        "'%s': point %zu needs a finite position and a finite volume above 0",
                         scene->body.file != NULL ? scene->body.file : "points of the host", i + 1);
+        if (!isfinite(row[4] + row[5] + row[6] + row[7]) || row[7] < 0)
+            return fail(messages, SELAS_BAD_SCENE,
+                        "'%s': point %zu needs a finite normal and a finite area, 0 or above",
+                        scene->body.file, i + 1);
         const double length = sqrt(row[4] * row[4] + row[5] * row[5] + row[6] * row[6]);
         if (!(length > 0)) continue;
         const double spacing = pow(row[3], 1.0 / scene->dimension);

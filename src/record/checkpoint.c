@@ -287,6 +287,15 @@ static const char *misfit_of_figures(const struct recorder *recorder, const doub
     return NULL;
 }
 
+/* The file holds as many rows of histories and snapshots as its figures say (memory is taken for them). */
+static bool rows_there(hid_t file, const struct recorder *recorder, const double figures[FIGURES])
+{
+    hsize_t size = 0;
+    const double bytes =
+        72.0 * (figures[STEP] + 1.0) * (double)recorder->scene->receivers + 16.0 * figures[ENTRIES];
+    return H5Fget_filesize(file, &size) >= 0 && bytes <= (double)size;
+}
+
 static const char *make_room(struct recorder *recorder, const double figures[FIGURES],
                              struct messages *messages)
 {
@@ -309,6 +318,7 @@ static const char *read_all(hid_t file, struct recorder *recorder, struct state 
     if (!same_deck(file, text)) return "it is of another scene";
     if (!set_read(file, "figures", H5T_NATIVE_DOUBLE, figures, FIGURES)) return "it is damaged";
     const char *wrong = misfit_of_figures(recorder, figures);
+    if (wrong == NULL && !rows_there(file, recorder, figures)) wrong = "it is damaged";
     if (wrong == NULL) wrong = make_room(recorder, figures, messages);
     if (wrong != NULL) return wrong;
     struct walk walk = {file, WALK_READ, true};

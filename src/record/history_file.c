@@ -1,6 +1,7 @@
 /* Reads a history back. */
 #include "record/diff.h"
 
+#include "base/lines.h"
 #include "base/memory.h"
 
 #include <errno.h>
@@ -37,12 +38,12 @@ static int read_numbers(const char *line, double number[COLUMNS])
 static selas_status read_rows(FILE *file, const char *path, struct history_file *history,
                               struct messages *messages)
 {
-    char line[1024];
+    char line[LINE_SIZE];
     size_t room = 0;
-    for (size_t number = 1; fgets(line, sizeof line, file) != NULL; number++) {
-        if (strchr(line, '\n') == NULL && !feof(file))
-            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: the line is too long for a history", path,
-                        number);
+    enum line_found next = LINE_END;
+    for (size_t number = 1; (next = line_next(file, line)) != LINE_END; number++) {
+        if (next != LINE_READ)
+            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
         double row[COLUMNS];
         if (line[strspn(line, " \t\r\n")] == '#') continue;
         const int count = read_numbers(line, row);

@@ -3,6 +3,7 @@
 
 #include "base/crc64.h"
 #include "base/memory.h"
+#include "base/stored.h"
 #include "record/checkpoint_head.h"
 #include "record/run_file.h"
 #include "record/sets.h"
@@ -78,7 +79,7 @@ selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, s
 static char *provenance_text(hid_t place, const char *name)
 {
     const bool attribute = H5Aexists(place, name) > 0;
-    const hid_t from = attribute ? H5Aopen(place, name, H5P_DEFAULT) : H5Dopen2(place, name, H5P_DEFAULT);
+    const hid_t from = attribute ? H5Aopen(place, name, H5P_DEFAULT) : stored_set(place, name);
     if (from < 0) return NULL;
     const hid_t type = attribute ? H5Aget_type(from) : H5Dget_type(from);
     const hid_t space = attribute ? H5Aget_space(from) : H5Dget_space(from);
@@ -106,7 +107,8 @@ selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct m
     const struct quiet quiet = quiet_begin();
     const hid_t file = hdf_open_file(path);
     const int error = errno;
-    const hid_t place = file >= 0 ? H5Gopen2(file, "/provenance", H5P_DEFAULT) : -1;
+    const hid_t place =
+        file >= 0 && stored_here(file, "provenance") ? H5Gopen2(file, "provenance", H5P_DEFAULT) : -1;
     if (place >= 0) {
         kept->text = provenance_text(place, "deck_echo");
         kept->source = provenance_text(place, "deck");

@@ -1,6 +1,8 @@
 /* Arrays in HDF5 files (see the header). */
 #include "record/sets.h"
 
+#include "base/stored.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +20,7 @@ bool set_write(hid_t file, const char *name, hid_t type, const void *data, size_
 /* A set of so many numbers, open; negative if there is none. */
 static hid_t set_open(hid_t file, const char *name, size_t count)
 {
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t set = stored_set(file, name);
     if (set < 0) return set;
     const hid_t space = H5Dget_space(set);
     const bool right =
@@ -62,7 +64,7 @@ bool set_compare(hid_t file, const char *name, hid_t type, const void *data, siz
 
 char *set_text(hid_t file, const char *name)
 {
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t set = stored_set(file, name);
     if (set < 0) return NULL;
     const hid_t space = H5Dget_space(set);
     const hssize_t size = H5Sget_simple_extent_npoints(space);

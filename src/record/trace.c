@@ -28,6 +28,9 @@ static selas_status trace_room(struct trace *trace, size_t room, struct messages
 selas_status trace_create(struct recorder *recorder, struct messages *messages)
 {
     const struct scene *scene = recorder->scene;
+    const double step = scene->output.history_step;
+    size_t rows = 0; /* known to be possible before the run, not after it */
+    if (step > 0.0 && row_count(scene->end_time, step, &rows, messages) != SELAS_OK) return SELAS_BAD_SCENE;
     const size_t expected = recorder->stepper->steps + recorder->stepper->extra + 2;
     recorder->trace = array_new(scene->receivers, sizeof *recorder->trace);
     if (recorder->trace == NULL)

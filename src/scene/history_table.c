@@ -1,5 +1,6 @@
 /* The history given as a table: straight lines between rows, zero before the first row, the last value
  * afterwards. */
+#include "base/lines.h"
 #include "base/memory.h"
 #include "scene/history.h"
 #include "scene/history_kinds.h"
@@ -131,12 +132,13 @@ static selas_status keep_row(struct history *history, size_t *room, double time,
 static selas_status read_rows(struct history *history, FILE *file, const char *path,
                               struct messages *messages)
 {
-    char line[1024];
+    char line[LINE_SIZE];
     size_t room = 0;
-    for (size_t number = 1; fgets(line, sizeof line, file) != NULL; number++) {
+    enum line_found next = LINE_END;
+    for (size_t number = 1; (next = line_next(file, line)) != LINE_END; number++) {
         double time = 0, value = 0;
-        if (strlen(line) + 1 == sizeof line)
-            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: line too long for a table", path, number);
+        if (next != LINE_READ)
+            return fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
         const int found = read_row(line, &time, &value);
         if (found == 0) continue;
         if (found < 0)

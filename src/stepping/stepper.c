@@ -185,6 +185,15 @@ static selas_status choose_unwarp(struct stepper *stepper, struct messages *mess
     return SELAS_OK;
 }
 
+/* A step is 1e-15 of end_time at the least: beyond that times are not told apart any more. */
+static selas_status check_steps(const struct stepper *stepper, struct messages *messages)
+{
+    const double end = stepper->model->scene->end_time, steps = end / stepper->dt;
+    if (steps < 1e15) return SELAS_OK;
+    return fail(messages, SELAS_BAD_SCENE, "%.3g steps of %.6g to scene%%end_time = %.6g are too many", steps,
+                stepper->dt, end);
+}
+
 static selas_status prepare(struct stepper *stepper, struct messages *messages)
 {
     const struct scene *scene = stepper->model->scene;
@@ -212,6 +221,8 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
                     "absorbing layers (boundary%%layer = 'pml') need scheme 'leapfrog', not '%s'", name);
     selas_status status = choose_step(stepper, messages);
     if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
+    if (status != SELAS_OK) return status;
+    status = check_steps(stepper, messages);
     if (status != SELAS_OK) return status;
     stepper->steps = (unsigned long)ceil(scene->end_time / stepper->dt - 1e-9);
     stepper->extra = steps_beyond(stepper);

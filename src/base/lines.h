@@ -1,0 +1,22 @@
+/* Lines of text files of numbers (points, tables, histories): of bounded length, and text only, so that
+ * neither a file without ends of lines nor one of zeros takes memory or time. */
+#ifndef SELAS_LINES_H
+#define SELAS_LINES_H
+
+#include <stdio.h>
+
+enum { LINE_SIZE = 1024 }; /* with the final '\0' */
+
+enum line_found {
+    LINE_READ,     /* a line, without its end */
+    LINE_END,      /* there is none any more, or the file cannot be read (ferror) */
+    LINE_TOO_LONG, /* more than LINE_SIZE - 1 bytes */
+    LINE_NO_TEXT   /* a byte 0 */
+};
+
+/* The next line of the file; its end may be "\n", "\r\n" or the end of the file. */
+enum line_found line_next(FILE *file, char line[LINE_SIZE]);
+/* What is wrong after LINE_TOO_LONG or LINE_NO_TEXT, for a message. */
+const char *line_fault(enum line_found found);
+
+#endif

@@ -1,0 +1,57 @@
+/* HDF5 data sets that lie in their file itself (see the header). */
+#include "base/stored.h"
+
+#include <math.h>
+
+/* Deflate makes at most 1032 bytes of one (zlib's technical notes, "Maximum Compression Factor"). */
+static const double most_from_one_byte = 1032.0;
+
+bool stored_here(hid_t place, const char *name)
+{
+    H5L_info_t link;
+    return H5Lexists(place, name, H5P_DEFAULT) > 0 && H5Lget_info(place, name, &link, H5P_DEFAULT) >= 0 &&
+           link.type == H5L_TYPE_HARD;
+}
+
+static double bytes_of_file(hid_t place)
+{
+    hsize_t size = 0;
+    const hid_t file = H5Iget_file_id(place);
+    if (file < 0) return 0;
+    if (H5Fget_filesize(file, &size) < 0) size = 0;
+    H5Fclose(file);
+    return (double)size;
+}
+
+/* Bytes that the extent stands for; the product may be beyond all integers. */
+static double bytes_of_extent(hid_t set)
+{
+    hsize_t extent[H5S_MAX_RANK] = {0};
+    const hid_t space = H5Dget_space(set), type = H5Dget_type(set);
+    double bytes = (double)H5Tget_size(type);
+    const int rank = H5Sget_simple_extent_dims(space, extent, NULL);
+    for (int k = 0; k < rank; k++)
+        bytes *= (double)extent[k];
+    H5Tclose(type);
+    H5Sclose(space);
+    return rank < 0 ? HUGE_VAL : bytes;
+}
+
+static bool holds_its_numbers(hid_t place, hid_t set)
+{
+    const hid_t creation = H5Dget_create_plist(set);
+    const bool own = H5Pget_layout(creation) != H5D_VIRTUAL && H5Pget_external_count(creation) == 0;
+    const double factor = H5Pget_nfilters(creation) > 0 ? most_from_one_byte : 1.0;
+    H5Pclose(creation);
+    const double stored = (double)H5Dget_storage_size(set);
+    return own && stored <= bytes_of_file(place) && bytes_of_extent(set) <= factor * stored;
+}
+
+hid_t stored_set(hid_t place, const char *name)
+{
+    if (!stored_here(place, name)) return -1;
+    const hid_t set = H5Dopen2(place, name, H5P_DEFAULT);
+    if (set < 0 || holds_its_numbers(place, set)) return set;
+    H5Dclose(set);
+    return -1;
+}

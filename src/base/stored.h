@@ -1,0 +1,16 @@
+/* HDF5 data sets that lie in their file itself. A file from elsewhere may hold links to other files and
+ * extents with nothing behind them; neither is followed, and what is opened here is no larger than the file
+ * can hold, so that memory may be taken for it. */
+#ifndef SELAS_STORED_H
+#define SELAS_STORED_H
+
+#include <hdf5.h>
+#include <stdbool.h>
+
+/* True if `name` (one name, no path) in a file or group is there and is no soft or external link. */
+bool stored_here(hid_t place, const char *name);
+/* Opens the data set `name` in a file or group (H5Dclose); negative if it is not there, is linked from
+ * elsewhere, is virtual, keeps its numbers in another file, or has more of them than the file holds. */
+hid_t stored_set(hid_t place, const char *name);
+
+#endif
