@@ -12,7 +12,7 @@ for target in deck tables points points_hdf5 checkpoint; do
     [ $target = deck ] && inputs="$inputs input"
     # shellcheck disable=SC2046,SC2086
     if timeout 100 "$build/replay/fuzz_$target" $(find $inputs -type f) >"$build/test/replay.log" 2>&1; then
-        echo "ok - $(wc -l <"$build/test/replay.log") inputs to fuzz_$target"
+        echo "ok - $(grep -c "^regress/fuzz\|^input/" "$build/test/replay.log") inputs to fuzz_$target"
     else
         echo "not ok - fuzz_$target: $(tail -3 "$build/test/replay.log")"
     fi

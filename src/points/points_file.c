@@ -117,21 +117,38 @@ static bool read_dataset(hid_t file, const char *name, size_t columns, size_t at
     return right;
 }
 
+/* HDF5 prints its errors unless it is told not to. */
+static bool read_datasets(const char *path, size_t d, struct table *table, bool *opened)
+{
+    bool right = false;
+#pragma omp critical(selas_hdf5)
+    {
+        H5E_auto2_t function = NULL;
+        void *data = NULL;
+        H5Eget_auto2(H5E_DEFAULT, &function, &data);
+        H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+        const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        *opened = file >= 0;
+        right = *opened && read_dataset(file, "position", d, 0, table) &&
+                read_dataset(file, "volume", 1, 3, table);
+        if (right && H5Lexists(file, "normal", H5P_DEFAULT) > 0)
+            right = read_dataset(file, "normal", d, 4, table) && read_dataset(file, "area", 1, 7, table);
+        if (*opened) H5Fclose(file);
+        H5Eset_auto2(H5E_DEFAULT, function, data);
+    }
+    return right;
+}
+
 static selas_status read_hdf5(const char *path, size_t d, struct table *table, struct messages *messages)
 {
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file < 0) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s'", path);
-    bool right = read_dataset(file, "position", d, 0, table) && read_dataset(file, "volume", 1, 3, table);
-    if (right && H5Lexists(file, "normal", H5P_DEFAULT) > 0)
-        right = read_dataset(file, "normal", d, 4, table) && read_dataset(file, "area", 1, 7, table);
-    H5Fclose(file);
-    if (!right)
-        return fail(messages, SELAS_FILE_ERROR,
-                    "'%s': expected datasets position [n, %zu], volume [n] and, if any, normal [n, %zu], "
-                    "area [n], in "
-                    "the file itself",
-                    path, d, d);
-    return SELAS_OK;
+    bool opened = false;
+    if (read_datasets(path, d, table, &opened)) return SELAS_OK;
+    if (!opened) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s' as an HDF5 file", path);
+    return fail(
+        messages, SELAS_FILE_ERROR,
+        "'%s': expected datasets position [n, %zu], volume [n] and, if any, normal [n, %zu], area [n], in "
+        "the file itself",
+        path, d, d);
 }
 
 static bool is_hdf5(const char *path)
