@@ -37,4 +37,12 @@ if "$build/selas" check "$out/layered.nml" >"$out/log" 2>&1; then
 else
     echo "not ok - layered ground may have absorbing layers: $(head -c 300 "$out/log")"
 fi
+# The layers turn with the body: the same scene turned by 30 degrees about z has the same vertical motion.
+run scene%end_time=5 && cp "$out/run/r2.dat" "$out/straight.dat" &&
+    run scene%end_time=5 body%rotation=0,0,30 receiver%position=2.6830127018922196,0.4509618943233421,0 \
+        load%centre=0.9509618943233423,-0.549038105676658,0
+grep -v '^#' "$out/straight.dat" >"$out/a"
+grep -v '^#' "$out/run/r2.dat" | paste -d ' ' "$out/a" - | awk '
+    { d = $7 - $14; if (d < 0) d = -d; if (d > far) far = d; v = $7 < 0 ? -$7 : $7; if (v > peak) peak = v }
+    END { print (NR > 50 && peak > 1e-3 && far < 1e-11 * peak ? "ok" : "not ok") " - layers of a body turned by 30 degrees: " far " of " peak }'
 rm -rf "$out"
