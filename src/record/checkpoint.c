@@ -253,7 +253,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
     selas_status status = watch_sound(recorder, state, messages);
     if (status == SELAS_OK && (text == NULL || temporary == NULL))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
-    if (status != SELAS_OK) {
+    if (status != SELAS_OK || text == NULL || temporary == NULL) {
         free(text);
         free(temporary);
         return status;

@@ -185,8 +185,9 @@ static bool copy_field(const struct snapshot_record *record, hid_t part, const c
     const hid_t set = H5Dopen2(part, name, H5P_DEFAULT);
     if (set < 0) return false;
     const hid_t space = H5Dget_space(set);
-    const bool good = H5Sget_simple_extent_npoints(space) == (hssize_t)(record->points * components) &&
-                      H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, record->buffer) >= 0;
+    const bool good =
+        H5Sget_simple_extent_npoints(space) == (hssize_t)record->points * (hssize_t)components &&
+        H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, record->buffer) >= 0;
     H5Sclose(space);
     H5Dclose(set);
     return good &&

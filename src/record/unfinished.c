@@ -16,6 +16,7 @@
 
 static char *joined(const char *folder, const char *name)
 {
+    if (folder == NULL) return NULL;
     const size_t size = strlen(folder) + strlen(name) + 2;
     char *path = malloc(size);
     if (path != NULL) snprintf(path, size, "%s/%s", folder, name);
