@@ -88,6 +88,13 @@ struct consistent {
     struct band *collocation[3][2];     /* [axis][odd]: LU factors of the values at the Greville points */
 };
 
+/* What the deck says of the method's options; what it leaves open has the method's defaults. */
+struct consistent_options consistent_options_of(const struct scene *scene);
+
+/* Refuses options that cannot serve the scene: SELAS_BAD_SCENE, SELAS_UNSUPPORTED. */
+selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
+                              struct messages *messages);
+
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages);
 extern const struct model_class consistent_class;
