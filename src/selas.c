@@ -242,8 +242,8 @@ selas_status simulation_begin(selas_simulation *simulation)
 static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
 {
     selas_status status = simulation_begin(simulation);
-    struct messages *messages = &simulation->messages;
     if (status != SELAS_OK) return status;
+    struct messages *messages = &simulation->messages;
     if (simulation->failed != SELAS_OK)
         return fail(messages, simulation->failed, "the simulation has failed before; no step can follow");
     if (simulation->finished && steps > 0)
