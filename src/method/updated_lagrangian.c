@@ -86,6 +86,18 @@ static selas_status check_scene(struct updated *updated, struct messages *messag
     return status;
 }
 
+/* Ghosts that carry a traction have no adjoint. */
+static selas_status check_forces(const struct updated *updated, struct messages *messages)
+{
+    if (updated->options.adjoint && updated->pressed)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s with forces = 'adjoint' takes no tractions and no transmitting faces", NAME);
+    if (!updated->options.correction && (updated->options.adjoint || updated->options.hourglass > 0))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s: forces = 'adjoint' and hourglass need gradient_correction = .true.", NAME);
+    return SELAS_OK;
+}
+
 static void choose_layout(struct updated *updated)
 {
     const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
@@ -179,6 +191,7 @@ static void destroy(struct model *model)
     array_free(updated->reference);
     array_free(updated->searched);
     array_free(updated->record);
+    updated_hourglass_free(updated->hourglass);
     array_free(updated->planes);
     array_free(updated->shifts);
     array_free(updated->shift);
@@ -203,7 +216,8 @@ static void fill_public_face(struct updated *updated)
     model->bytes = neighbours_bytes(&updated->neighbours) +
                    (points + updated->ghosts) * (6 + updated->layout.size) * sizeof(double) +
                    (updated->ordered ? updated->layout.size * updated->stride * sizeof(double) : 0) +
-                   updated->shift_room * sizeof *updated->shift + points * 8 * sizeof(double);
+                   updated->shift_room * sizeof *updated->shift + points * 8 * sizeof(double) +
+                   updated_hourglass_bytes(updated);
 }
 
 static selas_status build(struct updated *updated, struct messages *messages)
@@ -217,9 +231,13 @@ static selas_status build(struct updated *updated, struct messages *messages)
     if (updated->reference == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     memcpy(updated->reference, updated->cloud->position, 3 * points * sizeof(double));
+    status = check_forces(updated, messages);
+    if (status != SELAS_OK) return status;
     status = choose_own_lengths(updated, messages);
     if (status == SELAS_OK) status = updated_ghosts_create(updated, messages);
     if (status == SELAS_OK) status = take_memory(updated, messages);
+    if (status == SELAS_OK && (updated->options.hourglass > 0 || updated->options.adjoint))
+        status = updated_hourglass_new(updated, messages);
     if (status == SELAS_OK) fill_public_face(updated);
     return status;
 }
@@ -282,6 +300,9 @@ static selas_status create(const struct scene *scene, struct model **model, stru
         options.beta = real_or(group, "viscosity_beta", options.beta);
         options.artificial_stress = real_or(group, "artificial_stress", options.artificial_stress);
         options.correction = logical_or(group, "gradient_correction", options.correction);
+        options.adjoint =
+            deck_values(group, "forces") > 0 && strcmp(deck_text(group, "forces", 0), "adjoint") == 0;
+        options.hourglass = real_or(group, "hourglass", options.hourglass);
         options.jaumann = logical_or(group, "jaumann", options.jaumann);
     }
     struct cloud *cloud = NULL;

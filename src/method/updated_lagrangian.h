@@ -21,6 +21,8 @@ struct updated_options {
     double artificial_stress; /* epsilon of Eq 22; 0: off */
     bool correction;          /* kernel gradient correction L */
     bool jaumann;             /* rotation of the stress, Eqs 8 and 9 */
+    bool adjoint;             /* stresses act by the adjoint of grad v, not by Eq 19 */
+    double hourglass;         /* xi of updated_lagrangian_hourglass.c; 0: off, as published */
 };
 
 /* A ghost mirrors a particle at one to three faces, in this order. */
@@ -48,6 +50,8 @@ struct updated_sums {
     double push[6][3];     /* m (s_j/rho_j^2 + s_i/rho_i^2 - Pi I + f^4 (R_i + R_j)) grad W */
 };
 
+struct updated_hourglass;
+
 struct updated {
     struct model model; /* first: the public face */
     struct updated_options options;
@@ -55,7 +59,9 @@ struct updated {
     int stresses;   /* components of the stress */
     bool repulsive; /* artificial stress is on; off while the spectrum is measured */
     double alpha, beta;
-    bool pressed;    /* some face has ghosts that carry a traction */
+    bool pressed;                        /* some face has ghosts that carry a traction */
+    bool hourglass_of_velocity;          /* while the spectrum is measured */
+    struct updated_hourglass *hourglass; /* NULL without hourglass control */
     bool both_sides; /* viscosity between receding pairs too: while the spectrum is measured */
     struct cloud *cloud;
     const struct material *material;
@@ -126,8 +132,16 @@ selas_status updated_merge_lists(struct updated *updated, struct messages *messa
 /* ... and whether that pays; takes the memory for it. */
 selas_status updated_choose_order(struct updated *updated, struct messages *messages);
 
-/* updated_lagrangian_rate.c: dy/dt. */
+/* updated_lagrangian_rate.c: inverse of L; the identity where the neighbours do not span the space. */
+void updated_invert(int dimension, const double matrix[6], double inverse[3][3]);
+/* dy/dt. */
 void updated_rate(struct model *model, const struct drive *drive, const double *y, double *dydt);
+/* updated_lagrangian_hourglass.c: memory for it ... */
+selas_status updated_hourglass_new(struct updated *updated, struct messages *messages);
+void updated_hourglass_free(struct updated_hourglass *all);
+size_t updated_hourglass_bytes(const struct updated *updated);
+/* ... and what it adds to the acceleration; after updated_fill(). */
+void updated_add_hourglass(struct updated *updated, const double *y, double *acceleration);
 /* updated_lagrangian_spectrum.c */
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
 

@@ -237,5 +237,8 @@ void updated_describe(const struct model *model,
     snprintf(text, sizeof text, "epsilon %g", options->artificial_stress);
     tell(context, "artificial stress", options->artificial_stress > 0 ? text : "off");
     tell(context, "kernel gradient correction", options->correction ? "on" : "off");
+    tell(context, "stress divergence", options->adjoint ? "adjoint of the gradient" : "as published");
     tell(context, "Jaumann rate", options->jaumann ? "on" : "off");
+    snprintf(text, sizeof text, "%g", options->hourglass);
+    tell(context, "hourglass control", options->hourglass > 0 ? text : "off");
 }

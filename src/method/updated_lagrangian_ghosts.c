@@ -190,6 +190,8 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
     if (updated->repulsive)
         updated_artificial_stress(updated->dimension, updated->options.artificial_stress,
                                   record + layout.tension, record + layout.repulsion);
+    for (size_t s = 0; updated->options.adjoint && s < stresses; s++)
+        record[layout.tension + s] = 0; /* updated_lagrangian_hourglass.c adds their force */
     for (size_t c = 0; updated->ordered && c < layout.size; c++)
         updated->planes[c * updated->stride + VEC + place] = record[c];
 }

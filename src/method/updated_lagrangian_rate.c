@@ -67,6 +67,11 @@ static inline void stress_rate(const struct updated *updated, const int dimensio
         }
 }
 
+void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
+{
+    invert(dimension, matrix, inverse);
+}
+
 /* Rates of particle i from its sums. */
 INLINED void contract(const struct updated *updated, const int dimension, size_t i, struct updated_sums *sums,
                       const double *y, double *dydt)
@@ -182,5 +187,6 @@ void updated_rate(struct model *model, const struct drive *drive, const double *
         return;
     }
     all_rates(updated, y, dydt);
+    if (updated->hourglass != NULL) updated_add_hourglass(updated, y, dydt + unknowns);
     add_body_forces(updated, drive, y, dydt + unknowns);
 }

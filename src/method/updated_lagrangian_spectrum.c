@@ -1,7 +1,8 @@
 /* The two radii that limit the time step, each by power iteration about the body at rest, with the rates
  * themselves as the operator (they are linear there):
  *
- *   waves      v -> stress rate -> acceleration, viscosity and artificial stress off: eigenvalues -omega^2
+ *   waves      v -> stress rate -> acceleration, viscosity and artificial stress off, and v -> acceleration
+ *              by hourglass control: eigenvalues -omega^2
  *   viscosity  v -> acceleration of the viscous term alone, beta off, between all pairs: eigenvalue -radius
  *
  * Between all pairs: the viscosity acts on approaching pairs only, but at a compressive front all pairs
@@ -54,7 +55,7 @@ static void wave_map(struct updated *updated, struct iteration *work)
     const size_t bytes = (updated->model.state_size - extra) * sizeof(double);
     double *stress = work->vector + updated->model.unknowns;
     memcpy(stress, work->dydt + extra, bytes);
-    evaluate(updated, work, NULL, stress);
+    evaluate(updated, work, work->vector, stress);
 }
 
 static void viscous_map(struct updated *updated, struct iteration *work)
@@ -106,7 +107,9 @@ static void measure(struct updated *updated, struct iteration *work, struct spec
     updated->repulsive = false;
     updated->both_sides = true;
     updated->alpha = updated->beta = 0;
+    updated->hourglass_of_velocity = true;
     spectrum->omega = sqrt(iterate(updated, work, wave_map));
+    updated->hourglass_of_velocity = false;
     updated->alpha = alpha;
     if (alpha > 0) {
         spectrum->wave_damping = quotient(updated, work) / 2;
