@@ -14,9 +14,11 @@
  *   rho_i dv_i/dt += sum_j V_j w_ij (k e_ij - 1/2 (B_i + B_j) d_ij),
  *   B_i = k sum_j V_j w_ij e_ij d_ij^T L_i^-1,    k = xi (lambda + 2 mu)
  *
- * Ghosts of walls count, those of tractions do not deform. */
+ * With forces = 'adjoint' B_i takes -2 s_i L_i^-1 too: the stresses then act by the adjoint of grad v (U12 of
+ * doc/sph-updated-lagrangian.md), and updated_rate leaves them out of Eq 19. Ghosts of walls count, those of
+ * tractions do not deform. */
+#include "base/machine.h"
 #include "base/memory.h"
-#include "base/vectors.h"
 #include "method/updated_lagrangian.h"
 
 #include <math.h>
@@ -214,22 +216,21 @@ INLINED void return_pairs(const struct updated *updated, const int dimension, si
 /* Instances with constant dimension: of particles first ... last - 1. */
 enum { BLOCK = 64 };
 #define INSTANCES(dimension)                                                                                 \
-    VECTOR_CLONES static void gradients_##dimension(const struct updated *updated, size_t first,             \
-                                                    size_t last)                                             \
+    EACH_MACHINE static void gradients_##dimension(const struct updated *updated, size_t first, size_t last) \
     {                                                                                                        \
         for (size_t i = first; i < last; i++) {                                                              \
             weigh_pairs(updated, dimension, i);                                                              \
             take_gradient(updated, dimension, i);                                                            \
         }                                                                                                    \
     }                                                                                                        \
-    VECTOR_CLONES static void pushes_##dimension(const struct updated *updated, size_t first, size_t last,   \
-                                                 const double *y, double *acceleration)                      \
+    EACH_MACHINE static void pushes_##dimension(const struct updated *updated, size_t first, size_t last,    \
+                                                const double *y, double *acceleration)                       \
     {                                                                                                        \
         for (size_t i = first; i < last; i++)                                                                \
             push_pairs(updated, dimension, i, y, acceleration);                                              \
     }                                                                                                        \
-    VECTOR_CLONES static void returns_##dimension(const struct updated *updated, size_t first, size_t last,  \
-                                                  double *acceleration)                                      \
+    EACH_MACHINE static void returns_##dimension(const struct updated *updated, size_t first, size_t last,   \
+                                                 double *acceleration)                                       \
     {                                                                                                        \
         for (size_t i = first; i < last; i++)                                                                \
             return_pairs(updated, dimension, i, acceleration);                                               \
