@@ -45,8 +45,10 @@ selas_status cloud_hold(struct tl_model *tl, struct messages *messages)
     for (size_t k = 0; k < d * tl->cloud->points; k++)
         count += mark[k];
     tl->held = array_new(count, sizeof *tl->held);
-    if (tl->held == NULL && status == SELAS_OK)
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu held components", count);
+    if (tl->held == NULL) {
+        array_free(mark);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu held components", count);
+    }
     for (size_t k = 0; k < d * tl->cloud->points && status == SELAS_OK; k++)
         if (mark[k]) tl->held[tl->held_count++] = k;
     array_free(mark);
@@ -139,9 +141,9 @@ selas_status cloud_traction(struct tl_model *tl, const struct load *load, const 
                           .weight = array_new(tl->cloud->elements, sizeof *patch.weight),
                           .basis = array_new(3 * tl->cloud->elements, sizeof *patch.basis)};
     selas_status status = SELAS_OK;
-    if (patch.point == NULL || patch.weight == NULL || patch.basis == NULL)
+    if (patch.point == NULL || patch.weight == NULL || patch.basis == NULL) {
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the load");
-    if (status == SELAS_OK) {
+    } else {
         cover(tl, load, centre, axis, axes, &patch);
         double moment[3];
         if (load->shape != LOAD_FACE && axes > 0) {
@@ -154,7 +156,8 @@ selas_status cloud_traction(struct tl_model *tl, const struct load *load, const 
                          "smaller");
         }
     }
-    for (size_t k = 0; k < patch.count && status == SELAS_OK; k++)
+    for (size_t k = 0; status == SELAS_OK && patch.point != NULL && patch.weight != NULL && k < patch.count;
+         k++)
         for (size_t c = 0; c < d; c++)
             force[d * patch.point[k] + c] += load->amplitude * direction[c] * patch.weight[k];
     array_free(patch.point);

@@ -177,7 +177,7 @@ static selas_status pair_correction(const struct tl_model *tl, struct cloud_pair
     selas_status status = SELAS_OK;
     if (boundary == NULL || rest == NULL || multiplier == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the gradients of %zu points", pairs->points);
-    for (size_t e = 0; status == SELAS_OK && e < tl->cloud->elements; e++) {
+    for (size_t e = 0; status == SELAS_OK && boundary != NULL && e < tl->cloud->elements; e++) {
         const struct face_element *element = &tl->cloud->element[e];
         const size_t i = neighbours_nearest(&tl->near, element->position);
         for (size_t c = 0; c < d; c++)

@@ -61,7 +61,7 @@ static size_t polynomials(const double *x, const double *low, const double *high
     double s[3];
     size_t k = 0;
     p[k++] = 1;
-    for (int a = 0; a < axes; a++)
+    for (int a = 0; a < axes && a < 3; a++)
         p[k++] = s[a] = (2 * x[axis[a]] - low[axis[a]] - high[axis[a]]) / (high[axis[a]] - low[axis[a]]);
     for (int a = 0; a < axes && quadratic; a++)
         for (int b = a; b < axes; b++)
@@ -163,7 +163,7 @@ selas_status cloud_method_points(const struct scene *scene, struct cloud **cloud
     box.shape = BODY_BOX;
     selas_status status = make_set(scene, &set, messages);
     if (status == SELAS_OK) status = cloud_allocate(scene->dimension, set.points, cloud, messages);
-    if (status == SELAS_OK && *cloud != NULL) {
+    if (status == SELAS_OK && *cloud != NULL && set.own_position != NULL) {
         memcpy((*cloud)->position, set.own_position, 3 * set.points * sizeof(double));
         (*cloud)->spacing = scene->body.spacing;
         status = cloud_cells(*cloud, &box, messages);

@@ -247,7 +247,7 @@ selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_s
     if (solver->p == NULL || solver->q == NULL || solver->z == NULL || solver->scale == NULL ||
         solver->null == NULL || solver->factor == NULL || solver->small == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the pair correction");
-    if (status == SELAS_OK) make_null_space(solver);
+    if (status == SELAS_OK && solver->null != NULL) make_null_space(solver);
     if (status == SELAS_OK) status = factorise(solver, messages);
     for (size_t i = 0; i < pairs->points && status == SELAS_OK; i++)
         for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {

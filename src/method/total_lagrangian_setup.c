@@ -190,7 +190,7 @@ static bool own_weight(const struct tl_model *tl, size_t i, double own[3])
     double size = 0;
     own[0] = own[1] = own[2] = 0;
     for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++)
-        for (size_t a = 0; a < d; a++) {
+        for (size_t a = 0; a < d && a < 3; a++) {
             own[a] -= tl->gradient.weight[d * k + a];
             size += fabs(tl->gradient.weight[d * k + a]);
         }
@@ -216,7 +216,7 @@ static selas_status transpose(struct tl_model *tl, struct messages *messages)
     const size_t entries = tl->gradient.start[n] + n;
     struct tl_rows *rows = &tl->transposed;
     size_t *next = array_new(tl->sites + 1, sizeof *next);
-    if (next == NULL || tl_rows_allocate(rows, tl->sites, entries, d) != SELAS_OK) {
+    if (next == NULL || tl_rows_allocate(rows, tl->sites, entries, d) != SELAS_OK || rows->weight == NULL) {
         array_free(next);
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", entries);
     }

@@ -14,6 +14,7 @@
 #include "method/updated_lagrangian.h"
 
 #include <math.h>
+#include <string.h>
 
 struct eight_sums {
     vec8 matrix[6], full[6], velocity[3][3], push[6][3];
@@ -30,11 +31,11 @@ struct eight_constants {
 INLINED void root(const vec8 *square, vec8 *result)
 {
     double number[VEC];
-    *(vec8 *)number = *square;
+    memcpy(number, square, sizeof number);
 #pragma omp simd
     for (int n = 0; n < VEC; n++)
         number[n] = sqrt(number[n]);
-    *result = *(vec8 *)number;
+    memcpy(result, number, sizeof number);
 }
 
 /* Adds the pairs of the eight particles at `own` with the eight places at `other` (first component of both:

@@ -37,7 +37,7 @@ static uint32_t merge(const struct updated *updated, size_t i, size_t *pairs)
     const struct neighbours *near = &updated->neighbours;
     const size_t last = i + VEC < updated->cloud->points ? i + VEC : updated->cloud->points;
     int32_t *shift = updated->shift + near->start[i];
-    size_t next[VEC];
+    size_t next[VEC] = {0};
     uint32_t count = 0;
     for (size_t n = i; n < last; n++)
         next[n - i] = reachable(updated, n, near->start[n]);
@@ -96,15 +96,16 @@ selas_status updated_choose_order(struct updated *updated, struct messages *mess
 {
     const size_t points = updated->cloud->points, places = points + updated->ghosts;
     if (!updated->cubic || places > INT32_MAX) return SELAS_OK;
+    const size_t groups = (points + VEC - 1) / VEC;
     updated->stride = (places + 3 * VEC - 1) / VEC * VEC;
-    updated->shifts = array_new((points + VEC - 1) / VEC, sizeof *updated->shifts);
+    updated->shifts = array_new(groups, sizeof *updated->shifts);
     updated->planes = array_new(updated->layout.size * updated->stride, sizeof *updated->planes);
     if (updated->shifts == NULL || updated->planes == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     const selas_status status = updated_merge_lists(updated, messages);
     double merged = 0;
-    for (size_t i = 0; status == SELAS_OK && i < points; i += VEC)
-        merged += VEC * updated->shifts[i / VEC];
+    for (size_t k = 0; status == SELAS_OK && k < groups; k++)
+        merged += VEC * (double)updated->shifts[k];
     updated->ordered = merged < MOST * (double)updated->merged;
     if (updated->ordered) fill_ends(updated);
     return status;

@@ -165,7 +165,7 @@ static selas_status copy_trace(const struct trace *trace, struct trace *copy, st
 {
     *copy = (struct trace){.value = trace->value};
     const selas_status status = trace_room(copy, trace->rows, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || copy->u == NULL || copy->v == NULL || copy->a == NULL) return status;
     copy->rows = trace->rows;
     memcpy(copy->u, trace->u, 3 * trace->rows * sizeof *copy->u);
     memcpy(copy->v, trace->v, 3 * trace->rows * sizeof *copy->v);

@@ -167,7 +167,8 @@ static selas_status build_accurate(const struct deck *deck, double accuracy, str
     status = accuracy_choose(*scene, accuracy, &choice, messages);
     scene_free(scene);
     if (status == SELAS_OK) status = build(deck, &choice, scene, messages);
-    if (status == SELAS_OK) memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
+    if (status == SELAS_OK && *scene != NULL)
+        memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
     return status;
 }
 
