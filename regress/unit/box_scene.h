@@ -47,6 +47,32 @@ static __attribute__((unused)) void make_box(struct box_scene *box, int dimensio
     }
 }
 
+/* Pulls at the faces x- and x+ by the traction .3; `load` must live as long as the scene. */
+static __attribute__((unused)) void pull_box(struct box_scene *box, struct load load[2])
+{
+    for (int k = 0; k < 2; k++) {
+        load[k] =
+            (struct load){.shape = LOAD_FACE, .face = k == 0 ? FACE_X_LOW : FACE_X_HIGH, .amplitude = .3};
+        load[k].direction[0] = k == 0 ? -1 : 1;
+    }
+    box->scene.loads = 2;
+    box->scene.load = load;
+}
+
+/* The uniform stretch of a pulled box, u [points][dimension]: e_xx = .3 / modulus, the others -contraction
+ * e_xx (plane strain across in 1D, 2D). */
+static __attribute__((unused)) void stretch_box(const struct box_scene *box, const double *position,
+                                                size_t points, double *u)
+{
+    const size_t d = (size_t)box->scene.dimension;
+    const double across = (double)d - 1, lambda = box->material.lambda, mu = box->material.mu;
+    const double contraction = d == 1 ? 0 : lambda / (across * lambda + 2 * mu);
+    const double strain = .3 / (lambda * (1 - across * contraction) + 2 * mu);
+    for (size_t i = 0; i < points; i++)
+        for (size_t c = 0; c < d; c++)
+            u[d * i + c] = position[3 * i + c] * strain * (c == 0 ? 1 : -contraction);
+}
+
 /* Turns the body by angles (radians) about x, then y, then z: frame = Rz Ry Rx. */
 static __attribute__((unused)) void rotate_box(struct box_scene *box, double ax, double ay, double az)
 {

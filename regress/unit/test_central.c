@@ -71,15 +71,8 @@ static void tractions_balance(void **state)
     for (int d = 1; d <= 3; d++) {
         struct box_scene box;
         make_box(&box, d, 1, .1);
-        struct load load[2] = {0};
-        for (int k = 0; k < 2; k++) {
-            load[k].shape = LOAD_FACE;
-            load[k].face = k == 0 ? FACE_X_LOW : FACE_X_HIGH;
-            load[k].direction[0] = k == 0 ? -1 : 1;
-            load[k].amplitude = .3;
-        }
-        box.scene.loads = 2;
-        box.scene.load = load;
+        struct load load[2];
+        pull_box(&box, load);
         struct model *model = make(&box.scene, 1, true, .5);
         const struct tl_model *tl = (struct tl_model *)model;
         const size_t n = (size_t)d;
@@ -91,13 +84,7 @@ static void tractions_balance(void **state)
         }
         double *y = array_new(model->state_size, sizeof *y);
         double *a = array_new(model->unknowns, sizeof *a);
-        const double lambda = box.material.lambda;
-        const double mu = box.material.mu;
-        const double contraction = d == 1 ? 0 : lambda / ((d - 1) * lambda + 2 * mu);
-        const double strain = .3 / (lambda * (1 - (d - 1) * contraction) + 2 * mu);
-        for (size_t i = 0; i < model->points; i++)
-            for (size_t c = 0; c < n; c++)
-                y[n * i + c] = model->position[3 * i + c] * strain * (c == 0 ? 1 : -contraction);
+        stretch_box(&box, model->position, model->points, y);
         const double amplitude[2] = {1, 1};
         const struct drive drive = {.load = amplitude};
         model->class->accelerate(model, &drive, 0, y, NULL, a);

@@ -309,15 +309,8 @@ static void tractions_balance_uniform_stress(void **state)
         for (int degree = 1; degree <= 2; degree++) {
             struct box_scene box;
             make_box(&box, d, 1, d == 3 ? 1. / 16 : .05);
-            struct load load[2] = {0};
-            for (int k = 0; k < 2; k++) {
-                load[k].shape = LOAD_FACE;
-                load[k].face = k == 0 ? FACE_X_LOW : FACE_X_HIGH;
-                load[k].direction[0] = k == 0 ? -1 : 1;
-                load[k].amplitude = .3;
-            }
-            box.scene.loads = 2;
-            box.scene.load = load;
+            struct load load[2];
+            pull_box(&box, load);
             const struct tl_options choice = options(degree, LAW_LINEAR, .1);
             struct model *model = make(&box.scene, &choice);
             const struct tl_model *tl = (struct tl_model *)model;
@@ -327,14 +320,7 @@ static void tractions_balance_uniform_stress(void **state)
             assert_near(force, .3, 1e-14);
             double *y = array_new(model->state_size, sizeof *y);
             double *a = array_new(model->unknowns, sizeof *a);
-            const double lambda = box.material.lambda;
-            const double mu = box.material.mu;
-            /* e_xx = t / modulus, the others -contraction e_xx (plane strain across in 1D, 2D) */
-            const double contraction = d == 1 ? 0 : lambda / ((d - 1) * lambda + 2 * mu);
-            const double strain = .3 / (lambda * (1 - (d - 1) * contraction) + 2 * mu);
-            for (size_t i = 0; i < model->points; i++)
-                for (size_t c = 0; c < (size_t)d; c++)
-                    y[(size_t)d * i + c] = model->position[3 * i + c] * strain * (c == 0 ? 1 : -contraction);
+            stretch_box(&box, model->position, model->points, y);
             const double amplitude[2] = {1, 1};
             const struct drive drive = {.load = amplitude};
             model->class->accelerate(model, &drive, 0, y, NULL, a);

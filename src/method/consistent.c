@@ -363,13 +363,6 @@ double consistent_fastest(const struct consistent *c, int face)
     return fastest;
 }
 
-static bool has_layers(const struct consistent *c)
-{
-    for (int face = 0; face < BOX_FACES; face++)
-        if (c->layer[face] > 0) return true;
-    return false;
-}
-
 static selas_status build(struct consistent *c, struct messages *messages)
 {
     for (int face = 0; face < 2 * c->dimension; face++)
@@ -382,7 +375,7 @@ static selas_status build(struct consistent *c, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
-    if (status == SELAS_OK && has_layers(c)) status = pml_create(c, messages);
+    if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
     return status;
 }
 

@@ -11,14 +11,6 @@ static bool layered(const struct body *body)
     return body->layers > 1 || (body->layers == 1 && body->layer[0].top > 0);
 }
 
-/* Has a face a C-PML? It is built on sweeps only. */
-static bool absorbing(const struct scene *scene)
-{
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        if (layer_points(scene, face) > 0) return true;
-    return false;
-}
-
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
                               struct messages *messages)
 {
@@ -49,14 +41,14 @@ static bool given(const struct deck_group *group, const char *word)
 }
 
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4 and the
- * exact mass: waves in a soft layer are short against the spacing, and there this errs a fifth of what degree
- * 2 with sweeps does (doc/layered.md). */
+ * exact mass where no C-PML stands beside it (that is built on sweeps only): waves in a soft layer are short
+ * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/layered.md). */
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
     struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
-    if (layered(&scene->body) && !absorbing(scene) && !given(group, "mass") && !given(group, "depth_mass") &&
-        !given(group, "dissipation")) {
+    if (layered(&scene->body) && !layer_anywhere(scene) && !given(group, "mass") &&
+        !given(group, "depth_mass") && !given(group, "dissipation")) {
         options.degree = 4;
         options.sweeps = 0;
     }

@@ -101,6 +101,13 @@ size_t layer_points(const struct scene *scene, int face)
     return (size_t)fmin(fmax(points, LEAST_POINTS), MOST_POINTS);
 }
 
+bool layer_anywhere(const struct scene *scene)
+{
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        if (layer_points(scene, face) > 0) return true;
+    return false;
+}
+
 bool layer_left_out(const struct scene *scene, int face)
 {
     return layer_asked(scene, face) && layer_unneeded(scene, face);

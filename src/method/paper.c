@@ -264,23 +264,6 @@ static selas_status fill(struct paper *paper, struct messages *messages)
     return status;
 }
 
-static selas_status create(const struct scene *scene, struct model **model, struct messages *messages);
-
-/* Without the filter of Eq 35 every time scheme may be had. */
-static const struct model_class unfiltered_class = {
-    .method = "smoothed-point",
-    .variant = "paper",
-    .create = create,
-    .destroy = destroy,
-    .accelerate = accelerate,
-    .initialise = paper_initialise,
-    .probe = paper_probe,
-    .field = paper_field,
-    .energy = paper_energy,
-    .power = paper_power,
-    .describe = paper_describe,
-};
-
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
                           struct model **model, struct messages *messages)
 {
@@ -292,7 +275,9 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->options = *options;
     paper->dimension = scene->dimension;
     paper->material = &scene->material[scene->body.material];
-    paper->model.class = options->filter > 0 ? &paper_class : &unfiltered_class;
+    paper->class = paper_class;
+    if (!(options->filter > 0)) paper->class.after_step = NULL; /* then every time scheme may be had */
+    paper->model.class = &paper->class;
     paper->model.scene = scene;
     status = fill(paper, messages);
     if (status != SELAS_OK) {

@@ -59,7 +59,8 @@ struct paper_load {
 };
 
 struct paper {
-    struct model model; /* first, so that a model pointer is a paper pointer */
+    struct model model;       /* first, so that a model pointer is a paper pointer */
+    struct model_class class; /* the model's: without the filter of Eq 35 where none is asked for */
     struct paper_options options;
     const struct material *material;
     int dimension;

@@ -50,6 +50,8 @@ struct pml {
 
 /* layer.c: points of the layer behind a face, 0 if it has none. */
 size_t layer_points(const struct scene *scene, int face);
+/* Has any face one? */
+bool layer_anywhere(const struct scene *scene);
 /* Reflection at normal incidence that the profile of a layer of so many points is made for, and the one to be
  * expected by measurement (doc/absorbing-faces.md, section 5). */
 double layer_profile_reflection(size_t points);
