@@ -7,7 +7,7 @@ if ! make --no-print-directory BUILD="$build" fuzz-replay >"$build/test/replay.l
     echo "not ok - the fuzz targets do not build: $(tail -2 "$build/test/replay.log")"
     exit 1
 fi
-for target in deck tables points points_hdf5 checkpoint; do
+for target in deck tables points points_hdf5 checkpoint results; do
     inputs=regress/fuzz/corpus/$target
     [ $target = deck ] && inputs="$inputs input"
     # shellcheck disable=SC2046,SC2086

@@ -271,14 +271,22 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
 /* --- Reading
  * ----------------------------------------------------------------------------------------------- */
 
+/* A count that a double holds exactly. */
+static bool is_count(double figure, double below)
+{
+    return figure >= 0.0 && figure < below;
+}
+
 /* A reason why the checkpoint's own figures do not fit, or NULL. */
 static const char *misfit_of_figures(const struct recorder *recorder, const double figures[FIGURES])
 {
     const uint64_t files = kept_files_checksum(recorder->scene);
     const double dt = recorder->stepper->dt;
-    if (!(figures[STEP] >= 0.0 && figures[STEP] < 9e15) ||
-        !(figures[ENTRIES] >= 0.0 && figures[ENTRIES] < 1e9))
+    if (!is_count(figures[STEP], 9e15) || !is_count(figures[ENTRIES], 1e9) ||
+        !is_count(figures[EVALUATIONS], 9e15))
         return "its step makes no sense";
+    for (size_t k = 0; k < FIGURES; k++)
+        if (!isfinite(figures[k])) return "its times make no sense";
     if (!(fabs(figures[TIME_STEP] - dt) <= 1e-9 * dt)) return "its time step is another one";
     if (figures[FILES_LOW] != (double)(files & UINT32_MAX) || figures[FILES_HIGH] != (double)(files >> 32))
         return "a file that its deck names (points, table or reference) has changed since";
