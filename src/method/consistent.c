@@ -379,6 +379,12 @@ static selas_status build(struct consistent *c, struct messages *messages)
     return status;
 }
 
+static void remember(struct model *model, double dt, double *y)
+{
+    double *v = y + model->unknowns;
+    pml_remember(consistent_of(model), dt, y, v, v + model->unknowns);
+}
+
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages)
 {
@@ -395,7 +401,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     status = build(c, messages);
     if (c->pml != NULL) {
         c->layered_class = consistent_class;
-        c->layered_class.remember = pml_remember;
+        c->layered_class.remember = remember;
         c->layered_class.unseen = layers_fastest;
         c->model.class = &c->layered_class;
     }

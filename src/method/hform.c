@@ -406,7 +406,7 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
             rest_of_plane(c, drive, thread, k, u, v, a);
     }
     if (drive->extra != NULL) {
-        pml_accelerate(c, drive->extra, a);
+        pml_accelerate(c, 1, drive->extra, a);
         for (int component = 0; component < c->dimension; component++)
             for (size_t k = 0; k < c->n[DEPTH]; k++)
                 consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);

@@ -104,7 +104,7 @@ static void move_on(const struct consistent *c, const struct slab *slab, double 
         }
 }
 
-static void move_gradients(const struct consistent *c, struct slab *slab, double dt, const double *u,
+static void move_gradients(const struct consistent *c, const struct slab *slab, double dt, const double *u,
                            const double *v, double *extra)
 {
     take_displacements(c, slab, u, v, dt / 2);
@@ -160,19 +160,17 @@ static void drag(const struct consistent *c, const struct slab *slab, double dt,
             }
 }
 
-void pml_remember(struct model *model, double dt, double *y)
+void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra)
 {
-    struct consistent *c = consistent_of(model);
-    double *v = y + model->unknowns, *extra = v + model->unknowns;
     for (size_t s = 0; s < c->pml->slabs; s++)
-        move_gradients(c, &c->pml->slab[s], dt, y, v, extra);
+        move_gradients(c, &c->pml->slab[s], dt, u, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
-        move_forces(c, &c->pml->slab[s], dt, y, v, extra);
+        move_forces(c, &c->pml->slab[s], dt, u, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
         if (c->pml->slab[s].drag != NULL) drag(c, &c->pml->slab[s], dt, v);
 }
 
-void pml_accelerate(const struct consistent *c, const double *extra, double *a)
+void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a)
 {
     const struct block whole = whole_of(c);
     for (size_t s = 0; s < c->pml->slabs; s++) {
@@ -182,9 +180,9 @@ void pml_accelerate(const struct consistent *c, const double *extra, double *a)
                     &slab->inside);
         work_out(c, slab, slab->pull, &slab->region);
         for (size_t i = 0; i < (size_t)c->dimension; i++) {
-            block_add(c->threads, a + i * c->volume, &whole, 1, c->pml->out + i * slab->volume,
+            block_add(c->threads, a + i * c->volume, &whole, factor, c->pml->out + i * slab->volume,
                       &slab->region);
-            block_add(c->threads, a + i * c->volume, &whole, 1, extra + slab->phi + i * slab->inner,
+            block_add(c->threads, a + i * c->volume, &whole, factor, extra + slab->phi + i * slab->inner,
                       &slab->inside);
         }
     }

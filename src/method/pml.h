@@ -71,10 +71,10 @@ double layers_fastest(struct model *model, const double *y, size_t size, char *p
 /* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. */
 selas_status pml_create(struct consistent *c, struct messages *messages);
 void pml_free(struct consistent *c);
-/* a += what the memory variables do. */
-void pml_accelerate(const struct consistent *c, const double *extra, double *a);
-/* Brings the memory variables from one step to the next: y holds u at the end of the step and v, the mean
- * velocity over it (Eqs 11 and 12). */
-void pml_remember(struct model *model, double dt, double *y);
+/* a += factor * what the memory variables do (held control values may get something, too). */
+void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a);
+/* Brings the memory variables from one step to the next: u at the end of the step, v the mean velocity over it
+ * (Eqs 10 and 11); v is changed where layers damp it besides. */
+void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra);
 
 #endif
