@@ -117,7 +117,7 @@ $(BUILD)/obj/record/provenance.o: $(BUILD)/commit
 $(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
 
 # Multiplication and addition of the lattice and SPH operators in one instruction where the machine has it
-$(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
+$(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/pml_fast_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
 $(BUILD)/obj/method/total_lagrangian_kernels.o $(BUILD)/obj/method/updated_lagrangian_rate.o: ALL_C += -ffp-contract=fast
 
 $(BUILD)/obj/%.o: src/%.c

@@ -6,7 +6,7 @@
  *
  * Slabs meet at edges and corners: first all psi are moved on, then all phi, with psi at the middle of the
  * step. Regions are worked on plane by plane; sums do not depend on the number of threads. */
-#include "method/pml.h"
+#include "method/pml_fast.h"
 
 #include <math.h>
 #include <omp.h>
@@ -160,12 +160,21 @@ static void drag(const struct consistent *c, const struct slab *slab, double dt,
             }
 }
 
-void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra)
+static void move_regions(const struct consistent *c, double dt, const double *u, const double *v,
+                         double *extra)
 {
     for (size_t s = 0; s < c->pml->slabs; s++)
         move_gradients(c, &c->pml->slab[s], dt, u, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
         move_forces(c, &c->pml->slab[s], dt, u, v, extra);
+}
+
+void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra)
+{
+    if (c->pml->fast != NULL)
+        pml_fast_remember_double(c, dt, u, v, extra);
+    else
+        move_regions(c, dt, u, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
         if (c->pml->slab[s].drag != NULL) drag(c, &c->pml->slab[s], dt, v);
 }
@@ -173,6 +182,10 @@ void pml_remember(const struct consistent *c, double dt, const double *u, double
 void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a)
 {
     const struct block whole = whole_of(c);
+    if (c->pml->fast != NULL) {
+        pml_fast_accelerate_double(c, factor, extra, a);
+        return;
+    }
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
         for (size_t i = 0; i < (size_t)c->dimension; i++)

@@ -24,17 +24,18 @@ struct block {
 /* The layer behind one face. */
 struct slab {
     int axis, end;
-    struct block inside; /* control values with d > 0 */
-    struct block region; /* and those that the matrices reach from them */
-    size_t inner, volume;
-    double relaxation; /* alpha: the rate at which the layer forgets */
-    double *damping;   /* d at the control values inside, along the axis */
-    double *drag;      /* rates at which velocities there are damped besides; NULL: not at all */
-    double *kept;      /* what is left of them after a step */
-    size_t psi, phi;   /* their places in the extra part: component i at psi + i * inner */
-    double *middle;    /* [dimension * inner] psi at the middle of a step */
+    struct block inside;  /* control values with d > 0 */
+    struct block region;  /* and those that the matrices reach from them */
+    size_t inner, volume; /* numbers of a memory variable (with padding, pml_fast.h); in the region */
+    double relaxation;    /* alpha: the rate at which the layer forgets */
+    double *damping;      /* d at the control values inside, along the axis */
+    double *drag;         /* rates at which velocities there are damped besides; NULL: not at all */
+    double *kept;         /* what is left of them after a step */
+    size_t psi, phi;      /* places of memory variables in the extra part: component i at psi + i * inner */
     size_t bands;
     struct band *band[SLAB_BANDS];
+    /* Where passes are not shared (pml_fast.h): */
+    double *middle;               /* [dimension * inner] psi at the middle of a step */
     struct tensor_plan *gradient; /* C_j u_i */
     struct tensor_plan *outer;    /* T_ij from u, psi of this slab and psi_kk of the others */
     struct tensor_plan *pull;     /* the acceleration that psi of this slab makes */
@@ -43,8 +44,9 @@ struct slab {
 struct pml {
     size_t slabs, extra;
     struct slab slab[BOX_FACES];
-    double drag;      /* share of d at which velocities are damped against guided waves; 0: none */
-    double *in, *out; /* fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
+    double drag;           /* share of d at which velocities are damped against guided waves; 0: none */
+    struct pml_fast *fast; /* shared passes; NULL: one by one, with ... */
+    double *in, *out;      /* ... fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
     size_t bytes;
 };
 
@@ -73,8 +75,8 @@ selas_status pml_create(struct consistent *c, struct messages *messages);
 void pml_free(struct consistent *c);
 /* a += factor * what the memory variables do (held control values may get something, too). */
 void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a);
-/* Brings the memory variables from one step to the next: u at the end of the step, v the mean velocity over it
- * (Eqs 10 and 11); v is changed where layers damp it besides. */
+/* Brings the memory variables from one step to the next: u at the end of the step, v the mean velocity over
+ * it (Eqs 10 and 11); v is changed where layers damp it besides. */
 void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra);
 
 #endif

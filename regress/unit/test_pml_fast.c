@@ -1,0 +1,145 @@
+/* The shared passes of absorbing layers (pml_fast.h) against the passes one by one, which test_pml holds
+ * against large boxes: random scenes marched from noise, with layers of all thicknesses behind some faces and
+ * other faces of all kinds, both masses over depth, threads. */
+#include "consistent_run.h"
+
+#include "method/pml_fast.h"
+
+#include <omp.h>
+
+static uint64_t seed = 5;
+
+static size_t chance(size_t n)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (size_t)(seed >> 33) % n;
+}
+
+/* Box with faces drawn by chance, the one given with a layer. */
+static void random_scene(struct plain_scene *plain, int layered, double poisson)
+{
+    static const enum boundary_kind kinds[] = {BOUNDARY_FREE,        BOUNDARY_FIXED,    BOUNDARY_ROLLER,
+                                               BOUNDARY_SYMMETRY,    BOUNDARY_VELOCITY, BOUNDARY_TRANSMITTING,
+                                               BOUNDARY_TRANSMITTING};
+    const double spacing = .3;
+    double size[3];
+    for (int axis = 0; axis < 3; axis++)
+        size[axis] = spacing * (double)(12 + chance(9));
+    plain_box(plain, 3, size, spacing);
+    plain_material(&plain->material[0], 1.3, 2 * .9 * poisson / (1 - 2 * poisson), .9);
+    for (int face = 0; face < 6; face++) {
+        struct boundary *boundary = &plain->scene.boundary[face];
+        boundary->kind =
+            face == layered ? BOUNDARY_TRANSMITTING : kinds[chance(sizeof kinds / sizeof kinds[0])];
+        boundary->direction[face / 2] = 1;
+        boundary->amplitude = 1;
+        if (boundary->kind != BOUNDARY_TRANSMITTING || (face != layered && chance(3) == 0)) continue;
+        boundary->absorber = ABSORBER_PML;
+        boundary->layer_points = 4 + (long)chance(10);
+    }
+}
+
+/* Steps from noise, with the scheme of test_pml. */
+static struct run marched(const struct plain_scene *plain, struct consistent_options options, int steps)
+{
+    struct run run = {.model = make(plain, options)};
+    const struct model_class *class = run.model->class;
+    const double dt = .25 * .3 / plain->material[0].p_speed;
+    run.n = run.model->unknowns;
+    run.y = calloc(run.model->state_size, sizeof *run.y);
+    run.a = calloc(run.n, sizeof *run.a);
+    noise(run.n, run.y);
+    double *v = run.y + run.n;
+    for (int step = 0; step < steps; step++) {
+        class->accelerate(run.model, &(struct drive){.extra = v + run.n}, dt / 2, run.y, v, run.a);
+        for (size_t i = 0; i < run.n; i++) {
+            v[i] += dt * run.a[i];
+            run.y[i] += dt * v[i];
+        }
+        class->remember(run.model, dt, run.y);
+    }
+    return run;
+}
+
+static double difference(const struct plain_scene *plain, struct consistent_options options, bool *shared)
+{
+    struct run fast = marched(plain, options, 24);
+    options.unfused = true;
+    struct run plainly = marched(plain, options, 24);
+    double error = 0, largest = 0;
+    for (size_t i = fast.n; i < 2 * fast.n; i++) {
+        error = fmax(error, fabs(fast.y[i] - plainly.y[i]));
+        largest = fmax(largest, fabs(plainly.y[i]));
+    }
+    *shared = consistent_of(fast.model)->pml->fast != NULL;
+    assert_null(consistent_of(plainly.model)->pml->fast);
+    run_free(&fast);
+    run_free(&plainly);
+    return error / largest;
+}
+
+static void test_random_scenes(void **state)
+{
+    (void)state;
+    static const double ratios[] = {.1, .25, .45};
+    double worst = 0;
+    for (int i = 0; i < 24; i++) {
+        struct plain_scene plain;
+        bool shared;
+        random_scene(&plain, i % 6, ratios[i % 3]);
+        const struct consistent_options options = {
+            .degree = 2, .sweeps = 1 + i / 6 % 3, .depth_exact = i % 2 == 0, .mapped = i % 5 == 4};
+        const double error = difference(&plain, options, &shared);
+        assert_true(shared);
+        worst = fmax(worst, error);
+    }
+    print_message("# 24 scenes, velocities after 24 steps: %.1e\n", worst);
+    assert_true(worst < 2e-14);
+}
+
+/* A body so thin that the layer's region reaches its other face, one that is not fused, and other degrees:
+ * one by one. */
+static void test_others(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    bool shared;
+    for (int kind = 0; kind < 3; kind++) {
+        plain_box(&plain, 3, (double[3]){15, 15, kind == 0 ? 5 : kind == 1 ? 6 : 15}, 1);
+        plain.scene.boundary[FACE_Z_HIGH] = (struct boundary){
+            .kind = BOUNDARY_TRANSMITTING, .absorber = ABSORBER_PML, .layer_points = kind == 1 ? 4 : 8};
+        const struct consistent_options options = {.degree = kind == 2 ? 3 : 2, .sweeps = kind == 2 ? 1 : 3};
+        struct run run = marched(&plain, options, 1);
+        shared = consistent_of(run.model)->pml->fast != NULL;
+        assert_false(shared);
+        run_free(&run);
+    }
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    struct run run[2];
+    random_scene(&plain, FACE_X_HIGH, .25);
+    plain.scene.boundary[FACE_Y_HIGH] = plain.scene.boundary[FACE_Z_HIGH] = plain.scene.boundary[FACE_X_HIGH];
+    const struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
+    for (int i = 0; i < 2; i++) {
+        omp_set_num_threads(i == 0 ? 1 : 3);
+        run[i] = marched(&plain, options, 12);
+    }
+    omp_set_num_threads(1);
+    assert_non_null(consistent_of(run[0].model)->pml->fast);
+    assert_int_equal(consistent_of(run[1].model)->threads, 3);
+    assert_memory_equal(run[0].y, run[1].y, run[0].model->state_size * sizeof(double));
+    run_free(&run[0]);
+    run_free(&run[1]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_scenes), cmocka_unit_test(test_others),
+                                       cmocka_unit_test(test_threads)};
+    omp_set_num_threads(1);
+    return cmocka_run_group_tests_name("shared passes of absorbing layers", tests, NULL, NULL);
+}

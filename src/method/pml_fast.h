@@ -1,0 +1,75 @@
+/* The step of the absorbing layers on one kind of ground in three dimensions, with the passes of a slab
+ * shared (doc/absorbing-faces.md, section 4). It serves where the fused operator (fused.h) does.
+ *
+ * A slab is worked on in rows along an axis f (x, or y where the slab lies across x), row after row along
+ * the third axis, b (y for slabs across depth, else z). Along the axis s across the face there are few rows,
+ * so products along s are small dense matrices, whose sums stay in registers. Arrays of a slab are [b][s][f],
+ * rows padded with zeros to whole vectors: products along b take all of s and f as one long row. With
+ * B = N M over depth (the identity in slabs across depth), j the slab's axis, m = psi at the middle of the
+ * step, k the other axes and terms as in Eqs 6 to 8 (factors with them):
+ *
+ *   g_i  = C_j u_i,                                         psi_ij moved on, m_ij (L1) T'_i = A_j u_i + C_j
+ * m_ij,                  i != j T'_j = A_j u_j + C_j m_jj + C1_f (C2_j u_f) (L2) T_i  = B T'_i, i != j T_j  =
+ * B (T'_j + C2_j m_ff) + C1_b (C2_j u_b) + C2_j m_bb,   phi_ij moved on                            (L3) a_i
+ * += C_j B psi_ij + phi_ij + (C2_f B psi_jj if i = f; C2_b psi_jj if i = b)                           (L4)
+ *
+ * m_ff, m_bb: those of the slabs across f and b. (Across depth, where b = y: m_bb with B, which is the
+ * identity there.) */
+#ifndef SELAS_PML_FAST_H
+#define SELAS_PML_FAST_H
+
+#include "method/pml.h"
+
+/* Rows made together, at most: along s, along b; numbers in a vector of doubles; numbers left free beside
+ * rows that are read with neighbours; blocks of rows that a thread needs. */
+enum { FAST_ROWS = 8, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 19 };
+
+/* Roles of the axes. */
+enum role { ROLE_S, ROLE_B, ROLE_F };
+
+/* A matrix over rows: each group of rows of the result with those that it is made from. */
+struct row_group {
+    size_t to, rows, from, inputs;
+    double *weight; /* [inputs][rows] */
+};
+struct row_table {
+    size_t groups;
+    struct row_group *group;
+};
+
+struct fast_slab {
+    const struct slab *slab;
+    int axis[3];                     /* by role */
+    size_t ns, nb, nf, width;        /* numbers of the slab by role; in a padded row */
+    size_t region, offset;           /* rows along s of its region; the first of them inside */
+    size_t first, step[3];           /* in fields: the region's first value, steps by role */
+    struct row_table gradient[3];    /* by component; region to inside: C_j of L1 */
+    struct row_table second[3];      /* A_j, region to inside */
+    struct row_table slope[3];       /* C_j, inside to inside */
+    struct row_table change[3];      /* by role, b and f: C2_j of u_b and u_f, region to inside */
+    struct row_table divergence;     /* C2_j of m_ff and m_bb, region to inside */
+    struct row_table pull[3];        /* C_j, inside to region */
+    struct row_table bare[3];        /* B, by component, over b; no groups: the identity */
+    struct row_table over_b, pull_b; /* C1_b, C2_b */
+    double *along_f, *pull_f;        /* C1_f, C2_f by diagonals: [taps_f * width] */
+    size_t taps_f;
+    double *wait[3], *change_b, *middle; /* [nb][ns][width]: T'_i; C2_j u_b; m_jj */
+};
+
+struct pml_fast {
+    struct fast_slab slab[BOX_FACES];
+    double **buffer; /* [threads] */
+    size_t rows;     /* numbers in the largest block of rows of a region */
+    size_t bytes;
+};
+
+/* Builds c->pml->fast if all slabs are for it and lays out their memory; false: no memory left. Else
+ * c->pml->fast stays NULL. */
+bool pml_fast_create(struct consistent *c);
+void pml_fast_free(struct consistent *c);
+
+void pml_fast_accelerate_double(const struct consistent *c, double factor, const double *extra, double *a);
+void pml_fast_remember_double(const struct consistent *c, double dt, const double *u, const double *v,
+                              double *extra);
+
+#endif

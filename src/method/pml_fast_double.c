@@ -1,0 +1,5 @@
+/* The shared passes of absorbing layers in double precision. */
+#define REAL double
+#define NAME(name) name##_double
+#include "method/pml_fast_kernel.h"
+#include "method/pml_fast_steps.h"

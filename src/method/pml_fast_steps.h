@@ -1,0 +1,217 @@
+/* The order of the layers' shared passes (pml_fast.h, L1 to L4) for numbers of type REAL; included by
+ * pml_fast_double.c and pml_fast_single.c. Threads share rows or groups of rows along b; none writes what
+ * another one reads. */
+#include "method/pml_fast.h"
+
+#include <omp.h>
+#include <string.h>
+
+static void apply_group(const struct row_group *group, const REAL *in, size_t in_step, size_t width, bool add,
+                        REAL *out, size_t out_step)
+{
+    (add ? add_kernel : set_kernel)[group->rows]((const REAL *)group->weight, group->inputs,
+                                                 in + group->from * in_step, in_step, width, out, out_step);
+}
+
+static void apply(const struct row_table *table, const REAL *in, size_t width, size_t step, bool add,
+                  REAL *out)
+{
+    for (size_t g = 0; g < table->groups; g++)
+        apply_group(&table->group[g], in, step, width, add, out + table->group[g].to * step, step);
+}
+
+/* out += matrix along f of the rows of the slab, by way of `padded`, whose rows have zeros between them. */
+static void apply_along(const struct fast_slab *s, const double *matrix, const REAL *in, REAL *padded,
+                        REAL *out)
+{
+    const size_t step = s->width + FAST_PAD;
+    for (size_t r = 0; r < s->ns; r++) {
+        memcpy(padded + r * step + FAST_PAD, in + r * s->width, s->width * sizeof *in);
+        memset(padded + r * step, 0, FAST_PAD * sizeof *in);
+    }
+    memset(padded + s->ns * step, 0, FAST_PAD * sizeof *in);
+    for (size_t r = 0; r < s->ns; r += FAST_ROWS) {
+        const size_t rows = s->ns - r < FAST_ROWS ? s->ns - r : FAST_ROWS;
+        along_kernels[rows]((const REAL *)matrix, s->taps_f, padded + r * step + FAST_PAD, step, s->width,
+                            out + r * s->width);
+    }
+}
+
+/* Moves a memory variable on in row b of a slab. */
+static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL *memory, REAL *middle)
+{
+    for (size_t r = 0; r < s->ns; r++) {
+        const double q = s->slab->damping[r] * dt / 2, kept = 1 / (1 + q + s->slab->relaxation * dt / 2);
+        const size_t at = r * s->width;
+        NAME(pml_move)
+        (s->width, (REAL)q, (REAL)kept, g + at, memory + at, middle == NULL ? NULL : middle + at);
+    }
+}
+
+/* L1 and L2 in row b. */
+static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, size_t b,
+                         const REAL *u, const REAL *v, REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const int j = s->axis[ROLE_S];
+    REAL *region = (REAL *)c->pml->fast->buffer[omp_get_thread_num()],
+         *wait_j = (REAL *)s->wait[j] + b * size;
+    REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
+    for (int k = 0; k < 3; k++) {
+        const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
+        const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
+        REAL *middle = i == j ? (REAL *)s->middle + b * size : m, *wait = (REAL *)s->wait[i] + b * size;
+        NAME(pml_load)
+        (u + from, v + from, (REAL)(-dt / 2), s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
+         region);
+        apply(&s->gradient[i], region, s->width, s->width, false, g);
+        move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
+        apply(&s->second[i], region, s->width, s->width, false, wait);
+        apply(&s->slope[i], middle, s->width, s->width, true, wait);
+        if (i == s->axis[ROLE_B])
+            apply(&s->change[ROLE_B], region, s->width, s->width, false, (REAL *)s->change_b + b * size);
+        if (i != s->axis[ROLE_F]) continue;
+        apply(&s->change[ROLE_F], region, s->width, s->width, false, g);
+        apply_along(s, s->along_f, g, padded, wait_j);
+    }
+}
+
+/* The part of a range of numbers n from `at` on that a block has along an axis. */
+static struct range {
+    size_t from, end;
+} overlap(const struct block *block, int axis, size_t at, size_t n)
+{
+    const size_t end = block->at[axis] + block->n[axis];
+    struct range range = {block->at[axis] > at ? block->at[axis] : at, end < at + n ? end : at + n};
+    if (range.end < range.from) range.end = range.from;
+    return range;
+}
+
+/* Adds C2_j m_kk in row b to T_j, k the axis of the role given: slabs across it that meet this one's region.
+ */
+static void add_divergence(const struct consistent *c, const struct fast_slab *s, enum role role, size_t b,
+                           REAL *rows, REAL *sum)
+{
+    const size_t start = s->slab->region.at[s->axis[ROLE_S]];
+    for (size_t o = 0; o < c->pml->slabs; o++) {
+        const struct fast_slab *other = &c->pml->fast->slab[o];
+        const struct block *inside = &other->slab->inside;
+        if (other->axis[ROLE_S] != s->axis[role]) continue;
+        const struct range across = overlap(inside, s->axis[ROLE_S], start, s->region);
+        const struct range row = overlap(inside, s->axis[ROLE_B], b, 1);
+        const struct range along = overlap(inside, s->axis[ROLE_F], 0, s->nf);
+        if (across.from == across.end || row.from == row.end || along.from == along.end) continue;
+        size_t step[3]; /* in the other's memory, by axis */
+        step[other->axis[ROLE_S]] = other->width;
+        step[other->axis[ROLE_B]] = other->ns * other->width;
+        step[other->axis[ROLE_F]] = 1;
+        const size_t first = along.from / LANE_COUNT * LANE_COUNT;
+        const size_t width = (along.end - first + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
+        const size_t step_s = step[s->axis[ROLE_S]], step_f = step[s->axis[ROLE_F]];
+        const REAL *from = (const REAL *)other->middle +
+                           (across.from - inside->at[s->axis[ROLE_S]]) * step_s +
+                           (b - inside->at[s->axis[ROLE_B]]) * step[s->axis[ROLE_B]] +
+                           (along.from - inside->at[s->axis[ROLE_F]]) * step_f;
+        memset(rows, 0, s->region * width * sizeof *rows);
+        for (size_t r = 0; r < across.end - across.from; r++)
+            for (size_t i = 0; i < along.end - along.from; i++)
+                rows[(across.from - start + r) * width + along.from - first + i] =
+                    from[r * step_s + i * step_f];
+        for (size_t g = 0; g < s->divergence.groups; g++) {
+            const struct row_group *group = &s->divergence.group[g];
+            apply_group(group, rows, width, width, true, sum + group->to * s->width + first, s->width);
+        }
+    }
+}
+
+/* Product over b with all of the slab's rows, a group of the result; no table: the rows as they are. */
+static const REAL *over_rows(const struct fast_slab *s, const struct row_table *table, size_t g,
+                             const REAL *in, REAL *out)
+{
+    const size_t size = s->ns * s->width;
+    if (table->groups == 0) return in + s->over_b.group[g].to * size;
+    apply_group(&table->group[g], in, size, size, false, out, size);
+    return out;
+}
+
+/* L3 in a group of rows. */
+static void force_rows(const struct consistent *c, const struct fast_slab *s, double dt, size_t g,
+                       REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const struct row_group *group = &s->over_b.group[g];
+    REAL *sum = (REAL *)c->pml->fast->buffer[omp_get_thread_num()], *rows = sum + FAST_GROUP * size;
+    const int j = s->axis[ROLE_S];
+    for (int i = 0; i < 3; i++) {
+        const REAL *force = over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
+        if (i == j) {
+            if (force != sum) memcpy(sum, force, group->rows * size * sizeof *sum);
+            apply_group(group, (const REAL *)s->change_b, size, size, true, sum, size);
+            force = sum;
+        }
+        for (size_t r = 0; r < group->rows; r++) {
+            const size_t b = group->to + r;
+            if (i == j) add_divergence(c, s, ROLE_B, b, rows, sum + r * size);
+            move_rows(s, dt, force + r * size, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
+        }
+    }
+}
+
+void NAME(pml_fast_remember)(const struct consistent *c, double dt, const REAL *u, const REAL *v, REAL *extra)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &c->pml->fast->slab[i];
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t b = 0; b < s->nb; b++)
+            gradient_row(c, s, dt, b, u, v, extra);
+    }
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &c->pml->fast->slab[i];
+        const size_t size = s->ns * s->width;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t b = 0; b < s->nb; b++)
+            add_divergence(c, s, ROLE_F, b, (REAL *)c->pml->fast->buffer[omp_get_thread_num()],
+                           (REAL *)s->wait[s->axis[ROLE_S]] + b * size);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t g = 0; g < s->over_b.groups; g++)
+            force_rows(c, s, dt, g, extra);
+    }
+}
+
+/* L4 in a group of rows. */
+static void pull_rows(const struct consistent *c, const struct fast_slab *s, double factor, size_t g,
+                      const REAL *extra, REAL *a)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const struct row_group *group = &s->over_b.group[g];
+    const REAL *psi = extra + s->slab->psi, *phi = extra + s->slab->phi, *psi_b[3];
+    const int j = s->axis[ROLE_S];
+    REAL *buffer = (REAL *)c->pml->fast->buffer[omp_get_thread_num()];
+    REAL *over = buffer + 3 * FAST_GROUP * size, *out = over + FAST_GROUP * size;
+    REAL *inside = out + s->offset * s->width, *padded = out + s->region * s->width;
+    for (int i = 0; i < 3; i++)
+        psi_b[i] =
+            over_rows(s, &s->bare[i], g, psi + (size_t)i * inner, buffer + (size_t)i * FAST_GROUP * size);
+    over_rows(s, &s->pull_b, g, psi + (size_t)j * inner, over);
+    for (size_t r = 0; r < group->rows; r++)
+        for (int i = 0; i < 3; i++) {
+            const size_t b = group->to + r;
+            apply(&s->pull[i], psi_b[i] + r * size, s->width, s->width, false, out);
+            NAME(pml_sum)(size, phi + (size_t)i * inner + b * size, inside);
+            if (i == s->axis[ROLE_B]) NAME(pml_sum)(size, over + r * size, inside);
+            if (i == s->axis[ROLE_F]) apply_along(s, s->pull_f, psi_b[j] + r * size, padded, inside);
+            NAME(pml_store)
+            (out, (REAL)factor, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
+             a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B]);
+        }
+}
+
+void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const REAL *extra, REAL *a)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &c->pml->fast->slab[i];
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t g = 0; g < s->over_b.groups; g++)
+            pull_rows(c, s, factor, g, extra, a);
+    }
+}
