@@ -24,7 +24,7 @@ static void random_scene(struct plain_scene *plain, int layered, double poisson)
     const double spacing = .3;
     double size[3];
     for (int axis = 0; axis < 3; axis++)
-        size[axis] = spacing * (double)(12 + chance(9));
+        size[axis] = spacing * (double)(14 + chance(8));
     plain_box(plain, 3, size, spacing);
     plain_material(&plain->material[0], 1.3, 2 * .9 * poisson / (1 - 2 * poisson), .9);
     for (int face = 0; face < 6; face++) {
@@ -116,6 +116,58 @@ static void test_others(void **state)
     }
 }
 
+static double worst_of(size_t n, const double *exact, const float *value)
+{
+    double error = 0, largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        error = fmax(error, fabs(exact[i] - (double)value[i]));
+        largest = fmax(largest, fabs(exact[i]));
+    }
+    return error / largest;
+}
+
+/* The same in single precision: memory after some steps of a field that does not rest, and what it does; from
+ * the start of a step as from its end. */
+static void test_single(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (int scene = 0; scene < 6; scene++) {
+        struct plain_scene plain;
+        random_scene(&plain, scene, .25);
+        const struct consistent_options options = {
+            .degree = 2, .sweeps = 3, .depth_exact = scene % 2 == 0, .single = true};
+        struct run run = marched(&plain, options, 0);
+        const struct consistent *c = consistent_of(run.model);
+        const size_t extra = run.model->state_size - 2 * run.n;
+        double *u = run.y, *v = u + run.n, *memory = v + run.n, dt = .02;
+        float *u4 = calloc(run.n, sizeof *u4), *v4 = calloc(run.n, sizeof *v4),
+              *a4 = calloc(run.n, sizeof *a4);
+        float *memory4 = calloc(extra, sizeof *memory4);
+        assert_non_null(c->pml->single);
+        for (int step = 0; step < 12; step++) {
+            for (size_t i = 0; i < run.n; i++) {
+                u4[i] = (float)(u[i] = sin((double)(i * (size_t)(step + 3))));
+                v4[i] = (float)(v[i] = cos((double)(i * (size_t)(step + 5))));
+            }
+            pml_remember(c, dt, -dt / 2, u, v, memory);
+            for (size_t i = 0; i < run.n; i++)
+                u4[i] -= (float)dt * v4[i];
+            pml_fast_remember_single(c, dt, dt / 2, u4, v4, memory4);
+        }
+        pml_accelerate(c, .7, memory, run.a);
+        pml_fast_accelerate_single(c, .7, memory4, a4);
+        worst = fmax(worst, fmax(worst_of(extra, memory, memory4), worst_of(run.n, run.a, a4)));
+        run_free(&run);
+        free(u4);
+        free(v4);
+        free(a4);
+        free(memory4);
+    }
+    print_message("# single precision: %.1e\n", worst);
+    assert_true(worst < 2e-6);
+}
+
 static void test_threads(void **state)
 {
     (void)state;
@@ -139,7 +191,7 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_scenes), cmocka_unit_test(test_others),
-                                       cmocka_unit_test(test_threads)};
+                                       cmocka_unit_test(test_single), cmocka_unit_test(test_threads)};
     omp_set_num_threads(1);
     return cmocka_run_group_tests_name("shared passes of absorbing layers", tests, NULL, NULL);
 }

@@ -382,7 +382,8 @@ static selas_status build(struct consistent *c, struct messages *messages)
 static void remember(struct model *model, double dt, double *y)
 {
     double *v = y + model->unknowns;
-    pml_remember(consistent_of(model), dt, y, v, v + model->unknowns);
+    pml_remember(consistent_of(model), dt, -dt / 2, y, v, v + model->unknowns);
+    pml_damp(consistent_of(model), dt, v);
 }
 
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,

@@ -19,6 +19,7 @@ struct consistent_options {
     double
         dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
     double quiet;    /* fused operator: displacements below this times the largest move nothing; 0: all do */
+    bool single;     /* layers: tables for steps in single precision, too */
     bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
 };
 

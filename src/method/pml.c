@@ -45,9 +45,9 @@ static void take_in(const struct consistent *c, const struct slab *slab, double 
     block_add(c->threads, region, &slab->region, 1, field, block);
 }
 
-/* Displacements in the region, half_step * v earlier. */
+/* Displacements in the region in the middle of the step. */
 static void take_displacements(const struct consistent *c, const struct slab *slab, const double *u,
-                               const double *v, double half_step)
+                               const double *v, double to_middle)
 {
     const struct block *region = &slab->region;
     const size_t rows = region->n[1] * region->n[2], dimension = (size_t)c->dimension;
@@ -58,7 +58,7 @@ static void take_displacements(const struct consistent *c, const struct slab *sl
                                 (row % region->n[1] + region->at[1]) * c->n[0] + region->at[0];
             double *in = c->pml->in + component * slab->volume + row * region->n[0];
             for (size_t i = 0; i < region->n[0]; i++)
-                in[i] = u[from + i] - half_step * v[from + i];
+                in[i] = u[from + i] + to_middle * v[from + i];
         }
 }
 
@@ -104,10 +104,10 @@ static void move_on(const struct consistent *c, const struct slab *slab, double 
         }
 }
 
-static void move_gradients(const struct consistent *c, const struct slab *slab, double dt, const double *u,
-                           const double *v, double *extra)
+static void move_gradients(const struct consistent *c, const struct slab *slab, double dt, double to_middle,
+                           const double *u, const double *v, double *extra)
 {
-    take_displacements(c, slab, u, v, dt / 2);
+    take_displacements(c, slab, u, v, to_middle);
     work_out(c, slab, slab->gradient, &slab->inside);
     for (size_t i = 0; i < (size_t)c->dimension; i++)
         move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->psi + i * slab->inner,
@@ -126,11 +126,11 @@ static void take_divergence(const struct consistent *c, const struct slab *slab,
     }
 }
 
-static void move_forces(const struct consistent *c, const struct slab *slab, double dt, const double *u,
-                        const double *v, double *extra)
+static void move_forces(const struct consistent *c, const struct slab *slab, double dt, double to_middle,
+                        const double *u, const double *v, double *extra)
 {
     const size_t dimension = (size_t)c->dimension;
-    take_displacements(c, slab, u, v, dt / 2);
+    take_displacements(c, slab, u, v, to_middle);
     for (size_t i = 0; i < dimension; i++)
         take_in(c, slab, c->pml->in + (dimension + i) * slab->volume, slab->middle + i * slab->inner,
                 &slab->inside);
@@ -160,21 +160,21 @@ static void drag(const struct consistent *c, const struct slab *slab, double dt,
             }
 }
 
-static void move_regions(const struct consistent *c, double dt, const double *u, const double *v,
-                         double *extra)
+void pml_remember(const struct consistent *c, double dt, double to_middle, const double *u, const double *v,
+                  double *extra)
 {
+    if (c->pml->fast != NULL) {
+        pml_fast_remember_double(c, dt, to_middle, u, v, extra);
+        return;
+    }
     for (size_t s = 0; s < c->pml->slabs; s++)
-        move_gradients(c, &c->pml->slab[s], dt, u, v, extra);
+        move_gradients(c, &c->pml->slab[s], dt, to_middle, u, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
-        move_forces(c, &c->pml->slab[s], dt, u, v, extra);
+        move_forces(c, &c->pml->slab[s], dt, to_middle, u, v, extra);
 }
 
-void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra)
+void pml_damp(const struct consistent *c, double dt, double *v)
 {
-    if (c->pml->fast != NULL)
-        pml_fast_remember_double(c, dt, u, v, extra);
-    else
-        move_regions(c, dt, u, v, extra);
     for (size_t s = 0; s < c->pml->slabs; s++)
         if (c->pml->slab[s].drag != NULL) drag(c, &c->pml->slab[s], dt, v);
 }

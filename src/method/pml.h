@@ -44,9 +44,10 @@ struct slab {
 struct pml {
     size_t slabs, extra;
     struct slab slab[BOX_FACES];
-    double drag;           /* share of d at which velocities are damped against guided waves; 0: none */
-    struct pml_fast *fast; /* shared passes; NULL: one by one, with ... */
-    double *in, *out;      /* ... fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
+    double drag; /* share of d at which velocities are damped against guided waves; 0: none */
+    struct pml_fast *fast,
+        *single;      /* shared passes (options.single: in floats too); NULL: one by one, with ... */
+    double *in, *out; /* ... fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
     size_t bytes;
 };
 
@@ -75,8 +76,14 @@ selas_status pml_create(struct consistent *c, struct messages *messages);
 void pml_free(struct consistent *c);
 /* a += factor * what the memory variables do (held control values may get something, too). */
 void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a);
-/* Brings the memory variables from one step to the next: u at the end of the step, v the mean velocity over
- * it (Eqs 10 and 11); v is changed where layers damp it besides. */
-void pml_remember(const struct consistent *c, double dt, const double *u, double *v, double *extra);
+/* Brings the memory variables from one step to the next (Eq 10): u + to_middle * v are the displacements in
+ * the middle of the step, v being the mean velocity over it, u those of its end (to_middle = -dt/2) or start
+ * (dt/2). */
+void pml_remember(const struct consistent *c, double dt, double to_middle, const double *u, const double *v,
+                  double *extra);
+/* Velocities after a step where layers damp them besides (Eq 11): only if c->pml->drag > 0. In single
+ * precision pml_fast_accelerate_single() and pml_fast_remember_single() serve (pml_fast.h) where
+ * c->pml->single is not NULL. */
+void pml_damp(const struct consistent *c, double dt, double *v);
 
 #endif

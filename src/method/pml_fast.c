@@ -13,6 +13,19 @@ static size_t rounded(size_t n, size_t unit)
     return (n + unit - 1) / unit * unit;
 }
 
+static void *numbers(size_t n, bool single)
+{
+    return array_new(n, single ? sizeof(float) : sizeof(double));
+}
+
+static void put(void *table, size_t place, double value, bool single)
+{
+    if (single)
+        ((float *)table)[place] = (float)value;
+    else
+        ((double *)table)[place] = value;
+}
+
 /* The terms of a slab. */
 struct slab_terms {
     struct terms gradient, outer, pull;
@@ -28,7 +41,7 @@ static const struct tensor_term *term_of(const struct terms *terms, int out, int
 
 /* Weights of one group of rows, from the columns that are not 0 alone. */
 static bool lay_group(struct row_group *group, const struct band *band, double factor, size_t row,
-                      size_t column, size_t columns)
+                      size_t column, size_t columns, bool single)
 {
     size_t end = 0;
     group->from = columns;
@@ -40,18 +53,24 @@ static bool lay_group(struct row_group *group, const struct band *band, double f
         }
     group->from = end == 0 ? 0 : group->from;
     group->inputs = end - group->from;
-    group->weight = array_new(group->inputs * group->rows, sizeof *group->weight);
+    group->weight = numbers(group->inputs * group->rows, single);
     for (size_t t = 0; group->weight != NULL && t < group->inputs; t++)
         for (size_t r = 0; r < group->rows; r++)
-            group->weight[t * group->rows + r] =
-                factor * band_get(band, row + group->to + r, column + group->from + t);
+            put(group->weight, t * group->rows + r,
+                factor * band_get(band, row + group->to + r, column + group->from + t), single);
     return group->weight != NULL;
 }
 
-/* factor * the part of a matrix from `row` and `column` on, in groups of at most so many rows. */
-static bool lay_table(struct row_table *table, const struct band *band, double factor, size_t row,
-                      size_t rows, size_t column, size_t columns, size_t most)
+/* Rows or columns of a matrix. */
+struct span {
+    size_t from, n;
+};
+
+/* factor * the part of a matrix with these rows and columns, in groups of at most so many rows. */
+static bool lay_table(struct row_table *table, const struct band *band, double factor, struct span to,
+                      struct span from, size_t most, bool single)
 {
+    const size_t rows = to.n;
     const size_t groups = (rows + most - 1) / most;
     table->group = array_new(groups, sizeof *table->group);
     if (table->group == NULL) return false;
@@ -60,7 +79,7 @@ static bool lay_table(struct row_table *table, const struct band *band, double f
         struct row_group *group = &table->group[g];
         group->to = g * most;
         group->rows = rows - group->to < most ? rows - group->to : most;
-        if (!lay_group(group, band, factor, row, column, columns)) return false;
+        if (!lay_group(group, band, factor, to.from, from.from, from.n, single)) return false;
     }
     return true;
 }
@@ -72,62 +91,59 @@ static void free_table(struct row_table *table)
     array_free(table->group);
 }
 
-/* Rows inside the slab, or of its region. */
-struct span {
-    size_t from, n;
-};
-
-static bool lay_across(struct row_table *table, const struct tensor_term *term, int axis, double factor,
-                       struct span to, struct span from)
-{
-    return lay_table(table, term->matrix[axis], factor, to.from, to.n, from.from, from.n, FAST_ROWS);
-}
-
 /* Matrix of the rows b. */
 static bool lay_over_b(const struct fast_slab *fast, struct row_table *table, const struct tensor_term *term,
-                       double factor)
+                       double factor, bool single)
 {
-    return lay_table(table, term->matrix[fast->axis[ROLE_B]], factor, 0, fast->nb, 0, fast->nb, FAST_GROUP);
+    const struct span all = {0, fast->nb};
+    return lay_table(table, term->matrix[fast->axis[ROLE_B]], factor, all, all, FAST_GROUP, single);
 }
 
 /* By diagonals: [taps_f * width]. */
-static double *lay_along_f(const struct fast_slab *fast, const struct tensor_term *term, double factor)
+static void *lay_along_f(const struct fast_slab *fast, const struct tensor_term *term, double factor,
+                         bool single)
 {
     const struct band *band = term->matrix[fast->axis[ROLE_F]];
-    double *table = array_new(fast->taps_f * fast->width, sizeof *table);
+    void *table = numbers(fast->taps_f * fast->width, single);
     for (size_t i = 0; table != NULL && i < fast->nf; i++)
         for (size_t t = 0; t < fast->taps_f; t++)
             if (i + t >= fast->taps_f / 2 && i + t - fast->taps_f / 2 < fast->nf)
-                table[t * fast->width + i] = factor * band_get(band, i, i + t - fast->taps_f / 2);
+                put(table, t * fast->width + i, factor * band_get(band, i, i + t - fast->taps_f / 2), single);
     return table;
 }
 
-static bool lay_tables(struct fast_slab *fast, const struct slab_terms *terms)
+/* Matrix across the face, with the term's factor. */
+static bool lay_across(const struct fast_slab *fast, struct row_table *table, const struct tensor_term *term,
+                       struct span to, struct span from, bool single)
+{
+    return lay_table(table, term->matrix[fast->axis[ROLE_S]], term->factor, to, from, FAST_ROWS, single);
+}
+
+static bool lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool single)
 {
     const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
     const struct span region = {0, fast->region}, inside = {fast->offset, fast->ns};
+    const struct terms *outer = &terms->outer, *pull = &terms->pull;
     bool good = true;
     for (int i = 0; good && i < 3; i++) {
-        const struct tensor_term *gradient = term_of(&terms->gradient, i, i);
-        const struct tensor_term *second = term_of(&terms->outer, i, i);
-        const struct tensor_term *slope = term_of(&terms->outer, i, 3 + i);
-        const struct tensor_term *pull = term_of(&terms->pull, i, i);
-        good = lay_across(&fast->gradient[i], gradient, j, gradient->factor, inside, region) &&
-               lay_across(&fast->second[i], second, j, second->factor, inside, region) &&
-               lay_across(&fast->slope[i], slope, j, slope->factor, inside, inside) &&
-               lay_across(&fast->pull[i], pull, j, pull->factor, region, inside) &&
-               (j == DEPTH || second->matrix[DEPTH] == NULL || lay_over_b(fast, &fast->bare[i], second, 1));
+        const struct tensor_term *second = term_of(outer, i, i);
+        good =
+            lay_across(fast, &fast->gradient[i], term_of(&terms->gradient, i, i), inside, region, single) &&
+            lay_across(fast, &fast->second[i], second, inside, region, single) &&
+            lay_across(fast, &fast->slope[i], term_of(outer, i, 3 + i), inside, inside, single) &&
+            lay_across(fast, &fast->pull[i], term_of(pull, i, i), region, inside, single) &&
+            (j == DEPTH || second->matrix[DEPTH] == NULL ||
+             lay_over_b(fast, &fast->bare[i], second, 1, single));
     }
-    const struct tensor_term *along = term_of(&terms->outer, j, f), *over = term_of(&terms->outer, j, b);
-    const struct tensor_term *slopes = term_of(&terms->outer, j, 6 + f);
-    const struct tensor_term *pull_b = term_of(&terms->pull, b, j), *pull_f = term_of(&terms->pull, f, j);
-    good = good && lay_across(&fast->change[ROLE_F], along, j, along->factor, inside, region) &&
-           lay_across(&fast->change[ROLE_B], over, j, over->factor, inside, region) &&
-           lay_across(&fast->divergence, slopes, j, slopes->factor, inside, region) &&
-           lay_over_b(fast, &fast->over_b, over, 1) &&
-           lay_over_b(fast, &fast->pull_b, pull_b, pull_b->factor);
-    fast->along_f = lay_along_f(fast, along, 1);
-    fast->pull_f = lay_along_f(fast, pull_f, pull_f->factor);
+    const struct tensor_term *along = term_of(outer, j, f), *over = term_of(outer, j, b);
+    const struct tensor_term *pull_b = term_of(pull, b, j), *pull_f = term_of(pull, f, j);
+    good = good && lay_across(fast, &fast->change[ROLE_F], along, inside, region, single) &&
+           lay_across(fast, &fast->change[ROLE_B], over, inside, region, single) &&
+           lay_across(fast, &fast->divergence, term_of(outer, j, 6 + f), inside, region, single) &&
+           lay_over_b(fast, &fast->over_b, over, 1, single) &&
+           lay_over_b(fast, &fast->pull_b, pull_b, pull_b->factor, single);
+    fast->along_f = lay_along_f(fast, along, 1, single);
+    fast->pull_f = lay_along_f(fast, pull_f, pull_f->factor, single);
     return good && fast->along_f != NULL && fast->pull_f != NULL;
 }
 
@@ -163,49 +179,45 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
     fast->ns = slab->inside.n[j];
     fast->nb = c->n[fast->axis[ROLE_B]];
     fast->nf = c->n[fast->axis[ROLE_F]];
-    fast->width = rounded(fast->nf, FAST_LANES);
+    fast->width = rounded(fast->nf, c->options.single ? 2 * FAST_LANES : FAST_LANES);
     fast->region = slab->region.n[j];
     fast->offset = slab->inside.at[j] - slab->region.at[j];
     fast->first = slab->region.at[j] * fast->step[ROLE_S];
 }
 
-static bool lay_slab(struct consistent *c, struct fast_slab *fast, const struct slab_terms *terms)
+static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct slab_terms *terms)
 {
-    const struct band *along =
-        term_of(&terms->outer, fast->axis[ROLE_S], fast->axis[ROLE_F])->matrix[fast->axis[ROLE_F]];
-    const struct band *pull =
-        term_of(&terms->pull, fast->axis[ROLE_F], fast->axis[ROLE_S])->matrix[fast->axis[ROLE_F]];
+    const int along = fast->axis[ROLE_F], across = fast->axis[ROLE_S];
+    const size_t one = term_of(&terms->outer, across, along)->matrix[along]->half;
+    const size_t other = term_of(&terms->pull, along, across)->matrix[along]->half;
     const size_t n = fast->nb * fast->ns * fast->width;
-    c->pml->slab[fast->slab - c->pml->slab].inner = n;
-    fast->taps_f = 2 * (along->half > pull->half ? along->half : pull->half) + 1;
-    fast->change_b = array_new(n, sizeof *fast->change_b);
-    fast->middle = array_new(n, sizeof *fast->middle);
+    fast->taps_f = 2 * (one > other ? one : other) + 1;
+    fast->change_b = numbers(n, f->single);
+    fast->middle = numbers(n, f->single);
     bool good = fast->change_b != NULL && fast->middle != NULL;
     for (int i = 0; i < 3; i++) {
-        fast->wait[i] = array_new(n, sizeof *fast->wait[i]);
+        fast->wait[i] = numbers(n, f->single);
         good = good && fast->wait[i] != NULL;
     }
-    c->pml->fast->bytes += 5 * n * sizeof *fast->middle;
-    return good && lay_tables(fast, terms);
+    f->bytes += 5 * n * (f->single ? sizeof(float) : sizeof(double));
+    return good && lay_tables(fast, terms, f->single);
 }
 
 /* Room for a thread: rows of the region of three components and of the slab, groups of rows. */
-static bool lay_buffers(struct consistent *c)
+static bool lay_buffers(const struct consistent *c, struct pml_fast *f)
 {
-    struct pml_fast *f = c->pml->fast;
+    size_t rows = 0;
     for (size_t s = 0; s < c->pml->slabs; s++) {
-        const struct fast_slab *fast = &f->slab[s];
-        const size_t rows = (fast->region + 1) * (fast->width + FAST_PAD);
-        f->rows = rows > f->rows ? rows : f->rows;
+        const size_t own = (f->slab[s].region + 1) * (f->slab[s].width + FAST_PAD);
+        rows = own > rows ? own : rows;
     }
-    const size_t size = FAST_BLOCKS * f->rows;
     f->buffer = array_new((size_t)c->threads, sizeof *f->buffer);
     if (f->buffer == NULL) return false;
     for (int t = 0; t < c->threads; t++) {
-        f->buffer[t] = array_new(size, sizeof **f->buffer);
+        f->buffer[t] = numbers(FAST_BLOCKS * rows, f->single);
         if (f->buffer[t] == NULL) return false;
     }
-    f->bytes += (size_t)c->threads * size * sizeof **f->buffer;
+    f->bytes += (size_t)c->threads * FAST_BLOCKS * rows * (f->single ? sizeof(float) : sizeof(double));
     return true;
 }
 
@@ -214,35 +226,18 @@ static bool take_terms(struct consistent *c, struct slab_terms *terms, bool *goo
 {
     for (size_t s = 0; *good && s < c->pml->slabs; s++) {
         struct slab *slab = &c->pml->slab[s];
+        struct fast_slab fast = {.slab = slab};
         if (!far_end_out(c, slab)) return false;
-        c->pml->fast->slab[s].slab = slab;
-        lay_sizes(c, &c->pml->fast->slab[s]);
+        lay_sizes(c, &fast);
         terms[s] = (struct slab_terms){terms_gradient(c, slab), terms_outer(c, slab), terms_pull(c, slab)};
         *good = terms[s].gradient.good && terms[s].outer.good && terms[s].pull.good;
-        if (*good && !shares_passes(&c->pml->fast->slab[s], &terms[s])) return false;
+        if (*good && !shares_passes(&fast, &terms[s])) return false;
     }
-    return true;
+    return *good;
 }
 
-bool pml_fast_create(struct consistent *c)
+static void free_passes(const struct consistent *c, struct pml_fast *f)
 {
-    if (c->fused == NULL) return true;
-    struct slab_terms *terms = array_new(BOX_FACES, sizeof *terms);
-    bool good = terms != NULL;
-    c->pml->fast = array_new(1, sizeof *c->pml->fast);
-    good = good && c->pml->fast != NULL;
-    const bool fits = good && take_terms(c, terms, &good);
-    for (size_t s = 0; fits && good && s < c->pml->slabs; s++)
-        good = lay_slab(c, &c->pml->fast->slab[s], &terms[s]);
-    good = good && (!fits || lay_buffers(c));
-    if (good && !fits) pml_fast_free(c);
-    array_free(terms);
-    return good;
-}
-
-void pml_fast_free(struct consistent *c)
-{
-    struct pml_fast *f = c->pml->fast;
     if (f == NULL) return;
     for (size_t s = 0; s < c->pml->slabs; s++) {
         struct fast_slab *fast = &f->slab[s];
@@ -267,5 +262,43 @@ void pml_fast_free(struct consistent *c)
         array_free(f->buffer[t]);
     array_free(f->buffer);
     array_free(f);
-    c->pml->fast = NULL;
+}
+
+static struct pml_fast *lay_passes(struct consistent *c, const struct slab_terms *terms, bool single)
+{
+    struct pml_fast *f = array_new(1, sizeof *f);
+    bool good = f != NULL;
+    for (size_t s = 0; good && s < c->pml->slabs; s++) {
+        struct fast_slab *fast = &f->slab[s];
+        f->single = single;
+        fast->slab = &c->pml->slab[s];
+        lay_sizes(c, fast);
+        c->pml->slab[s].inner = fast->nb * fast->ns * fast->width;
+        good = lay_slab(f, fast, &terms[s]);
+    }
+    if (good && lay_buffers(c, f)) return f;
+    free_passes(c, f);
+    return NULL;
+}
+
+bool pml_fast_create(struct consistent *c)
+{
+    if (c->fused == NULL) return true;
+    struct slab_terms *terms = array_new(BOX_FACES, sizeof *terms);
+    bool good = terms != NULL;
+    if (good && take_terms(c, terms, &good)) {
+        c->pml->fast = lay_passes(c, terms, false);
+        if (c->options.single) c->pml->single = lay_passes(c, terms, true);
+        good = c->pml->fast != NULL && (!c->options.single || c->pml->single != NULL);
+    }
+    if (good && c->pml->fast != NULL) c->pml->bytes += c->pml->fast->bytes;
+    if (good && c->pml->single != NULL) c->pml->bytes += c->pml->single->bytes;
+    array_free(terms);
+    return good;
+}
+
+void pml_fast_free(struct consistent *c)
+{
+    free_passes(c, c->pml->fast);
+    free_passes(c, c->pml->single);
 }

@@ -30,7 +30,7 @@ enum role { ROLE_S, ROLE_B, ROLE_F };
 /* A matrix over rows: each group of rows of the result with those that it is made from. */
 struct row_group {
     size_t to, rows, from, inputs;
-    double *weight; /* [inputs][rows] */
+    void *weight; /* [inputs][rows] */
 };
 struct row_table {
     size_t groups;
@@ -51,25 +51,31 @@ struct fast_slab {
     struct row_table pull[3];        /* C_j, inside to region */
     struct row_table bare[3];        /* B, by component, over b; no groups: the identity */
     struct row_table over_b, pull_b; /* C1_b, C2_b */
-    double *along_f, *pull_f;        /* C1_f, C2_f by diagonals: [taps_f * width] */
+    void *along_f, *pull_f;          /* C1_f, C2_f by diagonals: [taps_f * width] */
     size_t taps_f;
-    double *wait[3], *change_b, *middle; /* [nb][ns][width]: T'_i; C2_j u_b; m_jj */
+    void *wait[3], *change_b, *middle; /* [nb][ns][width]: T'_i; C2_j u_b; m_jj */
 };
 
+/* Tables and room for numbers of one kind, doubles or floats; the memory variables are laid out alike in
+ * both. */
 struct pml_fast {
+    bool single;
     struct fast_slab slab[BOX_FACES];
-    double **buffer; /* [threads] */
-    size_t rows;     /* numbers in the largest block of rows of a region */
+    void **buffer; /* [threads] */
+    size_t rows;   /* numbers in the largest block of rows of a region */
     size_t bytes;
 };
 
-/* Builds c->pml->fast if all slabs are for it and lays out their memory; false: no memory left. Else
- * c->pml->fast stays NULL. */
+/* Builds c->pml->fast if all slabs are for it (else it stays NULL), with options.single c->pml->single too,
+ * and sets the slabs' `inner`. False: no memory. */
 bool pml_fast_create(struct consistent *c);
 void pml_fast_free(struct consistent *c);
 
 void pml_fast_accelerate_double(const struct consistent *c, double factor, const double *extra, double *a);
-void pml_fast_remember_double(const struct consistent *c, double dt, const double *u, const double *v,
-                              double *extra);
+void pml_fast_accelerate_single(const struct consistent *c, double factor, const float *extra, float *a);
+void pml_fast_remember_double(const struct consistent *c, double dt, double to_middle, const double *u,
+                              const double *v, double *extra);
+void pml_fast_remember_single(const struct consistent *c, double dt, double to_middle, const float *u,
+                              const float *v, float *extra);
 
 #endif

@@ -21,7 +21,7 @@ static void apply(const struct row_table *table, const REAL *in, size_t width, s
 }
 
 /* out += matrix along f of the rows of the slab, by way of `padded`, whose rows have zeros between them. */
-static void apply_along(const struct fast_slab *s, const double *matrix, const REAL *in, REAL *padded,
+static void apply_along(const struct fast_slab *s, const void *matrix, const REAL *in, REAL *padded,
                         REAL *out)
 {
     const size_t step = s->width + FAST_PAD;
@@ -49,20 +49,19 @@ static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL 
 }
 
 /* L1 and L2 in row b. */
-static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, size_t b,
-                         const REAL *u, const REAL *v, REAL *extra)
+static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, double to_middle,
+                         size_t b, const REAL *u, const REAL *v, REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
     const int j = s->axis[ROLE_S];
-    REAL *region = (REAL *)c->pml->fast->buffer[omp_get_thread_num()],
-         *wait_j = (REAL *)s->wait[j] + b * size;
+    REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *wait_j = (REAL *)s->wait[j] + b * size;
     REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
     for (int k = 0; k < 3; k++) {
         const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
         const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
         REAL *middle = i == j ? (REAL *)s->middle + b * size : m, *wait = (REAL *)s->wait[i] + b * size;
         NAME(pml_load)
-        (u + from, v + from, (REAL)(-dt / 2), s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
+        (u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
          region);
         apply(&s->gradient[i], region, s->width, s->width, false, g);
         move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
@@ -94,7 +93,7 @@ static void add_divergence(const struct consistent *c, const struct fast_slab *s
 {
     const size_t start = s->slab->region.at[s->axis[ROLE_S]];
     for (size_t o = 0; o < c->pml->slabs; o++) {
-        const struct fast_slab *other = &c->pml->fast->slab[o];
+        const struct fast_slab *other = &FAST(c)->slab[o];
         const struct block *inside = &other->slab->inside;
         if (other->axis[ROLE_S] != s->axis[role]) continue;
         const struct range across = overlap(inside, s->axis[ROLE_S], start, s->region);
@@ -140,7 +139,7 @@ static void force_rows(const struct consistent *c, const struct fast_slab *s, do
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
     const struct row_group *group = &s->over_b.group[g];
-    REAL *sum = (REAL *)c->pml->fast->buffer[omp_get_thread_num()], *rows = sum + FAST_GROUP * size;
+    REAL *sum = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *rows = sum + FAST_GROUP * size;
     const int j = s->axis[ROLE_S];
     for (int i = 0; i < 3; i++) {
         const REAL *force = over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
@@ -157,20 +156,21 @@ static void force_rows(const struct consistent *c, const struct fast_slab *s, do
     }
 }
 
-void NAME(pml_fast_remember)(const struct consistent *c, double dt, const REAL *u, const REAL *v, REAL *extra)
+void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, const REAL *u,
+                             const REAL *v, REAL *extra)
 {
     for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &c->pml->fast->slab[i];
+        const struct fast_slab *s = &FAST(c)->slab[i];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t b = 0; b < s->nb; b++)
-            gradient_row(c, s, dt, b, u, v, extra);
+            gradient_row(c, s, dt, to_middle, b, u, v, extra);
     }
     for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &c->pml->fast->slab[i];
+        const struct fast_slab *s = &FAST(c)->slab[i];
         const size_t size = s->ns * s->width;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t b = 0; b < s->nb; b++)
-            add_divergence(c, s, ROLE_F, b, (REAL *)c->pml->fast->buffer[omp_get_thread_num()],
+            add_divergence(c, s, ROLE_F, b, (REAL *)FAST(c)->buffer[omp_get_thread_num()],
                            (REAL *)s->wait[s->axis[ROLE_S]] + b * size);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t g = 0; g < s->over_b.groups; g++)
@@ -186,7 +186,7 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
     const struct row_group *group = &s->over_b.group[g];
     const REAL *psi = extra + s->slab->psi, *phi = extra + s->slab->phi, *psi_b[3];
     const int j = s->axis[ROLE_S];
-    REAL *buffer = (REAL *)c->pml->fast->buffer[omp_get_thread_num()];
+    REAL *buffer = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
     REAL *over = buffer + 3 * FAST_GROUP * size, *out = over + FAST_GROUP * size;
     REAL *inside = out + s->offset * s->width, *padded = out + s->region * s->width;
     for (int i = 0; i < 3; i++)
@@ -209,7 +209,7 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
 void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const REAL *extra, REAL *a)
 {
     for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &c->pml->fast->slab[i];
+        const struct fast_slab *s = &FAST(c)->slab[i];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t g = 0; g < s->over_b.groups; g++)
             pull_rows(c, s, factor, g, extra, a);

@@ -134,7 +134,6 @@ selas_status pml_create(struct consistent *c, struct messages *messages)
     }
     good = good && pml_fast_create(c) && (c->pml->fast != NULL || lay_regions(c));
     if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
-    if (c->pml->fast != NULL) c->pml->bytes += c->pml->fast->bytes;
     for (size_t s = 0; s < c->pml->slabs; s++) {
         struct slab *slab = &c->pml->slab[s];
         slab->psi = c->pml->extra;
