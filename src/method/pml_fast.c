@@ -66,7 +66,7 @@ struct span {
     size_t from, n;
 };
 
-/* factor * the part of a matrix with these rows and columns, in groups of at most so many rows. */
+/* factor * the part of a matrix with these rows and columns, in groups of about the same size. */
 static bool lay_table(struct row_table *table, const struct band *band, double factor, struct span to,
                       struct span from, size_t most, bool single)
 {
@@ -77,8 +77,8 @@ static bool lay_table(struct row_table *table, const struct band *band, double f
     table->groups = groups;
     for (size_t g = 0; g < groups; g++) {
         struct row_group *group = &table->group[g];
-        group->to = g * most;
-        group->rows = rows - group->to < most ? rows - group->to : most;
+        group->to = rows * g / groups;
+        group->rows = rows * (g + 1) / groups - group->to;
         if (!lay_group(group, band, factor, to.from, from.from, from.n, single)) return false;
     }
     return true;

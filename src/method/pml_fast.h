@@ -22,7 +22,7 @@
 
 /* Rows made together, at most: along s, along b; numbers in a vector of doubles; numbers left free beside
  * rows that are read with neighbours; blocks of rows that a thread needs. */
-enum { FAST_ROWS = 8, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 19 };
+enum { FAST_ROWS = 9, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 19 };
 
 /* Roles of the axes. */
 enum role { ROLE_S, ROLE_B, ROLE_F };

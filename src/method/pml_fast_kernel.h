@@ -82,6 +82,7 @@ ROWS_KERNEL(5)
 ROWS_KERNEL(6)
 ROWS_KERNEL(7)
 ROWS_KERNEL(8)
+ROWS_KERNEL(9)
 
 /* By the number of rows. */
 typedef void rows_kernel(const REAL *weight, size_t inputs, const REAL *in, size_t in_step, size_t width,
@@ -96,7 +97,8 @@ static rows_kernel *const set_kernel[FAST_ROWS + 1] = {NULL,
                                                        NAME(pml_set_5),
                                                        NAME(pml_set_6),
                                                        NAME(pml_set_7),
-                                                       NAME(pml_set_8)};
+                                                       NAME(pml_set_8),
+                                                       NAME(pml_set_9)};
 static rows_kernel *const add_kernel[FAST_ROWS + 1] = {NULL,
                                                        NAME(pml_add_1),
                                                        NAME(pml_add_2),
@@ -105,7 +107,8 @@ static rows_kernel *const add_kernel[FAST_ROWS + 1] = {NULL,
                                                        NAME(pml_add_5),
                                                        NAME(pml_add_6),
                                                        NAME(pml_add_7),
-                                                       NAME(pml_add_8)};
+                                                       NAME(pml_add_8),
+                                                       NAME(pml_add_9)};
 static along_kernel *const along_kernels[FAST_ROWS + 1] = {NULL,
                                                            NAME(pml_along_1),
                                                            NAME(pml_along_2),
@@ -114,7 +117,8 @@ static along_kernel *const along_kernels[FAST_ROWS + 1] = {NULL,
                                                            NAME(pml_along_5),
                                                            NAME(pml_along_6),
                                                            NAME(pml_along_7),
-                                                           NAME(pml_along_8)};
+                                                           NAME(pml_along_8),
+                                                           NAME(pml_along_9)};
 
 /* Rows of a field, `factor` * v added, n numbers each at the steps given, into rows of `width`, 0 from n on.
  */
