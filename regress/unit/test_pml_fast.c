@@ -168,6 +168,57 @@ static void test_single(void **state)
     assert_true(worst < 2e-6);
 }
 
+/* A bump at one end of a long body with layers along it and at its ends, with and without the rows that it
+ * has not reached. */
+static void test_quiet(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    struct run run[2];
+    unsigned long early = 0, all = 0;
+    double error = 0, largest = 0;
+    plain_box(&plain, 3, (double[3]){14, 14, 70}, 1);
+    for (int face = 0; face < 6; face++)
+        if (face != FACE_Y_LOW)
+            plain.scene.boundary[face] =
+                (struct boundary){.kind = BOUNDARY_TRANSMITTING, .absorber = ABSORBER_PML, .layer_points = 6};
+    for (int i = 0; i < 2; i++) {
+        const struct consistent_options options = {
+            .degree = 2, .sweeps = 3, .depth_exact = true, .quiet = i == 0 ? 1e-12 : 0};
+        run[i] = marched(&plain, options, 0);
+        const struct consistent *c = consistent_of(run[i].model);
+        memset(run[i].y, 0, run[i].n * sizeof *run[i].y);
+        for (size_t k = 0; k < 20; k++)
+            for (size_t p = 0; p < c->plane; p++)
+                run[i].y[2 * c->volume + k * c->plane + p] =
+                    exp(-.1 * (double)(k * k) - .02 * pow((double)(p % c->n[0]) - 10, 2));
+    }
+    const size_t n = run[0].n;
+    const struct pml_fast *fast = consistent_of(run[0].model)->pml->fast;
+    for (int step = 0; step < 300; step++) {
+        for (int i = 0; i < 2; i++) {
+            double *v = run[i].y + n;
+            leap(&run[i], &(struct drive){.extra = v + n}, .2);
+            run[i].model->class->remember(run[i].model, .2, run[i].y);
+        }
+        if (step == 20) early = fast->skipped;
+        if (step == 20) all = fast->groups;
+        for (size_t i = 0; i < n; i++) {
+            error = fmax(error, fabs(run[0].y[i] - run[1].y[i]));
+            largest = fmax(largest, fabs(run[1].y[i]));
+        }
+    }
+    print_message("# difference %.1e of the largest displacement; skipped: %lu of %lu, first %lu of %lu\n",
+                  error / largest, fast->skipped, fast->groups, early, all);
+    assert_true(error > 0);
+    assert_true(error < 1e-12 * largest);
+    assert_true(early > all / 4);
+    assert_true(fast->skipped < fast->groups / 2);
+    assert_int_equal(consistent_of(run[1].model)->pml->fast->skipped, 0);
+    run_free(&run[0]);
+    run_free(&run[1]);
+}
+
 static void test_threads(void **state)
 {
     (void)state;
@@ -191,7 +242,8 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_scenes), cmocka_unit_test(test_others),
-                                       cmocka_unit_test(test_single), cmocka_unit_test(test_threads)};
+                                       cmocka_unit_test(test_single), cmocka_unit_test(test_quiet),
+                                       cmocka_unit_test(test_threads)};
     omp_set_num_threads(1);
     return cmocka_run_group_tests_name("shared passes of absorbing layers", tests, NULL, NULL);
 }

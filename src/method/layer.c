@@ -1,6 +1,6 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
  * (doc/absorbing-faces.md, sections 3 and 6). */
-#include "method/pml.h"
+#include "method/pml_fast.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -149,8 +149,20 @@ void layers_describe(const struct consistent *c,
         tell(context, key, text);
     }
     if (c->pml == NULL) return;
-    snprintf(text, sizeof text, "%zu in %zu slabs", c->pml->extra, c->pml->slabs);
+    size_t variables = 0;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const size_t *n = c->pml->slab[s].inside.n;
+        variables += 2 * (size_t)c->dimension * n[0] * n[1] * n[2];
+    }
+    snprintf(text, sizeof text, "%zu in %zu slabs", variables, c->pml->slabs);
     tell(context, "memory variables of layers", text);
+    tell(context, "passes of layers", c->pml->fast != NULL ? "shared" : "one by one");
+    const struct pml_fast *used =
+        c->pml->single != NULL && c->pml->single->groups > 0 ? c->pml->single : c->pml->fast;
+    if (used == NULL || used->skipped == 0) return;
+    snprintf(text, sizeof text, "%.1f %% of groups of rows, all steps so far",
+             100 * (double)used->skipped / (double)used->groups);
+    tell(context, "layers skipped", text);
 }
 
 /* Speed of control value (i, j, k) of a slab, counted from its first; infinite if it is not finite. */

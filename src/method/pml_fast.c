@@ -194,7 +194,8 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
     fast->taps_f = 2 * (one > other ? one : other) + 1;
     fast->change_b = numbers(n, f->single);
     fast->middle = numbers(n, f->single);
-    bool good = fast->change_b != NULL && fast->middle != NULL;
+    fast->rests = array_new(fast->nb, sizeof *fast->rests);
+    bool good = fast->change_b != NULL && fast->middle != NULL && fast->rests != NULL;
     for (int i = 0; i < 3; i++) {
         fast->wait[i] = numbers(n, f->single);
         good = good && fast->wait[i] != NULL;
@@ -257,6 +258,7 @@ static void free_passes(const struct consistent *c, struct pml_fast *f)
         array_free(fast->pull_f);
         array_free(fast->change_b);
         array_free(fast->middle);
+        array_free(fast->rests);
     }
     for (int t = 0; f->buffer != NULL && t < c->threads; t++)
         array_free(f->buffer[t]);

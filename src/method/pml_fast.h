@@ -54,6 +54,7 @@ struct fast_slab {
     void *along_f, *pull_f;          /* C1_f, C2_f by diagonals: [taps_f * width] */
     size_t taps_f;
     void *wait[3], *change_b, *middle; /* [nb][ns][width]: T'_i; C2_j u_b; m_jj */
+    bool *rests;                       /* [nb] rows in which nothing moves, in this call */
 };
 
 /* Tables and room for numbers of one kind, doubles or floats; the memory variables are laid out alike in
@@ -62,8 +63,8 @@ struct pml_fast {
     bool single;
     struct fast_slab slab[BOX_FACES];
     void **buffer; /* [threads] */
-    size_t rows;   /* numbers in the largest block of rows of a region */
     size_t bytes;
+    unsigned long groups, skipped; /* of rows so far */
 };
 
 /* Builds c->pml->fast if all slabs are for it (else it stays NULL), with options.single c->pml->single too,

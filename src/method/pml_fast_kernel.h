@@ -177,3 +177,31 @@ EACH_MACHINE void NAME(pml_move)(size_t n, REAL q, REAL kept, const REAL *restri
         if (middle != NULL) middle[i] = mean;
     }
 }
+
+/* Is a number of these rows of n larger than the level, or none? */
+bool NAME(pml_loud)(size_t rows, size_t step, size_t n, REAL level, const REAL *x);
+EACH_MACHINE bool NAME(pml_loud)(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
+{
+    for (size_t r = 0; r < rows; r++) {
+        int loud = 0;
+        for (size_t i = 0; i < n; i++) {
+            const REAL size = x[r * step + i] < 0 ? -x[r * step + i] : x[r * step + i];
+            loud |= !(size <= level);
+        }
+        if (loud) return true;
+    }
+    return false;
+}
+
+/* The largest size. */
+REAL NAME(pml_largest)(size_t n, const REAL *x);
+EACH_MACHINE REAL NAME(pml_largest)(size_t n, const REAL *x)
+{
+    REAL largest = 0;
+#pragma omp simd reduction(max : largest)
+    for (size_t i = 0; i < n; i++) {
+        const REAL size = x[i] < 0 ? -x[i] : x[i];
+        largest = size > largest ? size : largest;
+    }
+    return largest;
+}

@@ -3,6 +3,7 @@
  * another one reads. */
 #include "method/pml_fast.h"
 
+#include <math.h>
 #include <omp.h>
 #include <string.h>
 
@@ -48,6 +49,69 @@ static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL 
     }
 }
 
+/* Up to here displacements, slopes and accelerations move nothing. */
+struct level {
+    REAL displacement, slope, force;
+};
+
+static struct level level_of(const struct consistent *c, const REAL *u)
+{
+    const double spacing = c->model.scene->body.spacing;
+    const double stiffness = c->property[WEIGHT_P] / c->property[WEIGHT_DENSITY];
+    double largest = 0;
+    if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1};
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        for (size_t i = 0; i < 3; i++)
+            largest = fmax(largest, (double)NAME(pml_largest)(c->plane, u + i * c->volume + k * c->plane));
+    largest *= c->options.quiet;
+    return (struct level){(REAL)largest, (REAL)(largest / spacing),
+                          (REAL)(largest * stiffness / (spacing * spacing))};
+}
+
+/* Memory of row b: is any of it larger than the level? */
+static bool memory_loud(const struct fast_slab *s, struct level level, size_t b, const REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const REAL *psi = extra + s->slab->psi + b * size, *phi = extra + s->slab->phi + b * size;
+    return NAME(pml_loud)(3, inner, size, level.slope, psi) ||
+           NAME(pml_loud)(3, inner, size, level.force, phi);
+}
+
+/* Is the row at rest: displacements that it reads, and memory? Then it forgets what is left of that. */
+static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
+                  const REAL *u, REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
+    if (level.displacement < 0) return false;
+    for (size_t i = 0; i < 3; i++) {
+        const REAL *from = u + i * c->volume + s->first + b * s->step[ROLE_B];
+        if (across ? NAME(pml_loud)(s->nf, s->step[ROLE_F], s->region, level.displacement, from)
+                   : NAME(pml_loud)(s->region, s->step[ROLE_S], s->nf, level.displacement, from))
+            return false;
+    }
+    if (memory_loud(s, level, b, extra)) return false;
+    for (size_t i = 0; i < 3; i++) {
+        memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
+        memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
+        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
+    }
+    memset((REAL *)s->change_b + b * size, 0, size * sizeof *extra);
+    memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
+    return true;
+}
+
+/* Do all rows rest that a group of rows is made from? */
+static bool group_rests(const struct fast_slab *s, size_t g)
+{
+    const struct row_group *group = &s->over_b.group[g];
+    const size_t reach = s->taps_f / 2, end = group->to + group->rows + reach;
+    for (size_t b = group->to < reach ? 0 : group->to - reach; b < end && b < s->nb; b++)
+        if (!s->rests[b]) return false;
+    return true;
+}
+
 /* L1 and L2 in row b. */
 static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, double to_middle,
                          size_t b, const REAL *u, const REAL *v, REAL *extra)
@@ -86,41 +150,58 @@ static struct range {
     return range;
 }
 
-/* Adds C2_j m_kk in row b to T_j, k the axis of the role given: slabs across it that meet this one's region.
- */
-static void add_divergence(const struct consistent *c, const struct fast_slab *s, enum role role, size_t b,
-                           REAL *rows, REAL *sum)
+/* Where rows of a slab meet another one. */
+struct meeting {
+    size_t first, width; /* numbers along f, in whole vectors */
+};
+
+/* Takes m_kk of another slab in row b into rows of the region; false: they do not meet. */
+static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other, size_t b, REAL *rows,
+                        struct meeting *meeting)
 {
     const size_t start = s->slab->region.at[s->axis[ROLE_S]];
+    const struct block *inside = &other->slab->inside;
+    const struct range across = overlap(inside, s->axis[ROLE_S], start, s->region);
+    const struct range row = overlap(inside, s->axis[ROLE_B], b, 1);
+    const struct range along = overlap(inside, s->axis[ROLE_F], 0, s->nf);
+    size_t step[3]; /* in the other's memory, by axis */
+    if (across.from == across.end || row.from == row.end || along.from == along.end) return false;
+    step[other->axis[ROLE_S]] = other->width;
+    step[other->axis[ROLE_B]] = other->ns * other->width;
+    step[other->axis[ROLE_F]] = 1;
+    const size_t first = along.from / LANE_COUNT * LANE_COUNT;
+    const size_t width = (along.end - first + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
+    const size_t step_s = step[s->axis[ROLE_S]], step_f = step[s->axis[ROLE_F]];
+    const REAL *from = (const REAL *)other->middle + (across.from - inside->at[s->axis[ROLE_S]]) * step_s +
+                       (b - inside->at[s->axis[ROLE_B]]) * step[s->axis[ROLE_B]] +
+                       (along.from - inside->at[s->axis[ROLE_F]]) * step_f;
+    memset(rows, 0, s->region * width * sizeof *rows);
+    for (size_t r = 0; r < across.end - across.from; r++)
+        for (size_t i = 0; i < along.end - along.from; i++)
+            rows[(across.from - start + r) * width + along.from - first + i] = from[r * step_s + i * step_f];
+    *meeting = (struct meeting){first, width};
+    return true;
+}
+
+/* Adds C2_j m_kk in row b to T_j, k the axis of the role given: slabs across it that meet this one's region.
+ * Nothing above the level: nothing is added, and false; sum NULL: it is only looked whether something is. */
+static bool add_divergence(const struct consistent *c, const struct fast_slab *s, enum role role, REAL level,
+                           size_t b, REAL *rows, REAL *sum)
+{
+    bool added = false;
+    struct meeting meeting;
     for (size_t o = 0; o < c->pml->slabs; o++) {
         const struct fast_slab *other = &FAST(c)->slab[o];
-        const struct block *inside = &other->slab->inside;
-        if (other->axis[ROLE_S] != s->axis[role]) continue;
-        const struct range across = overlap(inside, s->axis[ROLE_S], start, s->region);
-        const struct range row = overlap(inside, s->axis[ROLE_B], b, 1);
-        const struct range along = overlap(inside, s->axis[ROLE_F], 0, s->nf);
-        if (across.from == across.end || row.from == row.end || along.from == along.end) continue;
-        size_t step[3]; /* in the other's memory, by axis */
-        step[other->axis[ROLE_S]] = other->width;
-        step[other->axis[ROLE_B]] = other->ns * other->width;
-        step[other->axis[ROLE_F]] = 1;
-        const size_t first = along.from / LANE_COUNT * LANE_COUNT;
-        const size_t width = (along.end - first + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
-        const size_t step_s = step[s->axis[ROLE_S]], step_f = step[s->axis[ROLE_F]];
-        const REAL *from = (const REAL *)other->middle +
-                           (across.from - inside->at[s->axis[ROLE_S]]) * step_s +
-                           (b - inside->at[s->axis[ROLE_B]]) * step[s->axis[ROLE_B]] +
-                           (along.from - inside->at[s->axis[ROLE_F]]) * step_f;
-        memset(rows, 0, s->region * width * sizeof *rows);
-        for (size_t r = 0; r < across.end - across.from; r++)
-            for (size_t i = 0; i < along.end - along.from; i++)
-                rows[(across.from - start + r) * width + along.from - first + i] =
-                    from[r * step_s + i * step_f];
-        for (size_t g = 0; g < s->divergence.groups; g++) {
+        if (other->axis[ROLE_S] != s->axis[role] || !take_slopes(s, other, b, rows, &meeting)) continue;
+        if (!NAME(pml_loud)(1, 0, s->region * meeting.width, level, rows)) continue;
+        added = true;
+        for (size_t g = 0; sum != NULL && g < s->divergence.groups; g++) {
             const struct row_group *group = &s->divergence.group[g];
-            apply_group(group, rows, width, width, true, sum + group->to * s->width + first, s->width);
+            apply_group(group, rows, meeting.width, meeting.width, true,
+                        sum + group->to * s->width + meeting.first, s->width);
         }
     }
+    return added;
 }
 
 /* Product over b with all of the slab's rows, a group of the result; no table: the rows as they are. */
@@ -131,6 +212,17 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
     if (table->groups == 0) return in + s->over_b.group[g].to * size;
     apply_group(&table->group[g], in, size, size, false, out, size);
     return out;
+}
+
+/* Is there nothing that moves phi in a group of rows? */
+static bool nothing_moves(const struct consistent *c, const struct fast_slab *s, struct level level, size_t g)
+{
+    const struct row_group *group = &s->over_b.group[g];
+    REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
+    if (!group_rests(s, g)) return false;
+    for (size_t b = group->to; b < group->to + group->rows; b++)
+        if (add_divergence(c, s, ROLE_B, level.slope, b, rows, NULL)) return false;
+    return true;
 }
 
 /* L3 in a group of rows. */
@@ -150,32 +242,48 @@ static void force_rows(const struct consistent *c, const struct fast_slab *s, do
         }
         for (size_t r = 0; r < group->rows; r++) {
             const size_t b = group->to + r;
-            if (i == j) add_divergence(c, s, ROLE_B, b, rows, sum + r * size);
+            if (i == j) add_divergence(c, s, ROLE_B, -1, b, rows, sum + r * size);
             move_rows(s, dt, force + r * size, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
         }
     }
 }
 
+/* L3. */
+static void move_forces(const struct consistent *c, const struct fast_slab *s, struct level level, double dt,
+                        REAL *extra)
+{
+    const size_t size = s->ns * s->width;
+    unsigned long skipped = 0;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t b = 0; b < s->nb; b++) {
+        REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
+        REAL *sum = (REAL *)s->wait[s->axis[ROLE_S]] + b * size;
+        if (add_divergence(c, s, ROLE_F, s->rests[b] ? level.slope : -1, b, rows, sum)) s->rests[b] = false;
+    }
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
+    for (size_t g = 0; g < s->over_b.groups; g++)
+        if (nothing_moves(c, s, level, g))
+            skipped++;
+        else
+            force_rows(c, s, dt, g, extra);
+    FAST(c)->groups += s->over_b.groups;
+    FAST(c)->skipped += skipped;
+}
+
 void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, const REAL *u,
                              const REAL *v, REAL *extra)
 {
+    const struct level level = level_of(c, u);
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-        for (size_t b = 0; b < s->nb; b++)
-            gradient_row(c, s, dt, to_middle, b, u, v, extra);
+        for (size_t b = 0; b < s->nb; b++) {
+            s->rests[b] = rests(c, s, level, b, u, extra);
+            if (!s->rests[b]) gradient_row(c, s, dt, to_middle, b, u, v, extra);
+        }
     }
-    for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &FAST(c)->slab[i];
-        const size_t size = s->ns * s->width;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-        for (size_t b = 0; b < s->nb; b++)
-            add_divergence(c, s, ROLE_F, b, (REAL *)FAST(c)->buffer[omp_get_thread_num()],
-                           (REAL *)s->wait[s->axis[ROLE_S]] + b * size);
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-        for (size_t g = 0; g < s->over_b.groups; g++)
-            force_rows(c, s, dt, g, extra);
-    }
+    for (size_t i = 0; i < c->pml->slabs; i++)
+        move_forces(c, &FAST(c)->slab[i], level, dt, extra);
 }
 
 /* L4 in a group of rows. */
@@ -210,8 +318,14 @@ void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const 
 {
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-        for (size_t g = 0; g < s->over_b.groups; g++)
-            pull_rows(c, s, factor, g, extra, a);
+#pragma omp parallel num_threads(c->threads)
+        {
+#pragma omp for schedule(static)
+            for (size_t b = 0; b < s->nb; b++)
+                s->rests[b] = c->options.quiet > 0 && !memory_loud(s, (struct level){0}, b, extra);
+#pragma omp for schedule(static)
+            for (size_t g = 0; g < s->over_b.groups; g++)
+                if (!group_rests(s, g)) pull_rows(c, s, factor, g, extra, a);
+        }
     }
 }
