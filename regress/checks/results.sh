@@ -76,6 +76,14 @@ awk '/^#/ || $1 < 1.45 || $1 > 1.55 { print; next } { $7 += 1e-4; print }' again
 check "... and a changed value, exit 1" sh -c '"$0" diff out/side.dat other; test $? -eq 1' "$selas"
 check "... unless it is allowed" "$selas" diff --atol=0.01 out/side.dat other
 check "... and wants two names, exit 2" sh -c '"$0" diff out; test $? -eq 2' "$selas"
+cat small.nml - >compared.nml <<'END'
+&reference kind = 'file', file = 'out' /
+END
+check "a run is compared with another one's histories" "$selas" compared.nml output%directory=compared
+check "... and is the same" awk '/^error largest:/ { found = 1; if ($3 > 1e-12) exit 1 } END { exit !found }' compared/report.txt
+check "with histories that end too early it is told, exit 2" sh -c \
+    '"$0" compared.nml scene%end_time=4 output%directory=longer 2>said_longer; test $? -eq 2 && grep -q "goes from t = 0 to 3, the run from 0 to 4" said_longer' "$selas"
+check "... and the results are there" test -s longer/run.h5 -a -s longer/centre.dat -a ! -e longer/centre.exact.dat
 mkdir killed
 echo older >killed/run.h5
 "$selas" small.nml output%directory=killed body%spacing=0.25 scene%end_time=6000 >/dev/null 2>&1 &

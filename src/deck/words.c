@@ -222,7 +222,8 @@ static const struct word output_words[] = {
 
 static const struct word reference_words[] = {
     {"kind", WORD_CHOICE, 1, NULL, "lamb|stokes|bar|beam|hole|plane-wave|file", true, "exact solution"},
-    {"file", WORD_FILE, 1, NULL, NULL, false, "history to compare with"},
+    {"file", WORD_FILE, 1, NULL, NULL, false,
+     "of kind 'file': the history of the one receiver, or the folder of a run with one of each"},
 };
 
 #define GROUP(name, occurrence, gloss)                                                                       \

@@ -63,6 +63,9 @@ selas_status history_pair_create(struct history_pair *pair, const struct history
 void history_pair_free(struct history_pair *pair);
 /* Both begin and end at the same times. */
 bool same_span(const struct history_file *a, const struct history_file *b);
+/* Values of all channels at a time within the history, by cubics; *row (0 at first) is where the last search
+ * ended, for times that ascend. */
+void history_at(const struct history_file *h, double time, size_t *row, double value[DIFF_CHANNELS]);
 /* One channel at times begin + i step, i < n, within the history. */
 void history_at_even_steps(const struct history_file *h, double begin, double step, size_t n, size_t channel,
                            double *series);

@@ -25,8 +25,7 @@ static double slope_at(const struct history_file *h, size_t row, size_t channel)
            (before + after);
 }
 
-/* Values of all channels at a time within the history; *row is where the last search ended. */
-static void values_at(const struct history_file *h, double time, size_t *row, double value[CHANNELS])
+void history_at(const struct history_file *h, double time, size_t *row, double value[CHANNELS])
 {
     while (*row + 1 < h->rows && h->time[*row + 1] <= time)
         (*row)++;
@@ -65,8 +64,8 @@ static void fill_union(struct history_pair *pair, const struct history_file *a, 
         if (time < begin || time > end) continue;
         const size_t n = pair->rows++;
         pair->time[n] = time;
-        values_at(a, both ? next_a : time, &at_a, pair->a + CHANNELS * n);
-        values_at(b, both ? next_b : time, &at_b, pair->b + CHANNELS * n);
+        history_at(a, both ? next_a : time, &at_a, pair->a + CHANNELS * n);
+        history_at(b, both ? next_b : time, &at_b, pair->b + CHANNELS * n);
     }
 }
 
@@ -105,7 +104,7 @@ void history_at_even_steps(const struct history_file *h, double begin, double st
     size_t row = 0;
     for (size_t i = 0; i < n; i++) {
         double value[CHANNELS];
-        values_at(h, begin + (double)i * step, &row, value);
+        history_at(h, begin + (double)i * step, &row, value);
         series[i] = value[channel];
     }
 }

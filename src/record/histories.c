@@ -37,22 +37,26 @@ static selas_status write_history(const struct scene *scene, size_t receiver, bo
     return safe_file_close(&file, SELAS_OK, messages);
 }
 
-static selas_status compute_exact(struct recorder *recorder, struct exact *exact, struct messages *messages)
+selas_status histories_compare(struct recorder *recorder, struct exact *exact, struct messages *messages)
 {
     const struct scene *scene = recorder->scene;
+    if (recorder->exact != NULL) return SELAS_OK;
     recorder->exact = array_new(scene->receivers * recorder->rows * 6, sizeof *recorder->exact);
     if (recorder->exact == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the exact histories");
     selas_status status = SELAS_OK;
     for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++)
         status = exact->class->history(exact, scene->receiver[r].position, recorder->rows, recorder->time,
                                        recorder->exact + r * recorder->rows * 6, messages);
+    if (status != SELAS_OK) {
+        array_free(recorder->exact);
+        recorder->exact = NULL;
+    }
     return status;
 }
 
-selas_status histories_write(struct recorder *recorder, struct exact *exact, struct messages *messages)
+selas_status histories_write(struct recorder *recorder, struct messages *messages)
 {
     selas_status status = SELAS_OK;
-    if (exact != NULL && recorder->exact == NULL) status = compute_exact(recorder, exact, messages);
     for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++) {
         struct history_rows history = recorder_history(recorder, r);
         status = write_history(recorder->scene, r, false, &history, messages);

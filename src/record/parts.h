@@ -146,8 +146,10 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
 selas_status watch_sound(const struct recorder *recorder, const struct state *state,
                          struct messages *messages);
 
-/* histories.c: NAME.dat and NAME.exact.dat */
-selas_status histories_write(struct recorder *recorder, struct exact *exact, struct messages *messages);
+/* histories.c: the exact histories into recorder->exact, NULL if they cannot be had; NAME.dat and
+ * NAME.exact.dat */
+selas_status histories_compare(struct recorder *recorder, struct exact *exact, struct messages *messages);
+selas_status histories_write(struct recorder *recorder, struct messages *messages);
 
 /* plan.c: the plan without timing anything */
 void plan_tell(const struct recorder *recorder,

@@ -103,7 +103,11 @@ selas_status recorder_write(struct recorder *recorder, struct exact *exact, cons
     selas_status status = recorder_open(recorder, NULL, messages);
     if (status == SELAS_OK) status = recorder_finish(recorder, messages);
     if (status == SELAS_OK) status = write_deck(recorder, messages);
-    if (status == SELAS_OK) status = histories_write(recorder, exact, messages);
+    if (status != SELAS_OK) return status;
+    /* what was computed is written, whether there is something to compare it with or not */
+    const selas_status compared = exact != NULL ? histories_compare(recorder, exact, messages) : SELAS_OK;
+    if (compared != SELAS_OK) exact = NULL;
+    status = histories_write(recorder, messages);
     if (status == SELAS_OK) status = profile_write(recorder, messages);
     if (status == SELAS_OK) status = run_file_finish(recorder, figures, messages);
     if (status == SELAS_OK) status = xdmf_write(recorder, messages);
@@ -115,7 +119,7 @@ selas_status recorder_write(struct recorder *recorder, struct exact *exact, cons
     }
     run_file_close(recorder, true);
     recorder->written = true;
-    return SELAS_OK;
+    return compared;
 }
 
 void recorder_free(struct recorder **freed)

@@ -1,0 +1,105 @@
+/* Reference 'file' (see the header): NAME.dat of each receiver in a folder, or one history for the only
+ * receiver; rows t ux uy uz vx vy vz. Between its rows a history is a cubic by four values
+ * (record/diff_pair.c). */
+#include "exact/recorded.h"
+
+#include "base/memory.h"
+#include "record/diff.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+struct recorded {
+    struct exact exact;
+    struct history_file *receiver; /* [scene->receivers] */
+};
+
+static void destroy(struct exact *exact)
+{
+    struct recorded *recorded = (struct recorded *)exact;
+    for (size_t i = 0; recorded->receiver != NULL && i < exact->scene->receivers; i++)
+        history_file_free(&recorded->receiver[i]);
+    array_free(recorded->receiver);
+    array_free(recorded);
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
+}
+
+static selas_status read_one(struct recorded *recorded, size_t i, struct messages *messages)
+{
+    const struct scene *scene = recorded->exact.scene;
+    const char *path = scene->reference.file, *name = scene->receiver[i].name;
+    if (!is_folder(path)) return history_file_read(path, &recorded->receiver[i], messages);
+    const size_t size = strlen(path) + strlen(name) + sizeof "/.dat";
+    char *inside = array_new(size, 1);
+    if (inside == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a name");
+    snprintf(inside, size, "%s/%s.dat", path, name);
+    const selas_status status = history_file_read(inside, &recorded->receiver[i], messages);
+    array_free(inside);
+    return status;
+}
+
+static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
+{
+    if (scene->reference.file == NULL || (scene->receivers != 1 && !is_folder(scene->reference.file)))
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "reference 'file' is one history, for one receiver; expected a folder with NAME.dat of each of "
+            "the %zu receivers",
+            scene->receivers);
+    struct recorded *recorded = array_new(1, sizeof *recorded);
+    if (recorded == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for histories");
+    recorded->exact = (struct exact){&exact_recorded, scene};
+    recorded->receiver = array_new(scene->receivers, sizeof *recorded->receiver);
+    selas_status status = SELAS_OK;
+    if (recorded->receiver == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for histories");
+    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
+        status = read_one(recorded, i, messages);
+    if (status == SELAS_FILE_ERROR) status = SELAS_BAD_SCENE; /* the results can be written all the same */
+    if (status == SELAS_OK)
+        *exact = &recorded->exact;
+    else
+        destroy(&recorded->exact);
+    return status;
+}
+
+static selas_status history(struct exact *exact, const double position[3], size_t n, const double *time,
+                            double *value, struct messages *messages)
+{
+    const struct recorded *recorded = (const struct recorded *)exact;
+    const struct scene *scene = exact->scene;
+    size_t i = 0, row = 0;
+    while (i < scene->receivers && memcmp(scene->receiver[i].position, position, 3 * sizeof *position) != 0)
+        i++;
+    if (i == scene->receivers || n == 0)
+        return fail(messages, SELAS_BAD_SCENE, "reference 'file' has histories at receivers only");
+    const struct history_file *here = &recorded->receiver[i];
+    const double begin = here->time[0], end = here->time[here->rows - 1], room = 1e-9 * fabs(time[n - 1]);
+    if (time[0] < begin - room || time[n - 1] > end + room)
+        return fail(messages, SELAS_BAD_SCENE,
+                    "reference 'file' of receiver '%s' goes from t = %.6g to %.6g, the run from %.6g to %.6g",
+                    scene->receiver[i].name, begin, end, time[0], time[n - 1]);
+    for (size_t k = 0; k < n; k++)
+        history_at(here, fmin(fmax(time[k], begin), end), &row, value + 6 * k);
+    return SELAS_OK;
+}
+
+static void describe(const struct exact *exact,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    tell(context, "histories", exact->scene->reference.file);
+}
+
+const struct exact_class exact_recorded = {
+    .kind = "file",
+    .create = create,
+    .destroy = destroy,
+    .history = history,
+    .describe = describe,
+};
