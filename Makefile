@@ -130,6 +130,19 @@ $(BUILD)/test/%: regress/unit/%.c $(BUILD)/libselas.a
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) -Iregress/unit -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS) -lcmocka
 
+# The library's ways to memory go through regress/unit/allocation.c, where they can fail
+WRAPPED  = malloc calloc realloc free aligned_alloc strdup strndup open_memstream fftw_malloc fftw_alloc_real \
+           fftw_alloc_complex fftw_free gsl_matrix_alloc gsl_matrix_calloc gsl_matrix_free gsl_vector_alloc \
+           gsl_vector_calloc gsl_vector_free gsl_eigen_symmv_alloc gsl_eigen_symmv_free \
+           gsl_integration_glfixed_table_alloc gsl_integration_glfixed_table_free \
+           gsl_integration_cquad_workspace_alloc gsl_integration_cquad_workspace_free gsl_min_fminimizer_alloc \
+           gsl_min_fminimizer_free
+$(BUILD)/test/test_no_memory: regress/unit/test_no_memory.c regress/unit/allocation.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -fno-builtin -Iregress/unit $(LDFLAGS) $(WRAPPED:%=-Wl,--wrap=%) -o $@ $(filter %.c,$^) \
+	    $(BUILD)/libselas.a $(LIBS) -lcmocka
+
 tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/tables.md (some 20 minutes; installs calculix-ccx)
 	@sh regress/setup tables
 	@$(MAKE) --no-print-directory all

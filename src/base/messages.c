@@ -32,6 +32,7 @@ static void add_formatted(struct messages *messages, bool is_error, const char *
 selas_status fail(struct messages *messages, selas_status status, const char *format, ...)
 {
     va_list arguments;
+    if (messages != NULL && status == SELAS_NO_MEMORY) messages->no_memory = true;
     va_start(arguments, format);
     add_formatted(messages, true, format, arguments);
     va_end(arguments);
@@ -44,6 +45,12 @@ void warn(struct messages *messages, const char *format, ...)
     va_start(arguments, format);
     add_formatted(messages, false, format, arguments);
     va_end(arguments);
+}
+
+selas_status messages_since(const struct messages *messages, size_t errors, selas_status otherwise)
+{
+    if (messages->errors == errors) return SELAS_OK;
+    return messages->no_memory ? SELAS_NO_MEMORY : otherwise;
 }
 
 void messages_free(struct messages *messages)

@@ -106,7 +106,7 @@ bool scan_values(struct scanner *scanner, const struct target *target)
             good = false;
         }
         if (!store(target, index, value)) {
-            scan_error(scanner, target->at, "not enough memory");
+            scan_no_memory(scanner, target->at);
             scanned = SCANNED_WRONG;
             break;
         }

@@ -59,16 +59,16 @@ selas_status deck_set(struct deck *deck, const char *text, struct messages *mess
     clear(deck, text);
     deck_override(deck, text, messages);
     if (!deck_sort_groups(deck)) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
-    if (messages->errors == errors) return SELAS_OK;
-    clear(deck, text);
-    return SELAS_BAD_DECK;
+    const selas_status status = messages_since(messages, errors, SELAS_BAD_DECK);
+    if (status != SELAS_OK) clear(deck, text);
+    return status;
 }
 
 selas_status deck_complete(struct deck *deck, struct messages *messages)
 {
     const size_t errors = messages->errors;
     deck_check(deck, messages);
-    return messages->errors == errors ? SELAS_OK : SELAS_BAD_DECK;
+    return messages_since(messages, errors, SELAS_BAD_DECK);
 }
 
 void deck_hand_points(struct deck *deck, const struct given_points *points)

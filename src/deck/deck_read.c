@@ -95,7 +95,7 @@ static selas_status read_all(struct deck *deck, size_t overrides, const char *co
         if (!deck_sort_groups(deck)) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
     }
     if (check) deck_check(deck, messages);
-    return messages->errors == errors ? SELAS_OK : SELAS_BAD_DECK;
+    return messages_since(messages, errors, SELAS_BAD_DECK);
 }
 
 static selas_status read_text(const char *name, const char *text, size_t length, size_t overrides,
@@ -181,9 +181,10 @@ selas_status deck_read_file(const char *path, size_t overrides, const char *cons
                             struct deck **deck, struct messages *messages)
 {
     *deck = NULL;
+    const size_t errors = messages->errors;
     size_t length = 0;
     char *text = read_file(path, &length, messages);
-    if (text == NULL) return SELAS_BAD_DECK;
+    if (text == NULL) return messages_since(messages, errors, SELAS_BAD_DECK);
     const selas_status status = deck_read_text(path, text, length, overrides, override, deck, messages);
     array_free(text);
     return status;

@@ -199,7 +199,7 @@ static bool find_group(struct namelist *list, struct scanner *scanner, size_t at
         }
         struct deck_group *group = namelist_add(list, kind, scan_place(scanner, at));
         if (group == NULL) {
-            scan_error(scanner, at, "not enough memory");
+            scan_no_memory(scanner, at);
             return false;
         }
         scanner->at = at + 1 + length;
@@ -285,6 +285,8 @@ bool namelist_begin(struct namelist *list, const struct word_table *table, struc
     bool good = list->defaults != NULL;
     for (size_t i = 0; good && i < table->groups; i++)
         good = read_defaults(list, i, messages);
-    if (!good) namelist_free(list);
-    return good;
+    if (good) return true;
+    namelist_free(list);
+    fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
+    return false;
 }

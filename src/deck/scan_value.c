@@ -200,7 +200,7 @@ static enum scanned keep_text(struct scanner *scanner, size_t start, int quote, 
     }
     char *text = array_new(length + 1, 1);
     if (text == NULL) {
-        scan_error(scanner, start, "not enough memory");
+        scan_no_memory(scanner, start);
         return SCANNED_WRONG;
     }
     if (quote != 0)

@@ -170,6 +170,12 @@ void scan_error(struct scanner *scanner, size_t at, const char *format, ...)
                          "too many errors: the rest is not shown");
 }
 
+void scan_no_memory(struct scanner *scanner, size_t at)
+{
+    scan_error(scanner, at, "not enough memory");
+    scanner->messages->no_memory = true;
+}
+
 const char *scan_quote(const struct scanner *scanner, size_t at, size_t length, char quoted[QUOTED_SIZE])
 {
     const size_t room = QUOTED_SIZE - 4;

@@ -39,6 +39,8 @@ struct place scan_place(struct scanner *scanner, size_t at);
 /* Reports an error at a position; after the hundredth only counts. */
 void scan_error(struct scanner *scanner, size_t at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* Reports that memory has run out. */
+void scan_no_memory(struct scanner *scanner, size_t at);
 /* Copies length bytes from `at` for a message: unprintable ones as '?', shortened with "..." */
 enum { QUOTED_SIZE = 48 };
 const char *scan_quote(const struct scanner *scanner, size_t at, size_t length, char quoted[QUOTED_SIZE]);

@@ -119,9 +119,12 @@ static double *inner_knots_plain(const struct spline_choice *choice, size_t *cou
             for (int copy = 0; copy < (is_interface[i] ? choice->degree : 1); copy++)
                 inner[(*count)++] = at[i];
     }
+    const bool good = at != NULL && is_interface != NULL;
     array_free(at);
     array_free(is_interface);
-    return inner;
+    if (good) return inner;
+    array_free(inner);
+    return NULL;
 }
 
 /* Inner knots of mapped ends: uniform in a parameter whose unit is a cell; between the ends' control points 0

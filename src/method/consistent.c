@@ -271,7 +271,7 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
             choice.mirror[0] = choice.mirror[1] = false; /* too thin: the normal component is held instead */
         c->spline[axis] = spline_new(&choice, messages);
         if (c->spline[axis] == NULL)
-            status = SELAS_BAD_SCENE;
+            status = messages->no_memory ? SELAS_NO_MEMORY : SELAS_BAD_SCENE;
         else
             c->n[c->slot[axis]] = c->spline[axis]->count;
         c->layout[c->slot[axis]] = c->spline[axis];

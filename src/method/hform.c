@@ -23,7 +23,12 @@ struct band *hform_inverse(const struct consistent *c, int component, int axis, 
     if (mass == NULL || even == NULL) return NULL;
     const size_t n = spline->count;
     struct band *rest = band_new(n, mass->half), *diagonal = band_new(n, 0), *sum = band_new(n, 0);
-    if (rest == NULL || diagonal == NULL || sum == NULL) return NULL;
+    if (rest == NULL || diagonal == NULL || sum == NULL) {
+        band_free(rest);
+        band_free(diagonal);
+        band_free(sum);
+        return NULL;
+    }
     bool held[2], cut[2]; /* cut: the even functions of a mirror plane keep what odd ones have not */
     for (int end = 0; end < 2; end++) {
         held[end] = c->held[component][2 * axis + end];
@@ -67,11 +72,12 @@ static bool lay_factor(struct consistent *c, int component, int axis)
     struct band *full = band_sum(inverse, 0, inverse);
     double *factor = array_new(inverse->n * (inverse->half + 1), sizeof *factor);
     h->factor[component][axis] = factor;
-    if (full == NULL || factor == NULL) return false;
-    for (size_t i = 0; i < inverse->n; i++)
+    bool good = full != NULL && factor != NULL;
+    for (size_t i = 0; i < inverse->n && good; i++)
         if (band_get(full, i, i) == 0) band_add(full, i, i, 1);
-    const bool good = band_factorise(full, factor);
+    good = good && band_factorise(full, factor);
     band_free(full);
+    if (!good) return false;
     for (int end = 0; end < 2; end++) {
         double *column = array_new(inverse->n, sizeof *column);
         h->column[component][axis][end] = column;
@@ -93,7 +99,10 @@ static bool lay_upper(struct consistent *c, int component)
     double *factor = array_new(inverse->n * (inverse->half + 1), sizeof *factor);
     c->hform->upper[component] = factor;
     c->hform->upper_half = inverse->half;
-    if (turned == NULL || factor == NULL) return false;
+    if (turned == NULL || factor == NULL) {
+        band_free(turned);
+        return false;
+    }
     const size_t last = inverse->n - 1;
     for (size_t i = 0; i <= last; i++)
         for (size_t j = i < inverse->half ? 0 : i - inverse->half; j <= last && j <= i + inverse->half; j++)

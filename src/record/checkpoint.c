@@ -205,10 +205,13 @@ static selas_status write_checked(const char *temporary, struct recorder *record
         errno = 0;
         written = walk_file(temporary, recorder, state, text, figures, true);
         error = errno;
+        errno = 0;
         same = written && walk_file(temporary, recorder, state, text, figures, false);
+        if (written) error = errno;
         quiet_end(quiet);
     }
     if (!written) return hdf_cannot("write the checkpoint", temporary, error, messages);
+    if (!same && error == ENOMEM) return hdf_cannot("check the checkpoint", temporary, error, messages);
     if (!same)
         return fail(messages, SELAS_FILE_ERROR,
                     "the checkpoint '%s' does not read back as it was written (is the disk sound?)",
@@ -351,6 +354,7 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
 {
     char *text = kept_text_of(recorder->scene, messages), why[200] = "";
     const char *wrong = why;
+    int error = 0;
     double figures[FIGURES] = {0};
     if (text == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
     if (checkpoint_whole(path, why, sizeof why)) {
@@ -361,12 +365,14 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
             wrong = "it cannot be opened";
             if (file >= 0) {
                 wrong = read_all(file, recorder, state, text, figures, messages);
+                error = wrong != NULL ? errno : 0;
                 H5Fclose(file);
             }
             quiet_end(quiet);
         }
     }
     free(text);
+    if (error == ENOMEM) return hdf_cannot("read the checkpoint", path, error, messages);
     if (wrong != NULL)
         return fail(messages, SELAS_FILE_ERROR, "the checkpoint '%s' cannot be used: %s", path, wrong);
     spent->wall_seconds = figures[WALL_SECONDS];

@@ -10,6 +10,7 @@
  *
  * and zeros up to 512 bytes. */
 #include "record/checkpoint_head.h"
+#include "record/run_file.h"
 
 #include "base/crc64.h"
 #include "record/parts.h"
@@ -75,7 +76,7 @@ selas_status checkpoint_seal(const char *path, struct messages *messages)
     }
     const int error = errno;
     if (file >= 0) close(file);
-    return good ? SELAS_OK : fail(messages, SELAS_FILE_ERROR, "cannot write '%s': %s", path, strerror(error));
+    return good ? SELAS_OK : hdf_cannot("write", path, error, messages);
 }
 
 /* The rest of the line that begins with `word`, in value[size]; "" if there is none. */

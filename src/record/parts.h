@@ -130,8 +130,9 @@ selas_status run_file_read(const struct recorder *recorder, size_t number, selas
                            size_t stride, size_t count, size_t block, double *value,
                            struct messages *messages);
 
-/* settings.c: every setting of the deck as text, one call each: group "load", occurrence from 1 */
-void settings_walk(const struct deck *deck,
+/* settings.c: every setting of the deck as text, one call each: group "load", occurrence from 1; false
+ * without memory */
+bool settings_walk(const struct deck *deck,
                    void (*tell)(void *context, const char *group, size_t occurrence, const char *name,
                                 const char *value),
                    void *context, struct messages *messages);

@@ -161,10 +161,10 @@ bool write_provenance(const struct recorder *recorder, hid_t file, const struct 
     const struct deck *deck = recorder->scene->deck;
     struct settings_context context = {hdf_group(file, "settings"), true};
     if (context.settings < 0) return false;
-    settings_walk(deck, write_setting, &context, messages);
+    const bool told = settings_walk(deck, write_setting, &context, messages);
     H5Gclose(context.settings);
     const hid_t place = hdf_group(file, "provenance");
-    const bool good = context.good && place >= 0 && write_origin(recorder, place, figures) &&
+    const bool good = told && context.good && place >= 0 && write_origin(recorder, place, figures) &&
                       write_deck_texts(deck, place, messages) &&
                       hdf_text(file, "title", recorder->scene->title);
     if (place >= 0) H5Gclose(place);

@@ -33,7 +33,8 @@ selas_status hdf_cannot(const char *what, const char *path, int error, struct me
                                ENOENT, EMFILE, ENFILE, ENOMEM, EISDIR, ENOTDIR, ESTALE};
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
         if (error == told[i])
-            return fail(messages, SELAS_FILE_ERROR, "cannot %s '%s': %s", what, path, strerror(error));
+            return fail(messages, error == ENOMEM ? SELAS_NO_MEMORY : SELAS_FILE_ERROR, "cannot %s '%s': %s",
+                        what, path, strerror(error));
     return fail(messages, SELAS_FILE_ERROR, "cannot %s '%s'", what, path);
 }
 

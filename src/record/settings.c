@@ -71,6 +71,7 @@ static const char *end_of_values(const char *at)
 typedef void tell_setting(void *context, const char *group, size_t occurrence, const char *name,
                           const char *value);
 
+/* Behind the group; NULL without memory. */
 static const char *walk_group(const char *at, const char *group, size_t occurrence, tell_setting *tell,
                               void *context)
 {
@@ -89,7 +90,7 @@ static const char *walk_group(const char *at, const char *group, size_t occurren
         while (end > value && (isspace((unsigned char)end[-1]) || end[-1] == ','))
             end--;
         char *text = strndup(value, (size_t)(end - value));
-        if (text == NULL) break;
+        if (text == NULL) return NULL;
         tell(context, group, occurrence, name, text);
         free(text);
     }
@@ -98,17 +99,19 @@ static const char *walk_group(const char *at, const char *group, size_t occurren
     return *at == '/' ? at + 1 : at;
 }
 
-void settings_walk(const struct deck *deck, tell_setting *tell, void *context, struct messages *messages)
+bool settings_walk(const struct deck *deck, tell_setting *tell, void *context, struct messages *messages)
 {
-    if (deck == NULL) return;
+    if (deck == NULL) return true;
     char *echo = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&echo, &size);
-    if (memory == NULL) return;
+    if (memory == NULL) return false;
     const selas_status status = deck_write(deck, memory, messages);
-    if (fclose(memory) == 0 && status == SELAS_OK) {
+    const bool good = fclose(memory) == 0 && status == SELAS_OK;
+    const char *at = good ? echo : NULL;
+    if (good) {
         struct tally tally = {0};
-        for (const char *at = echo; *at != '\0';) {
+        while (at != NULL && *at != '\0') {
             at += strspn(at, " \t\r\n");
             if (*at != '&') { /* comments between groups */
                 at += strcspn(at, "\n");
@@ -120,4 +123,5 @@ void settings_walk(const struct deck *deck, tell_setting *tell, void *context, s
         }
     }
     free(echo);
+    return at != NULL;
 }
