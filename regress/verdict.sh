@@ -1,6 +1,6 @@
-# Read by the scripts that run tests under a checker (regress/sanitize, threads, valgrind): `. regress/verdict.sh FOLDER`.
-# One TAP line a test with the seconds of CPU that it took, what a checker found below it; the logs stay in FOLDER.
-verdict_folder=$1
+# Read by the scripts that run tests under a checker (regress/sanitize, threads, valgrind): with verdict_folder set to
+# where the logs go.
+# One TAP line a test with the seconds of CPU that it took, what a checker found below it.
 verdict_good=0 verdict_bad=0 verdict_left=0
 mkdir -p "$verdict_folder"
 

@@ -132,7 +132,10 @@ static selas_status cells_2d(struct cloud *cloud, const struct body *body, struc
     struct neighbours near = {0};
     const selas_status status =
         neighbours_find(&near, 2, cloud->points, cloud->position, 4 * body->spacing, false, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK) {
+        neighbours_free(&near);
+        return status;
+    }
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t i = 0; i < cloud->points; i++) {
         struct polygon polygon;

@@ -173,7 +173,10 @@ selas_status cells_3d(struct cloud *cloud, const struct body *body, struct messa
     struct neighbours near = {0};
     const selas_status status =
         neighbours_find(&near, 3, cloud->points, cloud->position, 3 * body->spacing, false, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK) {
+        neighbours_free(&near);
+        return status;
+    }
 #pragma omp parallel for schedule(dynamic, 16)
     for (size_t i = 0; i < cloud->points; i++) {
         struct polyhedron cell;

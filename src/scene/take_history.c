@@ -33,7 +33,9 @@ static bool take_table(struct builder *builder, const struct deck_group *group, 
     char *path = deck_path(builder, deck_text(group, "file", 0));
     if (path == NULL) return false;
     const selas_status status = history_read_table(history, path, &said);
-    if (status != SELAS_OK) {
+    if (status == SELAS_NO_MEMORY) {
+        complain_of_memory(builder);
+    } else if (status != SELAS_OK) {
         const char *text = said.text != NULL ? said.text : "";
         if (strncmp(text, "error: ", 7) == 0) text += 7;
         complain(builder, group, "file", "the table cannot be used: %.*s", (int)strcspn(text, "\n"), text);
