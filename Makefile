@@ -159,10 +159,9 @@ $(BUILD)/test/lamb_grid: regress/lamb/lamb_grid.c $(BUILD)/libselas.a
 	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
 .PHONY: check-leaks bench-host
-check-leaks: $(BUILD)/test/test_api_wrong $(BUILD)/test/test_api_checkpoint ## wrong calls and checkpoints under valgrind (two minutes; installs valgrind)
+check-leaks: ## wrong calls and checkpoints under valgrind (two minutes; installs valgrind)
 	@sh regress/setup leaks
-	OMP_NUM_THREADS=1 valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible $(BUILD)/test/test_api_wrong
-	OMP_NUM_THREADS=1 valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible $(BUILD)/test/test_api_checkpoint
+	+@regress/valgrind $(BUILD) test_api_wrong test_api_checkpoint
 
 bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace.nml
 	@mkdir -p $(BUILD)/test
@@ -190,7 +189,7 @@ instructions: $(BUILD)/selas ## instructions of three small scenes against those
 SECONDS      ?= 30
 SANITIZED     = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_TARGETS  = $(patsubst regress/fuzz/%.c,$(BUILD)/fuzz/%,$(wildcard regress/fuzz/fuzz_*.c))
-.PHONY: fuzz fuzz-build fuzz-replay check-sanitize check-threads coverage
+.PHONY: fuzz fuzz-build fuzz-replay check-sanitize check-valgrind check-threads coverage no-memory
 fuzz: ## fuzz the readers of decks, tables, points and checkpoints, SECONDS=30 each (clang)
 	@$(MAKE) --no-print-directory fuzz-build CC=clang BUILD=$(BUILD)/sanitized \
 	    CFLAGS='$(SANITIZED) -fsanitize=fuzzer-no-link' LDFLAGS='-fsanitize=address,undefined'
@@ -211,14 +210,21 @@ $(BUILD)/replay/fuzz_%: regress/fuzz/fuzz_%.c regress/fuzz/replay.c $(BUILD)/lib
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) $(LDFLAGS) -o $@ $< regress/fuzz/replay.c $(BUILD)/libselas.a $(LIBS)
 
-check-sanitize: ## all tests under AddressSanitizer, UBSan and LeakSanitizer, some under valgrind (long)
-	@regress/sanitize $(BUILD)/asan
+check-sanitize: ## all unit tests and short scripts under AddressSanitizer, UBSan and LeakSanitizer (ten minutes)
+	+@regress/sanitize $(BUILD)/asan
+
+check-valgrind: ## the unit tests that valgrind does not take too long for (half an hour; installs valgrind)
+	@sh regress/setup leaks
+	+@regress/valgrind $(BUILD)
 
 check-threads: ## tests with threads under ThreadSanitizer (clang, libomp with Archer)
-	@regress/threads $(BUILD)/threads
+	+@regress/threads $(BUILD)/threads
+
+no-memory: $(BUILD)/test/test_no_memory ## each allocation of small scenes fails in turn, all of them (some minutes)
+	SELAS_NO_MEMORY_EVERY=1 $(BUILD)/test/test_no_memory
 
 coverage: ## line coverage of src/ by all tests (gcov), per file in output/coverage.txt
-	@regress/coverage $(BUILD)/coverage
+	+@regress/coverage $(BUILD)/coverage
 
 check-format: ## formatting (clang-format)
 	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')

@@ -1,6 +1,10 @@
 # Read by the scripts that run tests under a checker (regress/sanitize, threads, valgrind): with verdict_folder set to
 # where the logs go.
 # One TAP line a test with the seconds of CPU that it took, what a checker found below it.
+# Scripts that run the program on small scenes. Those left out: accuracy, plate, paper-halfspace, plane-wave, beam, cloud,
+# dissipation, sph-published, symmetry, absorbing (the same code on larger scenes, for their figures), stability, faults,
+# nightly (they build or run other things), hosts, leaks, namelist (they build with compilers of their own).
+verdict_scripts='wrong-decks hostile restart results needed moved-face program advice fuzz'
 verdict_good=0 verdict_bad=0 verdict_left=0
 mkdir -p "$verdict_folder"
 

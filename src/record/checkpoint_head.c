@@ -24,7 +24,7 @@
 #include <unistd.h>
 
 static const char first_line[] = "selas checkpoint, format ";
-enum { FORMAT = 1, BLOCK = 1 << 20 };
+enum { FORMAT = 1, BLOCK = 1 << 16 };
 
 static const char *byte_order(void)
 {
@@ -38,16 +38,15 @@ static const char *byte_order(void)
 static bool body_checksum(int file, uint64_t *checksum)
 {
     struct crc64_table table;
-    char *block = malloc(BLOCK);
+    char block[BLOCK];
     off_t at = CHECKPOINT_HEAD;
     ssize_t length = -1;
     crc64_prepare(&table);
     *checksum = 0;
-    while (block != NULL && (length = pread(file, block, BLOCK, at)) > 0) {
+    while ((length = pread(file, block, BLOCK, at)) > 0) {
         *checksum = crc64_add(&table, *checksum, block, (size_t)length);
         at += length;
     }
-    free(block);
     return length == 0;
 }
 
