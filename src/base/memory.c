@@ -18,18 +18,26 @@ static bool beyond_machine(size_t bytes)
     return memory > 0 && (double)bytes > memory;
 }
 
+/* calloc() gives large arrays pages that are 0 and take memory once they are written to, by the thread that
+ * does so first. Before the array stands the place that it was given. */
 void *array_new(size_t count, size_t size)
 {
     if (count == 0) count = 1;
     if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
+    if (beyond_machine(count * size)) return NULL;
     const size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    if (beyond_machine(bytes)) return NULL;
-    void *array = aligned_alloc(ALIGNMENT, bytes);
-    if (array != NULL) memset(array, 0, bytes);
+    unsigned char *given = calloc(1, bytes + ALIGNMENT + sizeof given);
+    if (given == NULL) return NULL;
+    const size_t past = ((uintptr_t)given + sizeof given) % ALIGNMENT;
+    unsigned char *array = given + sizeof given + (past == 0 ? 0 : ALIGNMENT - past);
+    memcpy(array - sizeof given, &given, sizeof given);
     return array;
 }
 
 void array_free(void *array)
 {
-    free(array);
+    unsigned char *given = NULL;
+    if (array == NULL) return;
+    memcpy(&given, (unsigned char *)array - sizeof given, sizeof given);
+    free(given);
 }

@@ -82,6 +82,10 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
     const unsigned long evaluations = simulation->model->evaluations;
     if (!stepper->scheme->needs_acceleration) stepper->scheme->start(stepper, &simulation->state);
     simulation->model->evaluations = evaluations;
+    if (stepper->one_pass) { /* what settles the state */
+        struct drive drive;
+        drive_at_step(stepper, simulation->state.step, false, &drive);
+    }
     return SELAS_OK;
 }
 

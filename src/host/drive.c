@@ -452,6 +452,7 @@ selas_status selas_load_mean(selas_simulation *simulation, const char *load, sel
         unit[k] = k == index ? 1.0 / named->amplitude : 0.0;
     const struct drive drive = {.time = state->time, .load = unit};
     double measure = 0.0, power = 0.0, absorbed = 0.0;
+    state_settle(simulation->stepper, state, true);
     memcpy(y, state->y, model->state_size * sizeof *y);
     translate(model, named->direction, y + n);
     model->class->power(model, &drive, y, &measure, &absorbed);

@@ -45,6 +45,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
                         model->points);
         }
     }
+    state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
     model->class->field(model, field, simulation->state.y, simulation->state.a, simulation->values);
     *count = model->points;
     *components = width;
@@ -62,6 +63,7 @@ selas_status selas_energy(selas_simulation *simulation, double *kinetic, double 
     if (model->class->energy == NULL)
         return fail(&simulation->messages, SELAS_UNSUPPORTED, "this method knows no energy");
     struct energy energy = {0};
+    state_settle(simulation->stepper, &simulation->state, false);
     model->class->energy(model, simulation->state.y, &energy);
     *kinetic = energy.kinetic;
     *strain = energy.strain;

@@ -178,6 +178,9 @@ static void describe(const struct model *model,
         snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,
                  FUSED_STRIP);
         tell(context, "operator", text);
+        tell(context, "step",
+             model->class->advance != NULL ? "leapfrog's is one pass with the operator"
+                                           : "apart from the operator");
         snprintf(text, sizeof text, "planes below %g of the largest displacement move nothing",
                  c->fused->quiet);
         tell(context, "quiet planes", c->fused->quiet > 0 ? text : "all are computed");
@@ -396,16 +399,15 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     if (c == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
     c->options = *options;
     c->dimension = scene->dimension;
-    c->model.class = &consistent_class;
+    c->own_class = consistent_class;
+    c->model.class = &c->own_class;
     c->model.scene = scene;
     c->model.self_adjoint = true;
     status = build(c, messages);
-    if (c->pml != NULL) {
-        c->layered_class = consistent_class;
-        c->layered_class.remember = remember;
-        c->layered_class.unseen = layers_fastest;
-        c->model.class = &c->layered_class;
-    }
+    if (c->pml != NULL) c->own_class.remember = remember;
+    if (c->pml != NULL) c->own_class.unseen = layers_fastest;
+    if (status == SELAS_OK && !fused_steps_create(c))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for a model");
     if (status != SELAS_OK) {
         destroy(&c->model);
         return status;

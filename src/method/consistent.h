@@ -75,15 +75,15 @@ struct consistent {
     struct moving_load *moving_load;                      /* moving_load.c */
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
     struct mass_factors factors[FACTOR_SETS];
-    struct band *scratch[3];          /* [axis]: matrix to be factorised */
-    size_t layer[BOX_FACES];          /* points of the absorbing layer behind the face; 0: none */
-    struct pml *pml;                  /* NULL: no layers */
-    struct model_class layered_class; /* with layers: consistent_class and `remember` */
-    double *lane_buffer;              /* [threads * n[0] * LANES] */
-    double *line_buffer;              /* [threads * (n[0] + n[1])] */
-    double *face_buffer;              /* [dimension * plane] */
-    struct hform *hform;              /* NULL: exact mass */
-    struct fused *fused;              /* NULL: the scene is none for it, or it is not wanted */
+    struct band *scratch[3];      /* [axis]: matrix to be factorised */
+    size_t layer[BOX_FACES];      /* points of the absorbing layer behind the face; 0: none */
+    struct pml *pml;              /* NULL: no layers */
+    struct model_class own_class; /* consistent_class and what only some scenes have */
+    double *lane_buffer;          /* [threads * n[0] * LANES] */
+    double *line_buffer;          /* [threads * (n[0] + n[1])] */
+    double *face_buffer;          /* [dimension * plane] */
+    struct hform *hform;          /* NULL: exact mass */
+    struct fused *fused;          /* NULL: the scene is none for it, or it is not wanted */
     int threads;
     struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
     struct band *collocation[3][2];     /* [axis][odd]: LU factors of the values at the Greville points */

@@ -1,7 +1,7 @@
 /* What users see of the consistent method: point values are the spline's own (this is Ding et al.'s
  * de-convolution, Eq 38, done exactly), fields stand at the lattice points, initial states are interpolated
  * at the Greville points of the control values (manual, section 6). */
-#include "method/consistent.h"
+#include "method/fused.h"
 
 #include "base/memory.h"
 #include "scene/initial.h"
@@ -91,6 +91,23 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
     field_at(c, &place, probe->material, field, y, a, value);
 }
 
+/* What consistent_observe() reads there. */
+static bool watch_place(struct consistent *c, const double place[3])
+{
+    struct spline_point at[3];
+    const size_t local = (size_t)c->options.degree + 1;
+    for (unsigned odd = 0; odd < 8; odd++) {
+        for (int axis = 0; axis < c->dimension; axis++)
+            spline_at(c->spline[axis], (odd >> axis & 1U) != 0, place[axis], &at[c->slot[axis]]);
+        for (size_t w = 0; c->dimension == 3 && w < local * local * local; w++) {
+            const size_t seen = at[0].index[w % local] + c->n[0] * at[1].index[w / local % local] +
+                                c->plane * at[2].index[w / (local * local)];
+            if (!fused_watch(c, 1, &seen)) return false;
+        }
+    }
+    return true;
+}
+
 /* The weights are those of components that are even at symmetry planes; consistent_observe knows the others.
  */
 selas_status consistent_probe(struct model *model, const double position[3], struct probe *probe,
@@ -120,6 +137,7 @@ selas_status consistent_probe(struct model *model, const double position[3], str
         for (int axis = 0; axis < c->dimension; axis++)
             probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
     }
+    if (!watch_place(c, place)) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
     return SELAS_OK;
 }
 

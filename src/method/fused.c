@@ -233,6 +233,20 @@ void fused_look(struct fused *fused, const double *u)
     }
 }
 
+void fused_count(struct fused *f)
+{
+    f->largest = 0;
+    for (size_t k = 0; k < f->n[2]; k++)
+        if (f->size[k] > f->largest) {
+            f->largest = f->size[k];
+            f->loudest = k;
+        }
+    for (size_t block = 0; block < rounded(f->n[2], FUSED_PLANES) / FUSED_PLANES; block++) {
+        f->blocks++;
+        f->skipped += !f->computed[block];
+    }
+}
+
 void fused_free(struct fused *fused)
 {
     if (fused == NULL) return;
@@ -246,6 +260,9 @@ void fused_free(struct fused *fused)
     for (int t = 0; fused->buffer != NULL && t < fused->threads; t++)
         array_free(fused->buffer[t]);
     array_free(fused->buffer);
+    array_free(fused->w);
+    array_free(fused->watch.entry);
+    array_free(fused->watch.before);
     array_free(fused->plain);
     array_free(fused->size);
     array_free(fused->computed);

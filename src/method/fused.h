@@ -48,6 +48,13 @@ enum fused_side {
 };
 enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_MATRICES };
 
+/* Entries of u that someone looks at after every step, in all components. */
+struct fused_watch {
+    size_t count, room, *entry;
+    bool sorted;
+    double *before;
+};
+
 struct fused {
     size_t n[3], plane, volume;
     size_t width, stride, ring; /* numbers in a row, from row to row, rows in a ring */
@@ -60,12 +67,25 @@ struct fused {
     double *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
     double quiet;   /* planes whose displacements are all below this times the largest do not move others */
     double *size;   /* [n[2]] largest displacement in each plane */
+    double largest; /* of them after the last step in one pass ... */
+    size_t loudest; /* ... and its plane */
     bool *computed; /* [blocks of planes] in this call */
     unsigned long blocks, skipped; /* of planes so far */
+    struct fused_watch watch;
+    double *w; /* velocity half a step ahead: what steps in one pass keep beside u */
     int threads;
     double **buffer;  /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */
     size_t bytes;
+};
+
+/* What a block of planes works on: a := (F1), or with `moved` not NULL the step u += dt w, w += dt (F1). */
+struct fused_fields {
+    const void *u;
+    void *a;     /* w in a step */
+    void *moved; /* u again */
+    double dt;
+    size_t bring_on, before; /* planes of u to be brought on on the way */
 };
 
 /* Builds c->fused if the scene is one for it (c->fused stays NULL if not); false: no memory. Needs c->hform.
@@ -74,8 +94,28 @@ bool fused_create(struct consistent *c);
 void fused_free(struct fused *fused);
 /* Sets computed[] for the displacements given: blocks of planes within reach of one that is not quiet. */
 void fused_look(struct fused *fused, const double *u);
-/* a := (F1) in the planes first .. first + FUSED_PLANES - 1 (those that are there), first a multiple of
+/* (F1) in the planes first .. first + FUSED_PLANES - 1 (those that are there), first a multiple of
  * FUSED_PLANES. */
-void fused_planes_double(const struct fused *fused, int thread, size_t first, const double *u, double *a);
+void fused_planes_double(const struct fused *fused, int thread, size_t first,
+                         const struct fused_fields *fields);
+/* Counts the blocks of a call and keeps the largest displacement. */
+void fused_count(struct fused *fused);
+
+/* fused_step.h. w := v + dt/2 a from w = v, with entries of a that are watched; `work` has room for a. */
+void fused_begin_double(const struct consistent *c, const struct drive *drive, double dt, const double *u,
+                        double *w, double *work, double *a);
+/* u += dt w, w += dt a at the new u; entries of y and a that are watched. */
+void fused_advance_double(const struct consistent *c, const struct drive *drive, double dt, double *u,
+                          double *w, double *y, double *a);
+/* u and v = w - dt/2 a in y; a if it is not NULL. */
+void fused_settle_double(const struct consistent *c, const struct drive *drive, double dt, const double *u,
+                         const double *w, double *work, double *y, double *a);
+
+/* fused_model.c: if the scene's steps of leapfrog can be made in one pass, takes what that needs and puts it
+ * into the model's class; false: no memory. */
+bool fused_steps_create(struct consistent *c);
+/* Keeps v and a (and y, if the state is kept apart) right at these control values, in all components. False:
+ * no memory. */
+bool fused_watch(struct consistent *c, size_t count, const size_t *place);
 
 #endif

@@ -76,6 +76,42 @@ INLINED void across_y(const int taps, const REAL *restrict weight, const size_t 
     }
 }
 
+/* u += dt w; gives the largest |u|. */
+REAL NAME(fused_drift)(size_t n, REAL dt, const REAL *w, REAL *u);
+EACH_MACHINE REAL NAME(fused_drift)(size_t n, REAL dt, const REAL *restrict w, REAL *restrict u)
+{
+    REAL largest = 0;
+#pragma omp simd reduction(max : largest)
+    for (size_t i = 0; i < n; i++) {
+        u[i] += dt * w[i];
+        const REAL size = u[i] < 0 ? -u[i] : u[i];
+        largest = size > largest ? size : largest;
+    }
+    return largest;
+}
+
+/* Largest |x|. */
+REAL NAME(fused_size)(size_t n, const REAL *x);
+EACH_MACHINE REAL NAME(fused_size)(size_t n, const REAL *x)
+{
+    REAL largest = 0;
+#pragma omp simd reduction(max : largest)
+    for (size_t i = 0; i < n; i++) {
+        const REAL size = x[i] < 0 ? -x[i] : x[i];
+        largest = size > largest ? size : largest;
+    }
+    return largest;
+}
+
+/* w += dt a */
+void NAME(fused_kick)(size_t n, REAL dt, const REAL *a, REAL *w);
+EACH_MACHINE void NAME(fused_kick)(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        w[i] += dt * a[i];
+}
+
 /* One function for each kernel and number of taps, once for each kind of machine; at run time that which fits
  * is taken. */
 #define DEPTH_KERNEL(name, taps, matrices)                                                                   \

@@ -6,6 +6,8 @@
  * are there. What must wait is kept in rings of rows that stay in the cache. */
 #include "method/fused.h"
 
+#include <string.h>
+
 /* What the steps of a strip share. */
 struct strip {
     const struct fused *f;
@@ -88,10 +90,16 @@ static void third_rows(const struct strip *s, size_t j)
     x_pass(s, true, SIDE_N_ODD, spare, ax, ax);
 }
 
-static void copy_row(size_t n, const REAL *restrict in, REAL *restrict out)
+/* u += dt w in rows of plane k. */
+static void bring_on(const struct fused *f, const struct fused_fields *fields, size_t k, size_t row,
+                     size_t end)
 {
-    for (size_t i = 0; i < n; i++)
-        out[i] = in[i];
+    for (size_t component = 0; component < 3; component++) {
+        const size_t at = component * f->volume + k * f->plane + row * f->n[0];
+        const double size = NAME(fused_drift)((end - row) * f->n[0], (REAL)fields->dt,
+                                              (const REAL *)fields->a + at, (REAL *)fields->moved + at);
+        if (size > f->size[k]) f->size[k] = size;
+    }
 }
 
 /* Passes over depth for row j of FUSED_PLANES planes; planes that are not there have weight 0. */
@@ -118,16 +126,23 @@ static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL
     }
 }
 
-static void store_row(const struct strip *s, size_t k, size_t j, REAL *a)
+static void store_row(const struct strip *s, size_t k, size_t j, const struct fused_fields *fields)
 {
     const struct fused *f = s->f;
     static const enum fused_row sum[3] = {ROW_AX, ROW_AY, ROW_AZ};
-    for (int component = 0; component < 3; component++)
-        copy_row(f->n[0], row_of(f, s->ring, sum[component], j),
-                 a + (size_t)component * f->volume + k * f->plane + j * f->n[0]);
+    for (int component = 0; component < 3; component++) {
+        const REAL *row = row_of(f, s->ring, sum[component], j);
+        const size_t at = (size_t)component * f->volume + k * f->plane + j * f->n[0];
+        REAL *a = (REAL *)fields->a + at;
+        if (fields->moved == NULL)
+            memcpy(a, row, f->n[0] * sizeof *a);
+        else
+            NAME(fused_kick)(f->n[0], (REAL)fields->dt, row, a);
+    }
 }
 
-void NAME(fused_planes)(const struct fused *fused, int thread, size_t first, const REAL *u, REAL *a)
+void NAME(fused_planes)(const struct fused *fused, int thread, size_t first,
+                        const struct fused_fields *fields)
 {
     const struct fused *f = fused;
     const size_t rows = (f->n[1] + FUSED_ROWS - 1) / FUSED_ROWS * FUSED_ROWS;
@@ -138,8 +153,11 @@ void NAME(fused_planes)(const struct fused *fused, int thread, size_t first, con
     for (size_t i = 0; i < sizeof kernel_table / sizeof kernel_table[0]; i++)
         if (kernel_table[i].wide == f->wide) s.kernel = &kernel_table[i];
     for (size_t j = 0; j < rows + f->late[1]; j += FUSED_STRIP) {
-        for (size_t row = j; row < j + FUSED_STRIP && row < f->n[1]; row++)
-            depth_rows(&s, first, row, u);
+        const size_t end = j + FUSED_STRIP < f->n[1] ? j + FUSED_STRIP : f->n[1];
+        for (size_t k = fields->bring_on; k < fields->before && j < end; k++)
+            bring_on(f, fields, k, j, end);
+        for (size_t row = j; row < end; row++)
+            depth_rows(&s, first, row, fields->u);
         for (size_t plane = 0; plane < planes; plane++) {
             s.ring = s.rings + plane * f->ring_size;
             for (size_t row = j; row < j + FUSED_STRIP; row += FUSED_ROWS) {
@@ -149,7 +167,7 @@ void NAME(fused_planes)(const struct fused *fused, int thread, size_t first, con
                 const size_t done = row - f->late[1];
                 third_rows(&s, done);
                 for (size_t r = done; r < done + FUSED_ROWS && r < f->n[1]; r++)
-                    store_row(&s, first + plane, r, a);
+                    store_row(&s, first + plane, r, fields);
             }
         }
     }

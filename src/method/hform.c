@@ -374,7 +374,8 @@ static void operator_block(const struct consistent *c, int thread, size_t k, con
 {
     double *out[3] = {NULL, NULL, NULL};
     if (c->fused != NULL && c->fused->computed[k / FUSED_PLANES]) {
-        fused_planes_double(c->fused, thread, k, u, a);
+        const struct fused_fields fields = {.u = u, .a = a};
+        fused_planes_double(c->fused, thread, k, &fields);
         return;
     }
     const size_t planes = c->n[DEPTH] - k < block_of(c) ? c->n[DEPTH] - k : block_of(c);
@@ -393,7 +394,7 @@ static void rest_of_plane(const struct consistent *c, const struct drive *drive,
     double *out[3] = {NULL, NULL, NULL};
     for (int component = 0; component < c->dimension; component++)
         out[component] = a + (size_t)component * c->volume + k * c->plane;
-    hform_edges(c, k, u, out);
+    hform_edges_double(c, k, 1, u, out);
     if (h->dissipation != NULL && v != NULL) tensor_plane(h->dissipation, thread, k, 1, v, out);
     for (int component = 0; component < c->dimension; component++) {
         add_forces(c, drive, h->load, h->pulled, component, k, out[component]);

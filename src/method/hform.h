@@ -49,8 +49,10 @@ void hform_weigh(struct consistent *c, const double *v, double *product); /* M v
 void hform_energy(struct consistent *c, const double *y, struct energy *energy);
 double hform_damper_power(struct consistent *c, const double *v);
 
-/* hform_faces.c: edges of plane k; the dampers' part of an acceleration that is otherwise complete. */
-void hform_edges(const struct consistent *c, size_t k, const double *u, double *const *out);
+/* hform_edges.h: adds factor times what edges do in plane k. */
+void hform_edges_double(const struct consistent *c, size_t k, double factor, const double *u,
+                        double *const *out);
+/* hform_faces.c: the dampers' part of an acceleration that is otherwise complete. */
 void hform_dampers(struct consistent *c, double half_step, const double *v, double *a);
 
 /* hform_dissipation.c: high-frequency dissipation, if the options ask for it; false: no memory. */

@@ -1,5 +1,4 @@
-/* Faces of the H-form (manual, sections 8 and 9): the correction where two faces meet, and transmitting
- * faces.
+/* Transmitting faces of the H-form (manual, sections 8 and 9).
  *
  * Dampers, one face: (M + h C)^-1 M = I - (h c / (1 + h c n_e)) n e^T on the axis across, n = N e, so that
  *   a := a - c n v_e;   a := a - h c n a_e',   a_e' = a_e / (1 + h c n_e),
@@ -8,40 +7,6 @@
 #include "method/hform.h"
 
 #include <string.h>
-
-/* What an edge across x passes on in plane k: the value there, or over an edge along depth N M times the
- * values. */
-static double edge_value(const struct consistent *c, const struct edge *edge, const double *in, size_t k)
-{
-    return edge->depth != NULL ? band_row(edge->depth, k, in, c->plane) : in[k * c->plane];
-}
-
-void hform_edges(const struct consistent *c, size_t k, const double *u, double *const *out)
-{
-    const struct hform *h = c->hform;
-    const size_t nx = c->n[0];
-    for (size_t e = 0; e < h->edges; e++) {
-        const struct edge *edge = &h->edge[e];
-        if (k < edge->from[2] || k >= edge->to[2]) continue;
-        const double *in = u + (size_t)edge->in * c->volume;
-        const double *const *column = edge->column;
-        const double over_depth = edge->factor * (column[2] == NULL ? 1 : column[2][k]);
-        const size_t plane = column[2] == NULL ? k : edge->at[2];
-        for (size_t j = edge->from[1]; j < edge->to[1]; j++) {
-            const double factor = over_depth * (column[1] == NULL ? 1 : column[1][j]);
-            const size_t row = (column[1] == NULL ? j : edge->at[1]) * nx;
-            double *sum = out[edge->out] + j * nx;
-            if (column[0] == NULL) {
-                for (size_t i = 0; i < nx; i++)
-                    sum[i] += factor * in[plane * c->plane + row + i];
-                continue;
-            }
-            const double value = factor * edge_value(c, edge, in + row + edge->at[0], plane);
-            for (size_t i = edge->from[0]; i < edge->to[0]; i++)
-                sum[i] += value * column[0][i];
-        }
-    }
-}
 
 /* Points of a face across a slot: lane i of plane k, at index `at` across, stands at i * lane + k * plane +
  * at * across in a component, and at k * lanes + i among face values. */

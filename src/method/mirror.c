@@ -107,6 +107,28 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     model->evaluations++;
 }
 
+static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
+{
+    part_of(model)->class->begin(part_of(model), drive, dt, y, a);
+    model->evaluations++;
+}
+
+static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
+{
+    part_of(model)->class->advance(part_of(model), drive, dt, y, a);
+    model->evaluations++;
+}
+
+static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
+{
+    part_of(model)->class->settle(part_of(model), drive, dt, y, a);
+}
+
+static void *kept(struct model *model, size_t *bytes)
+{
+    return part_of(model)->class->kept(part_of(model), bytes);
+}
+
 static void remember(struct model *model, double dt, double *y)
 {
     part_of(model)->class->remember(part_of(model), dt, y);
@@ -266,6 +288,12 @@ static void fill(struct mirror *mirror)
     *model = *part;
     mirror->class = mirror_class;
     if (part->class->remember != NULL) mirror->class.remember = remember;
+    if (part->class->advance != NULL) {
+        mirror->class.begin = begin;
+        mirror->class.advance = advance;
+        mirror->class.settle = settle;
+        mirror->class.kept = kept;
+    }
     if (part->class->weigh != NULL) mirror->class.weigh = weigh;
     if (part->class->unseen != NULL) mirror->class.unseen = unseen;
     model->class = &mirror->class;

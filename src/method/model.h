@@ -67,6 +67,16 @@ struct model_class {
      * no C. */
     void (*accelerate)(struct model *model, const struct drive *drive, double half_step, const double *u,
                        const double *v, double *a);
+    /* Steps of leapfrog in one pass over the fields (all four or none; the models of some scenes have them).
+     * The model keeps the velocity half a step ahead and perhaps u; from begin() on, which takes y as the
+     * state at the drive's time, y and a are right only where probes and the power of loads look, until
+     * settle() makes y whole, and a if it is not NULL. settle() changes nothing of what is kept. */
+    void (*begin)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    /* From one step to the next, whose drive it is. */
+    void (*advance)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    /* What is kept beside y, for checkpoints. */
+    void *(*kept)(struct model *model, size_t *bytes);
     /* dy/dt for the Runge-Kutta family. */
     void (*rate)(struct model *model, const struct drive *drive, const double *y, double *dydt);
     /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the

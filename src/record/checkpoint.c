@@ -151,6 +151,11 @@ static void pass_all(struct walk *walk, struct recorder *recorder, struct state 
 {
     pass_real(walk, "y", 0, "", state->y, recorder->model->state_size);
     pass_real(walk, "a", 0, "", state->a, recorder->model->unknowns);
+    if (recorder->stepper->one_pass) {
+        size_t bytes = 0;
+        void *kept = recorder->model->class->kept(recorder->model, &bytes);
+        pass(walk, "kept", H5T_NATIVE_UCHAR, kept, bytes);
+    }
     pass_watch(walk, "watch", &recorder->watch);
     pass_watch(walk, "before", &recorder->before);
     pass_traces(walk, recorder, (size_t)figures[STEP] + 1);

@@ -72,6 +72,7 @@ static bool write_field(struct recorder *recorder, const struct snapshot_record 
     struct model *model = recorder->model;
     const size_t components = (size_t)field_components(field);
     double *value = record->buffer;
+    state_settle(recorder->stepper, state, field == SELAS_ACCELERATION);
     model->class->field(model, field, state->y, state->a, value);
     for (size_t i = 0; record->index != NULL && i < record->points; i++) /* indices ascend: in place */
         memmove(value + components * i, value + components * record->index[i], components * sizeof *value);

@@ -52,12 +52,7 @@ void watch_start(struct recorder *recorder)
 static void add_work(struct recorder *recorder, const struct state *state)
 {
     struct watch *watch = &recorder->watch;
-    const struct stepper *stepper = recorder->stepper;
-    const struct drive drive = {.time = state->time,
-                                .load = stepper->load,
-                                .motion = stepper->motion + 2 * FACES,
-                                .displacement = stepper->motion,
-                                .velocity = stepper->motion + FACES};
+    const struct drive drive = drive_last(recorder->stepper, state->time);
     double load = 0.0, absorbed = 0.0;
     recorder->model->class->power(recorder->model, &drive, state->y, &load, &absorbed);
     if (recorder->started) {
@@ -132,6 +127,7 @@ static bool state_finite(const struct recorder *recorder, const struct state *st
 selas_status watch_sound(const struct recorder *recorder, const struct state *state,
                          struct messages *messages)
 {
+    state_settle(recorder->stepper, state, false);
     if (state_finite(recorder, state)) return SELAS_OK;
     return tell_place(recorder, state, "the state is not finite", messages);
 }
@@ -179,6 +175,7 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
     watch->next = state->step + EVERY;
     const unsigned long end = recorder->stepper->steps; /* the balance at the end is wanted in any case */
     if (state->step < end && watch->next > end) watch->next = end;
+    state_settle(recorder->stepper, state, false);
     if (!state_finite(recorder, state))
         return tell_place(recorder, state, "the state is not finite", messages);
     if (recorder->model->class->energy == NULL) return SELAS_OK;

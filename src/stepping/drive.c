@@ -25,7 +25,7 @@ static double after_start(double value, bool at_start)
 }
 
 /* stepper->motion holds displacements, velocities and accelerations of the faces, one after the other. */
-static struct drive drive_of(const struct stepper *stepper, double time)
+struct drive drive_last(const struct stepper *stepper, double time)
 {
     return (struct drive){.time = time,
                           .load = stepper->load,
@@ -119,7 +119,7 @@ void drive_at(struct stepper *stepper, double time, struct drive *drive)
             stepper->motion[(size_t)derivative * FACES + face] = after_start(
                 motion_displacement(&scene->boundary[face], time, derivative), time == 0.0 && derivative > 0);
     if (stepper->host != NULL) host_at(stepper, time);
-    *drive = drive_of(stepper, time);
+    *drive = drive_last(stepper, time);
 }
 
 /* Row of a warped table; before the start everything is at rest. */
@@ -171,5 +171,5 @@ void drive_at_step(struct stepper *stepper, unsigned long step, bool corrected, 
         stepper->motion[FACES + face] = (after - before) / (2.0 * dt);
         stepper->motion[2 * FACES + face] = (after - 2.0 * now + before) / (dt * dt);
     }
-    *drive = drive_of(stepper, (double)step * stepper->dt);
+    *drive = drive_last(stepper, (double)step * stepper->dt);
 }

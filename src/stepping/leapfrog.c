@@ -27,6 +27,12 @@ static void start(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
+    /* a host may change its loads at the time reached, and then wants that acceleration anew */
+    stepper->one_pass = model->class->advance != NULL && stepper->host == NULL;
+    if (stepper->one_pass) {
+        model->class->begin(model, &drive, stepper->dt, state->y, state->a);
+        return;
+    }
     if (model->class->remember != NULL) drive.extra = state->y + 2 * model->unknowns;
     model->class->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
@@ -49,8 +55,17 @@ static void close_step(struct stepper *stepper, struct state *state)
 
 static void step(struct stepper *stepper, struct state *state)
 {
-    leapfrog_drift(stepper, state);
-    close_step(stepper, state);
+    struct model *model = stepper->model;
+    if (!stepper->one_pass) {
+        leapfrog_drift(stepper, state);
+        close_step(stepper, state);
+        return;
+    }
+    struct drive drive;
+    state->step++;
+    state->time = (double)state->step * stepper->dt;
+    drive_at_step(stepper, state->step, false, &drive);
+    model->class->advance(model, &drive, stepper->dt, state->y, state->a);
 }
 
 static void again(struct stepper *stepper, struct state *state)

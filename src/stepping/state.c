@@ -18,6 +18,14 @@ selas_status state_create(struct stepper *stepper, struct state *state, struct m
     return SELAS_OK;
 }
 
+void state_settle(const struct stepper *stepper, const struct state *state, bool acceleration)
+{
+    struct model *model = stepper->model;
+    if (!stepper->one_pass) return;
+    const struct drive drive = drive_last(stepper, state->time);
+    model->class->settle(model, &drive, stepper->dt, state->y, acceleration ? state->a : NULL);
+}
+
 void state_free(struct state *state)
 {
     array_free(state->y);

@@ -68,6 +68,7 @@ struct stepper {
         warped_load; /* [rows * loads] and [rows * FACES] if unwarp: amplitudes of the warped histories ... */
     double *warped_motion; /* ... (motion: of the displacement, not its second derivative) */
     unsigned long warped_rows;
+    bool one_pass;                 /* the model makes whole steps: settle() before all of y is looked at */
     void *memory;                  /* of the scheme */
     const struct host_drive *host; /* borrowed; NULL: the deck's histories drive */
     double *host_row;              /* [HOST_ROWS * (loads + FACES)] */
@@ -83,6 +84,9 @@ void stepper_free(struct stepper **stepper);
 /* stepping/state.c: the state at t = 0 as the scene and the scheme have it. */
 selas_status state_create(struct stepper *stepper, struct state *state, struct messages *messages);
 void state_free(struct state *state);
+/* Makes all of y right, and of a if wanted, where the model makes whole steps (model.h); else nothing. To be
+ * called before anything but probes and the power of loads is looked at. */
+void state_settle(const struct stepper *stepper, const struct state *state, bool acceleration);
 
 /* stepping/drive.c: what drives the model at any time (Runge-Kutta stages: exact second derivative of
  * motions) ... */
@@ -91,6 +95,8 @@ void drive_at(struct stepper *stepper, double time, struct drive *drive);
  * With `corrected` one twelfth of its own second difference is added to each amplitude (the load term of the
  * modified equation). */
 void drive_at_step(struct stepper *stepper, unsigned long n, bool corrected, struct drive *drive);
+/* The drive that was made last. */
+struct drive drive_last(const struct stepper *stepper, double time);
 /* Puts a host in the histories' place (the stepper must not unwarp). */
 selas_status drive_by_host(struct stepper *stepper, const struct host_drive *host, struct messages *messages);
 /* The host has changed what it drives: rows from the step given on are asked for again. */

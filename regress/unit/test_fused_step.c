@@ -1,0 +1,247 @@
+/* Steps of leapfrog in one pass (method/fused_step.h) against drift, operator and kick one by one: whole
+ * states and what is looked at after each step, threads, settling, checkpoints' kept part, planes at rest. */
+#include "consistent_run.h"
+
+#include "base/memory.h"
+#include "method/fused.h"
+#include "stepping/schemes.h"
+
+#include <omp.h>
+
+static uint64_t seed = 5;
+
+static size_t chance(size_t n)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (size_t)(seed >> 33) % n;
+}
+
+static const double places[][3] = {{.1, .2, .3}, {1.7, 2.2, .9}, {2.05, .4, 3.1}};
+enum { PLACES = sizeof places / sizeof places[0], VALUES = PLACES * 9 };
+
+/* A box with faces drawn by chance that has steps in one pass, and a load that begins at t = 0. */
+static void random_scene(struct plain_scene *plain)
+{
+    static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
+                                               BOUNDARY_SYMMETRY};
+    const double spacing = .3;
+    double size[3];
+    for (int axis = 0; axis < 3; axis++)
+        size[axis] = spacing * (double)(14 + chance(13));
+    size[2] += spacing * 20;
+    plain_box(plain, 3, size, spacing);
+    for (int face = 0; face < 6; face++)
+        plain->scene.boundary[face].kind = kinds[chance(sizeof kinds / sizeof kinds[0])];
+    plain->scene.boundary[4].kind = BOUNDARY_FREE;
+    struct load *load = plain_face_load(plain, FACE_Z_LOW, (double[]){.3, .5, 1});
+    load->shape = LOAD_SQUARE;
+    load->centre[0] = load->centre[1] = 1.4;
+    load->size[0] = 1.3;
+    load->size[1] = .9;
+    load->history = (struct history){.kind = HISTORY_STEP};
+}
+
+/* A model with its stepper and state, and probes. */
+struct stepped {
+    struct model *model;
+    struct stepper *stepper;
+    struct state state;
+    struct probe probe[PLACES];
+};
+
+static struct stepped begin(const struct plain_scene *plain, struct consistent_options options, bool one_pass,
+                            bool moves)
+{
+    struct stepped s = {.model = make(plain, options)};
+    struct messages messages = {0};
+    struct consistent *c = consistent_of(s.model);
+    assert_non_null(c->own_class.advance);
+    for (size_t i = 0; i < PLACES; i++)
+        assert_int_equal(s.model->class->probe(s.model, places[i], &s.probe[i], &messages), SELAS_OK);
+    if (!one_pass) c->own_class.advance = NULL;
+    assert_int_equal(stepper_create(s.model, &s.stepper, &messages), SELAS_OK);
+    assert_int_equal(state_create(s.stepper, &s.state, &messages), SELAS_OK);
+    const size_t n = s.model->unknowns;
+    if (moves) { /* a body that is not at rest at t = 0, 0 where it is held */
+        noise(2 * n, s.state.y);
+        for (size_t half = 0; half < 2; half++)
+            for (int component = 0; component < 3; component++)
+                for (size_t k = 0; k < c->n[2]; k++)
+                    consistent_clear_held(
+                        c, component, k, s.state.y + half * n + (size_t)component * c->volume + k * c->plane);
+        s.stepper->scheme->start(s.stepper, &s.state);
+    }
+    assert_int_equal(s.stepper->one_pass, one_pass);
+    return s;
+}
+
+static void end(struct stepped *s)
+{
+    for (size_t i = 0; i < PLACES; i++)
+        probe_free(&s->probe[i]);
+    state_free(&s->state);
+    stepper_free(&s->stepper);
+    model_free(&s->model);
+}
+
+static void step(struct stepped *s)
+{
+    s->stepper->scheme->step(s->stepper, &s->state);
+}
+
+static void observed(struct stepped *s, double value[VALUES])
+{
+    static const selas_field field[3] = {SELAS_DISPLACEMENT, SELAS_VELOCITY, SELAS_ACCELERATION};
+    for (size_t i = 0; i < PLACES; i++)
+        for (size_t k = 0; k < 3; k++) {
+            double six[6] = {0};
+            model_observe(s->model, &s->probe[i], field[k], s->state.y, s->state.a, six);
+            memcpy(value + 9 * i + 3 * k, six, 3 * sizeof *six);
+        }
+}
+
+static double difference(size_t n, const double *a, const double *b)
+{
+    double error = 0, largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        error = fmax(error, fabs(a[i] - b[i]));
+        largest = fmax(largest, fabs(b[i]));
+    }
+    return largest > 0 ? error / largest : error;
+}
+
+static void test_one_by_one(void **unused)
+{
+    (void)unused;
+    double worst = 0, worst_seen = 0, worst_watched = 0;
+    for (int i = 0; i < 12; i++) {
+        struct plain_scene plain;
+        random_scene(&plain);
+        const struct consistent_options options = {
+            .degree = 2, .sweeps = 1 + i % 3, .depth_exact = i % 2 == 0, .quiet = i % 4 == 0 ? 0 : 1e-12};
+        struct stepped one = begin(&plain, options, true, i % 3 != 0);
+        struct stepped other = begin(&plain, options, false, i % 3 != 0);
+        const size_t n = one.model->unknowns;
+        for (int count = 0; count < 40; count++) {
+            double a[VALUES], b[VALUES], settled[VALUES];
+            observed(&one, a);
+            observed(&other, b);
+            for (size_t k = 0; k < 3; k++) /* u, v and a apart: their sizes differ */
+                for (size_t place = 0; place < PLACES; place++)
+                    worst_seen =
+                        fmax(worst_seen, difference(3, a + 9 * place + 3 * k, b + 9 * place + 3 * k));
+            if (count % 8 == 5) {
+                state_settle(one.stepper, &one.state, true);
+                observed(&one, settled);
+                for (size_t k = 0; k < 3 * PLACES; k++)
+                    worst_watched = fmax(worst_watched, difference(3, settled + 3 * k, a + 3 * k));
+                worst = fmax(worst, difference(n, one.state.y, other.state.y));
+                worst = fmax(worst, difference(n, one.state.y + n, other.state.y + n));
+                worst = fmax(worst, difference(n, one.state.a, other.state.a));
+            }
+            step(&one);
+            step(&other);
+        }
+        end(&one);
+        end(&other);
+    }
+    print_message("# 12 scenes, 40 steps: states %.1e, receivers %.1e, settled %.1e\n", worst, worst_seen,
+                  worst_watched);
+    assert_true(worst < 1e-12);
+    assert_true(worst_seen < 1e-11);
+    assert_true(worst_watched < 1e-11);
+}
+
+/* The same bits with any number of threads, whether or not somebody looks at the whole state on the way. */
+static void test_bits(void **unused)
+{
+    (void)unused;
+    struct plain_scene plain;
+    random_scene(&plain);
+    plain.scene.body.high[2] = 60 * .3;
+    const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-12};
+    double *first = NULL;
+    for (int i = 0; i < 4; i++) {
+        omp_set_num_threads(1 + i);
+        struct stepped s = begin(&plain, options, true, false);
+        const struct fused *fused = consistent_of(s.model)->fused;
+        assert_true(i < 2 || fused->threads > 1);
+        const size_t n = s.model->unknowns;
+        for (int count = 0; count < 50; count++) {
+            step(&s);
+            if (i % 2 == 1 && count % 9 == 4) state_settle(s.stepper, &s.state, count % 2 == 0);
+        }
+        assert_true(fused->skipped > 0);
+        state_settle(s.stepper, &s.state, true);
+        if (first == NULL) first = array_new(3 * n, sizeof *first);
+        if (i == 0) memcpy(first, s.state.y, 2 * n * sizeof *first);
+        if (i == 0) memcpy(first + 2 * n, s.state.a, n * sizeof *first);
+        assert_memory_equal(first, s.state.y, 2 * n * sizeof *first);
+        assert_memory_equal(first + 2 * n, s.state.a, n * sizeof *first);
+        end(&s);
+    }
+    omp_set_num_threads(1);
+    array_free(first);
+}
+
+/* y and what is kept are all that goes on: a state that is taken to another model goes on to the same bits.
+ */
+static void test_kept(void **unused)
+{
+    (void)unused;
+    struct plain_scene plain;
+    random_scene(&plain);
+    const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-12};
+    struct stepped one = begin(&plain, options, true, true), other = begin(&plain, options, true, false);
+    const size_t n = one.model->unknowns;
+    for (int count = 0; count < 17; count++)
+        step(&one);
+    size_t bytes = 0, room = 0;
+    const void *from = one.model->class->kept(one.model, &bytes);
+    void *to = other.model->class->kept(other.model, &room);
+    assert_int_equal(bytes, room);
+    memcpy(to, from, bytes);
+    memcpy(other.state.y, one.state.y, 2 * n * sizeof(double));
+    other.state.step = one.state.step;
+    for (int count = 0; count < 17; count++) {
+        step(&one);
+        step(&other);
+    }
+    state_settle(one.stepper, &one.state, true);
+    state_settle(other.stepper, &other.state, true);
+    assert_memory_equal(one.state.y, other.state.y, 2 * n * sizeof(double));
+    assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
+    end(&one);
+    end(&other);
+}
+
+/* What a pass cannot do goes the old way. */
+static void test_refused(void **unused)
+{
+    (void)unused;
+    struct consistent_options options = {.degree = 2, .sweeps = 3};
+    for (int kind = 0; kind < 4; kind++) {
+        struct plain_scene plain;
+        plain_box(&plain, 3, (double[3]){16, 16, 16}, 1);
+        if (kind == 0) plain.scene.boundary[1].kind = BOUNDARY_TRANSMITTING;
+        if (kind == 1) plain.scene.boundary[1].kind = BOUNDARY_VELOCITY;
+        if (kind == 1) plain.scene.boundary[1].amplitude = plain.scene.boundary[1].direction[0] = 1;
+        options.dissipation = kind == 2 ? .01 : 0;
+        options.unfused = kind == 3;
+        struct model *model = make(&plain, options);
+        assert_null(model->class->advance);
+        model_free(&model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_one_by_one),
+        cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_refused),
+    };
+    omp_set_num_threads(1);
+    return cmocka_run_group_tests_name("steps in one pass", tests, NULL, NULL);
+}
