@@ -265,6 +265,25 @@ static void viscosity_of_a_pair(void **unused)
     }
 }
 
+/* R of one tensor, in every lane and with other tensors beside it. */
+static void repulsion_of(int dimension, const double *t, double *r)
+{
+    const int stresses = dimension * (dimension + 1) / 2;
+    for (size_t lane = 0; lane < 8; lane++) {
+        double tension[6 * 8], repulsion[6 * 8];
+        for (size_t k = 0; k < sizeof tension / sizeof *tension; k++)
+            tension[k] = scatter(k);
+        for (int s = 0; s < stresses; s++)
+            tension[8 * (size_t)s + lane] = t[s];
+        updated_artificial_stress(dimension, .3, 8, tension, repulsion);
+        for (int s = 0; s < stresses; s++) {
+            const double found = repulsion[8 * (size_t)s + lane];
+            if (lane > 0) assert_near(found, r[s], 1e-14);
+            r[s] = found;
+        }
+    }
+}
+
 /* Eqs 20-23 with the angle as printed; in space: a rotated diagonal tensor. */
 static void artificial_stress(void **unused)
 {
@@ -275,8 +294,8 @@ static void artificial_stress(void **unused)
         const double first = c * c * t[0] + 2 * s * c * t[2] + s * s * t[1];
         const double second = s * s * t[0] - 2 * s * c * t[2] + c * c * t[1];
         const double r1 = first > 0 ? -.3 * first : 0, r2 = second > 0 ? -.3 * second : 0;
-        double r[6];
-        updated_artificial_stress(2, .3, t, r);
+        double r[6] = {0};
+        repulsion_of(2, t, r);
         assert_near(r[0], r1 * c * c + r2 * s * s, 1e-14);
         assert_near(r[1], r1 * s * s + r2 * c * c, 1e-14);
         assert_near(r[2], (r1 - r2) * s * c, 1e-14);
@@ -284,13 +303,13 @@ static void artificial_stress(void **unused)
     const double c = cos(.7), s = sin(.7), n[3][3] = {{c, s, 0}, {-s * c, c * c, s}, {s * s, -c * s, c}};
     const double value[3] = {2, -1, .5};
     static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-    double t[6] = {0}, expected[6] = {0}, r[6];
+    double t[6] = {0}, expected[6] = {0}, r[6] = {0};
     for (int k = 0; k < 6; k++)
         for (int e = 0; e < 3; e++) {
             t[k] += value[e] * n[e][row[k]] * n[e][column[k]];
             if (value[e] > 0) expected[k] -= .3 * value[e] * n[e][row[k]] * n[e][column[k]];
         }
-    updated_artificial_stress(3, .3, t, r);
+    repulsion_of(3, t, r);
     for (int k = 0; k < 6; k++)
         assert_near(r[k], expected[k], 1e-14);
 }

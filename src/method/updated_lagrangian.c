@@ -157,11 +157,10 @@ static selas_status take_memory(struct updated *updated, struct messages *messag
     const size_t points = updated->cloud->points, places = points + updated->ghosts;
     updated->mass = array_new(points, sizeof(double));
     updated->searched = array_new(3 * places, sizeof(double));
-    updated->record = array_new(updated->layout.size * places, sizeof(double));
     updated->deck_position = array_new(3 * points, sizeof(double));
     updated->load_direction = array_new(3 * scene->loads, sizeof(double));
-    if (updated->mass == NULL || updated->searched == NULL || updated->record == NULL ||
-        updated->deck_position == NULL || updated->load_direction == NULL)
+    if (updated->mass == NULL || updated->searched == NULL || updated->deck_position == NULL ||
+        updated->load_direction == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles and %zu ghosts", points,
                     updated->ghosts);
     for (size_t i = 0; i < points; i++) {
@@ -213,9 +212,9 @@ static void fill_public_face(struct updated *updated)
     model->point_stride = dimension;
     model->damped = updated->alpha > 0 || updated->beta > 0;
     model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
-    model->bytes = neighbours_bytes(&updated->neighbours) +
-                   (points + updated->ghosts) * (6 + updated->layout.size) * sizeof(double) +
-                   (updated->ordered ? updated->layout.size * updated->stride * sizeof(double) : 0) +
+    model->bytes = neighbours_bytes(&updated->neighbours) + (points + updated->ghosts) * 6 * sizeof(double) +
+                   updated->layout.size * sizeof(double) *
+                       (updated->ordered ? updated->stride : points + updated->ghosts) +
                    updated->shift_room * sizeof *updated->shift + points * 8 * sizeof(double) +
                    updated_hourglass_bytes(updated);
 }

@@ -52,6 +52,8 @@ struct updated_sums {
 
 struct updated_hourglass;
 
+enum { UPDATED_END = 8 }; /* empty places at both ends of the planes */
+
 struct updated {
     struct model model; /* first: the public face */
     struct updated_options options;
@@ -81,18 +83,30 @@ struct updated {
     double *reference;          /* [3 * (points + ghosts)] */
     double *searched;           /* the same at the last search for neighbours */
     double skin;                /* lists reach this much further than the kernel */
-    double *record;             /* [layout.size * (points + ghosts)] */
     bool ordered;               /* particles are summed eight at a time: chosen from the reference places */
-    size_t stride;              /* of the planes */
-    double *planes;   /* [layout.size * stride] component by component, 8 empty places at both ends */
-    uint32_t *shifts; /* [points / 8] number of distances in memory of each eight particles ... */
-    int32_t *shift;   /* ... which stand from neighbours.start of the first of them on */
+    double *record; /* [layout.size * (points + ghosts)] particle by particle; NULL where ordered */
+    size_t stride;  /* of the planes */
+    double *planes; /* [layout.size * stride] component by component, UPDATED_END empty places at both ends */
+    uint32_t *shifts;          /* [points / 8] number of distances in memory of each eight particles ... */
+    int32_t *shift;            /* ... which stand from neighbours.start of the first of them on */
     size_t shift_room, merged; /* pairs that were merged into them */
     double *deck_position;     /* model.position */
     struct updated_layout layout;
     struct neighbours neighbours;
     bool search_failed; /* no memory: rates become NaN, which the run notices */
 };
+
+/* A packed particle: its component c stands at c times updated_step(). */
+static inline double *updated_packed(const struct updated *updated, size_t place)
+{
+    return updated->ordered ? updated->planes + UPDATED_END + place
+                            : updated->record + updated->layout.size * place;
+}
+
+static inline size_t updated_step(const struct updated *updated)
+{
+    return updated->ordered ? updated->stride : 1;
+}
 
 enum { UPDATED_PARALLEL = 1000 }; /* fewer particles run on one thread */
 
@@ -124,13 +138,16 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
                               double *absorbed);
 
 /* updated_lagrangian_stress.c: R of Eqs 20-23 in any dimension from s / rho^2: minus epsilon times its
- * positive (tensile) part. */
-void updated_artificial_stress(int dimension, double epsilon, const double *tension, double *repulsion);
+ * positive (tensile) part. Eight tensors in sequence; their components stand `stride` apart. */
+void updated_artificial_stress(int dimension, double epsilon, size_t stride, const double *tension,
+                               double *repulsion);
 
 /* updated_lagrangian_order.c: the lists of eight particles at a time, after each search ... */
 selas_status updated_merge_lists(struct updated *updated, struct messages *messages);
 /* ... and whether that pays; takes the memory for it. */
 selas_status updated_choose_order(struct updated *updated, struct messages *messages);
+/* Has particles summed one by one from now on. */
+selas_status updated_one_by_one(struct updated *updated, struct messages *messages);
 
 /* updated_lagrangian_rate.c: inverse of L; the identity where the neighbours do not span the space. */
 void updated_invert(int dimension, const double matrix[6], double inverse[3][3]);

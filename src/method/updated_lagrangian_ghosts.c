@@ -167,33 +167,50 @@ static void mirror(const struct updated *updated, const struct updated_ghost *gh
     }
 }
 
-/* Packs one particle: place, velocity, volume, mass, s / rho^2, artificial stress. */
+/* Packs one particle: place, velocity, volume, mass, s / rho^2. */
 static void pack(const struct updated *updated, size_t place, size_t source, const struct image *image)
 {
     const struct updated_layout layout = updated->layout;
     const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
+    const size_t step = updated_step(updated);
     const double *reference = updated->reference + 3 * place;
-    double *record = updated->record + layout.size * place;
-    const double mass = updated->mass[source];
+    double *packed = updated_packed(updated, place);
+    const double mass = updated->mass[source], volume = mass / image->density;
     for (size_t a = 0; a < dimension; a++) {
-        record[a] = reference[a] + image->u[a];
-        record[layout.velocity + a] = image->v[a];
+        packed[step * a] = reference[a] + image->u[a];
+        packed[step * (layout.velocity + a)] = image->v[a];
     }
-    record[layout.volume] = mass / image->density;
-    record[layout.span] = image->pressed ? 0 : record[layout.volume];
-    record[layout.mass] = mass;
-    record[layout.density] = image->density;
-    record[layout.length] = updated->length[source];
-    const double square = image->density * image->density;
+    packed[step * layout.volume] = volume;
+    packed[step * layout.span] = image->pressed ? 0 : volume;
+    packed[step * layout.mass] = mass;
+    packed[step * layout.density] = image->density;
+    packed[step * layout.length] = updated->length[source];
+    const double inverse = 1 / (image->density * image->density);
     for (size_t s = 0; s < stresses; s++)
-        record[layout.tension + s] = image->stress[s] / square;
-    if (updated->repulsive)
-        updated_artificial_stress(updated->dimension, updated->options.artificial_stress,
-                                  record + layout.tension, record + layout.repulsion);
-    for (size_t s = 0; updated->options.adjoint && s < stresses; s++)
-        record[layout.tension + s] = 0; /* updated_lagrangian_hourglass.c adds their force */
-    for (size_t c = 0; updated->ordered && c < layout.size; c++)
-        updated->planes[c * updated->stride + VEC + place] = record[c];
+        packed[step * (layout.tension + s)] = image->stress[s] * inverse;
+}
+
+/* Artificial stress of the eight packed particles from `place` on, or those of them that there are. */
+static void repel(const struct updated *updated, size_t place)
+{
+    const struct updated_layout layout = updated->layout;
+    const double epsilon = updated->options.artificial_stress;
+    const size_t places = updated->cloud->points + updated->ghosts, stresses = (size_t)updated->stresses;
+    double *packed = updated_packed(updated, place);
+    if (updated->ordered) {
+        updated_artificial_stress(updated->dimension, epsilon, updated->stride,
+                                  packed + updated->stride * layout.tension,
+                                  packed + updated->stride * layout.repulsion);
+        return;
+    }
+    double tension[6 * VEC] = {0}, repulsion[6 * VEC];
+    for (size_t n = 0; n < VEC && place + n < places; n++)
+        for (size_t s = 0; s < stresses; s++)
+            tension[VEC * s + n] = packed[layout.size * n + layout.tension + s];
+    updated_artificial_stress(updated->dimension, epsilon, VEC, tension, repulsion);
+    for (size_t n = 0; n < VEC && place + n < places; n++)
+        for (size_t s = 0; s < stresses; s++)
+            packed[layout.size * n + layout.repulsion + s] = repulsion[VEC * s + n];
 }
 
 static void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
@@ -214,7 +231,7 @@ static void load_particle(const struct updated *updated, const double *y, size_t
  * bit. */
 static void search_if_needed(struct updated *updated)
 {
-    const size_t dimension = (size_t)updated->dimension, size = updated->layout.size;
+    const size_t dimension = (size_t)updated->dimension, step = updated_step(updated);
     const size_t places = updated->cloud->points + updated->ghosts;
     const double limit = updated->skin * updated->skin / 4;
     bool moved = false;
@@ -222,7 +239,7 @@ static void search_if_needed(struct updated *updated)
     for (size_t i = 0; i < places; i++) {
         double square = 0;
         for (size_t a = 0; a < dimension; a++) {
-            const double d = updated->record[size * i + a] - updated->searched[3 * i + a];
+            const double d = updated_packed(updated, i)[step * a] - updated->searched[3 * i + a];
             square += d * d;
         }
         moved = moved || square > limit;
@@ -230,7 +247,7 @@ static void search_if_needed(struct updated *updated)
     if (!moved && updated->neighbours.points == places) return;
     for (size_t i = 0; i < places; i++)
         for (size_t a = 0; a < dimension; a++)
-            updated->searched[3 * i + a] = updated->record[size * i + a];
+            updated->searched[3 * i + a] = updated_packed(updated, i)[step * a];
     struct messages unheard = {0};
     updated->search_failed =
         neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
@@ -256,6 +273,15 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
         for (int f = 0; f < ghost->count; f++)
             mirror(updated, ghost, ghost->face[f], drive, &image);
         pack(updated, points + g, ghost->source, &image);
+    }
+    const size_t places = points + updated->ghosts, step = updated_step(updated);
+#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
+    for (size_t place = 0; place < places; place += VEC) {
+        if (updated->repulsive) repel(updated, place);
+        /* updated_lagrangian_hourglass.c adds their force */
+        for (size_t i = place; updated->options.adjoint && i < place + VEC && i < places; i++)
+            for (size_t s = 0; s < (size_t)updated->stresses; s++)
+                updated_packed(updated, i)[step * (updated->layout.tension + s)] = 0;
     }
     search_if_needed(updated);
 }

@@ -74,13 +74,14 @@ size_t updated_hourglass_bytes(const struct updated *updated)
 static void pack_motion(const struct updated *updated, size_t place)
 {
     const size_t dimension = (size_t)updated->dimension;
-    const double *record = updated->record + updated->layout.size * place;
+    const double *from = updated_packed(updated, place);
+    const size_t step = updated_step(updated);
     double *packed = updated->hourglass->packed + 2 * dimension * place;
     for (size_t a = 0; a < dimension; a++) {
-        packed[a] = record[a];
+        packed[a] = from[step * a];
         packed[dimension + a] = updated->hourglass_of_velocity
-                                    ? record[updated->layout.velocity + a]
-                                    : record[a] - updated->reference[3 * place + a];
+                                    ? from[step * (updated->layout.velocity + a)]
+                                    : packed[a] - updated->reference[3 * place + a];
     }
 }
 
@@ -88,14 +89,15 @@ static void pack_motion(const struct updated *updated, size_t place)
 INLINED void weigh_pairs(const struct updated *updated, const int dimension, size_t i)
 {
     const struct updated_layout layout = updated->layout;
-    const double *own = updated->record + layout.size * i;
+    const double *own = updated_packed(updated, i);
+    const size_t step = updated_step(updated);
     double *weight = updated->hourglass->weight;
     for (size_t k = updated->neighbours.start[i]; k < updated->neighbours.start[i + 1]; k++) {
-        const double *other = updated->record + layout.size * updated->neighbours.index[k];
+        const double *other = updated_packed(updated, updated->neighbours.index[k]);
         double square = 0;
-        for (int a = 0; a < dimension; a++)
-            square += (other[a] - own[a]) * (other[a] - own[a]);
-        const double length = (own[layout.length] + other[layout.length]) / 2;
+        for (size_t a = 0; a < (size_t)dimension; a++)
+            square += (other[step * a] - own[step * a]) * (other[step * a] - own[step * a]);
+        const double length = (own[step * layout.length] + other[step * layout.length]) / 2;
         const double reach = updated->reach * length;
         weight[k] = 0;
         if (!(square < reach * reach)) continue;
@@ -103,7 +105,7 @@ INLINED void weigh_pairs(const struct updated *updated, const int dimension, siz
         double slope = updated->slope_scale * updated->options.kernel->slope_over_q(dimension, q);
         for (int power = 0; !updated->even && power < dimension + 2; power++)
             slope /= length;
-        weight[k] = -other[layout.span] * slope;
+        weight[k] = -other[step * layout.span] * slope;
     }
 }
 
@@ -175,7 +177,7 @@ INLINED void push_pairs(const struct updated *updated, const int dimension, size
                 sum[a][b] += unseen * (other[b] - own[b]);
         }
     }
-    const double density = updated->record[updated->layout.size * i + updated->layout.density];
+    const double density = updated_packed(updated, i)[updated_step(updated) * updated->layout.density];
     const double *inverse = all->inverse + square * i;
     const double *stress =
         y + 2 * updated->model.unknowns + updated->cloud->points + (size_t)updated->stresses * i;
@@ -208,7 +210,7 @@ INLINED void return_pairs(const struct updated *updated, const int dimension, si
                 force[a] += part * (turned[dimension * a + b] + theirs[dimension * a + b]);
         }
     }
-    const double density = updated->record[updated->layout.size * i + updated->layout.density];
+    const double density = updated_packed(updated, i)[updated_step(updated) * updated->layout.density];
     for (int a = 0; a < dimension; a++)
         acceleration[dim * i + (size_t)a] -= force[a] / (2 * density);
 }

@@ -92,21 +92,42 @@ static void fill_ends(struct updated *updated)
     }
 }
 
+selas_status updated_one_by_one(struct updated *updated, struct messages *messages)
+{
+    const size_t places = updated->cloud->points + updated->ghosts;
+    array_free(updated->planes);
+    array_free(updated->shifts);
+    array_free(updated->shift);
+    updated->ordered = false;
+    updated->planes = NULL;
+    updated->shifts = NULL;
+    updated->shift = NULL;
+    updated->shift_room = 0;
+    array_free(updated->record);
+    updated->record = array_new(updated->layout.size * places, sizeof(double));
+    if (updated->record == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", updated->cloud->points);
+    return SELAS_OK;
+}
+
 selas_status updated_choose_order(struct updated *updated, struct messages *messages)
 {
     const size_t points = updated->cloud->points, places = points + updated->ghosts;
-    if (!updated->cubic || places > INT32_MAX) return SELAS_OK;
+    if (!updated->cubic || places > INT32_MAX) return updated_one_by_one(updated, messages);
     const size_t groups = (points + VEC - 1) / VEC;
     updated->stride = (places + 3 * VEC - 1) / VEC * VEC;
     updated->shifts = array_new(groups, sizeof *updated->shifts);
     updated->planes = array_new(updated->layout.size * updated->stride, sizeof *updated->planes);
     if (updated->shifts == NULL || updated->planes == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
-    const selas_status status = updated_merge_lists(updated, messages);
+    selas_status status = updated_merge_lists(updated, messages);
     double merged = 0;
     for (size_t k = 0; status == SELAS_OK && k < groups; k++)
         merged += VEC * (double)updated->shifts[k];
     updated->ordered = merged < MOST * (double)updated->merged;
-    if (updated->ordered) fill_ends(updated);
+    if (updated->ordered)
+        fill_ends(updated);
+    else if (status == SELAS_OK)
+        status = updated_one_by_one(updated, messages);
     return status;
 }

@@ -9,7 +9,8 @@
  * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
  * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
  * threads. Particles in some order (lattices, rings) are summed eight at a time
- * (updated_lagrangian_eight.h), others one by one (updated_lagrangian_batch.h). */
+ * (updated_lagrangian_eight.h), others one by one (updated_lagrangian_batch.h); what the sums say is worked
+ * out for eight at a time (updated_lagrangian_contract.h). */
 #include "method/updated_lagrangian_batch.h"
 #include "method/updated_lagrangian_eight.h"
 
@@ -17,108 +18,31 @@
 
 enum { BLOCK = 32 };
 
-/* Inverse of L; the identity where the neighbours do not span the space. */
-static inline void invert(const int dimension, const double matrix[6], double inverse[3][3])
-{
-    const double *m = matrix;
-    memset(inverse, 0, 9 * sizeof(double));
-    for (int a = 0; a < dimension; a++)
-        inverse[a][a] = 1;
-    if (dimension == 1) {
-        if (m[0] > 1e-6) inverse[0][0] = 1 / m[0];
-    } else if (dimension == 2) {
-        const double det = m[0] * m[1] - m[2] * m[2];
-        if (!(det > 1e-6)) return;
-        inverse[0][0] = m[1] / det;
-        inverse[1][1] = m[0] / det;
-        inverse[0][1] = inverse[1][0] = -m[2] / det;
-    } else {
-        const double xx = m[1] * m[2] - m[4] * m[4], xy = m[4] * m[5] - m[3] * m[2],
-                     xz = m[3] * m[4] - m[1] * m[5];
-        const double det = m[0] * xx + m[3] * xy + m[5] * xz;
-        if (!(det > 1e-6)) return;
-        inverse[0][0] = xx / det;
-        inverse[1][1] = (m[0] * m[2] - m[5] * m[5]) / det;
-        inverse[2][2] = (m[0] * m[1] - m[3] * m[3]) / det;
-        inverse[0][1] = inverse[1][0] = xy / det;
-        inverse[0][2] = inverse[2][0] = xz / det;
-        inverse[1][2] = inverse[2][1] = (m[3] * m[5] - m[0] * m[4]) / det;
-    }
-}
-
-/* Stress rate of Hooke's law and the Jaumann terms from the velocity gradient g[a][b] = d v_a / d x_b. */
-static inline void stress_rate(const struct updated *updated, const int dimension, double g[3][3],
-                               const double *stress, double *rate)
-{
-    const double lambda = updated->material->plane_lambda, mu = updated->material->mu;
-    double trace = 0;
-    for (int a = 0; a < dimension; a++)
-        trace += g[a][a];
-    for (int a = 0; a < dimension; a++)
-        for (int b = a; b < dimension; b++) {
-            double sum = mu * (g[a][b] + g[b][a]) + (a == b ? lambda * trace : 0);
-            if (updated->options.jaumann)
-                for (int c = 0; c < dimension; c++) {
-                    const double ac = (g[a][c] - g[c][a]) / 2, cb = (g[c][b] - g[b][c]) / 2;
-                    sum += ac * stress[updated_component[dimension][c][b]] -
-                           stress[updated_component[dimension][a][c]] * cb;
-                }
-            rate[updated_component[dimension][a][b]] = sum;
-        }
-}
-
 void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
 {
-    invert(dimension, matrix, inverse);
-}
-
-/* Rates of particle i from its sums. */
-INLINED void contract(const struct updated *updated, const int dimension, size_t i, struct updated_sums *sums,
-                      const double *y, double *dydt)
-{
-    const size_t points = updated->cloud->points, unknowns = updated->model.unknowns;
-    const size_t dim = (size_t)dimension, stresses = dim * (dim + 1) / 2;
-    const double *density = y + 2 * unknowns, *stress = density + points;
-    double *acceleration = dydt + unknowns, *density_rate = dydt + 2 * unknowns,
-           *stresses_rate = density_rate + points;
-    double inverse[3][3], gradient[3][3] = {{0}}, trace = 0;
-    if (!updated->options.correction) {
-        memset(sums->matrix, 0, sizeof sums->matrix);
-        memset(sums->full, 0, sizeof sums->full);
-    }
-    invert(dimension, sums->matrix, inverse);
-    for (int a = 0; a < dimension; a++) {
+    vec8 m[6] = {{0}}, x[3][3];
+    for (int s = 0; s < dimension * (dimension + 1) / 2; s++)
+        m[s] += matrix[s];
+    invert(dimension, m, x);
+    for (int a = 0; a < dimension; a++)
         for (int b = 0; b < dimension; b++)
-            for (int c = 0; c < dimension; c++)
-                gradient[a][b] += sums->velocity[a][c] * inverse[b][c];
-        trace += gradient[a][a];
-    }
-    if (updated->pressed) invert(dimension, sums->full, inverse);
-    for (int a = 0; a < dimension; a++) {
-        double sum = 0;
-        for (int c = 0; c < dimension; c++)
-            for (int b = 0; b < dimension; b++)
-                sum += sums->push[updated_component[dimension][a][b]][c] * inverse[b][c];
-        acceleration[dim * i + (size_t)a] = sum;
-    }
-    density_rate[i] = -density[i] * trace;
-    stress_rate(updated, dimension, gradient, stress + stresses * i, stresses_rate + stresses * i);
+            inverse[a][b] = x[a][b][0];
 }
 
 /* Rates of the particles first ... last - 1; first is a multiple of VEC. */
 INLINED void rates(const struct updated *updated, const int dimension, const bool viscous,
                    const bool repulsive, size_t first, size_t last, const double *y, double *dydt)
 {
-    for (size_t i = first; updated->ordered && i < last; i += VEC) {
-        struct updated_sums sums[VEC];
-        updated_eight(updated, dimension, viscous, repulsive, i, sums);
-        for (size_t lane = 0; lane < VEC && i + lane < last; lane++)
-            contract(updated, dimension, i + lane, &sums[lane], y, dydt);
-    }
-    for (size_t i = first; !updated->ordered && i < last; i++) {
-        struct updated_sums sums = {0};
-        updated_gather(updated, dimension, viscous, repulsive, i, &sums);
-        contract(updated, dimension, i, &sums, y, dydt);
+    for (size_t i = first; i < last; i += VEC) {
+        const size_t count = i + VEC < last ? VEC : last - i;
+        struct eight_sums sums = {.matrix = {{0}}};
+        if (updated->ordered) updated_eight(updated, dimension, viscous, repulsive, i, &sums);
+        for (size_t n = 0; !updated->ordered && n < count; n++) {
+            struct updated_sums one = {0};
+            updated_gather(updated, dimension, viscous, repulsive, i + n, &one);
+            put_sums(dimension, &one, n, &sums);
+        }
+        contract(updated, dimension, i, count, &sums, y, dydt);
     }
 }
 
