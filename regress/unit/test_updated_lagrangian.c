@@ -269,15 +269,15 @@ static void viscosity_of_a_pair(void **unused)
 static void repulsion_of(int dimension, const double *t, double *r)
 {
     const int stresses = dimension * (dimension + 1) / 2;
-    for (size_t lane = 0; lane < 8; lane++) {
-        double tension[6 * 8], repulsion[6 * 8];
+    for (size_t lane = 0; lane < UPDATED_TENSORS; lane++) {
+        double tension[6 * UPDATED_TENSORS], repulsion[6 * UPDATED_TENSORS];
         for (size_t k = 0; k < sizeof tension / sizeof *tension; k++)
             tension[k] = scatter(k);
         for (int s = 0; s < stresses; s++)
-            tension[8 * (size_t)s + lane] = t[s];
-        updated_artificial_stress(dimension, .3, 8, tension, repulsion);
+            tension[UPDATED_TENSORS * (size_t)s + lane] = t[s];
+        updated_artificial_stress(dimension, .3, UPDATED_TENSORS, tension, repulsion);
         for (int s = 0; s < stresses; s++) {
-            const double found = repulsion[8 * (size_t)s + lane];
+            const double found = repulsion[UPDATED_TENSORS * (size_t)s + lane];
             if (lane > 0) assert_near(found, r[s], 1e-14);
             r[s] = found;
         }

@@ -9,6 +9,12 @@
 #define EACH_MACHINE
 #endif
 
+#if defined(__GNUC__)
+#define NOT_INLINED __attribute__((noinline))
+#else
+#define NOT_INLINED
+#endif
+
 #define INLINED static inline __attribute__((always_inline))
 
 #endif

@@ -42,14 +42,6 @@ struct updated_layout {
     size_t velocity, volume, span, mass, density, length, tension, repulsion, size;
 };
 
-/* Sums over the neighbours of one particle. */
-struct updated_sums {
-    double matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
-    double full[6];        /* the same over all: with the ghosts of loaded faces */
-    double velocity[3][3]; /* V (v_j - v_i) grad W */
-    double push[6][3];     /* m (s_j/rho_j^2 + s_i/rho_i^2 - Pi I + f^4 (R_i + R_j)) grad W */
-};
-
 struct updated_hourglass;
 
 enum { UPDATED_END = 8 }; /* empty places at both ends of the planes */
@@ -138,7 +130,8 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
                               double *absorbed);
 
 /* updated_lagrangian_stress.c: R of Eqs 20-23 in any dimension from s / rho^2: minus epsilon times its
- * positive (tensile) part. Eight tensors in sequence; their components stand `stride` apart. */
+ * positive (tensile) part. UPDATED_TENSORS tensors in sequence; their components stand `stride` apart. */
+enum { UPDATED_TENSORS = 16 };
 void updated_artificial_stress(int dimension, double epsilon, size_t stride, const double *tension,
                                double *repulsion);
 

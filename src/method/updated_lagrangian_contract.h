@@ -7,9 +7,13 @@
 #include "base/vectors.h"
 #include "method/updated_lagrangian.h"
 
-/* Sums over the neighbours of eight particles: struct updated_sums. */
+/* Sums over the neighbours of eight particles. */
 struct eight_sums {
-    vec8 matrix[6], full[6], velocity[3][3], push[6][3];
+    vec8 matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
+    vec8 full[6];        /* the same over all: with the ghosts of loaded faces */
+    vec8 velocity[3][3]; /* V (v_j - v_i) grad W */
+    vec8 push[6][3];     /* m (s_j/rho_j^2 - Pi I + f^4 (R_i + R_j)) grad W; in contract() s_i/rho_i^2 too */
+    vec8 pull[3];        /* m grad W */
 };
 
 /* Inverse of L; the identity where the neighbours do not span the space. */
@@ -99,11 +103,17 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
         trace += gradient[a][a];
     }
     if (updated->pressed && updated->options.correction) invert(dimension, sums->full, inverse);
+    const double *packed = updated_packed(updated, i);
+    const size_t step = updated_step(updated), place = updated->ordered ? 1 : updated->layout.size;
+    for (size_t s = 0; s < stresses; s++)
+        take_lanes(packed + step * (updated->layout.tension + s), place, 0, count, &own[s]);
     for (int a = 0; a < dimension; a++) {
         vec8 sum = {0};
         for (int c = 0; c < dimension; c++)
-            for (int b = 0; b < dimension; b++)
-                sum += sums->push[updated_component[dimension][a][b]][c] * inverse[b][c];
+            for (int b = 0; b < dimension; b++) {
+                const int s = updated_component[dimension][a][b];
+                sum += (sums->push[s][c] + own[s] * sums->pull[c]) * inverse[b][c];
+            }
         give_lanes(&sum, acceleration, dim, (size_t)a, count);
     }
     vec8 thinning;
@@ -117,18 +127,29 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
         give_lanes(&rate[s], stresses_rate, stresses, s, count);
 }
 
-/* Sums of one particle into lane n. */
-INLINED void put_sums(const int dimension, const struct updated_sums *one, size_t n, struct eight_sums *eight)
+/* The lanes of the sums of one particle together, into one lane of those of eight. */
+INLINED void put_lane(const vec8 *parts, size_t lane, vec8 *eight)
+{
+    double sum = 0;
+    for (int n = 0; n < VEC; n++)
+        sum += (*parts)[n];
+    (*eight)[lane] = sum;
+}
+
+INLINED void put_sums(const int dimension, const struct eight_sums *parts, size_t lane,
+                      struct eight_sums *eight)
 {
     for (int s = 0; s < dimension * (dimension + 1) / 2; s++) {
-        eight->matrix[s][n] = one->matrix[s];
-        eight->full[s][n] = one->full[s];
+        put_lane(&parts->matrix[s], lane, &eight->matrix[s]);
+        put_lane(&parts->full[s], lane, &eight->full[s]);
         for (int a = 0; a < dimension; a++)
-            eight->push[s][a][n] = one->push[s][a];
+            put_lane(&parts->push[s][a], lane, &eight->push[s][a]);
     }
-    for (int a = 0; a < dimension; a++)
+    for (int a = 0; a < dimension; a++) {
+        put_lane(&parts->pull[a], lane, &eight->pull[a]);
         for (int b = 0; b < dimension; b++)
-            eight->velocity[a][b][n] = one->velocity[a][b];
+            put_lane(&parts->velocity[a][b], lane, &eight->velocity[a][b]);
+    }
 }
 
 #endif

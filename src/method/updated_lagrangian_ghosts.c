@@ -190,7 +190,8 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
         packed[step * (layout.tension + s)] = image->stress[s] * inverse;
 }
 
-/* Artificial stress of the eight packed particles from `place` on, or those of them that there are. */
+/* Artificial stress of the UPDATED_TENSORS packed particles from `place` on, or those of them that there are.
+ */
 static void repel(const struct updated *updated, size_t place)
 {
     const struct updated_layout layout = updated->layout;
@@ -203,14 +204,14 @@ static void repel(const struct updated *updated, size_t place)
                                   packed + updated->stride * layout.repulsion);
         return;
     }
-    double tension[6 * VEC] = {0}, repulsion[6 * VEC];
-    for (size_t n = 0; n < VEC && place + n < places; n++)
+    double tension[6 * UPDATED_TENSORS] = {0}, repulsion[6 * UPDATED_TENSORS];
+    for (size_t n = 0; n < UPDATED_TENSORS && place + n < places; n++)
         for (size_t s = 0; s < stresses; s++)
-            tension[VEC * s + n] = packed[layout.size * n + layout.tension + s];
-    updated_artificial_stress(updated->dimension, epsilon, VEC, tension, repulsion);
-    for (size_t n = 0; n < VEC && place + n < places; n++)
+            tension[UPDATED_TENSORS * s + n] = packed[layout.size * n + layout.tension + s];
+    updated_artificial_stress(updated->dimension, epsilon, UPDATED_TENSORS, tension, repulsion);
+    for (size_t n = 0; n < UPDATED_TENSORS && place + n < places; n++)
         for (size_t s = 0; s < stresses; s++)
-            packed[layout.size * n + layout.repulsion + s] = repulsion[VEC * s + n];
+            packed[layout.size * n + layout.repulsion + s] = repulsion[UPDATED_TENSORS * s + n];
 }
 
 static void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
@@ -276,10 +277,10 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
     }
     const size_t places = points + updated->ghosts, step = updated_step(updated);
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
-    for (size_t place = 0; place < places; place += VEC) {
+    for (size_t place = 0; place < places; place += UPDATED_TENSORS) {
         if (updated->repulsive) repel(updated, place);
         /* updated_lagrangian_hourglass.c adds their force */
-        for (size_t i = place; updated->options.adjoint && i < place + VEC && i < places; i++)
+        for (size_t i = place; updated->options.adjoint && i < place + UPDATED_TENSORS && i < places; i++)
             for (size_t s = 0; s < (size_t)updated->stresses; s++)
                 updated_packed(updated, i)[step * (updated->layout.tension + s)] = 0;
     }

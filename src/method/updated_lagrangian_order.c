@@ -115,7 +115,7 @@ selas_status updated_choose_order(struct updated *updated, struct messages *mess
     const size_t points = updated->cloud->points, places = points + updated->ghosts;
     if (!updated->cubic || places > INT32_MAX) return updated_one_by_one(updated, messages);
     const size_t groups = (points + VEC - 1) / VEC;
-    updated->stride = (places + 3 * VEC - 1) / VEC * VEC;
+    updated->stride = (places + 4 * VEC - 1) / VEC * VEC;
     updated->shifts = array_new(groups, sizeof *updated->shifts);
     updated->planes = array_new(updated->layout.size * updated->stride, sizeof *updated->planes);
     if (updated->shifts == NULL || updated->planes == NULL)

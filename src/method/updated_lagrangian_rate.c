@@ -8,11 +8,10 @@
  *
  * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
  * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
- * threads. Particles in some order (lattices, rings) are summed eight at a time
- * (updated_lagrangian_eight.h), others one by one (updated_lagrangian_batch.h); what the sums say is worked
- * out for eight at a time (updated_lagrangian_contract.h). */
-#include "method/updated_lagrangian_batch.h"
-#include "method/updated_lagrangian_eight.h"
+ * threads. Particles in some order (lattices, rings) are summed eight at a time, others one by one
+ * (updated_lagrangian_gather.h, _pairs.h); what the sums say is worked out for eight at a time
+ * (updated_lagrangian_contract.h). */
+#include "method/updated_lagrangian_gather.h"
 
 #include <string.h>
 
@@ -30,36 +29,27 @@ void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
 }
 
 /* Rates of the particles first ... last - 1; first is a multiple of VEC. */
-INLINED void rates(const struct updated *updated, const int dimension, const bool viscous,
-                   const bool repulsive, size_t first, size_t last, const double *y, double *dydt)
+INLINED void rates(const struct updated *updated, const int dimension, size_t first, size_t last,
+                   const double *y, double *dydt)
 {
+    const struct pair_switches on = {updated->alpha > 0 || updated->beta > 0, updated->repulsive,
+                                     updated->cubic, updated->even};
     for (size_t i = first; i < last; i += VEC) {
         const size_t count = i + VEC < last ? VEC : last - i;
-        struct eight_sums sums = {.matrix = {{0}}};
-        if (updated->ordered) updated_eight(updated, dimension, viscous, repulsive, i, &sums);
-        for (size_t n = 0; !updated->ordered && n < count; n++) {
-            struct updated_sums one = {0};
-            updated_gather(updated, dimension, viscous, repulsive, i + n, &one);
-            put_sums(dimension, &one, n, &sums);
-        }
+        _Alignas(64) struct eight_sums sums = {.matrix = {{0}}};
+        if (updated->ordered) gather_eight(updated, dimension, on, i, &sums);
+        for (size_t n = 0; !updated->ordered && n < count; n++)
+            gather_one(updated, dimension, on, i + n, n, &sums);
         contract(updated, dimension, i, count, &sums, y, dydt);
     }
 }
 
-/* Instances with constant dimension and switches: what is off is not there. */
+/* Instances with constant dimension. */
 #define RATES(dimension)                                                                                     \
     EACH_MACHINE static void rates_##dimension(const struct updated *updated, size_t first, size_t last,     \
                                                const double *y, double *dydt)                                \
     {                                                                                                        \
-        const bool viscous = updated->alpha > 0 || updated->beta > 0;                                        \
-        if (viscous && updated->repulsive)                                                                   \
-            rates(updated, dimension, true, true, first, last, y, dydt);                                     \
-        else if (viscous)                                                                                    \
-            rates(updated, dimension, true, false, first, last, y, dydt);                                    \
-        else if (updated->repulsive)                                                                         \
-            rates(updated, dimension, false, true, first, last, y, dydt);                                    \
-        else                                                                                                 \
-            rates(updated, dimension, false, false, first, last, y, dydt);                                   \
+        rates(updated, dimension, first, last, y, dydt);                                                     \
     }
 RATES(1)
 RATES(2)

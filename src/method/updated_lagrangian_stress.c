@@ -1,12 +1,15 @@
 /* Artificial stress against the tensile instability (Gray, Monaghan & Swift 2001; He & Seaid 2016, Eqs
  * 20-23): in the principal axes R = -epsilon s / rho^2 where s > 0 (tension), 0 where s <= 0. In other words
- * R is -epsilon times the positive part of the tensor s / rho^2, which needs no angle. Eight tensors at a
- * time, one in each lane of a vector. */
+ * R is -epsilon times the positive part of the tensor s / rho^2, which needs no angle. One tensor in each
+ * lane of a vector, two vectors at a time: a rotation is a long chain of operations that wait for each other.
+ */
 #include "base/machine.h"
 #include "base/vectors.h"
 #include "method/updated_lagrangian.h"
 
 #include <float.h>
+
+enum { GROUPS = UPDATED_TENSORS / VEC };
 
 INLINED void positive(const vec8 *x, vec8 *result)
 {
@@ -58,54 +61,70 @@ INLINED void rotate(vec8 a[3][3], vec8 v[3][3], const int p, const int q)
 }
 
 /* What stands beside the diagonal no longer counts in any lane. */
-INLINED bool is_diagonal(vec8 a[3][3])
+INLINED bool are_diagonal(vec8 a[GROUPS][3][3])
 {
-    const vec8 beside = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
-    const vec8 along = a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2];
-    const mask8 more = (mask8)(beside > 1e-36 * along);
+    mask8 more = {0};
+    for (int g = 0; g < GROUPS; g++) {
+        vec8(*m)[3] = a[g];
+        const vec8 beside = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
+        const vec8 along = m[0][0] * m[0][0] + m[1][1] * m[1][1] + m[2][2] * m[2][2];
+        more |= (mask8)(beside > 1e-36 * along);
+    }
     long long any = 0;
     for (int n = 0; n < VEC; n++)
         any |= more[n];
     return any == 0;
 }
 
-INLINED void in_space(double epsilon, const vec8 *t, vec8 *r)
+INLINED void in_space(double epsilon, vec8 t[GROUPS][6], vec8 r[GROUPS][6])
 {
     enum { SWEEPS = 6 }; /* convergence is quadratic: 4 reach rounding */
-    const vec8 none = {0}, one = none + 1;
-    vec8 a[3][3] = {{t[0], t[3], t[5]}, {t[3], t[1], t[4]}, {t[5], t[4], t[2]}};
-    vec8 v[3][3] = {{one, none, none}, {none, one, none}, {none, none, one}};
-    for (int sweep = 0; sweep < SWEEPS && !is_diagonal(a); sweep++) {
-        rotate(a, v, 0, 1);
-        rotate(a, v, 0, 2);
-        rotate(a, v, 1, 2);
-    }
     static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-    vec8 value[3];
-    for (int k = 0; k < 3; k++) {
-        positive(&a[k][k], &value[k]);
-        value[k] *= -epsilon;
+    const vec8 none = {0}, one = none + 1;
+    vec8 a[GROUPS][3][3], v[GROUPS][3][3];
+    for (int g = 0; g < GROUPS; g++)
+        for (int s = 0; s < 6; s++) {
+            a[g][row[s]][column[s]] = a[g][column[s]][row[s]] = t[g][s];
+            v[g][row[s]][column[s]] = v[g][column[s]][row[s]] = s < 3 ? one : none;
+        }
+    for (int sweep = 0; sweep < SWEEPS && !are_diagonal(a); sweep++) {
+        for (int g = 0; g < GROUPS; g++)
+            rotate(a[g], v[g], 0, 1);
+        for (int g = 0; g < GROUPS; g++)
+            rotate(a[g], v[g], 0, 2);
+        for (int g = 0; g < GROUPS; g++)
+            rotate(a[g], v[g], 1, 2);
     }
-    for (int s = 0; s < 6; s++)
-        r[s] = value[0] * v[row[s]][0] * v[column[s]][0] + value[1] * v[row[s]][1] * v[column[s]][1] +
-               value[2] * v[row[s]][2] * v[column[s]][2];
+    for (int g = 0; g < GROUPS; g++) {
+        vec8 value[3];
+        for (int k = 0; k < 3; k++) {
+            positive(&a[g][k][k], &value[k]);
+            value[k] *= -epsilon;
+        }
+        for (int s = 0; s < 6; s++)
+            r[g][s] = value[0] * v[g][row[s]][0] * v[g][column[s]][0] +
+                      value[1] * v[g][row[s]][1] * v[g][column[s]][1] +
+                      value[2] * v[g][row[s]][2] * v[g][column[s]][2];
+    }
 }
 
 EACH_MACHINE void updated_artificial_stress(int dimension, double epsilon, size_t stride,
                                             const double *tension, double *repulsion)
 {
     const size_t stresses = (size_t)(dimension * (dimension + 1) / 2);
-    vec8 t[6], r[6];
-    for (size_t s = 0; s < stresses; s++)
-        t[s] = VEC8(tension + stride * s);
-    if (dimension == 1) {
-        positive(&t[0], &r[0]);
-        r[0] *= -epsilon;
-    } else if (dimension == 2) {
-        in_the_plane(epsilon, t, r);
-    } else {
-        in_space(epsilon, t, r);
-    }
-    for (size_t s = 0; s < stresses; s++)
-        memcpy(repulsion + stride * s, &r[s], sizeof r[s]);
+    vec8 t[GROUPS][6], r[GROUPS][6];
+    for (size_t g = 0; g < GROUPS; g++)
+        for (size_t s = 0; s < stresses; s++)
+            t[g][s] = VEC8(tension + stride * s + VEC * g);
+    for (int g = 0; g < GROUPS && dimension < 3; g++)
+        if (dimension == 1) {
+            positive(&t[g][0], &r[g][0]);
+            r[g][0] *= -epsilon;
+        } else {
+            in_the_plane(epsilon, t[g], r[g]);
+        }
+    if (dimension == 3) in_space(epsilon, t, r);
+    for (size_t g = 0; g < GROUPS; g++)
+        for (size_t s = 0; s < stresses; s++)
+            memcpy(repulsion + stride * s + VEC * g, &r[g][s], sizeof r[g][s]);
 }
