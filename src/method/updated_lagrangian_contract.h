@@ -91,7 +91,7 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
     const double *density = y + 2 * unknowns + i, *stress = y + 2 * unknowns + points + stresses * i;
     double *acceleration = dydt + unknowns + dim * i, *density_rate = dydt + 2 * unknowns + i,
            *stresses_rate = dydt + 2 * unknowns + points + stresses * i;
-    vec8 matrix[6] = {{0}}, inverse[3][3], gradient[3][3], trace = {0}, own[6], rate[6];
+    vec8 matrix[6] = {{0}}, inverse[3][3], gradient[3][3], trace = {0}, own[6] = {{0}}, rate[6];
     if (updated->options.correction) memcpy(matrix, sums->matrix, sizeof matrix);
     invert(dimension, matrix, inverse);
     for (int a = 0; a < dimension; a++) {

@@ -142,7 +142,7 @@ INLINED void weigh(const struct updated *updated, const struct pair_constants *c
     for (int k = 0; k < pairs->count; k++) {
         const double *other = pairs->other + pairs->shift[k];
         const vec8 s = chunk->s[k], far = s + .01;
-        vec8 over = chunk->inverse[k], slope, shape;
+        vec8 over = chunk->inverse[k], slope = {0}, shape = {0};
         if (on.viscous) over *= far * chunk->mean[k];
         const vec8 q = s * over;
         if (on.cubic)
