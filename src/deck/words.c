@@ -31,6 +31,10 @@ static const struct word method_words[] = {
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", false,
      "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
      "else vc3)"},
+    {"tuned", WORD_LOGICAL, 1, NULL, NULL, false,
+     "splines along the surface tuned for short waves (consistent, degree 4, exact mass; the default on "
+     "layered "
+     "ground)"},
     {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", false,
      "mass in the stiffness over depth where the inverse is by sweeps: exact, or the same as elsewhere"},
     {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,

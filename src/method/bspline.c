@@ -18,6 +18,8 @@ void spline_free(struct spline *spline)
     array_free(spline->element);
     array_free(spline->gauss_position);
     array_free(spline->gauss_weight);
+    band_free(spline->filter[0]);
+    band_free(spline->filter[1]);
     array_free(spline);
 }
 

@@ -173,6 +173,7 @@ static void describe(const struct model *model,
     tell(context, "basis", text);
     snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form%s)", c->options.sweeps,
              c->options.depth_exact ? ", exact over depth in the stiffness" : "");
+    if (c->options.tuned) tell(context, "splines along the surface", "tuned for short waves");
     tell(context, "mass", c->options.sweeps == 0 ? "exact (banded Cholesky per axis)" : text);
     if (c->fused != NULL) {
         snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,
@@ -270,13 +271,15 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
         const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
         for (int end = 0; end < 2; end++)
             choice.mirror[end] = boundary[end].kind == BOUNDARY_SYMMETRY;
-        if (choice.mirror[0] && choice.mirror[1] && cells <= 2 * c->options.degree)
+        if (choice.mirror[0] && choice.mirror[1] && cells <= 2 * choice.degree)
             choice.mirror[0] = choice.mirror[1] = false; /* too thin: the normal component is held instead */
         c->spline[axis] = spline_new(&choice, messages);
         if (c->spline[axis] == NULL)
             status = messages->no_memory ? SELAS_NO_MEMORY : SELAS_BAD_SCENE;
         else
             c->n[c->slot[axis]] = c->spline[axis]->count;
+        if (status == SELAS_OK && c->options.tuned && c->slot[axis] != DEPTH && !spline_tune(c->spline[axis]))
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for the axes");
         c->layout[c->slot[axis]] = c->spline[axis];
     }
     array_free(interface);

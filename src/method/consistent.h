@@ -7,12 +7,13 @@
 #ifndef SELAS_CONSISTENT_H
 #define SELAS_CONSISTENT_H
 
-#include "method/bspline.h"
 #include "method/model.h"
 #include "method/tensor.h"
+#include "method/tuned_spline.h"
 
 struct consistent_options {
     int degree;       /* 1 .. SPLINE_MAX_DEGREE */
+    bool tuned;       /* exact mass: splines of all axes but the last tuned (tuned_spline.h) */
     bool mapped;      /* ends mapped instead of open */
     int sweeps;       /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
     bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
@@ -85,8 +86,8 @@ struct consistent {
     struct hform *hform;          /* NULL: exact mass */
     struct fused *fused;          /* NULL: the scene is none for it, or it is not wanted */
     int threads;
-    struct spline_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
-    struct band *collocation[3][2];     /* [axis][odd]: LU factors of the values at the Greville points */
+    struct tuned_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
+    struct band *collocation[3][2];    /* [axis][odd]: LU factors of the values at the Greville points */
 };
 
 /* What the deck says of the method's options; what it leaves open has the method's defaults. */

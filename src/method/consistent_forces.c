@@ -17,6 +17,7 @@ struct workspace {
     double *field;   /* [dimension * volume] */
     double *line[3]; /* [count] by axis */
     double *face;    /* [counts of a face's two axes]: disc */
+    double *work;    /* [largest count] */
 };
 
 static bool workspace_new(const struct consistent *c, struct workspace *w)
@@ -31,13 +32,15 @@ static bool workspace_new(const struct consistent *c, struct workspace *w)
         largest = count > largest ? count : largest;
     }
     w->face = array_new(largest * largest, sizeof *w->face);
-    return good && w->face != NULL;
+    w->work = array_new(largest, sizeof *w->work);
+    return good && w->face != NULL && w->work != NULL;
 }
 
 static void workspace_free(struct workspace *w)
 {
     array_free(w->field);
     array_free(w->face);
+    array_free(w->work);
     for (int axis = 0; axis < 3; axis++)
         array_free(w->line[axis]);
 }
@@ -127,10 +130,10 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
     const double small = 1e-9 * (spline->high - spline->low); /* no layer lies behind a symmetry plane */
     const bool cut = (boundary[0].kind == BOUNDARY_SYMMETRY && fabs(x - spline->low) < small) ||
                      (boundary[1].kind == BOUNDARY_SYMMETRY && fabs(x - spline->high) < small);
-    struct spline_point at;
-    spline_at(spline, odd, x, &at);
+    struct tuned_point at;
+    tuned_at(spline, odd, x, &at);
     memset(line, 0, spline->count * sizeof *line);
-    for (int j = 0; j <= spline->degree; j++)
+    for (size_t j = 0; j < at.count; j++)
         line[at.index[j]] += (slope ? at.slope[j] : at.value[j]) * (half && cut ? .5 : 1);
 }
 
@@ -156,9 +159,9 @@ static bool traction(struct consistent *c, const struct load *load, const double
             if (load->shape == LOAD_POINT)
                 consistent_point_line(c, axis, odd, false, true, centre[axis], line);
             else if (load->shape == LOAD_FACE)
-                spline_moments(spline, odd, body->low[axis], body->high[axis], line);
+                tuned_moments(spline, odd, body->low[axis], body->high[axis], w->work, line);
             else
-                spline_moments(spline, odd, centre[axis] - half, centre[axis] + half, line);
+                tuned_moments(spline, odd, centre[axis] - half, centre[axis] + half, w->work, line);
         }
         if (load->shape != LOAD_DISC || count < 2) {
             add_product(c, w, component, direction[component]);
@@ -190,7 +193,8 @@ static void body_force(struct consistent *c, const struct load *load, const doub
             if (load->shape == LOAD_POINT)
                 consistent_point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
             else
-                spline_moments(spline, axis == component, body->low[axis], body->high[axis], w->line[axis]);
+                tuned_moments(spline, axis == component, body->low[axis], body->high[axis], w->work,
+                              w->line[axis]);
         }
         add_product(c, w, component, direction[component]);
     }

@@ -69,8 +69,9 @@ const struct mass_factors *mass_factors_for(struct consistent *c, double half_st
 
 static size_t half_width(const struct consistent *c, int slot)
 {
-    const size_t p = (size_t)c->options.degree;
-    return p < c->n[slot] ? p : c->n[slot] - 1;
+    for (int axis = 0; axis < c->dimension; axis++)
+        if (c->slot[axis] == slot) return c->mass_band[0][axis]->half;
+    return 0;
 }
 
 static void solve_rows(const double *factor, size_t n, size_t half, size_t rows, double *buffer,
@@ -180,7 +181,7 @@ bool mass_allocate(struct consistent *c)
         for (int component = 0; component < c->dimension; component++)
             for (int axis = 0; axis < c->dimension; axis++) {
                 const int slot = c->slot[axis];
-                const size_t numbers = c->n[slot] * (SPLINE_MAX_DEGREE + 1);
+                const size_t numbers = c->n[slot] * (factors->half[slot] + 1);
                 for (size_t class = 0; class < (slot == DEPTH ? 1 : c->classes); class ++) {
                     double *factor = array_new(numbers, sizeof *factor);
                     if (factor == NULL) return false;

@@ -26,8 +26,8 @@ const struct band *consistent_matrix(struct consistent *c, int axis, int test_sl
             return m->band;
     }
     if (c->matrices == MAX_MATRICES) return NULL;
-    struct band *band = spline_matrix(spline, test_odd, test_slope, trial_odd, trial_slope,
-                                      weight == WEIGHT_NONE ? NULL : c->weighted[weight]);
+    struct band *band = tuned_matrix(spline, test_odd, test_slope, trial_odd, trial_slope,
+                                     weight == WEIGHT_NONE ? NULL : c->weighted[weight]);
     if (band != NULL)
         c->matrix[c->matrices++] =
             (struct axis_matrix){axis, test_slope, trial_slope, test_odd, trial_odd, weight, band};

@@ -10,19 +10,19 @@
 
 /* Functions of the three axes at one place, for components that are even and odd at symmetry planes. */
 struct place {
-    const struct spline_point *at[3][2]; /* [axis][odd] */
+    const struct tuned_point *at[3][2]; /* [axis][odd] */
 };
 
 /* Value, and with a gradient the slopes, of one component of a control field. */
 static void evaluate(const struct consistent *c, const struct place *place, int component,
                      const double *field, double *value, double *gradient)
 {
-    static const struct spline_point one = {.value = {1}};
-    const struct spline_point *at[3] = {&one, &one, &one};
+    static const struct tuned_point one = {.count = 1, .value = {1}};
+    const struct tuned_point *at[3] = {&one, &one, &one};
     size_t count[3] = {1, 1, 1};
     for (int axis = 0; axis < c->dimension; axis++) {
         at[c->slot[axis]] = place->at[axis][axis == component];
-        count[c->slot[axis]] = (size_t)c->options.degree + 1;
+        count[c->slot[axis]] = place->at[axis][axis == component]->count;
     }
     double sum = 0, slope[3] = {0, 0, 0};
     for (size_t k = 0; k < count[2]; k++)
@@ -79,13 +79,13 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
                         const double *a, double *value)
 {
     const struct consistent *c = consistent_of(model);
-    struct spline_point at[3][2];
+    struct tuned_point at[3][2];
     struct place place = {0};
     double position[3];
     to_body(c, probe->position, position);
     for (int axis = 0; axis < c->dimension; axis++)
         for (int odd = 0; odd < 2; odd++) {
-            spline_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
+            tuned_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
             place.at[axis][odd] = &at[axis][odd];
         }
     field_at(c, &place, probe->material, field, y, a, value);
@@ -114,14 +114,13 @@ selas_status consistent_probe(struct model *model, const double position[3], str
                               struct messages *messages)
 {
     struct consistent *c = consistent_of(model);
-    const size_t local = (size_t)c->options.degree + 1;
-    struct spline_point at[3] = {{.value = {1}}, {.value = {1}}, {.value = {1}}};
+    struct tuned_point at[3] = {{.value = {1}}, {.value = {1}}, {.value = {1}}};
     size_t count[3] = {1, 1, 1};
     double place[3];
     to_body(c, position, place);
     for (int axis = 0; axis < c->dimension; axis++) {
-        spline_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
-        count[c->slot[axis]] = local;
+        tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
+        count[c->slot[axis]] = at[c->slot[axis]].count;
     }
     const selas_status status = probe_allocate(probe, count[0] * count[1] * count[2], messages);
     if (status != SELAS_OK) return status;
@@ -161,10 +160,10 @@ bool observe_create(struct consistent *c)
         model->grid[axis] = cells < 1.5 ? 2 : (size_t)(cells + .5) + 1;
         model->points *= model->grid[axis];
         for (int odd = 0; odd < 2; odd++) {
-            c->lattice[axis][odd] = array_new(model->grid[axis], sizeof(struct spline_point));
+            c->lattice[axis][odd] = array_new(model->grid[axis], sizeof(struct tuned_point));
             if (c->lattice[axis][odd] == NULL) return false;
             for (size_t i = 0; i < model->grid[axis]; i++)
-                spline_at(c->spline[axis], odd, lattice_position(c, axis, i), &c->lattice[axis][odd][i]);
+                tuned_at(c->spline[axis], odd, lattice_position(c, axis, i), &c->lattice[axis][odd][i]);
         }
     }
     return true;

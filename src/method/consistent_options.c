@@ -11,6 +11,12 @@ static bool layered(const struct body *body)
     return body->layers > 1 || (body->layers == 1 && body->layer[0].top > 0);
 }
 
+static bool tunable(const struct scene *scene, const struct consistent_options *options)
+{
+    return options->degree == TUNED_DEGREE && options->sweeps == 0 && !options->mapped &&
+           scene->initial.kind == INITIAL_REST;
+}
+
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
                               struct messages *messages)
 {
@@ -20,6 +26,12 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
     if (options->dissipation > 0 && options->sweeps == 0)
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%dissipation needs method%%mass = 'vc1', 'vc2' or 'vc3', not 'exact'");
+    if (options->tuned && !tunable(scene, options))
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "method%%tuned needs method%%degree = %d, method%%mass = 'exact', method%%ends = 'open' and a "
+            "body at rest",
+            TUNED_DEGREE);
     if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
         return fail(messages, SELAS_UNSUPPORTED,
                     "the consistent smoothed point method needs a box or a half-space; for other bodies take "
@@ -42,7 +54,8 @@ static bool given(const struct deck_group *group, const char *word)
 
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4 and the
  * exact mass where no C-PML stands beside it (that is built on sweeps only): waves in a soft layer are short
- * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/layered.md). */
+ * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/layered.md). Then
+ * splines are tuned, too. */
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
@@ -63,5 +76,7 @@ struct consistent_options consistent_options_of(const struct scene *scene)
     options.quiet = given(group, "quiet") ? deck_real(group, "quiet", 0) : 1e-12;
     if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
     if (given(group, "ends")) options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
+    options.tuned = layered(&scene->body) && tunable(scene, &options);
+    if (given(group, "tuned")) options.tuned = deck_logical(group, "tuned", 0);
     return options;
 }

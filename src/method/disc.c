@@ -6,6 +6,7 @@
 #include "method/disc.h"
 
 #include "base/memory.h"
+#include "method/tuned_spline.h"
 
 #include <gsl/gsl_integration.h>
 #include <math.h>
@@ -40,11 +41,11 @@ static void add_chord(const struct spline *first, bool first_odd, const struct s
                       bool second_odd, double x, const double middle_half[2], double weight, double *chord,
                       double *moment)
 {
-    struct spline_point at;
-    spline_at(first, first_odd, x, &at);
-    spline_moments(second, second_odd, middle_half[0] - middle_half[1], middle_half[0] + middle_half[1],
-                   chord);
-    for (int i = 0; i <= first->degree; i++) {
+    struct tuned_point at;
+    tuned_at(first, first_odd, x, &at);
+    tuned_moments(second, second_odd, middle_half[0] - middle_half[1], middle_half[0] + middle_half[1],
+                  chord + second->count, chord);
+    for (size_t i = 0; i < at.count; i++) {
         double *row = moment + at.index[i] * second->count;
         for (size_t j = 0; j < second->count; j++)
             row[j] += weight * at.value[i] * chord[j];
@@ -56,7 +57,7 @@ bool disc_moments(const struct spline *first, bool first_odd, const struct splin
 {
     memset(moment, 0, first->count * second->count * sizeof *moment);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
-    double *chord = array_new(second->count, sizeof *chord);
+    double *chord = array_new(2 * second->count, sizeof *chord);
     if (table == NULL || chord == NULL) return false;
     for (double theta = -M_PI / 2; theta < M_PI / 2 - 1e-12;) {
         const double next = next_angle(first, second, disc, theta);

@@ -9,48 +9,23 @@
 #include "method/hform.h"
 
 #include "base/memory.h"
+#include "method/spline_images.h"
 
 #include <math.h>
 #include <omp.h>
 #include <string.h>
 
-enum { REACH = 2, STENCIL = 2 * REACH + 1 };
-
-/* Control value that stands at place `at` of the axis, which may lie beyond a mirror: its index, sign and
- * position. False: none does. */
-static bool control_at(const struct spline *spline, bool odd, ptrdiff_t at, size_t *index, double *sign,
-                       double *position)
-{
-    const ptrdiff_t count = (ptrdiff_t)spline->count;
-    ptrdiff_t inside = at;
-    if (at < 0) inside = spline->centred[0] ? -at : -1 - at;
-    if (at >= count) inside = 2 * count - at - (spline->centred[1] ? 2 : 1);
-    const int end = at < 0 ? 0 : 1;
-    const bool beyond = inside != at;
-    if (inside < 0 || inside >= count || (beyond && !spline->mirror[end])) return false;
-    *index = (size_t)inside;
-    *sign = beyond && odd ? -1 : 1;
-    *position = spline->greville[inside];
-    if (beyond) *position = 2 * (end == 0 ? spline->low : spline->high) - *position;
-    return true;
-}
+enum { REACH = 2 };
 
 /* Adds factor times the square of the fourth difference about a place, if there is one. */
 static void add_difference(const struct spline *spline, bool odd, size_t centre, double factor,
                            struct band *square)
 {
-    static const double weight[STENCIL] = {1, -4, 6, -4, 1};
-    size_t index[STENCIL];
-    double sign[STENCIL], position[STENCIL];
-    for (int i = 0; i < STENCIL; i++)
-        if (!control_at(spline, odd, (ptrdiff_t)centre + i - REACH, &index[i], &sign[i], &position[i]))
-            return;
-    const double gap = (position[STENCIL - 1] - position[0]) / (STENCIL - 1);
-    for (int i = 1; i < STENCIL; i++)
-        if (fabs(position[i] - position[i - 1] - gap) > 1e-6 * gap) return;
-    for (int i = 0; i < STENCIL; i++)
-        for (int j = 0; j < STENCIL; j++)
-            band_add(square, index[i], index[j], factor * weight[i] * weight[j] * sign[i] * sign[j]);
+    struct difference d;
+    if (!spline_difference(spline, odd, (ptrdiff_t)centre - REACH, 2 * REACH, &d)) return;
+    for (int i = 0; i <= d.order; i++)
+        for (int j = 0; j <= d.order; j++)
+            band_add(square, d.index[i], d.index[j], factor * d.factor[i] * d.factor[j]);
 }
 
 /* P of a component's axis. Over depth N has the density in it: that of the lightest layer makes P the same or

@@ -77,7 +77,7 @@ static void find_range(size_t count, struct moving_line *line)
         line->to--;
 }
 
-static void place_line(const struct consistent *c, const struct moving_load *moving, int component, int axis,
+static void place_line(const struct consistent *c, struct moving_load *moving, int component, int axis,
                        double time, struct moving_line *line)
 {
     const struct spline *spline = c->spline[axis];
@@ -91,7 +91,7 @@ static void place_line(const struct consistent *c, const struct moving_load *mov
                                                   : c->model.scene->body.high[axis],
                               line->value);
     else if (half > 0)
-        spline_moments(spline, odd, x - half, x + half, line->value);
+        tuned_moments(spline, odd, x - half, x + half, moving->work, line->value);
     else if (x < spline->low - small || x > spline->high + small)
         memset(line->value, 0, spline->count * sizeof *line->value);
     else
