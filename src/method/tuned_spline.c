@@ -1,12 +1,12 @@
 /* Tuned splines (doc/consistent-method.md, section 14): with t = (2 sin(theta / 2))^2, theta = k dx,
  *
  *   M' = dx [M + sum over q of m_q B_q^T B_q],  S' = [S + sum of s_q B_q^T B_q] / dx, (U1) G' = G + sum of
- * g_q B_q^T A B_q,            F = 1 + sum of f_q (-1)^q D^2q,                            (U2)
+ * g_q B_q^T A B_q,            F = 1 + sum of f_q B_q^T B_q,                              (U2)
  *
  * B_q the q-th differences of evenly spaced control values (symbol of B_q^T B_q: t^q), A half the difference
- * of the next row and the last one (symbol i sin(theta)), D^2q the centred difference of order 2q. The
- * numbers are those of regress/tuned-splines. Towards ends that are no symmetry planes all of them fade out,
- * and a little stiffness is added where they do (U6). */
+ * of the next row and the last one (symbol i sin(theta)). The numbers are those of regress/tuned-splines.
+ * Towards ends that are no symmetry planes all of them fade out, and a little stiffness is added where they
+ * do (U6). */
 #include "method/tuned_spline.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_ORDER = 9, JOINT_ORDER = 3, START = 2, RAMP = 8, PAD = 4 };
+enum { MOST_ORDER = 9, JOINT_ORDER = 3, START = 4, RAMP = 6, PAD = 4 };
 static const double JOINT = 1e-3;
 
 static const struct tuning {
@@ -38,20 +38,21 @@ static double spacing(const struct spline *spline)
 }
 
 /* Distance of a place (index of a control value, or halfway) from the nearer end that is no symmetry plane,
- * counted from the first control value that is as far from both its neighbours. */
+ * beyond START: the widest differences about places further in do not touch the functions that the end cuts
+ * short. */
 static double distance(const struct spline *spline, double place)
 {
-    const double skipped = spline->degree - 1, last = (double)spline->count - 1;
+    const double skipped = spline->degree - 1 + START, last = (double)spline->count - 1;
     double nearest = INFINITY;
     if (!spline->mirror[0]) nearest = fmin(nearest, place - skipped);
     if (!spline->mirror[1]) nearest = fmin(nearest, last - skipped - place);
     return nearest;
 }
 
-/* From 0 to 1 over RAMP cells, beginning START cells inside. */
-static double ramp(const struct spline *spline, double place)
+/* From 0 to 1 over RAMP cells. */
+static double ramp(double cells)
 {
-    const double s = fmin(1, fmax(0, (distance(spline, place) - START) / RAMP));
+    const double s = fmin(1, fmax(0, cells / RAMP));
     return s * s * s * (10 - 15 * s + 6 * s * s);
 }
 
@@ -87,8 +88,8 @@ static void add_form(const struct spline *spline, bool test_odd, bool trial_odd,
     for (ptrdiff_t first = -order - 1; first < count; first++) {
         struct difference test, trial, next_test, next_trial;
         const double place = (double)first + order / 2. + (form == TURNED ? .5 : 0);
-        const double here =
-            form == SQUARES_AT_JOINTS ? distance(spline, place) <= START + RAMP + PAD : ramp(spline, place);
+        const double cells = distance(spline, place);
+        const double here = form == SQUARES_AT_JOINTS ? cells > 0 && cells <= RAMP + PAD : ramp(cells);
         const double part = factor * here * share(spline, place);
         if (part == 0 || !spline_difference(spline, test_odd, first, order, &test) ||
             !spline_difference(spline, trial_odd, first, order, &trial))
@@ -127,29 +128,20 @@ struct band *tuned_matrix(const struct spline *spline, bool test_odd, int test_s
     return sum;
 }
 
-/* Adds row `row` of the filter F. */
-static void add_filter_row(const struct spline *spline, bool odd, size_t row, struct band *filter)
-{
-    band_add(filter, row, row, 1);
-    const double part = ramp(spline, (double)row);
-    for (int q = 1; q < MOST_ORDER; q++) {
-        struct difference difference;
-        if (tuning.filter[q] == 0 || !spline_difference(spline, odd, (ptrdiff_t)row - q, 2 * q, &difference))
-            continue;
-        for (int i = 0; i <= 2 * q; i++)
-            band_add(filter, row, difference.index[i],
-                     (q % 2 == 0 ? part : -part) * tuning.filter[q] * difference.factor[i]);
-    }
-}
-
 bool spline_tune(struct spline *spline)
 {
+    const double last = (double)spline->count - 1;
+    const double innermost = spline->mirror[0] ? 0 : spline->mirror[1] ? last : last / 2;
+    if (distance(spline, innermost) < RAMP + PAD) return true;
     const size_t half = FILTER_REACH < spline->count ? FILTER_REACH : spline->count - 1;
     for (int odd = 0; odd < 2; odd++) {
-        spline->filter[odd] = band_new(spline->count, half);
-        if (spline->filter[odd] == NULL) return false;
+        struct band *filter = spline->filter[odd] = band_new(spline->count, half);
+        if (filter == NULL) return false;
         for (size_t row = 0; row < spline->count; row++)
-            add_filter_row(spline, odd, row, spline->filter[odd]);
+            band_add(filter, row, row, 1);
+        for (int order = 1; order < MOST_ORDER; order++)
+            if (tuning.filter[order] != 0)
+                add_form(spline, odd, odd, order, SQUARES, tuning.filter[order], filter);
     }
     return true;
 }

@@ -16,7 +16,7 @@ enum {
 };
 
 /* Builds the filters of a spline of TUNED_DEGREE, plain knots and no interfaces: from here on it is tuned.
- * False: no memory. */
+ * An axis too short for the numbers to fade out towards its ends stays as it is. False: no memory. */
 bool spline_tune(struct spline *spline);
 
 /* Functions that are not zero at x, filtered where the spline is tuned. */
