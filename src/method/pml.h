@@ -74,7 +74,7 @@ double layers_fastest(struct model *model, const double *y, size_t size, char *p
 /* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. */
 selas_status pml_create(struct consistent *c, struct messages *messages);
 void pml_free(struct consistent *c);
-/* a += factor * what the memory variables do (held control values may get something, too). */
+/* a += factor * what the memory variables do: nothing at control values that are held at rest. */
 void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a);
 /* Brings the memory variables from one step to the next (Eq 10): u + to_middle * v are the displacements in
  * the middle of the step, v being the mean velocity over it, u those of its end (to_middle = -dt/2) or start

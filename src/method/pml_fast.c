@@ -122,7 +122,8 @@ static bool lay_across(const struct fast_slab *fast, struct row_table *table, co
 static bool lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool single)
 {
     const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
-    const struct span region = {0, fast->region}, inside = {fast->offset, fast->ns};
+    const size_t skipped = fast->start - fast->slab->region.at[j];
+    const struct span region = {skipped, fast->region}, inside = {skipped + fast->offset, fast->ns};
     const struct terms *outer = &terms->outer, *pull = &terms->pull;
     bool good = true;
     for (int i = 0; good && i < 3; i++) {
@@ -176,13 +177,20 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
     fast->axis[ROLE_B] = 3 - j - fast->axis[ROLE_F];
     for (int role = 0; role < 3; role++)
         fast->step[role] = step[fast->axis[role]];
-    fast->ns = slab->inside.n[j];
+    /* Nothing moves at the outer end, which is held: it is left out. */
+    const size_t out = slab->end == 0 ? 1 : 0;
+    fast->inside = slab->inside;
+    fast->inside.n[j]--;
+    fast->inside.at[j] += out;
+    fast->damping = slab->damping + out;
+    fast->ns = fast->inside.n[j];
     fast->nb = c->n[fast->axis[ROLE_B]];
     fast->nf = c->n[fast->axis[ROLE_F]];
     fast->width = rounded(fast->nf, c->options.single ? 2 * FAST_LANES : FAST_LANES);
-    fast->region = slab->region.n[j];
-    fast->offset = slab->inside.at[j] - slab->region.at[j];
-    fast->first = slab->region.at[j] * fast->step[ROLE_S];
+    fast->start = slab->region.at[j] + out;
+    fast->region = slab->region.n[j] - 1;
+    fast->offset = fast->inside.at[j] - fast->start;
+    fast->first = fast->start * fast->step[ROLE_S];
 }
 
 static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct slab_terms *terms)

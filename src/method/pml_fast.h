@@ -41,6 +41,9 @@ struct fast_slab {
     const struct slab *slab;
     int axis[3];                     /* by role */
     size_t ns, nb, nf, width;        /* numbers of the slab by role; in a padded row */
+    struct block inside;             /* the slab's, without its outer end */
+    const double *damping;           /* [ns] d there */
+    size_t start;                    /* index of the region's first row along s */
     size_t region, offset;           /* rows along s of its region; the first of them inside */
     size_t first, step[3];           /* in fields: the region's first value, steps by role */
     struct row_table gradient[3];    /* by component; region to inside: C_j of L1 */

@@ -42,7 +42,7 @@ static void apply_along(const struct fast_slab *s, const void *matrix, const REA
 static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL *memory, REAL *middle)
 {
     for (size_t r = 0; r < s->ns; r++) {
-        const double q = s->slab->damping[r] * dt / 2, kept = 1 / (1 + q + s->slab->relaxation * dt / 2);
+        const double q = s->damping[r] * dt / 2, kept = 1 / (1 + q + s->slab->relaxation * dt / 2);
         const size_t at = r * s->width;
         NAME(pml_move)
         (s->width, (REAL)q, (REAL)kept, g + at, memory + at, middle == NULL ? NULL : middle + at);
@@ -159,9 +159,8 @@ struct meeting {
 static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other, size_t b, REAL *rows,
                         struct meeting *meeting)
 {
-    const size_t start = s->slab->region.at[s->axis[ROLE_S]];
-    const struct block *inside = &other->slab->inside;
-    const struct range across = overlap(inside, s->axis[ROLE_S], start, s->region);
+    const struct block *inside = &other->inside;
+    const struct range across = overlap(inside, s->axis[ROLE_S], s->start, s->region);
     const struct range row = overlap(inside, s->axis[ROLE_B], b, 1);
     const struct range along = overlap(inside, s->axis[ROLE_F], 0, s->nf);
     size_t step[3]; /* in the other's memory, by axis */
@@ -178,7 +177,8 @@ static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other
     memset(rows, 0, s->region * width * sizeof *rows);
     for (size_t r = 0; r < across.end - across.from; r++)
         for (size_t i = 0; i < along.end - along.from; i++)
-            rows[(across.from - start + r) * width + along.from - first + i] = from[r * step_s + i * step_f];
+            rows[(across.from - s->start + r) * width + along.from - first + i] =
+                from[r * step_s + i * step_f];
     *meeting = (struct meeting){first, width};
     return true;
 }
