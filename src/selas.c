@@ -25,7 +25,7 @@ static struct stopwatch start_watch(void)
 static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
 {
     const struct stopwatch now = start_watch();
-    if (wall != NULL) *wall += now.wall - since.wall;
+    *wall += now.wall - since.wall;
     *cpu += now.cpu - since.cpu;
 }
 
@@ -305,33 +305,6 @@ unsigned long selas_steps_needed(selas_simulation *simulation)
     return simulation->stepper->steps + simulation->stepper->extra;
 }
 
-/* --- Results
- * --------------------------------------------------------------------------------------------------- */
-
-static selas_status find_receiver(selas_simulation *simulation, const char *name, size_t *index)
-{
-    const struct scene *scene = simulation->scene;
-    for (size_t i = 0; name != NULL && i < scene->receivers; i++)
-        if (strcmp(scene->receiver[i].name, name) == 0) {
-            *index = i;
-            return SELAS_OK;
-        }
-    return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is no receiver '%s'",
-                name != NULL ? name : "(NULL)");
-}
-
-selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field, double *value)
-{
-    selas_status status = simulation_begin(simulation);
-    if (status != SELAS_OK) return status;
-    if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ENERGY)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no such field, or no room for its value");
-    size_t index = 0;
-    status = find_receiver(simulation, name, &index);
-    if (status == SELAS_OK) recorder_value(simulation->recorder, index, field, &simulation->state, value);
-    return status;
-}
-
 selas_status selas_finish(selas_simulation *simulation)
 {
     selas_status status = simulation_begin(simulation);
@@ -340,81 +313,6 @@ selas_status selas_finish(selas_simulation *simulation)
     if (simulation->state.step < needed) status = run_steps(simulation, needed - simulation->state.step);
     if (status == SELAS_OK) status = recorder_finish(simulation->recorder, &simulation->messages);
     simulation->finished = status == SELAS_OK;
-    return status;
-}
-
-selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows, const double **time,
-                           const double **value)
-{
-    selas_status status = simulation_scene(simulation);
-    if (status != SELAS_OK) return status;
-    if (!simulation->finished || rows == NULL || time == NULL || value == NULL)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
-                    "histories exist after selas_finish, and need room for rows, time and value");
-    size_t index = 0;
-    status = find_receiver(simulation, name, &index);
-    if (status != SELAS_OK) return status;
-    const struct history_rows history = recorder_history(simulation->recorder, index);
-    *rows = history.rows;
-    *time = history.time;
-    *value = history.value;
-    return SELAS_OK;
-}
-
-selas_status selas_record(selas_simulation *simulation)
-{
-    const selas_status status = simulation_scene(simulation);
-    if (status != SELAS_OK) return status;
-    if (simulation->state.y != NULL && !simulation->recording)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "ask for result files before the first step");
-    simulation->recording = true;
-    return SELAS_OK;
-}
-
-static selas_status make_exact(selas_simulation *simulation)
-{
-    if (simulation->exact != NULL || simulation->scene->reference.kind[0] == '\0') return SELAS_OK;
-    const struct stopwatch watch = start_watch();
-    const selas_status status = exact_create(simulation->scene, &simulation->exact, &simulation->messages);
-    add_elapsed(watch, NULL, &simulation->figures.exact_cpu_seconds);
-    return status;
-}
-
-selas_status selas_write(selas_simulation *simulation)
-{
-    selas_status status = simulation_scene(simulation);
-    if (status != SELAS_OK) return status;
-    if (!simulation->recording)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
-                    "selas_record was not called before the first step");
-    status = selas_finish(simulation);
-    if (status != SELAS_OK) return status;
-    /* what was computed is written, whether there is something to compare it with or not */
-    const selas_status compared = make_exact(simulation);
-    status =
-        recorder_write(simulation->recorder, simulation->exact, &simulation->figures, &simulation->messages);
-    return status == SELAS_OK ? compared : status;
-}
-
-selas_status selas_write_exact(selas_simulation *simulation)
-{
-    selas_status status = simulation_scene(simulation);
-    if (status != SELAS_OK) return status;
-    if (simulation->scene->reference.kind[0] == '\0')
-        return fail(&simulation->messages, SELAS_BAD_SCENE, "the deck has no &reference");
-    status = make_exact(simulation);
-    if (status == SELAS_OK)
-        status = record_exact(simulation->scene, simulation->exact, &simulation->messages);
-    return status;
-}
-
-selas_status selas_plan(selas_simulation *simulation,
-                        void (*tell)(void *context, const char *key, const char *value), void *context)
-{
-    if (tell == NULL && simulation != NULL)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
-    const selas_status status = simulation_prepare(simulation);
-    if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
     return status;
 }
 

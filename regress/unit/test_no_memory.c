@@ -3,7 +3,7 @@
  * nothing is kept, and the host is told SELAS_NO_MEMORY with a message; or the library could do without, and
  * then the outcome is the same to the last bit.
  *
- * All n take minutes (`make no-memory`); by itself the test takes every 23rd, another 23rd by scene.
+ * All n take minutes (`make no-memory`); by itself the test takes every 67th, others by scene.
  * SELAS_NO_MEMORY_EVERY=m: every m-th. SELAS_NO_MEMORY_SCENE=k and SELAS_NO_MEMORY_AT=n: that one alone, with
  * the place where the allocation was asked for. */
 #include "allocation.h"
@@ -22,7 +22,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { VALUES = 7 * 400, EVERY = 23 };
+enum { VALUES = 7 * 400, EVERY = 67 };
 
 static char folder[64];
 

@@ -101,6 +101,8 @@ selas_status host_answer(selas_simulation *simulation);
 bool host_drives(const selas_simulation *simulation);
 /* Makes the state's acceleration that of the loads as they are now. */
 selas_status host_refresh(selas_simulation *simulation);
+/* SELAS_OK if a function can give this load, or the reason why not. */
+selas_status host_can_drive(const struct scene *scene, const struct load *load, struct messages *messages);
 void host_free(selas_simulation *simulation);
 
 #endif

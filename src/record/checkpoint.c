@@ -242,7 +242,9 @@ static void keep_before(const char *path)
 selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,
                               const char *path, bool keep, struct messages *messages)
 {
-    const uint64_t files = kept_files_checksum(recorder->scene);
+    uint64_t files = 0;
+    if (!kept_files_checksum(recorder->scene, &files))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
     double figures[FIGURES] = {[STEP] = (double)state->step,
                                [TIME] = state->time,
                                [LAST_TIME] = recorder->last_time,
@@ -288,7 +290,7 @@ static bool is_count(double figure, double below)
 /* A reason why the checkpoint's own figures do not fit, or NULL. */
 static const char *misfit_of_figures(const struct recorder *recorder, const double figures[FIGURES])
 {
-    const uint64_t files = kept_files_checksum(recorder->scene);
+    uint64_t files = 0;
     const double dt = recorder->stepper->dt;
     if (!is_count(figures[STEP], 9e15) || !is_count(figures[ENTRIES], 1e9) ||
         !is_count(figures[EVALUATIONS], 9e15))
@@ -296,6 +298,7 @@ static const char *misfit_of_figures(const struct recorder *recorder, const doub
     for (size_t k = 0; k < FIGURES; k++)
         if (!isfinite(figures[k])) return "its times make no sense";
     if (!(fabs(figures[TIME_STEP] - dt) <= 1e-9 * dt)) return "its time step is another one";
+    if (!kept_files_checksum(recorder->scene, &files)) return "there is no memory for its name";
     if (figures[FILES_LOW] != (double)(files & UINT32_MAX) || figures[FILES_HIGH] != (double)(files >> 32))
         return "a file that its deck names (points, table or reference) has changed since";
     if (recorder->file != NULL && recorder->scene->snapshots > 0 && figures[RECORDED] == 0.0)

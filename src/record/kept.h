@@ -19,7 +19,7 @@ void kept_deck_free(struct kept_deck *kept);
 
 /* The deck of a scene with all defaults as text (free it), "" without a deck; NULL without memory. */
 char *kept_text_of(const struct scene *scene, struct messages *messages);
-/* Checksum of the files that the deck only names: points, tables, references. */
-uint64_t kept_files_checksum(const struct scene *scene);
+/* Checksum of the files that the deck only names: points, tables, references; false without memory. */
+bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
 
 #endif
