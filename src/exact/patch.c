@@ -196,6 +196,8 @@ static void disc_potentials(double radius, double x, double y, double depth, str
         gsl_integration_cquad(&function, .5, M_PI, 1e-13, 1e-12, space, &part, NULL, NULL);
         value[edge.which] += 2 * part;
     }
+    for (size_t k = 0; space == NULL && k < sizeof value / sizeof *value; k++)
+        value[k] = (double)NAN; /* no memory: no number rather than a wrong one */
     gsl_integration_cquad_workspace_free(space);
     potentials->angle = value[0];
     potentials->plain = value[1];

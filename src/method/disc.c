@@ -58,8 +58,8 @@ bool disc_moments(const struct spline *first, bool first_odd, const struct splin
     memset(moment, 0, first->count * second->count * sizeof *moment);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
     double *chord = array_new(2 * second->count, sizeof *chord);
-    if (table == NULL || chord == NULL) return false;
-    for (double theta = -M_PI / 2; theta < M_PI / 2 - 1e-12;) {
+    const bool good = table != NULL && chord != NULL;
+    for (double theta = -M_PI / 2; good && theta < M_PI / 2 - 1e-12;) {
         const double next = next_angle(first, second, disc, theta);
         for (size_t q = 0; q < POINTS; q++) {
             double angle, weight;
@@ -71,7 +71,7 @@ bool disc_moments(const struct spline *first, bool first_odd, const struct splin
         }
         theta = next;
     }
-    gsl_integration_glfixed_table_free(table);
+    if (table != NULL) gsl_integration_glfixed_table_free(table);
     array_free(chord);
-    return true;
+    return good;
 }
