@@ -59,7 +59,8 @@ static void destroy(struct model *model)
                             tl->A,
                             tl->force,
                             tl->extra,
-                            tl->found};
+                            tl->found,
+                            tl->spacing};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         array_free(arrays[k]);
     array_free(tl);
@@ -137,6 +138,16 @@ static void initialise(struct model *model, double *y)
         body_direction_from_deck(body, velocity, own);
         memcpy(y + model->unknowns + d * i, own, d * sizeof *y);
     }
+}
+
+/* M v. */
+static void weigh(struct model *model, const double *v, double *product)
+{
+    const struct tl_model *tl = of(model);
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t k = d * i; k < d * (i + 1); k++)
+            product[k] = tl->mass[i] * v[k];
 }
 
 static void energy(struct model *model, const double *y, struct energy *energy)
@@ -237,6 +248,7 @@ static const struct model_class linear_class = {
     .observe = tl_observe,
     .field = tl_field,
     .energy = energy,
+    .weigh = weigh,
     .power = power,
     .describe = describe,
 };
@@ -255,6 +267,7 @@ const struct model_class cloud_class = {
     .observe = tl_observe,
     .field = tl_field,
     .energy = energy,
+    .weigh = weigh,
     .power = power,
     .describe = describe,
 };
@@ -272,6 +285,7 @@ const struct model_class total_lagrangian_class = {
     .observe = tl_observe,
     .field = tl_field,
     .energy = energy,
+    .weigh = weigh,
     .power = power,
     .describe = describe,
 };
@@ -286,14 +300,17 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
     tl->elastic = array_new(n, sizeof *tl->elastic);
     tl->deck_position = array_new(3 * n, sizeof *tl->deck_position);
     tl->found = array_new(n, sizeof *tl->found);
+    tl->spacing = array_new(n, sizeof *tl->spacing);
     if (tl->mass == NULL || tl->material == NULL || tl->elastic == NULL || tl->deck_position == NULL ||
-        tl->found == NULL)
+        tl->found == NULL || tl->spacing == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
     for (size_t i = 0; i < n; i++) {
         const double *x = tl->cloud->position + 3 * i;
         tl->material[i] = scene_point_material(scene, i, x[d - 1] - scene->body.low[d - 1]);
         tl->elastic[i] = elastic_of(tl->material[i], tl->options.law, scene->dimension, scene->plane);
         tl->mass[i] = tl->material[i]->density * tl->cloud->volume[i];
+        /* of clouds points on faces have half volumes */
+        tl->spacing[i] = tl->options.cloud ? tl->cloud->spacing : pow(tl->cloud->volume[i], 1.0 / (double)d);
         body_to_deck(&scene->body, x, tl->deck_position + 3 * i);
     }
     return neighbours_find(&tl->near, scene->dimension, n, tl->cloud->position, tl_search_radius(tl), false,

@@ -84,6 +84,7 @@ struct tl_model {
     struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
     struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
     double *mass;                     /* [points] */
+    double *spacing;                  /* [points] of the points around each */
     size_t held_count, *held;         /* numbers of u that rest (cloud method) */
     double *damper;                   /* [dimension * points] or NULL */
     const struct material **material; /* [points] */
@@ -107,9 +108,8 @@ selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages 
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
 /* total_lagrangian_runs.c: cuts the points into blocks, after all rows are there. */
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages);
-double tl_spacing_at(const struct tl_model *tl, size_t i); /* of the points around point i */
-double tl_radius(const struct tl_model *tl);               /* of the weights, in length */
-double tl_search_radius(const struct tl_model *tl);        /* the largest a point's weights may take */
+double tl_radius(const struct tl_model *tl);        /* of the weights, in length */
+double tl_search_radius(const struct tl_model *tl); /* the largest a point's weights may take */
 /* Neighbours that a quadratic fit should have: those of a point inside a lattice; linear ones take what there
  * is. */
 size_t tl_wanted(const struct tl_model *tl);

@@ -29,7 +29,7 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
     const size_t wanted = tl_wanted(tl);
     const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);
     const size_t nearest = neighbours_nearest(&tl->near, body_position);
-    const double spacing = nearest < tl->cloud->points ? tl_spacing_at(tl, nearest) : tl->cloud->spacing;
+    const double spacing = nearest < tl->cloud->points ? tl->spacing[nearest] : tl->cloud->spacing;
     double radius = tl_radius(tl) * spacing / tl->cloud->spacing;
     while (radius <= tl->near.radius * (1 + 1e-9)) {
         *count = 0;

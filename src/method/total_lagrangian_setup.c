@@ -26,12 +26,6 @@ void tl_rows_free(struct tl_rows *rows)
     *rows = (struct tl_rows){0};
 }
 
-double tl_spacing_at(const struct tl_model *tl, size_t i)
-{
-    if (tl->options.cloud) return tl->cloud->spacing; /* points on faces have half volumes */
-    return pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
-}
-
 double tl_radius(const struct tl_model *tl)
 {
     double length = tl->options.smoothing_length;
@@ -141,7 +135,7 @@ static size_t fit_point(const struct tl_model *tl, const struct neighbours *near
     const double reach = tl_radius(tl) / tl->cloud->spacing;
     const bool quadratic = tl->options.degree == 2;
     const size_t wanted = tl_wanted(tl);
-    double radius = reach * tl_spacing_at(tl, i);
+    double radius = reach * tl->spacing[i];
     size_t count = 0;
     bool done = false;
     bool cut = false;
@@ -290,7 +284,7 @@ static selas_status hourglass_pairs(struct tl_model *tl, const struct neighbours
             if (j == i || (j >= n && tl->ghost[j - n].curved)) continue;
             const size_t source = j < n ? j : tl->ghost[j - n].source;
             const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
-            if (r > 1.6 * fmax(tl_spacing_at(tl, i), tl_spacing_at(tl, source))) continue;
+            if (r > 1.6 * fmax(tl->spacing[i], tl->spacing[source])) continue;
             double stiffness = 0;
             const size_t both[2] = {i, source};
             for (int e = 0; e < 2; e++) {
@@ -320,7 +314,7 @@ static selas_status viscosity_pairs(struct tl_model *tl, const struct neighbours
             const size_t j = near->index[k];
             const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
             const size_t source = j < n ? j : tl->ghost[j - n].source;
-            const double h = 0.5 * per_spacing * (tl_spacing_at(tl, i) + tl_spacing_at(tl, source));
+            const double h = 0.5 * per_spacing * (tl->spacing[i] + tl->spacing[source]);
             const double slope = -kernel_derivative(kernel, tl->cloud->dimension, r, h);
             if (j == i || !(slope > 0)) continue;
             tl->viscous.index[entries] = (uint32_t)j;
@@ -344,7 +338,7 @@ double tl_search_radius(const struct tl_model *tl)
 {
     double largest = 0;
     for (size_t i = 0; i < tl->cloud->points; i++)
-        largest = fmax(largest, tl_spacing_at(tl, i));
+        largest = fmax(largest, tl->spacing[i]);
     return 1.5 * tl_radius(tl) / tl->cloud->spacing * largest;
 }
 
