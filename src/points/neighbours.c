@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Squared distance; the first `dimension` components count. */
-static double distance_squared(int dimension, const double *a, const double *b)
+static inline double distance_squared(const int dimension, const double *a, const double *b)
 {
     double sum = 0;
     for (int c = 0; c < dimension; c++)
@@ -137,27 +137,36 @@ static void sort(uint32_t *index, size_t count)
     }
 }
 
-/* Gathers the points within the radius of a place except `not_this`; only the first `room` are written. */
-static size_t gather(const struct neighbours *n, const double *place, size_t not_this, size_t room,
-                     uint32_t *index)
+/* What gather() does, for a constant dimension. Cells in sequence along x hold members in sequence. */
+static inline size_t gather_in(const int dimension, const struct neighbours *n, const double *place,
+                               size_t not_this, size_t room, uint32_t *index)
 {
     const double limit = n->radius * n->radius;
     long low[3], high[3], cell[3];
     size_t count = 0;
     cell_range(n, place, low, high);
     for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
-        for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++)
-            for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
-                const size_t number = cell_number(n, cell);
-                for (size_t m = n->cell_start[number]; m < n->cell_start[number + 1]; m++) {
-                    const size_t j = n->cell_member[m];
-                    if (j == not_this) continue;
-                    if (!(distance_squared(n->dimension, place, n->position + 3 * j) < limit)) continue;
-                    if (count < room) index[count] = (uint32_t)j;
-                    count++;
-                }
+        for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++) {
+            cell[0] = low[0];
+            const size_t first = cell_number(n, cell), last = first + (size_t)(high[0] - low[0]);
+            for (size_t m = n->cell_start[first]; m < n->cell_start[last + 1]; m++) {
+                const size_t j = n->cell_member[m];
+                if (j == not_this) continue;
+                if (!(distance_squared(dimension, place, n->position + 3 * j) < limit)) continue;
+                if (count < room) index[count] = (uint32_t)j;
+                count++;
             }
+        }
     return count;
+}
+
+/* Gathers the points within the radius of a place except `not_this`; only the first `room` are written. */
+static size_t gather(const struct neighbours *n, const double *place, size_t not_this, size_t room,
+                     uint32_t *index)
+{
+    return n->dimension == 1   ? gather_in(1, n, place, not_this, room, index)
+           : n->dimension == 2 ? gather_in(2, n, place, not_this, room, index)
+                               : gather_in(3, n, place, not_this, room, index);
 }
 
 selas_status neighbours_find(struct neighbours *n, int dimension, size_t points, const double *position,
