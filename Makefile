@@ -178,7 +178,7 @@ $(BUILD)/test/stability-%: regress/stability.d/%.c $(BUILD)/libselas.a
 	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
 .PHONY: bench-sph instructions
-bench-sph: $(BUILD)/selas ## what an evaluation of the SPH operators costs: table of doc/performance.md
+bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/performance.md
 	@sh regress/bench-sph $(BUILD)
 
 instructions: $(BUILD)/selas ## instructions of three small scenes against those recorded (two minutes; installs valgrind)
