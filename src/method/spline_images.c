@@ -26,7 +26,7 @@ static bool control_at(const struct spline *spline, bool odd, ptrdiff_t at, size
 bool spline_difference(const struct spline *spline, bool odd, ptrdiff_t first, int order,
                        struct difference *difference)
 {
-    double position[MOST_DIFFERENCE + 1], binomial = order % 2 == 0 ? 1 : -1;
+    double position[MOST_DIFFERENCE + 1] = {0}, binomial = order % 2 == 0 ? 1 : -1;
     difference->order = order;
     for (int i = 0; i <= order; i++) {
         double sign;
