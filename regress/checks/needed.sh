@@ -71,5 +71,42 @@ part dissipation dissipation 1 "&method dissipation = 0.3 /"
 part snapshots 'snapshot groups' $((48 * points)) "&snapshot times = 1.0, fields = 'velocity' /"
 part low_pass low-pass 0 "&output low_pass = 20 /"
 part profile profiles 0 "&profile name = 'p', from = 0, 0, 0, to = 1, 0, 0, points = 5, times = 1.0 /"
+# Loads: a point force in the body takes its entries alone, no field; a second one the same again.
+force="&load kind = 'body-force', shape = 'point', centre = 1.1, 1.2, 1.3, direction = 0, 0, 1, history = 'gaussian', width = 0.3, delay = 1 /"
+field=$(awk -v u="$(value bare unknowns)" 'BEGIN { print 8 * u }')
+for count in 1 2; do
+    { cat "$out/bare.nml"; echo "$force"; test $count = 1 || echo "$force"; } >"$out/force$count.nml"
+    run force$count force$count
+    eval "more$count=$(awk -v a="$(value force$count 'model memory bytes')" -v b="$(value bare 'model memory bytes')" 'BEGIN { printf "%d", a - b }')"
+done
+# shellcheck disable=SC2154 # more1 and more2 are set by eval
+check "a body force takes $more1 bytes of a model, less than a twentieth of a field ($field)" \
+    less "$(awk -v m="$more1" 'BEGIN { print 20 * m }')" "$field"
+# shellcheck disable=SC2154
+check "two of them twice that ($more2), and more than nothing" test "$more1" -gt 0 -a "$more2" -eq $((2 * more1))
+
+# C-PML: its memory variables and nothing else of their size; without it none of its memory.
+run lysmer far 'boundary(2)%layer=lysmer'
+run pml far 'boundary(2)%always=T'
+variables=$(value pml 'memory variables of layers')
+extra=$(awk -v a="$(value pml 'planned memory bytes')" -v b="$(value lysmer 'planned memory bytes')" -v p="$(value pml unknowns)" -v u="$(value lysmer unknowns)" \
+    'BEGIN { printf "%.2f", (a - b) / (8 * (p - u)) }')
+check "C-PML layers: $variables memory variables, listed with C-PML alone; planned memory grows by $extra numbers per unknown more" \
+    test "$(grep -c '^memory variables' "$out/lysmer/report.txt")$(grep -c '^memory variables' "$out/pml/report.txt")" = 01
+
+# The state of either smoothed point method is displacement, velocity and work vectors alone: nothing of other methods'.
+cat >"$out/block.nml" <<'D'
+&scene dimension = 3, end_time = 0.1 /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', low = 0, 0, 0, high = 1.5, 1.5, 1.5, spacing = 0.25 /
+&load face = 'z-', shape = 'face', direction = 0, 0, 1, history = 'gaussian', width = 0.3, delay = 1.2 /
+&receiver name = 'r1', position = 0.5, 0.5, 0.5 /
+D
+for method in consistent paper; do
+    run $method block method%variant=$method
+    state=$(awk -v m="$(value $method 'planned memory bytes')" -v u="$(value $method unknowns)" -v h="$(value $method 'model memory bytes')" \
+        -v r="$(value $method steps)" -v x="$(value $method 'steps beyond end_time')" 'BEGIN { printf "%.2f", (m - h - 72 * (r + x + 2)) / (8 * u) }')
+    check "$method: $state numbers of state per unknown" test "$state" = 5.00
+done
 echo "# $points points"
 rm -rf "$out"

@@ -420,7 +420,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
     c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
-                     hform_bytes(c) + (c->pml != NULL ? c->pml->bytes : 0);
+                     forces_bytes(c) + hform_bytes(c) + (c->pml != NULL ? c->pml->bytes : 0);
     *model = &c->model;
     return SELAS_OK;
 }

@@ -135,6 +135,7 @@ void mass_solve(struct consistent *c, const struct mass_factors *factors, double
 /* consistent_forces.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
 void forces_free(struct consistent *c);
+size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
  */
 void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,

@@ -315,6 +315,23 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
     return status;
 }
 
+static size_t sparse_bytes(const struct consistent *c, const struct sparse *sparse)
+{
+    const size_t planes = (size_t)c->dimension * c->n[DEPTH];
+    if (sparse->start == NULL) return 0;
+    return (planes + 1) * sizeof(size_t) + sparse->start[planes] * (sizeof(size_t) + sizeof(double));
+}
+
+size_t forces_bytes(const struct consistent *c)
+{
+    size_t bytes = 0;
+    for (size_t k = 0; k < c->model.scene->loads; k++)
+        bytes += sparse_bytes(c, &c->load[k]);
+    for (int face = 0; face < BOX_FACES; face++)
+        bytes += sparse_bytes(c, &c->pattern[face]) + sparse_bytes(c, &c->inertia[face]);
+    return bytes;
+}
+
 void forces_free(struct consistent *c)
 {
     for (size_t k = 0; c->load != NULL && k < c->model.scene->loads; k++)
