@@ -12,7 +12,8 @@
 #include <string.h>
 
 static const struct exact_class *const kinds[] = {
-    &exact_bar, &exact_beam, &exact_hole, &exact_lamb, &exact_plane_wave, &exact_recorded, &exact_stokes, NULL,
+    &exact_bar,        &exact_beam,     &exact_hole,   &exact_lamb,
+    &exact_plane_wave, &exact_recorded, &exact_stokes, NULL,
 };
 
 const struct exact_class *exact_find(const char *kind)

@@ -69,13 +69,18 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     return status;
 }
 
+static bool same_place(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 static selas_status history(struct exact *exact, const double position[3], size_t n, const double *time,
                             double *value, struct messages *messages)
 {
     const struct recorded *recorded = (const struct recorded *)exact;
     const struct scene *scene = exact->scene;
     size_t i = 0, row = 0;
-    while (i < scene->receivers && memcmp(scene->receiver[i].position, position, 3 * sizeof *position) != 0)
+    while (i < scene->receivers && !same_place(scene->receiver[i].position, position))
         i++;
     if (i == scene->receivers || n == 0)
         return fail(messages, SELAS_BAD_SCENE, "reference 'file' has histories at receivers only");

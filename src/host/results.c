@@ -98,7 +98,8 @@ selas_status selas_write_exact(selas_simulation *simulation)
 selas_status selas_plan(selas_simulation *simulation,
                         void (*tell)(void *context, const char *key, const char *value), void *context)
 {
-    if (tell == NULL && simulation != NULL)
+    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    if (tell == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
     const selas_status status = simulation_prepare(simulation);
     if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
