@@ -9,8 +9,8 @@ verdict_good=0 verdict_bad=0 verdict_left=0
 mkdir -p "$verdict_folder"
 
 verdict_cpu() { # seconds of CPU that the children of this shell have had so far, in $verdict_clock
-    times >"$verdict_folder/times" # not in a pipe: a shell of its own would count its own children
-    verdict_clock=$(sed -n '2s/[a-z]/ /gp' "$verdict_folder/times" | awk '{ printf "%d", 60 * ($1 + $3) + $2 + $4 }')
+    times >"$verdict_folder/times.$$" # not in a pipe: a shell of its own would count its own children
+    verdict_clock=$(sed -n '2s/[a-z]/ /gp' "$verdict_folder/times.$$" | awk '{ printf "%d", 60 * ($1 + $3) + $2 + $4 }')
 }
 
 verdict() { # verdict NAME PATTERN COMMAND ...: a failure is a status other than 0 or a TAP line "not ok"
