@@ -190,7 +190,7 @@ SECONDS      ?= 30
 SANITIZED     = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_TARGETS  = $(patsubst regress/fuzz/%.c,$(BUILD)/fuzz/%,$(wildcard regress/fuzz/fuzz_*.c))
 .PHONY: fuzz fuzz-build fuzz-replay check-sanitize check-valgrind check-threads coverage no-memory
-fuzz: ## fuzz the readers of decks, tables, points and checkpoints, SECONDS=30 each (clang)
+fuzz: ## fuzz the readers of decks, tables, points, checkpoints and results, SECONDS=30 of CPU each (clang)
 	@$(MAKE) --no-print-directory fuzz-build CC=clang BUILD=$(BUILD)/sanitized \
 	    CFLAGS='$(SANITIZED) -fsanitize=fuzzer-no-link' LDFLAGS='-fsanitize=address,undefined'
 	@regress/fuzz/run $(BUILD)/sanitized/fuzz $(SECONDS)
