@@ -61,9 +61,8 @@ static void ghost_gradients(struct tl_model *tl)
 }
 
 /* Non-affine part of the pair i, j: X_ij and e_ij. */
-static void mismatch(const struct tl_model *tl, size_t i, size_t j, double X[3], double e[3])
+INLINED void mismatch(const struct tl_model *tl, const size_t d, size_t i, size_t j, double X[3], double e[3])
 {
-    const size_t d = (size_t)tl->cloud->dimension;
     const double *Hi = tl->H + d * i;
     const double *Hj = tl->H + d * j;
     for (size_t a = 0; a < d; a++)
@@ -139,22 +138,33 @@ void tl_forces(struct tl_model *tl)
 /* Hourglass energy of a point's pairs; each pair stands in two rows. A pair with a ghost has its mirror image
  * in the row of the ghost's source: together they are half of the two pairs of the whole body, as it should
  * be, and their forces on a point are those of one full pair, so nothing goes back by T^T. */
-static double hourglass_energy(const struct tl_model *tl, size_t i)
+INLINED double hourglass_energy(const struct tl_model *tl, const size_t d, size_t i)
 {
-    const size_t d = (size_t)tl->cloud->dimension;
     double sum = 0;
     for (size_t k = tl->pair.start[i]; k < tl->pair.start[i + 1]; k++) {
         double X[3];
         double e[3];
-        mismatch(tl, i, tl->pair.index[k], X, e);
+        mismatch(tl, d, i, tl->pair.index[k], X, e);
         for (size_t a = 0; a < d; a++)
             sum += 0.25 * tl->pair.weight[k] * e[a] * e[a];
     }
     return sum;
 }
 
+#define OF_DIMENSION(d)                                                                                      \
+    EACH_MACHINE static double hourglass_energy_##d(const struct tl_model *tl, size_t i)                     \
+    {                                                                                                        \
+        return hourglass_energy(tl, d, i);                                                                   \
+    }
+OF_DIMENSION(1)
+OF_DIMENSION(2)
+OF_DIMENSION(3)
+#undef OF_DIMENSION
+
 double tl_strain_energy(struct tl_model *tl)
 {
+    double (*const hourglass[])(const struct tl_model *, size_t) = {hourglass_energy_1, hourglass_energy_2,
+                                                                    hourglass_energy_3};
     double sum = 0;
     if (tl->extra != NULL) ghost_gradients(tl);
     for (size_t i = 0; i < tl->cloud->points; i++) {
@@ -163,7 +173,7 @@ double tl_strain_energy(struct tl_model *tl)
         if (tl->linear) elastic.law = LAW_LINEAR;
         tl_tensor(tl, i, H);
         sum += tl->cloud->volume[i] * elastic_energy(&elastic, H);
-        if (tl->extra != NULL) sum += hourglass_energy(tl, i);
+        if (tl->extra != NULL) sum += hourglass[tl->cloud->dimension - 1](tl, i);
     }
     return sum;
 }
@@ -178,7 +188,7 @@ void tl_ghost_hourglass(struct tl_model *tl)
             double X[3];
             double e[3];
             if (tl->pair.index[k] < n) continue;
-            mismatch(tl, i, tl->pair.index[k], X, e);
+            mismatch(tl, d, i, tl->pair.index[k], X, e);
             for (size_t a = 0; a < d; a++)
                 tl->force[d * tl->pair.index[k] + a] -= 0.5 * tl->pair.weight[k] * e[a];
         }

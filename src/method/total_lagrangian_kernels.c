@@ -28,8 +28,7 @@ INLINED size_t eight_at(const struct tl_block *block, size_t p)
     return block->first + (p + VEC <= block->count ? p : (size_t)block->count - VEC);
 }
 
-/* --- Gradients
- * ---------------------------------------------------------------------------------------------------- */
+/* --- Gradients --- */
 
 INLINED void gradient_run(struct tl_model *tl, const struct tl_block *block, const size_t d)
 {
@@ -88,8 +87,7 @@ INLINED void gradient_points(struct tl_model *tl, const struct tl_block *block, 
     }
 }
 
-/* --- Stresses and hourglass control
- * ---------------------------------------------------------------------------------------------------- */
+/* --- Stresses and hourglass control --- */
 
 /* d vectors of eight points' numbers, point by point, into one vector for each component, and back. */
 INLINED void apart(const size_t d, const vec8 *together, vec8 *component)
@@ -128,19 +126,20 @@ INLINED void together(const size_t d, const vec8 *c, vec8 *t)
 }
 
 /* V P(H) of eight points by Hooke's or Saint Venant-Kirchhoff's law (elastic_law.c). */
-INLINED void quadratic_law(const struct elastic *elastic, const size_t d, bool small, double volume,
+INLINED void quadratic_law(const struct elastic *elastic, const size_t d, bool small, const vec8 *volume,
                            vec8 H[MOST][MOST], vec8 P[MOST][MOST])
 {
     vec8 S[MOST][MOST], pressure = {0};
+    const vec8 mu = elastic->mu * *volume, lambda = elastic->plane_lambda * *volume;
     for (size_t a = 0; a < d; a++)
         for (size_t b = a; b < d; b++) {
             vec8 twice = H[a][b] + H[b][a];
             for (size_t c = 0; c < d && !small; c++)
                 twice += H[c][a] * H[c][b];
             if (a == b) pressure += 0.5 * twice;
-            S[a][b] = S[b][a] = elastic->mu * volume * twice;
+            S[a][b] = S[b][a] = mu * twice;
         }
-    pressure *= elastic->plane_lambda * volume;
+    pressure *= lambda;
     for (size_t a = 0; a < d; a++)
         S[a][a] += pressure;
     for (size_t a = 0; a < d; a++)
@@ -152,7 +151,7 @@ INLINED void quadratic_law(const struct elastic *elastic, const size_t d, bool s
 }
 
 /* The same by any law, point by point. */
-INLINED void any_law(const struct elastic *elastic, const size_t d, double volume, vec8 H[MOST][MOST],
+INLINED void any_law(const struct elastic *elastic, const size_t d, const vec8 *volume, vec8 H[MOST][MOST],
                      vec8 P[MOST][MOST])
 {
     for (int p = 0; p < VEC; p++) {
@@ -163,15 +162,16 @@ INLINED void any_law(const struct elastic *elastic, const size_t d, double volum
         elastic_stress(elastic, own, stress);
         for (size_t a = 0; a < d; a++)
             for (size_t b = 0; b < d; b++)
-                P[a][b][p] = volume * stress[d * a + b];
+                P[a][b][p] = (*volume)[p] * stress[d * a + b];
     }
 }
 
-/* V P(H) of the eight points from i on, in planes: A[b][v]. */
+/* V P(H) of the eight points from i on, which have the same law, in planes: A[b][v]. */
 INLINED void stress_of_eight(const struct tl_model *tl, size_t i, const size_t d, vec8 A[MOST][MOST])
 {
     const struct elastic *elastic = &tl->elastic[i];
     const bool small = tl->linear || elastic->law == LAW_LINEAR;
+    const vec8 volume = VEC8(tl->cloud->volume + i);
     vec8 H[MOST][MOST], P[MOST][MOST], part[MOST], component[MOST];
     for (size_t b = 0; b < d; b++) {
         for (size_t v = 0; v < d; v++)
@@ -181,9 +181,9 @@ INLINED void stress_of_eight(const struct tl_model *tl, size_t i, const size_t d
             H[a][b] = component[a];
     }
     if (small || elastic->law == LAW_SAINT_VENANT_KIRCHHOFF)
-        quadratic_law(elastic, d, small, tl->cloud->volume[i], H, P);
+        quadratic_law(elastic, d, small, &volume, H, P);
     else
-        any_law(elastic, d, tl->cloud->volume[i], H, P);
+        any_law(elastic, d, &volume, H, P);
     for (size_t b = 0; b < d; b++) {
         for (size_t a = 0; a < d; a++)
             component[a] = P[a][b];
@@ -257,23 +257,49 @@ INLINED void control_point(struct tl_model *tl, size_t i, const size_t d)
     }
 }
 
+/* V P(H) of point i into A. */
+INLINED void stress_point(struct tl_model *tl, size_t i, const size_t d)
+{
+    double H[9], P[9];
+    struct elastic elastic = tl->elastic[i];
+    if (tl->linear) elastic.law = LAW_LINEAR;
+    tl_tensor(tl, i, H);
+    elastic_stress(&elastic, H, P);
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++)
+            tl->A[b * tl->plane + d * i + a] = tl->cloud->volume[i] * P[d * a + b];
+}
+
+INLINED bool eight_of_one_law(const struct elastic *elastic)
+{
+    bool same = true;
+    for (int n = 1; n < VEC; n++)
+        same = same && elastic[n].law == elastic->law && elastic[n].mu == elastic->mu &&
+               elastic[n].plane_lambda == elastic->plane_lambda && elastic[n].lambda == elastic->lambda;
+    return same;
+}
+
 INLINED void stress_points(struct tl_model *tl, const struct tl_block *block, const size_t d)
 {
-    for (size_t i = block->first; i < block->first + block->count; i++) {
-        double H[9], P[9];
-        struct elastic elastic = tl->elastic[i];
-        if (tl->linear) elastic.law = LAW_LINEAR;
-        tl_tensor(tl, i, H);
-        elastic_stress(&elastic, H, P);
-        for (size_t a = 0; a < d; a++)
+    const size_t last = (size_t)block->first + block->count;
+    for (size_t i = block->first, next; i < last; i = next) {
+        const bool eight = i + VEC <= last && eight_of_one_law(&tl->elastic[i]);
+        next = eight ? i + VEC : i + 1;
+        if (eight) {
+            vec8 A[MOST][MOST];
+            stress_of_eight(tl, i, d, A);
             for (size_t b = 0; b < d; b++)
-                tl->A[b * tl->plane + d * i + a] = tl->cloud->volume[i] * P[d * a + b];
-        if (tl->extra != NULL) control_point(tl, i, d);
+                for (size_t v = 0; v < d; v++)
+                    *(vec8 *)(tl->A + b * tl->plane + d * i + VEC * v) = A[b][v];
+        } else {
+            stress_point(tl, i, d);
+        }
+        for (size_t k = i; tl->extra != NULL && k < next; k++)
+            control_point(tl, k, d);
     }
 }
 
-/* --- Forces
- * ---------------------------------------------------------------------------------------------------- */
+/* --- Forces --- */
 
 INLINED void force_run(struct tl_model *tl, const struct tl_block *block, const size_t d)
 {
@@ -327,8 +353,7 @@ INLINED void force_points(struct tl_model *tl, const struct tl_block *block, con
     }
 }
 
-/* --- One function for each dimension
- * ---------------------------------------------------------------------------------------------------- */
+/* --- One function for each dimension --- */
 
 #define BLOCK_FUNCTIONS(d)                                                                                   \
     EACH_MACHINE static void gradient_##d(struct tl_model *tl, const struct tl_block *block)                 \
