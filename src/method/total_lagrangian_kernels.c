@@ -12,8 +12,6 @@
  * they overlap those before; nothing is read that is written here. */
 #include "method/total_lagrangian_kernels.h"
 
-#include <math.h>
-
 enum { MOST = 3 };
 
 /* Distance in memory from the first point of the row's run to neighbour k, in points. */
