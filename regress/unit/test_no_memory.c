@@ -166,7 +166,7 @@ static void test_each_allocation(void **unused)
             number += every;
         print_message("%s: %lu of %lu allocations failed one by one, %lu told, the others done without\n",
                       tested[scene].deck, tried, number, refused);
-        assert_true(refused > 10);
+        assert_true(2 * refused > tried); /* most of them cannot be done without */
     }
     assert_int_equal(bad, 0);
 }
