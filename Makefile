@@ -50,6 +50,15 @@ $(BUILD)/test/quiet: regress/quiet.c $(BUILD)/libselas.a
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
+.PHONY: stops
+stops: $(BUILD)/test/stops ## restarts from random steps with two threads and one, all methods (minutes): doc/restart.md
+	@sh regress/stops $(BUILD)
+
+$(BUILD)/test/stops: regress/stops.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
+
 paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
 	@sh regress/paper-figures $(BUILD)
 
