@@ -258,15 +258,16 @@ static void test_fastest_place(void **state)
     const struct slab *upper = &c->pml->slab[1];
     const size_t i = 3, k = upper->inside.at[DEPTH] + 2, at = k * c->plane + i;
     double *v = run.y + run.n, x, y, z;
-    char place[160];
+    struct unseen found;
     for (size_t j = 0; j < run.n; j++)
         v[j] = 1e-3;
     for (int bad = 0; bad < 2; bad++) {
         v[at] = bad == 1 ? NAN : 3;
         v[c->volume + at] = 4;
-        const double speed = run.model->class->unseen(run.model, run.y, sizeof place, place);
-        assert_true(bad == 1 ? isinf(speed) : fabs(speed - 5) < 1e-12);
-        assert_int_equal(sscanf(place, "in the layer behind face y+, at (%lf, %lf, %lf)", &x, &y, &z), 3);
+        run.model->class->unseen(run.model, run.y, &found);
+        assert_true(bad == 1 ? isinf(found.speed) : fabs(found.speed - 5) < 1e-12);
+        assert_true(found.spoiled == (size_t)bad);
+        assert_int_equal(sscanf(found.place, "in the layer behind face y+, a%*[bout] (%lf, %lf, %lf)", &x, &y, &z), 3);
         assert_near(x, c->spline[0]->greville[i], 1e-5);
         assert_near(y, c->spline[1]->greville[k], 1e-5);
         assert_true(y > 1.5);

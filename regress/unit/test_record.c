@@ -262,12 +262,11 @@ static void nan_is_found(void **state)
 /* Places that are no points of the body are named where they are the fastest. */
 static double unseen_speed;
 
-static double unseen(struct model *model, const double *y, size_t size, char *place)
+static void unseen(struct model *model, const double *y, struct unseen *found)
 {
     (void)model;
     (void)y;
-    snprintf(place, size, "in the layer behind face x+, at (9, 8, 7)");
-    return unseen_speed;
+    *found = (struct unseen){.speed = unseen_speed, .place = "in the layer behind face x+, at (9, 8, 7)"};
 }
 
 /* An oscillator-like body that is pushed: the model tells 1 unit of power; its energy may not exceed that. */

@@ -165,41 +165,64 @@ void layers_describe(const struct consistent *c,
     tell(context, "layers skipped", text);
 }
 
-/* Speed of control value (i, j, k) of a slab, counted from its first; infinite if it is not finite. */
-static double speed_at(const struct consistent *c, const struct slab *slab, const double *v, size_t i,
-                       size_t j, size_t k)
+/* Speed of control value (i, j, k) of a slab, counted from its first; infinite if it, or what the layer keeps
+ * there, is not finite or overflows. */
+static double speed_at(const struct consistent *c, const struct slab *slab, const double *v,
+                       const double *extra, const size_t place[3])
 {
-    const size_t *at = slab->inside.at;
-    const size_t place = ((at[2] + k) * c->n[1] + at[1] + j) * c->n[0] + at[0] + i;
-    double sum = 0;
-    for (size_t component = 0; component < (size_t)c->dimension; component++)
-        sum += v[component * c->volume + place] * v[component * c->volume + place];
-    return isfinite(sum) ? sqrt(sum) : INFINITY;
+    const size_t *at = slab->inside.at, *n = slab->inside.n;
+    const size_t whole = ((at[2] + place[2]) * c->n[1] + at[1] + place[1]) * c->n[0] + at[0] + place[0];
+    const size_t own = (place[2] * n[1] + place[1]) * n[0] + place[0];
+    double sum = 0, kept = 0;
+    for (size_t component = 0; component < (size_t)c->dimension; component++) {
+        const double speed = v[component * c->volume + whole];
+        const double psi = extra[slab->psi + component * slab->inner + own];
+        const double phi = extra[slab->phi + component * slab->inner + own];
+        sum += speed * speed;
+        kept += psi * psi + phi * phi;
+    }
+    return isfinite(sum + kept) ? sqrt(sum) : INFINITY;
 }
 
-double layers_fastest(struct model *model, const double *y, size_t size, char *place)
+/* Of one slab: the fastest place or the middle of the spoiled ones, body frame. */
+static void look_at_slab(const struct consistent *c, const struct slab *slab, const double *v,
+                         const double *extra, struct unseen *found, double position[3])
+{
+    const size_t *n = slab->inside.n;
+    double middle[3] = {0};
+    *found = (struct unseen){.speed = -1, .places = slab->inner};
+    for (size_t p = 0; p < slab->inner; p++) {
+        const size_t place[3] = {p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
+        const double speed = speed_at(c, slab, v, extra, place);
+        const bool spoiled = !isfinite(speed);
+        if (!spoiled && (found->spoiled > 0 || speed <= found->speed)) continue;
+        found->spoiled += spoiled;
+        found->speed = speed;
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const int slot = c->slot[axis];
+            position[axis] = c->spline[axis]->greville[slab->inside.at[slot] + place[slot]];
+            if (spoiled) middle[axis] += position[axis];
+        }
+    }
+    for (int axis = 0; found->spoiled > 0 && axis < c->dimension; axis++)
+        position[axis] = middle[axis] / (double)found->spoiled;
+}
+
+void layers_fastest(struct model *model, const double *y, struct unseen *found)
 {
     const struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
-    double fastest = -1, inside[3] = {0}, position[3];
-    int face = 0;
+    *found = (struct unseen){.speed = -1};
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
-        for (size_t k = 0; k < slab->inside.n[2]; k++)
-            for (size_t j = 0; j < slab->inside.n[1]; j++)
-                for (size_t i = 0; i < slab->inside.n[0]; i++) {
-                    const double speed = speed_at(c, slab, v, i, j, k);
-                    const size_t at[3] = {slab->inside.at[0] + i, slab->inside.at[1] + j,
-                                          slab->inside.at[2] + k};
-                    if (speed <= fastest) continue;
-                    fastest = speed;
-                    face = 2 * slab->axis + slab->end;
-                    for (int axis = 0; axis < c->dimension; axis++)
-                        inside[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
-                }
+        struct unseen one;
+        double inside[3] = {0}, position[3];
+        look_at_slab(c, slab, v, v + model->unknowns, &one, inside);
+        if (one.spoiled <= found->spoiled && (found->spoiled > 0 || one.speed <= found->speed)) continue;
+        body_to_deck(&model->scene->body, inside, position);
+        *found = one;
+        snprintf(found->place, sizeof found->place, "in the layer behind face %s, %s (%.6g, %.6g, %.6g)",
+                 face_name((enum face)(2 * slab->axis + slab->end)), one.spoiled > 0 ? "about" : "at",
+                 position[0], position[1], position[2]);
     }
-    body_to_deck(&model->scene->body, inside, position);
-    snprintf(place, size, "in the layer behind face %s, at (%.6g, %.6g, %.6g)", face_name((enum face)face),
-             position[0], position[1], position[2]);
-    return fastest;
 }

@@ -134,9 +134,9 @@ static void remember(struct model *model, double dt, double *y)
     part_of(model)->class->remember(part_of(model), dt, y);
 }
 
-static double unseen(struct model *model, const double *y, size_t size, char *place)
+static void unseen(struct model *model, const double *y, struct unseen *found)
 {
-    return part_of(model)->class->unseen(part_of(model), y, size, place);
+    part_of(model)->class->unseen(part_of(model), y, found);
 }
 
 static void initialise(struct model *model, double *y)

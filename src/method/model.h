@@ -53,6 +53,13 @@ struct spectrum {
 /* As half_step of accelerate(): so large that components with dampers do not accelerate. */
 #define DAMPERS_HOLD 1e30
 
+/* What is wrong where users see nothing: in absorbing layers, in the density of particles. */
+struct unseen {
+    double speed;           /* largest; infinite if it is not finite */
+    size_t spoiled, places; /* places whose numbers are not finite or overflow when squared, of all of them */
+    char place[160]; /* where: "in the layer behind face x+, about (1, 2, 3)"; the middle of the spoiled ones */
+};
+
 struct model;
 
 struct model_class {
@@ -112,10 +119,9 @@ struct model_class {
      */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed);
-    /* Where the body moves fastest among the places that are no points of the body (absorbing layers): gives
-     * the speed (infinite if it is not finite) and a text such as "in the layer behind face x+, at (1, 2,
-     * 3)". Only called when a run has failed. NULL: there are none. */
-    double (*unseen)(struct model *model, const double *y, size_t size, char *place);
+    /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and their
+     * memory; density). Only called when a run has failed. NULL: there are none. */
+    void (*unseen)(struct model *model, const double *y, struct unseen *found);
     /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). */
     void (*describe)(const struct model *model,
                      void (*tell)(void *context, const char *key, const char *value), void *context);

@@ -322,6 +322,7 @@ const struct model_class model_updated_lagrangian = {
     .observe = updated_observe,
     .field = updated_field,
     .energy = updated_energy,
+    .unseen = updated_unseen,
     .power = updated_power,
     .describe = updated_describe,
 };

@@ -156,6 +156,7 @@ void updated_add_hourglass(struct updated *updated, const double *y, double *acc
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
 
 /* updated_lagrangian_fields.c */
+void updated_unseen(struct model *model, const double *y, struct unseen *found);
 void updated_initialise(struct model *model, double *y);
 selas_status updated_probe(struct model *model, const double position[3], struct probe *probe,
                            struct messages *messages);

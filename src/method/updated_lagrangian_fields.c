@@ -178,6 +178,24 @@ void updated_field(struct model *model, selas_field field, const double *y, cons
     }
 }
 
+/* A density that is not finite, or overflows, shows in no field at first. */
+void updated_unseen(struct model *model, const double *y, struct unseen *found)
+{
+    const double *density = y + 2 * model->unknowns;
+    double middle[3] = {0};
+    *found = (struct unseen){.speed = -1, .places = model->points};
+    for (size_t i = 0; i < model->points; i++) {
+        double x[3];
+        if (isfinite(density[i] * density[i])) continue;
+        model_position(model, i, x);
+        found->spoiled++;
+        for (int axis = 0; axis < 3; axis++)
+            middle[axis] += (x[axis] - middle[axis]) / (double)found->spoiled;
+    }
+    snprintf(found->place, sizeof found->place, "with the density of a particle, about (%.6g, %.6g, %.6g)", middle[0],
+             middle[1], middle[2]);
+}
+
 void updated_energy(struct model *model, const double *y, struct energy *energy)
 {
     const struct updated *updated = updated_of(model);

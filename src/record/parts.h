@@ -55,6 +55,9 @@ struct watch {
     double power, power_absorbed;      /* at the last step */
     double initial, largest;           /* energy: at the start, largest so far */
     double reference, reference_until; /* without work: largest energy up to this time */
+    bool with_faces;                   /* moved faces do work besides: ... */
+    double face_energy, face_rate;     /* ... of the order of that, times (1 + rate t)^2 */
+    double sampled;                    /* largest sum of squares of a sample of the velocities */
     double largest_defect;             /* largest |E - E0 - work + absorbed| */
     struct energy last;
     double last_time;

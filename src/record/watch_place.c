@@ -1,0 +1,187 @@
+/* Where a run went wrong and what is the likely cause. Only called when it has: time and memory do not count.
+ *
+ * A number that is not finite infects its neighbours, some spacings a step, in all directions alike: it began
+ * in the middle of what is spoiled. Growth is largest where it began: there the body moves fastest. */
+#include "record/watch.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- Where
+ * --------------------------------------------------------------------------------------------------------- */
+
+struct found {
+    size_t spoiled;     /* points of the body whose values are not finite or overflow */
+    double position[3]; /* about where */
+    double speed;       /* largest; infinite if spoiled */
+};
+
+/* Middle of the spoiled points about the one at `start`: there may be several such places (mirror images). */
+static void middle_of(const struct model *model, const bool *spoiled, size_t start, double middle[3])
+{
+    enum { SPACINGS = 10, ROUNDS = 12 };
+    const double reach = SPACINGS * model->scene->body.spacing;
+    model_position(model, start, middle);
+    for (int round = 0; round < ROUNDS; round++) {
+        double sum[3] = {0}, count = 0.0;
+        for (size_t i = 0; i < model->points; i++) {
+            double x[3];
+            if (!spoiled[i]) continue;
+            model_position(model, i, x);
+            if (!(hypot(hypot(x[0] - middle[0], x[1] - middle[1]), x[2] - middle[2]) <= reach)) continue;
+            count += 1.0;
+            for (int axis = 0; axis < 3; axis++)
+                sum[axis] += x[axis];
+        }
+        if (count == 0.0) return;
+        for (int axis = 0; axis < 3; axis++)
+            middle[axis] = sum[axis] / count;
+    }
+}
+
+static void mark_spoiled(const struct model *model, selas_field field, const double *value, bool *spoiled)
+{
+    const size_t components = (size_t)field_components(field);
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t c = 0; c < components; c++) {
+            const double x = value[components * i + c];
+            if (!isfinite(x * x)) spoiled[i] = true;
+        }
+}
+
+static void find_fastest(const struct model *model, const double *velocity, struct found *found)
+{
+    size_t place = 0;
+    for (size_t i = 0; i < model->points; i++) {
+        const double speed = hypot(hypot(velocity[3 * i], velocity[3 * i + 1]), velocity[3 * i + 2]);
+        if (!(speed > found->speed)) continue;
+        place = i;
+        found->speed = speed;
+    }
+    model_position(model, place, found->position);
+}
+
+/* Points whose density or stress alone is spoiled show in the fields made of these. False without memory. */
+static bool look(const struct recorder *recorder, const struct state *state, struct found *found)
+{
+    static const selas_field all[] = {SELAS_STRESS, SELAS_DISPLACEMENT, SELAS_VELOCITY};
+    struct model *model = recorder->model;
+    double *value = array_new(6 * model->points, sizeof *value);
+    bool *spoiled = array_new(model->points, sizeof *spoiled);
+    *found = (struct found){.speed = -1.0};
+    const bool room = value != NULL && spoiled != NULL;
+    for (size_t f = 0; room && f < sizeof all / sizeof *all; f++) {
+        model->class->field(model, all[f], state->y, state->a, value);
+        mark_spoiled(model, all[f], value, spoiled);
+    }
+    size_t first = model->points;
+    for (size_t i = model->points; room && i-- > 0;)
+        if (spoiled[i]) {
+            found->spoiled++;
+            first = i;
+        }
+    if (found->spoiled > 0)
+        middle_of(model, spoiled, first, found->position);
+    else if (room)
+        find_fastest(model, value, found); /* the last field was the velocity */
+    if (found->spoiled > 0) found->speed = INFINITY;
+    array_free(value);
+    array_free(spoiled);
+    return room;
+}
+
+static void name_place(const struct recorder *recorder, const struct state *state, size_t size, char *text)
+{
+    const struct model *model = recorder->model;
+    struct found found;
+    text[0] = '\0';
+    if (model->class->field == NULL || !look(recorder, state, &found)) return;
+    if (found.spoiled > 0)
+        snprintf(text, size, "; it began about (%.6g, %.6g, %.6g), by now at %zu of %zu points",
+                 found.position[0], found.position[1], found.position[2], found.spoiled, model->points);
+    else
+        snprintf(text, size, "; fastest at (%.6g, %.6g, %.6g), speed %.3g", found.position[0],
+                 found.position[1], found.position[2], found.speed);
+    if (model->class->unseen == NULL) return;
+    struct unseen unseen = {0};
+    model->class->unseen(recorder->model, state->y, &unseen);
+    if ((double)unseen.spoiled * (double)model->points > (double)found.spoiled * (double)unseen.places)
+        snprintf(text, size, "; it began %s, by now at %zu points there", unseen.place, unseen.spoiled);
+    else if (found.spoiled == 0 && unseen.speed > found.speed)
+        snprintf(text, size, "; fastest %s, speed %.3g", unseen.place, unseen.speed);
+}
+
+/* --- Why
+ * ----------------------------------------------------------------------------------------------------------- */
+
+static const struct material *least_compressible(const struct scene *scene)
+{
+    const struct material *found = &scene->material[0];
+    for (size_t m = 1; m < scene->materials; m++)
+        if (scene->material[m].poisson > found->poisson) found = &scene->material[m];
+    return found;
+}
+
+static bool absorbs(const struct scene *scene)
+{
+    for (size_t face = 0; face < FACES; face++)
+        if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING) return true;
+    return false;
+}
+
+static void say_step(const struct stepper *stepper, size_t size, char *text)
+{
+    if (stepper->limit > 0.0)
+        snprintf(text, size,
+                 "the time step %.3g is beyond the stability limit %.3g (CFL); leave stepping%%time_step and "
+                 "courant out",
+                 stepper->dt, stepper->limit);
+    else
+        snprintf(text, size, "the time step %.3g was not held against a stability limit (CFL); try a smaller one",
+                 stepper->dt);
+}
+
+/* The first of what is known to make runs grow that this run has. */
+static void name_cause(const struct recorder *recorder, size_t size, char *text)
+{
+    static const double nearly_incompressible = 0.49;
+    const struct stepper *stepper = recorder->stepper;
+    const struct scene *scene = recorder->scene;
+    const struct material *stiff = least_compressible(scene);
+    if (stepper->limit <= 0.0 || stepper->dt > 0.999 * stepper->limit)
+        say_step(stepper, size, text);
+    else if (stiff->poisson > nearly_incompressible)
+        snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
+                 stiff->name, stiff->poisson);
+    else if (stepper->spectrum.viscous > 0.0 || recorder->model->class->linearise != NULL)
+        snprintf(text, size,
+                 "the body moves so fast or so far that the stability limit %.3g, measured at rest, does not "
+                 "hold (the step is %.3g)%s; try a smaller stepping%%safety",
+                 stepper->limit, stepper->dt,
+                 stepper->spectrum.viscous > 0.0 ? ", or the artificial viscosity takes its part of it" : "");
+    else if (!recorder->model->self_adjoint)
+        snprintf(text, size,
+                 "this method's operator is not symmetric and may grow by itself; try a smaller time step, "
+                 "method%%variant = 'consistent', or other options of the method");
+    else if (absorbs(scene))
+        snprintf(text, size, "an absorbing face (nu = %.3g); try boundary%%layer = 'lysmer' or another box",
+                 stiff->poisson);
+    else
+        snprintf(text, size,
+                 "none that is known: the step is %.0f %% of the limit (CFL), there is no viscosity, nu is %.3g; "
+                 "look at loads, tables and the machine",
+                 100.0 * stepper->dt / stepper->limit, stiff->poisson);
+}
+
+selas_status watch_tell(const struct recorder *recorder, const struct state *state, const char *what,
+                        struct messages *messages)
+{
+    char where[300], why[400];
+    name_place(recorder, state, sizeof where, where);
+    name_cause(recorder, sizeof why, why);
+    return fail(messages, SELAS_UNSTABLE, "the run went unstable at t = %.6g (step %lu): %s%s; likely: %s",
+                state->time, state->step, what, where, why);
+}
