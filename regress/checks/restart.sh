@@ -52,8 +52,19 @@ done
 begun paper TERM snapshot_0001.h5
 check "SIGTERM: exit status 1" [ $status -eq 1 ]
 check "SIGTERM: says how to go on" grep -q "stopped by SIGTERM at step .* selas restart cut_paper/unfinished/checkpoint.h5" cut.err
+so_far() { # so_far WHOLE CUT NAME: the history so far is marked and begins as that of the whole run
+    grep -q '^# UNFINISHED: the run was stopped at step' "$2/unfinished/$3.dat" || { echo "not marked"; return 1; }
+    grep -v '^#' "$2/unfinished/$3.dat" >part
+    rows=$(wc -l <part)
+    [ "$rows" -gt 4 ] && grep -v '^#' "$1/$3.dat" | head -n "$rows" | cmp - part
+}
+check "SIGTERM: the histories so far are left, marked" so_far whole_paper cut_paper r1
+check "SIGTERM: says where" grep -q "histories so far are in cut_paper/unfinished/" cut.err
+check "SIGTERM: none among the results" sh -c "! ls cut_paper | grep -v unfinished"
+check "SIGTERM: the profile so far is marked" grep -q UNFINISHED cut_paper/unfinished/line.dat
 check "a restart from within the folder" sh -c "cd cut_paper/unfinished && '$selas' -q restart checkpoint.h5"
 check "SIGTERM: same bits" same whole_paper cut_paper
+check "SIGTERM: nothing is left of the histories so far" [ ! -e cut_paper/unfinished ]
 begun modified INT snapshot_0003.h5
 check "SIGINT: exit status 1" [ $status -eq 1 ]
 check "SIGINT: the restart is stopped again, and goes on" sh -c "
@@ -131,7 +142,7 @@ if command -v python3 >/dev/null; then
     version=$("$selas" --version | cut -d' ' -f2)
     reworded "version $version" "version 9.9.9" && refused "of another version" "written by version 9.9.9, this is $version"
     reworded "little-endian" "big-endian" && refused "of another byte order" "written by a big-endian machine"
-    reworded "format 1" "format 7" && refused "of another format" "format 7"
+    reworded "format 2" "format 7" && refused "of another format" "format 7"
     reworded "little" "little" && cmp -s $good $bad && echo "ok - the checksum of the head is CRC-64"
 fi
 cp cut_paper/unfinished/snapshot_0001.h5 kept.h5

@@ -29,6 +29,21 @@ expect() { # expect WHAT STATUS PATTERN DECK OVERRIDES...
     fi
 }
 expect 'growth is stopped with place and time' 1 'went unstable at t = .*fastest at' "$out/box.nml"
+# the last good checkpoint is at least a hundred steps old, and named
+for every in 10 60 150; do
+    expect "growth names the last good checkpoint, one every $every steps" 1 'likely: ' "$out/box.nml" stepping%time_step=.03 "output%checkpoint_every=$every"
+    step=$(sed -n 's/.*unstable at t = .*(step \([0-9]*\)).*/\1/p' "$out/log")
+    good=$(sed -n 's/^the last good checkpoint is that of step \([0-9]*\), t = [0-9.]*: selas restart .*/\1/p' "$out/log")
+    file=$(sed -n 's/^the last good .*: selas restart //p' "$out/log")
+    if [ -n "$good" ] && { [ "$good" -eq 0 ] || [ $((step - good)) -ge 100 ]; } && [ -e "$file" ] &&
+        ! "$build/selas" -q restart "$file" >"$out/log" 2>&1 && grep -q "unstable at t = .*(step $step)" "$out/log"; then
+        echo "ok - ... of step $good of $step, which a restart reads and fails at the same step"
+    else
+        echo "not ok - ... of step '$good' of '$step', '$file'"
+        cat "$out/log"
+    fi
+    rm -rf "$out/run"
+done
 expect 'growth too small to stop is warned of' 0 'warning: the body ends with .* that nobody gave it' "$out/box.nml" scene%end_time=7.6
 expect 'a scheme that is unstable for every step is refused' 2 'unstable for every time step' input/bar.nml \
     method%viscosity_alpha=0 method%viscosity_beta=0

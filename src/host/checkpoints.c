@@ -22,7 +22,7 @@ selas_status selas_save(selas_simulation *simulation, const char *path)
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status != SELAS_OK) return status;
-    return checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path, false,
+    return checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path, KEEP_NOTHING,
                             &simulation->messages);
 }
 
@@ -192,14 +192,14 @@ char *simulation_checkpoint_path(selas_simulation *simulation)
     return path;
 }
 
-selas_status simulation_checkpoint(selas_simulation *simulation)
+selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint_keep keep)
 {
     const char *folder;
     char *path = simulation_checkpoint_path(simulation);
     if (path == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
     selas_status status = recorder_unfinished(simulation->recorder, &folder, &simulation->messages);
     if (status == SELAS_OK)
-        status = checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path, true,
+        status = checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path, keep,
                                   &simulation->messages);
     free(path);
     return status;

@@ -88,7 +88,7 @@ selas_status simulation_open_run(const char *path, size_t count, const char *con
 /* Path of the checkpoint of a run with result files (free it); NULL without memory. */
 char *simulation_checkpoint_path(selas_simulation *simulation);
 /* Saves the state there, if it is sound. */
-selas_status simulation_checkpoint(selas_simulation *simulation);
+selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint_keep keep);
 
 /* host/drive.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */

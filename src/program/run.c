@@ -15,16 +15,23 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The watch finds what goes wrong within so many steps: a checkpoint older than that is good. */
-enum { WATCHED = 100 };
+/* The watch finds what goes wrong within so many steps: a checkpoint older than that is good. At least one of
+ * the last three is: the older two are kept so. */
+enum { WATCHED = 100, KEPT = 3 };
+static const char *const kept_name[KEPT] = {"", "_before", "_earlier"};
+
+struct saved {
+    bool any;
+    unsigned long step;
+    double time;
+};
 
 struct run {
     selas_simulation *simulation;
     bool quiet;
     size_t *told;
-    char *path;                        /* of the checkpoint */
-    unsigned long saved, saved_before; /* steps of the last two checkpoints ... */
-    bool any, any_before;              /* ... if there are */
+    char *path;              /* of the checkpoint */
+    struct saved saved[KEPT]; /* the last one, the one before, and one earlier */
     bool complained;
     double next_moment; /* by the clock, seconds */
 };
@@ -51,17 +58,26 @@ static double minutes_between(const struct run *run)
     return run->simulation->scene->output.checkpoint_minutes;
 }
 
+/* What becomes of the last ones when the next is written at `step`: NAME_before.h5 is to be WATCHED steps old,
+ * or NAME_earlier.h5. */
+static enum checkpoint_keep keep_at(const struct run *run, unsigned long step)
+{
+    const struct saved *last = &run->saved[0], *before = &run->saved[1];
+    if (!last->any || last->step == step) return KEEP_NOTHING;
+    if (!before->any || step - last->step >= WATCHED) return KEEP_LAST;
+    return last->step - before->step >= WATCHED ? KEEP_LAST_AND_BEFORE : KEEP_NOTHING;
+}
+
 static selas_status save(struct run *run)
 {
-    const unsigned long step = selas_steps(run->simulation);
-    const selas_status status = simulation_checkpoint(run->simulation);
+    const struct saved now = {true, selas_steps(run->simulation), selas_time(run->simulation)};
+    const enum checkpoint_keep keep = keep_at(run, now.step);
+    const selas_status status = simulation_checkpoint(run->simulation, keep);
     run->next_moment = wall_seconds() + 60.0 * minutes_between(run);
     if (status != SELAS_OK) return status;
-    if (run->any && run->saved == step) return status;
-    run->any_before = run->any;
-    run->saved_before = run->saved;
-    run->any = true;
-    run->saved = step;
+    if (keep == KEEP_LAST_AND_BEFORE) run->saved[2] = run->saved[1];
+    if (keep != KEEP_NOTHING) run->saved[1] = run->saved[0];
+    run->saved[0] = now;
     return status;
 }
 
@@ -89,20 +105,21 @@ static selas_status save_on_the_way(struct run *run)
 /* Where to go on after a failure that has left no new checkpoint. */
 static void tell_last(const struct run *run, bool unstable)
 {
-    const bool recent = unstable && run->any && run->saved + WATCHED > selas_steps(run->simulation);
-    if (!run->any) {
-        if (run->simulation->state.step > 0) fprintf(stderr, "there is no checkpoint of this run\n");
-    } else if (!recent) {
-        fprintf(stderr, "the last good checkpoint is that of step %lu: selas restart %s\n", run->saved,
-                run->path);
-    } else if (run->any_before) {
-        fprintf(stderr,
-                "the last checkpoint (step %lu) may be touched already; the one before (step %lu): selas "
-                "restart %.*s_before.h5\n",
-                run->saved, run->saved_before, (int)strlen(run->path) - 3, run->path);
-    } else {
-        fprintf(stderr, "the only checkpoint (step %lu) may be touched already: %s\n", run->saved, run->path);
+    const unsigned long now = selas_steps(run->simulation);
+    int good = 0;
+    while (unstable && good < KEPT && run->saved[good].any && run->saved[good].step + WATCHED > now)
+        good++;
+    if (!run->saved[0].any) {
+        if (now > 0) fprintf(stderr, "there is no checkpoint of this run\n");
+        return;
     }
+    bool touched = good == KEPT || !run->saved[good].any;
+    if (touched) good--;                                /* all are young: the oldest */
+    if (run->saved[good].step == 0) touched = false; /* nothing had begun */
+    fprintf(stderr, "the last %s checkpoint is that of step %lu, t = %.6g%s: selas restart %.*s%s.h5\n",
+            touched ? "known" : "good", run->saved[good].step, run->saved[good].time,
+            touched ? ", which may be touched already" : "", (int)strlen(run->path) - 3, run->path,
+            kept_name[good]);
 }
 
 /* The run ends here, its state is kept. */
@@ -118,6 +135,17 @@ static void keep_state(struct run *run, const char *why)
         fprintf(stderr, "%s at step %lu, t = %.6g; the state could not be kept\n", why, step,
                 selas_time(run->simulation));
     if (status != SELAS_OK) tell_last(run, false);
+}
+
+/* What the receivers have seen, for who cannot wait for the end. */
+static void leave_histories(struct run *run)
+{
+    selas_simulation *simulation = run->simulation;
+    const selas_status status = recorder_write_so_far(simulation->recorder, &simulation->messages);
+    tell_messages(simulation, run->told);
+    if (status == SELAS_OK && simulation->scene->receivers > 0)
+        fprintf(stderr, "the histories so far are in %.*s\n",
+                (int)(strlen(run->path) - strlen("checkpoint.h5")), run->path);
 }
 
 /* --- Stepping
@@ -144,8 +172,7 @@ static selas_status begin(struct run *run, const char *from)
     if (status != SELAS_OK) return status;
     run->path = simulation_checkpoint_path(simulation);
     run->next_moment = wall_seconds() + 60.0 * minutes_between(run);
-    run->any = from != NULL;
-    run->saved = selas_steps(simulation);
+    run->saved[0] = (struct saved){from != NULL, selas_steps(simulation), selas_time(simulation)};
     if (from == NULL && simulation->scene->output.checkpoint_every > 0) status = save_on_the_way(run);
     return run->path != NULL ? status : SELAS_NO_MEMORY;
 }
@@ -169,6 +196,7 @@ static selas_status run_with_progress(struct run *run, const char *from)
         char why[32];
         snprintf(why, sizeof why, "stopped by %s", signals_stop());
         keep_state(run, why);
+        leave_histories(run);
         return SELAS_STOPPED;
     }
     if (status == SELAS_FILE_ERROR) {

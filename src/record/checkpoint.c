@@ -36,7 +36,7 @@ enum figure {
     FILES_HIGH,
     FIGURES
 };
-enum { WATCH_NUMBERS = 14 };
+enum { WATCH_NUMBERS = 15 };
 
 /* One way through all arrays of a checkpoint. */
 struct walk {
@@ -83,6 +83,7 @@ static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
                                            &watch->last.strain,
                                            &watch->largest_defect,
                                            &watch->last_time,
+                                           &watch->sampled,
                                            &next};
     double number[WATCH_NUMBERS];
     for (size_t i = 0; i < WATCH_NUMBERS; i++)
@@ -224,23 +225,36 @@ static selas_status write_checked(const char *temporary, struct recorder *record
     return checkpoint_seal(temporary, messages);
 }
 
-/* The last one stays as NAME_before.h5 (where the file system has hard links). */
-static void keep_before(const char *path)
+/* Gives a file a second name by way of a third, so that the second never is without a file (where the file
+ * system has hard links). */
+static void name_again(const char *path, const char *stem, int length, const char *ending)
 {
-    const size_t length = strlen(path), room = length + 16;
-    char *before = malloc(2 * room);
-    if (before == NULL) return;
-    char *linked = before + room;
-    const int stem = length > 3 && strcmp(path + length - 3, ".h5") == 0 ? (int)length - 3 : (int)length;
-    snprintf(before, room, "%.*s_before.h5", stem, path);
-    snprintf(linked, room, "%.*s_link", stem, path);
+    const size_t room = (size_t)length + 16;
+    char *named = malloc(2 * room);
+    if (named == NULL) return;
+    char *linked = named + room;
+    snprintf(named, room, "%.*s_%s.h5", length, stem, ending);
+    snprintf(linked, room, "%.*s_link", length, stem);
     unlink(linked);
-    if (link(path, linked) == 0 && rename(linked, before) != 0) unlink(linked);
+    if (link(path, linked) == 0 && rename(linked, named) != 0) unlink(linked);
+    free(named);
+}
+
+static void keep_older(const char *path, enum checkpoint_keep keep)
+{
+    const size_t size = strlen(path);
+    const int length = size > 3 && strcmp(path + size - 3, ".h5") == 0 ? (int)size - 3 : (int)size;
+    char *before = keep == KEEP_LAST_AND_BEFORE ? malloc(size + 16) : NULL;
+    if (before != NULL) {
+        snprintf(before, size + 16, "%.*s_before.h5", length, path);
+        name_again(before, path, length, "earlier");
+    }
     free(before);
+    name_again(path, path, length, "before");
 }
 
 selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,
-                              const char *path, bool keep, struct messages *messages)
+                              const char *path, enum checkpoint_keep keep, struct messages *messages)
 {
     uint64_t files = 0;
     if (!kept_files_checksum(recorder->scene, &files))
@@ -271,7 +285,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
     snprintf(temporary, room, "%s.part", path);
     status = write_checked(temporary, recorder, state, figures, text, messages);
     if (status != SELAS_OK) remove(temporary);
-    if (status == SELAS_OK && keep) keep_before(path);
+    if (status == SELAS_OK && keep != KEEP_NOTHING) keep_older(path, keep);
     if (status == SELAS_OK) status = safe_file_commit(temporary, path, messages);
     free(text);
     free(temporary);

@@ -1,6 +1,6 @@
 /* The head of a checkpoint (see the header): lines of text,
  *
- *   selas checkpoint, format 1
+ *   selas checkpoint, format 2
  *   version 0.1.0
  *   commit 1234567
  *   bytes little-endian
@@ -24,7 +24,7 @@
 #include <unistd.h>
 
 static const char first_line[] = "selas checkpoint, format ";
-enum { FORMAT = 1, BLOCK = 1 << 16 };
+enum { FORMAT = 2, BLOCK = 1 << 16 };
 
 static const char *byte_order(void)
 {

@@ -9,14 +9,22 @@
 
 enum { ROWS_WITHOUT_STEP = 600 };
 
-static selas_status write_history(const struct scene *scene, size_t receiver, bool exact,
-                                  const struct history_rows *history, struct messages *messages)
+void histories_note(FILE *out, const struct recorder *recorder)
+{
+    if (recorder->so_far)
+        fprintf(out, "# UNFINISHED: the run was stopped at step %lu, t = %.9g, of %lu; a restart completes it\n",
+                recorder->last_step, recorder->last_time, recorder->stepper->steps);
+}
+
+/* `recorder` is NULL where nothing is run. */
+static selas_status write_history(const struct scene *scene, const struct recorder *recorder, size_t receiver,
+                                  bool exact, const struct history_rows *history, struct messages *messages)
 {
     const struct receiver *place = &scene->receiver[receiver];
     char name[NAME_SIZE + 16];
     file_name_of(place->name, exact ? ".exact.dat" : ".dat", name, sizeof name);
     struct safe_file file;
-    const selas_status status = safe_file_open(scene->output.directory, name, &file, messages);
+    const selas_status status = safe_file_open(recorder != NULL ? recorder->folder : scene->output.directory, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
     fprintf(out, "# %s at receiver %s, position %.17g %.17g %.17g\n", exact ? "exact history" : "history",
@@ -27,6 +35,7 @@ static selas_status write_history(const struct scene *scene, size_t receiver, bo
     if (!exact && scene->output.low_pass > 0.0)
         fprintf(out, "# low-passed: spectrum times exp(-(omega/%.17g)^4), zero phase\n",
                 scene->output.low_pass);
+    if (recorder != NULL) histories_note(out, recorder);
     fprintf(out, "# t ux uy uz vx vy vz\n");
     for (size_t i = 0; i < history->rows; i++) {
         fprintf(out, "%.17g", history->time[i]);
@@ -59,10 +68,10 @@ selas_status histories_write(struct recorder *recorder, struct messages *message
     selas_status status = SELAS_OK;
     for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++) {
         struct history_rows history = recorder_history(recorder, r);
-        status = write_history(recorder->scene, r, false, &history, messages);
+        status = write_history(recorder->scene, recorder, r, false, &history, messages);
         if (status != SELAS_OK || recorder->exact == NULL) continue;
         history.value = recorder->exact + r * recorder->rows * 6;
-        status = write_history(recorder->scene, r, true, &history, messages);
+        status = write_history(recorder->scene, recorder, r, true, &history, messages);
     }
     return status;
 }
@@ -87,7 +96,7 @@ selas_status record_exact(const struct scene *scene, struct exact *exact, struct
     const struct history_rows history = {rows, time, value};
     for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++) {
         status = exact->class->history(exact, scene->receiver[r].position, rows, time, value, messages);
-        if (status == SELAS_OK) status = write_history(scene, r, true, &history, messages);
+        if (status == SELAS_OK) status = write_history(scene, NULL, r, true, &history, messages);
     }
     array_free(time);
     array_free(value);

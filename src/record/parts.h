@@ -57,7 +57,7 @@ struct watch {
     double reference, reference_until; /* without work: largest energy up to this time */
     bool with_faces;                   /* moved faces do work besides: ... */
     double face_energy, face_rate;     /* ... of the order of that, times (1 + rate t)^2 */
-    double sampled;                    /* largest sum of squares of a sample of the velocities */
+    double sampled;                    /* sum of squares of a sample of the velocities when they were last energetic */
     double largest_defect;             /* largest |E - E0 - work + absorbed| */
     struct energy last;
     double last_time;
@@ -73,6 +73,8 @@ struct recorder {
     double *time;        /* [rows] */
     double *exact;       /* [receivers * rows * 6] or NULL */
     bool finished, written;
+    const char *folder; /* of text results and their plots: that of the results or of what is unfinished */
+    bool so_far;        /* these are of a run that goes on later */
     struct profile_record *profile;   /* [scene->profiles] */
     struct snapshot_record *snapshot; /* [scene->snapshots] */
     size_t entries, entry_room;
@@ -92,6 +94,8 @@ selas_status trace_observe(struct recorder *recorder, const struct state *state,
 selas_status trace_finish(struct recorder *recorder, struct messages *messages);
 /* Room for as many rows of all receivers. */
 selas_status trace_reserve(struct recorder *recorder, size_t rows, struct messages *messages);
+/* Lets the finished rows go: they are made anew. */
+void trace_unfinish(struct recorder *recorder);
 /* Forgets the last row of all receivers. */
 void trace_forget(struct recorder *recorder);
 void trace_free(struct recorder *recorder);
@@ -154,6 +158,8 @@ selas_status watch_sound(const struct recorder *recorder, const struct state *st
  * NAME.exact.dat */
 selas_status histories_compare(struct recorder *recorder, struct exact *exact, struct messages *messages);
 selas_status histories_write(struct recorder *recorder, struct messages *messages);
+/* A line of comment that says so if they are of a run that goes on later. */
+void histories_note(FILE *out, const struct recorder *recorder);
 
 /* plan.c: the plan without timing anything */
 void plan_tell(const struct recorder *recorder,

@@ -137,10 +137,10 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     const int height = TOP + panels * one + BOTTOM;
     char name[NAME_SIZE + 16], title[512];
     plot_name(recorder, receiver, name, sizeof name);
-    snprintf(title, sizeof title, "%s: %s at (%g, %g, %g)", scene->title, place->name, place->position[0],
-             place->position[1], place->position[2]);
+    snprintf(title, sizeof title, "%s%s%s%s at (%g, %g, %g)", recorder->so_far ? "UNFINISHED: " : "",
+             scene->title, scene->title[0] != '\0' ? ": " : "", place->name, place->position[0], place->position[1], place->position[2]);
     gnuplot_page(script, WIDTH, height, TOP, title);
-    gnuplot_output(script, scene->output.directory, name);
+    gnuplot_output(script, recorder->folder, name);
     write_data(script, recorder, receiver);
     fprintf(script, "set multiplot\n");
     fprintf(script, "set xrange [0:%.9g]\n", recorder->rows > 1 ? recorder->time[recorder->rows - 1] : 1.0);
@@ -164,6 +164,6 @@ void plot_histories(struct recorder *recorder, struct messages *messages)
     for (size_t r = 0; r < scene->receivers; r++) {
         char name[NAME_SIZE + 16];
         plot_name(recorder, r, name, sizeof name);
-        gnuplot_keep(scene->output.directory, name, good, messages);
+        gnuplot_keep(recorder->folder, name, good, messages);
     }
 }

@@ -120,6 +120,7 @@ static void write_header(FILE *out, const struct recorder *recorder, const struc
             scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version());
     if (recorder->stepper->unwarp)
         fprintf(out, "# mid-run values: they keep the time error of the scheme, which only receivers lose\n");
+    histories_note(out, recorder);
     fprintf(out, "# s x y z");
     for (int field = 0; field <= LAST_FIELD; field++) {
         if ((profile->fields >> field & 1U) == 0) continue;
@@ -138,14 +139,15 @@ static selas_status write_one(const struct recorder *recorder, const struct prof
     char name[NAME_SIZE + 16];
     file_name_of(profile->name, ".dat", name, sizeof name);
     struct safe_file file;
-    const selas_status status = safe_file_open(recorder->scene->output.directory, name, &file, messages);
+    const selas_status status = safe_file_open(recorder->folder, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
     write_header(out, recorder, profile);
     for (size_t k = 0; k < profile->times; k++) {
         if (record->seen[k] < NODES) { /* the run ended before */
-            warn(messages, "profile '%s' has no values at t = %g: the run ended before", profile->name,
-                 profile->time[k]);
+            if (!recorder->so_far)
+                warn(messages, "profile '%s' has no values at t = %g: the run ended before", profile->name,
+                     profile->time[k]);
             continue;
         }
         fprintf(out, "%s# t = %.17g\n", k > 0 ? "\n\n" : "", profile->time[k]);

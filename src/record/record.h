@@ -45,6 +45,9 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
  * report.txt, and with output%plots the PNGs. */
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages);
+/* Of a run that was stopped: RECEIVER.dat and, with output%plots, their pictures, and PROFILE.dat, as far as
+ * it came, marked unfinished, into the folder of what is not finished; they go when the run is over. */
+selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages);
 /* Value of a receiver at the state given (mid-run, as computed), deck coordinates; `value` has room for 6. */
 void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
                     double *value);
@@ -60,11 +63,16 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
 /* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it
- * back before it gets its name; with `keep` the one before stays as NAME_before.h5. Reading wants the same
+ * back before it gets its name; the one before stays as NAME_before.h5 if `keep` says so. Reading wants the same
  * scene, and with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR with the
  * reason, after which state and recorder are of no use. `spent`: seconds of stepping, kept too. */
+enum checkpoint_keep {
+    KEEP_NOTHING,
+    KEEP_LAST,          /* as NAME_before.h5 */
+    KEEP_LAST_AND_BEFORE /* and what has that name as NAME_earlier.h5 */
+};
 selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,
-                              const char *path, bool keep, struct messages *messages);
+                              const char *path, enum checkpoint_keep keep, struct messages *messages);
 selas_status checkpoint_read(struct recorder *recorder, struct state *state, struct run_figures *spent,
                              const char *path, struct messages *messages);
 /* The folder with what is not finished (recorder_open), made if it is not there. */

@@ -15,6 +15,7 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
     recorder->scene = scene;
     recorder->model = model;
     recorder->stepper = stepper;
+    recorder->folder = scene->output.directory;
     selas_status status = trace_create(recorder, messages);
     if (status == SELAS_OK) status = profile_create(recorder, messages);
     if (status == SELAS_OK) status = snapshot_create(recorder, messages);
@@ -83,6 +84,21 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
                     double *value)
 {
     model_observe(recorder->model, &recorder->trace[receiver].probe, field, state->y, state->a, value);
+}
+
+selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)
+{
+    const char *results = recorder->folder;
+    selas_status status = recorder_unfinished(recorder, &recorder->folder, messages);
+    recorder->so_far = true;
+    if (status == SELAS_OK) status = trace_finish(recorder, messages);
+    if (status == SELAS_OK) status = histories_write(recorder, messages);
+    if (status == SELAS_OK) status = profile_write(recorder, messages);
+    if (status == SELAS_OK && recorder->scene->output.plots) plot_histories(recorder, messages);
+    trace_unfinish(recorder);
+    recorder->so_far = false;
+    recorder->folder = results;
+    return status;
 }
 
 static selas_status write_deck(const struct recorder *recorder, struct messages *messages)

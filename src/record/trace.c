@@ -201,6 +201,17 @@ selas_status trace_finish(struct recorder *recorder, struct messages *messages)
     return status;
 }
 
+void trace_unfinish(struct recorder *recorder)
+{
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
+        array_free(recorder->trace[r].value);
+        recorder->trace[r].value = NULL;
+    }
+    array_free(recorder->time);
+    recorder->time = NULL;
+    recorder->rows = 0;
+}
+
 void trace_free(struct recorder *recorder)
 {
     for (size_t r = 0; recorder->trace != NULL && r < recorder->scene->receivers; r++) {

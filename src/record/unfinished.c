@@ -94,8 +94,16 @@ static void give_lock(struct unfinished *unfinished)
 /* --- The folder
  * ---------------------------------------------------------------------------------------------------- */
 
+static bool ends(const char *name, const char *ending)
+{
+    const size_t size = strlen(name), length = strlen(ending);
+    return size > length && strcmp(name + size - length, ending) == 0;
+}
+
 static bool is_own(const char *name)
 {
+    if (ends(name, ".dat") || ends(name, ".png") || ends(name, ".dat.part") || ends(name, ".png.part"))
+        return true; /* histories so far */
     return strncmp(name, "checkpoint", 10) == 0 || strncmp(name, "snapshot_", 9) == 0 ||
            strncmp(name, "points.h5", 9) == 0;
 }
@@ -107,6 +115,7 @@ static void remove_folder(const char *path)
     /* first what needs the others: a kill in between must not leave a checkpoint without its snapshots */
     unlinkat(dirfd(folder), "checkpoint.h5", 0);
     unlinkat(dirfd(folder), "checkpoint_before.h5", 0);
+    unlinkat(dirfd(folder), "checkpoint_earlier.h5", 0);
     for (const struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
         if (is_own(entry->d_name)) unlinkat(dirfd(folder), entry->d_name, 0);
     closedir(folder);

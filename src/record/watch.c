@@ -119,7 +119,7 @@ static const char *wrong_with_state(const struct recorder *recorder, const struc
 }
 
 /* Some numbers of the state, others at every step: what is not finite spreads and is soon among them, while
- * it still is where it began. *energetic: velocities among them are far above all seen before. */
+ * it still is where it began. *energetic: velocities among them are far above those at the last such time. */
 static bool sample_sound(struct recorder *recorder, const struct state *state, bool *energetic)
 {
     enum { SAMPLED = 2048, APART = 31, FAR_ABOVE = 16 };
@@ -132,7 +132,7 @@ static bool sample_sound(struct recorder *recorder, const struct state *state, b
         if (i >= unknowns && i < 2 * unknowns) velocities += square;
     }
     *energetic = velocities > FAR_ABOVE * recorder->watch.sampled;
-    recorder->watch.sampled = fmax(recorder->watch.sampled, velocities);
+    if (*energetic) recorder->watch.sampled = velocities;
     return sum == 0.0;
 }
 
