@@ -22,8 +22,8 @@ told() { # told WHAT WORDS OVERRIDE...: the plan warns with the words, and of no
     what=$1
     words=$2
     shift 2
-    "$selas" check good.nml "$@" >said 2>&1
-    "$selas" --strict check good.nml "$@" >strict 2>&1
+    "$selas" check "${deck:-good.nml}" "$@" >said 2>&1
+    "$selas" --strict check "${deck:-good.nml}" "$@" >strict 2>&1
     status=$?
     if [ "$(grep -c '^warning' said)" -eq 1 ] && grep -q "^warning: .*$words" said && [ $status -eq 2 ] &&
         grep -q "^error: .*$words" strict; then
@@ -49,6 +49,40 @@ told "a load on an absorbing face" "load 1 acts on the absorbing face y+" load%f
 told "a patch beside the lattice" "edges of load 1 along x lie between points; -0.5 to 0.5 would" method%variant=paper load%size=1.1 "boundary(2)%kind=free"
 told "half a patch that is no half" "symmetry plane x- cuts load 1 beside its middle: .*x = 0 would" load%centre=0.25,0
 told "a push across the symmetry plane" "pushes across the symmetry plane x-" load%direction=1,0
+particles="method%name=sph method%variant=updated-lagrangian boundary(1)%layer=lysmer"
+# shellcheck disable=SC2086
+told "a patch beside the particles' cells" "edges of load 1 along x lie between the particles' cells.*-0.5 to 0.5 would" $particles load%size=1.1
+# 0.55 of a disc of diameter 1.1 lies on the body, with two particles in it: .5 / .55
+# shellcheck disable=SC2086
+told "a disc of few particles" "have 0.909 of its area.* amplitude = 1.1 would" $particles load%shape=disc load%size=1.1
+told "shear on a whole face across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%shape=face load%direction=1,0 load%centre= load%size=
+told "a body force across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%kind=body-force load%shape=face load%face= load%direction=1,0 load%centre= load%size=
+told "a force at an absorbing face" "load 1 acts at the absorbing face y+.*two spacings (0.5)" load%kind=body-force load%shape=point load%face= load%centre=1,3.9 load%size=
+deck=start.nml
+sed '/^&load/d; /^&boundary face = .x+/d' good.nml >start.nml
+echo "&initial kind = 'gaussian', centre = 0, 2, width = 0.5, amplitude = 0.1, direction = 0, 1 /" >>start.nml
+"$selas" --strict check start.nml >said 2>&1 && echo "ok - a pulse on a symmetry plane: nothing to warn of" || told "a pulse on a symmetry plane" "nothing"
+told "half a pulse that is no half" "initial state is not its own image in the symmetry plane x-" initial%centre=0.5,2
+told "a pulse across a symmetry plane" "initial state is not its own image in the symmetry plane x-" initial%direction=1,0
+told "few points in a pulse" "2.57 points per wavelength of the initial state; 4 need body%spacing = 0.16" initial%width=.25
+deck=moved.nml
+sed '/^&load/d' good.nml | sed "s/'x+', 'y+', kind = 'transmitting'/'y+', kind = 'displacement', direction = 0, 1, amplitude = 0.1, history = 'gaussian', width = 1, delay = 5/" >moved.nml
+"$selas" --strict check moved.nml >said 2>&1 && echo "ok - a face that moves along a symmetry plane: nothing to warn of" || told "a face that moves along" "nothing"
+told "a face that moves across a symmetry plane" "face y+ moves across the symmetry plane x-" "boundary(1)%direction=1,0"
+deck=space.nml
+cat >space.nml <<'END'
+&scene dimension = 3, end_time = 2.0 /
+&method name = 'sph', gradient = 'central' /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3, 3, 2, spacing = 0.25 /
+&load face = 'z-', shape = 'square', centre = 1.5, 1.5, 0, size = 1, 1, direction = 0, 0, 1, history = 'gaussian', width = 1, delay = 5 /
+&receiver name = 'r', position = 2, 1, 0 /
+END
+"$selas" --strict check space.nml >said 2>&1 && echo "ok - central differences under a patch: nothing to warn of" || told "central differences" "nothing"
+told "quadratic gradients under a narrow patch" "only 4 points wide.*rings on; method%gradient = 'central'" method%gradient=quadratic
+told "linear gradients under a narrow patch" "only 4 points wide.*rings on; method%gradient = 'central'" method%gradient=linear
+told "the same on jittered points" "rings on; method%variant = 'cloud'" method%gradient=quadratic body%jitter=0.1
+deck=
 "$selas" -q good.nml receiver%position=3.9,2 output%directory=out
 if grep -q "^warning: receiver 'r'" out/report.txt; then
     echo "ok - the report tells too"
