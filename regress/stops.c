@@ -1,6 +1,7 @@
-/* Stops one run of a deck at random steps: a checkpoint at each, and from each a restart with one or more threads to the end, whose
- * state and histories must have the bits of a run that nobody stopped. Arguments: number of threads, number of stops, seed, deck,
- * overrides. Prints how many restarts were compared; exit status 1 if any differs. */
+/* Stops one run of a deck at random steps: a checkpoint at each, and from each a restart with one or more
+ * threads to the end, whose state and histories must have the bits of a run that nobody stopped. Arguments:
+ * number of threads, number of stops, seed, deck, overrides. Prints how many restarts were compared; exit
+ * status 1 if any differs. */
 #include "host/simulation.h"
 
 #include <omp.h>

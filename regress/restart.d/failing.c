@@ -1,7 +1,7 @@
-/* A disk that fails, for regress/checks/disks.sh: preloaded (LD_PRELOAD), it lets writes to files fail from the FAIL_AT-th on
- * (FAIL_FOR of them, all without it) with the error FAIL_ERROR (a number: ENOSPC, EDQUOT, EIO). Counted are write, pwrite,
- * ftruncate and fsync on files above the standard streams, and what streams opened for writing hand over. FAIL_COUNT names a file
- * that gets the number of writes at the end. */
+/* A disk that fails, for regress/checks/disks.sh: preloaded (LD_PRELOAD), it lets writes to files fail from
+ * the FAIL_AT-th on (FAIL_FOR of them, all without it) with the error FAIL_ERROR (a number: ENOSPC, EDQUOT,
+ * EIO). Counted are write, pwrite, ftruncate and fsync on files above the standard streams, and what streams
+ * opened for writing hand over. FAIL_COUNT names a file that gets the number of writes at the end. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

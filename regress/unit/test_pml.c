@@ -267,7 +267,8 @@ static void test_fastest_place(void **state)
         run.model->class->unseen(run.model, run.y, &found);
         assert_true(bad == 1 ? isinf(found.speed) : fabs(found.speed - 5) < 1e-12);
         assert_true(found.spoiled == (size_t)bad);
-        assert_int_equal(sscanf(found.place, "in the layer behind face y+, a%*[bout] (%lf, %lf, %lf)", &x, &y, &z), 3);
+        assert_int_equal(
+            sscanf(found.place, "in the layer behind face y+, a%*[bout] (%lf, %lf, %lf)", &x, &y, &z), 3);
         assert_near(x, c->spline[0]->greville[i], 1e-5);
         assert_near(y, c->spline[1]->greville[k], 1e-5);
         assert_true(y > 1.5);

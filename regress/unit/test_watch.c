@@ -1,6 +1,6 @@
-/* The watch over runs of every method: a number that is not finite, one that overflows, and growth from one place are found
- * within a hundred steps wherever they are put (body, border, absorbing layer and its memory, density and stress of particles),
- * and the message says when, where and why. */
+/* The watch over runs of every method: a number that is not finite, one that overflows, and growth from one
+ * place are found within a hundred steps wherever they are put (body, border, absorbing layer and its memory,
+ * density and stress of particles), and the message says when, where and why. */
 #include "host/simulation.h"
 #include "method/consistent.h"
 #include "method/pml.h"
@@ -52,8 +52,9 @@ static double place_of(const char *text, double x[3])
     return sscanf(place, "%lf, %lf, %lf", x, x + 1, x + 2);
 }
 
-/* Puts the fault into number `index` of the state, at `place`, and steps until it is found, at most `off` spacings off. What is
- * not finite has spread when it is found: at a border, where it spreads to one side only, its middle lies further in. */
+/* Puts the fault into number `index` of the state, at `place`, and steps until it is found, at most `off`
+ * spacings off. What is not finite has spread when it is found: at a border, where it spreads to one side
+ * only, its middle lies further in. */
 static void plant(const struct family *family, const char *where, size_t index, const double place[2],
                   double off, const char *behind, enum fault fault)
 {
@@ -78,14 +79,17 @@ static void plant(const struct family *family, const char *where, size_t index, 
     assert_true(sscanf(strstr(said, "t = "), "t = %lf", &time) == 1 &&
                 fabs(time - simulation->state.time) <= 1e-5 * time);
     const char *cause = strstr(said, "likely: ");
-    if (cause == NULL || strstr(cause, family->cause) == NULL) fail_msg("%s: the cause in '%s'", family->what, said);
-    if (place_of(said, x) != 3) fail_msg("%s, %s, %s: no place in '%s'", family->what, where, fault_name[fault], said);
+    if (cause == NULL || strstr(cause, family->cause) == NULL)
+        fail_msg("%s: the cause in '%s'", family->what, said);
+    if (place_of(said, x) != 3)
+        fail_msg("%s, %s, %s: no place in '%s'", family->what, where, fault_name[fault], said);
     const double away = hypot(x[0] - place[0], x[1] - place[1]) / spacing;
-    print_message("# %s, %s, %s: after %d steps, %.1f spacings off\n", family->what, where, fault_name[fault], steps,
-                  away);
+    print_message("# %s, %s, %s: after %d steps, %.1f spacings off\n", family->what, where, fault_name[fault],
+                  steps, away);
     if (!(away <= off))
         fail_msg("%s, %s, %s: %.1f spacings off: '%s'", family->what, where, fault_name[fault], away, said);
-    if (behind != NULL && strstr(said, behind) == NULL) fail_msg("%s: not %s: '%s'", family->what, behind, said);
+    if (behind != NULL && strstr(said, behind) == NULL)
+        fail_msg("%s: not %s: '%s'", family->what, behind, said);
     selas_close(&simulation);
 }
 
@@ -132,9 +136,9 @@ static void at_points(const struct family *family)
 static void test_paper(void **state)
 {
     (void)state;
-    static const struct family family = {
-        "paper", "variant = 'paper'", "&boundary face = 'x+', 'y+', kind = 'transmitting' /\n",
-        "is not symmetric"};
+    static const struct family family = {"paper", "variant = 'paper'",
+                                         "&boundary face = 'x+', 'y+', kind = 'transmitting' /\n",
+                                         "is not symmetric"};
     at_points(&family);
 }
 
@@ -142,8 +146,10 @@ static void test_total_lagrangian(void **state)
 {
     (void)state;
     static const struct family all[] = {
-        {"total Lagrangian, linear", "name = 'sph', variant = 'total-lagrangian', gradient = 'linear'", "", ""},
-        {"total Lagrangian, quadratic", "name = 'sph', variant = 'total-lagrangian', gradient = 'quadratic'", "", ""},
+        {"total Lagrangian, linear", "name = 'sph', variant = 'total-lagrangian', gradient = 'linear'", "",
+         ""},
+        {"total Lagrangian, quadratic", "name = 'sph', variant = 'total-lagrangian', gradient = 'quadratic'",
+         "", ""},
         {"cloud", "variant = 'cloud'", "", ""},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
@@ -153,8 +159,8 @@ static void test_total_lagrangian(void **state)
 static void test_updated_lagrangian(void **state)
 {
     (void)state;
-    static const struct family family = {
-        "updated Lagrangian", "name = 'sph', variant = 'updated-lagrangian'", "", "measured at rest"};
+    static const struct family family = {"updated Lagrangian", "name = 'sph', variant = 'updated-lagrangian'",
+                                         "", "measured at rest"};
     at_points(&family);
     selas_simulation *simulation = begun(&family);
     const struct model *model = simulation->model;
@@ -174,10 +180,10 @@ static void test_updated_lagrangian(void **state)
 static void test_consistent(void **state)
 {
     (void)state;
-    static const struct family family = {
-        "consistent", "symmetry = .false.",
-        "&boundary face = 'x+', 'y+', kind = 'transmitting', layer = 'pml', layer_points = 8, always = .true. /\n",
-        "absorbing face"};
+    static const struct family family = {"consistent", "symmetry = .false.",
+                                         "&boundary face = 'x+', 'y+', kind = 'transmitting', layer = 'pml', "
+                                         "layer_points = 8, always = .true. /\n",
+                                         "absorbing face"};
     selas_simulation *simulation = begun(&family);
     const struct consistent *c = consistent_of(simulation->model);
     assert_true(c->pml != NULL && c->pml->slabs == 2 && c->plane == c->n[0]);

@@ -57,7 +57,8 @@ struct spectrum {
 struct unseen {
     double speed;           /* largest; infinite if it is not finite */
     size_t spoiled, places; /* places whose numbers are not finite or overflow when squared, of all of them */
-    char place[160]; /* where: "in the layer behind face x+, about (1, 2, 3)"; the middle of the spoiled ones */
+    char place[160]; /* where: "in the layer behind face x+, about (1, 2, 3)"; the middle of the spoiled ones
+                      */
 };
 
 struct model;
@@ -119,8 +120,8 @@ struct model_class {
      */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed);
-    /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and their
-     * memory; density). Only called when a run has failed. NULL: there are none. */
+    /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
+     * their memory; density). Only called when a run has failed. NULL: there are none. */
     void (*unseen)(struct model *model, const double *y, struct unseen *found);
     /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). */
     void (*describe)(const struct model *model,

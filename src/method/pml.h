@@ -68,7 +68,8 @@ bool layer_left_out(const struct scene *scene, int face);
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context);
 
-/* model_class's `unseen`: the fastest control value of the layers, or the middle of those that are spoiled. */
+/* model_class's `unseen`: the fastest control value of the layers, or the middle of those that are spoiled.
+ */
 void layers_fastest(struct model *model, const double *y, struct unseen *found);
 
 /* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. */

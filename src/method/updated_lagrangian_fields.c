@@ -192,8 +192,8 @@ void updated_unseen(struct model *model, const double *y, struct unseen *found)
         for (int axis = 0; axis < 3; axis++)
             middle[axis] += (x[axis] - middle[axis]) / (double)found->spoiled;
     }
-    snprintf(found->place, sizeof found->place, "with the density of a particle, about (%.6g, %.6g, %.6g)", middle[0],
-             middle[1], middle[2]);
+    snprintf(found->place, sizeof found->place, "with the density of a particle, about (%.6g, %.6g, %.6g)",
+             middle[0], middle[1], middle[2]);
 }
 
 void updated_energy(struct model *model, const double *y, struct energy *energy)

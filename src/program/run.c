@@ -30,7 +30,7 @@ struct run {
     selas_simulation *simulation;
     bool quiet;
     size_t *told;
-    char *path;              /* of the checkpoint */
+    char *path;               /* of the checkpoint */
     struct saved saved[KEPT]; /* the last one, the one before, and one earlier */
     bool complained;
     double next_moment; /* by the clock, seconds */
@@ -58,8 +58,8 @@ static double minutes_between(const struct run *run)
     return run->simulation->scene->output.checkpoint_minutes;
 }
 
-/* What becomes of the last ones when the next is written at `step`: NAME_before.h5 is to be WATCHED steps old,
- * or NAME_earlier.h5. */
+/* What becomes of the last ones when the next is written at `step`: NAME_before.h5 is to be WATCHED steps
+ * old, or NAME_earlier.h5. */
 static enum checkpoint_keep keep_at(const struct run *run, unsigned long step)
 {
     const struct saved *last = &run->saved[0], *before = &run->saved[1];
@@ -114,7 +114,7 @@ static void tell_last(const struct run *run, bool unstable)
         return;
     }
     bool touched = good == KEPT || !run->saved[good].any;
-    if (touched) good--;                                /* all are young: the oldest */
+    if (touched) good--;                             /* all are young: the oldest */
     if (run->saved[good].step == 0) touched = false; /* nothing had begun */
     fprintf(stderr, "the last %s checkpoint is that of step %lu, t = %.6g%s: selas restart %.*s%s.h5\n",
             touched ? "known" : "good", run->saved[good].step, run->saved[good].time,

@@ -39,8 +39,8 @@ static void look_at_start(struct adviser *adviser)
     if (initial->kind == INITIAL_PLANE_WAVE) wave = initial->wavelength;
     if (initial->kind == INITIAL_GAUSSIAN) wave = 2.567 * initial->width;
     if (wave > 0.0 && spacing > 0.0 && wave < fewest * spacing)
-        advise(adviser, "%.3g points per wavelength of the initial state; %g need body%%spacing = %.3g", wave / spacing,
-               fewest, wave / fewest);
+        advise(adviser, "%.3g points per wavelength of the initial state; %g need body%%spacing = %.3g",
+               wave / spacing, fewest, wave / fewest);
 }
 
 static void look_at_step(struct adviser *adviser, const struct stepper *stepper)
@@ -111,10 +111,12 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     }
     body_from_deck(&scene->body, load->centre, centre);
     for (int face = 0; face < 2 * scene->dimension && load->shape == LOAD_POINT; face++) {
-        const double depth = fabs(centre[face_axis((enum face)face)] - plane_of(&scene->body, (enum face)face));
+        const double depth =
+            fabs(centre[face_axis((enum face)face)] - plane_of(&scene->body, (enum face)face));
         if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING && depth < 1.999 * scene->body.spacing)
             advise(adviser,
-                   "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) inside it "
+                   "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
+                   "inside it "
                    "would not",
                    k + 1, face_name((enum face)face), 2.0 * scene->body.spacing);
     }

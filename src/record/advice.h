@@ -1,5 +1,5 @@
-/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), advice_points.c (patches on points),
- * advice_mirrors.c (symmetry planes). */
+/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), advice_points.c (patches on
+ * points), advice_mirrors.c (symmetry planes). */
 #ifndef SELAS_ADVICE_H
 #define SELAS_ADVICE_H
 

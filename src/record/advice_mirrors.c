@@ -1,5 +1,5 @@
-/* Symmetry planes: what lies on the body must go on in its mirror image, or the half is no half of anything. A vector across the
- * plane points the other way in the image. */
+/* Symmetry planes: what lies on the body must go on in its mirror image, or the half is no half of anything.
+ * A vector across the plane points the other way in the image. */
 #include "record/advice.h"
 
 #include <math.h>
@@ -27,12 +27,14 @@ static void look_at_patch(struct adviser *adviser, const struct mirror_plane *pl
     if (off >= half) return; /* not cut */
     if (off > 1e-6 * half)
         advise(adviser,
-               "the symmetry plane %s cuts load %zu beside its middle: it and its image are no such patch; %c = %.6g "
+               "the symmetry plane %s cuts load %zu beside its middle: it and its image are no such patch; "
+               "%c = %.6g "
                "would be its middle",
-               face_name(plane->face), k + 1, "xyz"[plane->axis], plane->place);
+               face_name(plane->face), k + 1, "xyz"[plane->axis], plane -> place);
     if (across(plane, &scene->body, load->direction))
         advise(adviser,
-               "load %zu pushes across the symmetry plane %s that cuts it, where its image pushes back; a load along "
+               "load %zu pushes across the symmetry plane %s that cuts it, where its image pushes back; a "
+               "load along "
                "the plane, or the whole body, would be right",
                k + 1, face_name(plane->face));
 }
@@ -54,7 +56,8 @@ static void look_at_load(struct adviser *adviser, const struct mirror_plane *pla
     if (load->shape == LOAD_POINT && off > 1e-6 * scene->body.spacing) return;
     if (load->kind != LOAD_MOMENT_TENSOR && across(plane, &scene->body, load->direction))
         advise(adviser,
-               "load %zu pushes across the symmetry plane %s, beyond which its image pushes the other way; a load along "
+               "load %zu pushes across the symmetry plane %s, beyond which its image pushes the other way; a "
+               "load along "
                "the plane, or the whole body, would be right",
                k + 1, face_name(plane->face));
 }
@@ -69,7 +72,8 @@ static void look_at_motions(struct adviser *adviser, const struct mirror_plane *
             !across(plane, &scene->body, boundary->direction))
             continue;
         advise(adviser,
-               "face %s moves across the symmetry plane %s, beyond which its image moves the other way; a motion along "
+               "face %s moves across the symmetry plane %s, beyond which its image moves the other way; a "
+               "motion along "
                "the plane, or the whole body, would be right",
                face_name((enum face)face), face_name(plane->face));
     }
@@ -93,7 +97,8 @@ static void look_at_start(struct adviser *adviser, const struct mirror_plane *pl
         wrong = off > 1e-6 * initial->width || across(plane, body, initial->direction);
     if (wrong)
         advise(adviser,
-               "the initial state is not its own image in the symmetry plane %s; one along the plane and centred on "
+               "the initial state is not its own image in the symmetry plane %s; one along the plane and "
+               "centred on "
                "it, or the whole body, would be right",
                face_name(plane->face));
 }
@@ -113,7 +118,8 @@ void look_at_mirrors(struct adviser *adviser)
         const double off = fabs(scene->body.hole_centre[plane.axis] - plane.place);
         if (off > 1e-6 * scene->body.hole_radius && off < scene->body.hole_radius)
             advise(adviser,
-                   "the symmetry plane %s cuts the hole beside its middle: it and its image are no circle; %c = %.6g "
+                   "the symmetry plane %s cuts the hole beside its middle: it and its image are no circle; "
+                   "%c = %.6g "
                    "would be its middle",
                    face_name(plane.face), "xyz"[plane.axis], plane.place);
     }

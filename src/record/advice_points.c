@@ -1,6 +1,6 @@
-/* Patches on points: as published the smoothed point method and updated-Lagrangian SPH press points one by one and see a patch only
- * as wide as the points in it; least-squares gradients hardly see the short surface waves that a narrow patch makes
- * (doc/sph-total-lagrangian.md, section 11). */
+/* Patches on points: as published the smoothed point method and updated-Lagrangian SPH press points one by
+ * one and see a patch only as wide as the points in it; least-squares gradients hardly see the short surface
+ * waves that a narrow patch makes (doc/sph-total-lagrangian.md, section 11). */
 #include "record/advice.h"
 
 #include <math.h>
@@ -23,15 +23,17 @@ static void look_at_edges(struct adviser *adviser, size_t k, const char *why)
         const double half = half_size(load, axis);
         const double low = round((centre[axis] - half - body->low[axis]) / body->spacing);
         const double high = round((centre[axis] + half - body->low[axis]) / body->spacing);
-        const double from = body->low[axis] + body->spacing * low, to = body->low[axis] + body->spacing * high;
+        const double from = body->low[axis] + body->spacing * low,
+                     to = body->low[axis] + body->spacing * high;
         const double off = fmax(fabs(centre[axis] - half - from), fabs(centre[axis] + half - to));
         if (half <= 0.0 || off < 1e-6 * body->spacing) continue;
-        advise(adviser, "the edges of load %zu along %c lie between %s; %.6g to %.6g would lie on them", k + 1,
-               "xyz"[axis], why, from, to);
+        advise(adviser, "the edges of load %zu along %c lie between %s; %.6g to %.6g would lie on them",
+               k + 1, "xyz"[axis], why, from, to);
     }
 }
 
-/* Share of the part of a patch that lies on the body: its particles' area over its own, both counted on the face. */
+/* Share of the part of a patch that lies on the body: its particles' area over its own, both counted on the
+ * face. */
 static double pressed_share(const struct scene *scene, const struct load *load)
 {
     enum { FINE = 50 };
@@ -101,11 +103,12 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
         whole = whole && size >= 0.999 * (scene->body.high[axis] - scene->body.low[axis]);
     }
     if (central || whole || scene->dimension < 3 || width > FEW * scene->body.spacing) return;
-    advise(adviser,
-           "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "
-           "%s, or method%%name = 'smoothed-point', would be right",
-           k + 1, width / scene->body.spacing,
-           scene->body.jitter > 0.0 ? "method%variant = 'cloud'" : "method%gradient = 'central'");
+    advise(
+        adviser,
+        "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "
+        "%s, or method%%name = 'smoothed-point', would be right",
+        k + 1, width / scene->body.spacing,
+        scene->body.jitter > 0.0 ? "method%variant = 'cloud'" : "method%gradient = 'central'");
 }
 
 void look_at_points(struct adviser *adviser, size_t k)

@@ -70,21 +70,12 @@ static void pass_real(struct walk *walk, const char *name, size_t number, const 
 static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
 {
     double next = (double)watch->next;
-    double *const member[WATCH_NUMBERS] = {&watch->work,
-                                           &watch->gross,
-                                           &watch->absorbed,
-                                           &watch->power,
-                                           &watch->power_absorbed,
-                                           &watch->initial,
-                                           &watch->largest,
-                                           &watch->reference,
-                                           &watch->reference_until,
-                                           &watch->last.kinetic,
-                                           &watch->last.strain,
-                                           &watch->largest_defect,
-                                           &watch->last_time,
-                                           &watch->sampled,
-                                           &next};
+    double *const member[WATCH_NUMBERS] = {
+        &watch->work,         &watch->gross,          &watch->absorbed,
+        &watch->power,        &watch->power_absorbed, &watch->initial,
+        &watch->largest,      &watch->reference,      &watch->reference_until,
+        &watch->last.kinetic, &watch->last.strain,    &watch->largest_defect,
+        &watch->last_time,    &watch->sampled,        &next};
     double number[WATCH_NUMBERS];
     for (size_t i = 0; i < WATCH_NUMBERS; i++)
         number[i] = *member[i];

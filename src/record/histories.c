@@ -12,7 +12,8 @@ enum { ROWS_WITHOUT_STEP = 600 };
 void histories_note(FILE *out, const struct recorder *recorder)
 {
     if (recorder->so_far)
-        fprintf(out, "# UNFINISHED: the run was stopped at step %lu, t = %.9g, of %lu; a restart completes it\n",
+        fprintf(out,
+                "# UNFINISHED: the run was stopped at step %lu, t = %.9g, of %lu; a restart completes it\n",
                 recorder->last_step, recorder->last_time, recorder->stepper->steps);
 }
 
@@ -24,7 +25,8 @@ static selas_status write_history(const struct scene *scene, const struct record
     char name[NAME_SIZE + 16];
     file_name_of(place->name, exact ? ".exact.dat" : ".dat", name, sizeof name);
     struct safe_file file;
-    const selas_status status = safe_file_open(recorder != NULL ? recorder->folder : scene->output.directory, name, &file, messages);
+    const selas_status status =
+        safe_file_open(recorder != NULL ? recorder->folder : scene->output.directory, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
     fprintf(out, "# %s at receiver %s, position %.17g %.17g %.17g\n", exact ? "exact history" : "history",

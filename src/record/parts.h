@@ -57,8 +57,8 @@ struct watch {
     double reference, reference_until; /* without work: largest energy up to this time */
     bool with_faces;                   /* moved faces do work besides: ... */
     double face_energy, face_rate;     /* ... of the order of that, times (1 + rate t)^2 */
-    double sampled;                    /* sum of squares of a sample of the velocities when they were last energetic */
-    double largest_defect;             /* largest |E - E0 - work + absorbed| */
+    double sampled;        /* sum of squares of a sample of the velocities when they were last energetic */
+    double largest_defect; /* largest |E - E0 - work + absorbed| */
     struct energy last;
     double last_time;
     unsigned long next;

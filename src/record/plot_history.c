@@ -138,7 +138,8 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     char name[NAME_SIZE + 16], title[512];
     plot_name(recorder, receiver, name, sizeof name);
     snprintf(title, sizeof title, "%s%s%s%s at (%g, %g, %g)", recorder->so_far ? "UNFINISHED: " : "",
-             scene->title, scene->title[0] != '\0' ? ": " : "", place->name, place->position[0], place->position[1], place->position[2]);
+             scene->title, scene->title[0] != '\0' ? ": " : "", place->name, place->position[0],
+             place->position[1], place->position[2]);
     gnuplot_page(script, WIDTH, height, TOP, title);
     gnuplot_output(script, recorder->folder, name);
     write_data(script, recorder, receiver);

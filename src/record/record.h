@@ -63,12 +63,12 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
 /* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it
- * back before it gets its name; the one before stays as NAME_before.h5 if `keep` says so. Reading wants the same
- * scene, and with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR with the
- * reason, after which state and recorder are of no use. `spent`: seconds of stepping, kept too. */
+ * back before it gets its name; the one before stays as NAME_before.h5 if `keep` says so. Reading wants the
+ * same scene, and with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR
+ * with the reason, after which state and recorder are of no use. `spent`: seconds of stepping, kept too. */
 enum checkpoint_keep {
     KEEP_NOTHING,
-    KEEP_LAST,          /* as NAME_before.h5 */
+    KEEP_LAST,           /* as NAME_before.h5 */
     KEEP_LAST_AND_BEFORE /* and what has that name as NAME_earlier.h5 */
 };
 selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,

@@ -45,9 +45,9 @@ static void motion_of(const struct recorder *recorder, const struct boundary *bo
     }
 }
 
-/* A face that is moved by U at the speed V gives a body of mass M, extent L and waves of speed c energy of the
- * order M (V^2 + c^2 (U / L)^2); driven in resonance the amplitude grows with every passage of a wave, that is
- * (1 + t c / L)^2 times that at time t. The power itself is not known to most methods. */
+/* A face that is moved by U at the speed V gives a body of mass M, extent L and waves of speed c energy of
+ * the order M (V^2 + c^2 (U / L)^2); driven in resonance the amplitude grows with every passage of a wave,
+ * that is (1 + t c / L)^2 times that at time t. The power itself is not known to most methods. */
 static void faces_can_give(struct recorder *recorder)
 {
     const struct scene *scene = recorder->scene;
@@ -105,7 +105,8 @@ static void add_work(struct recorder *recorder, const struct state *state)
     watch->power_absorbed = absorbed;
 }
 
-/* Sums of squares are finite, in numbers that can be worked with: a square that overflows spoils the energy. */
+/* Sums of squares are finite, in numbers that can be worked with: a square that overflows spoils the energy.
+ */
 static const char *wrong_with_state(const struct recorder *recorder, const struct state *state)
 {
     const size_t size = recorder->model->state_size;
@@ -187,7 +188,7 @@ static selas_status judge(struct recorder *recorder, const struct state *state, 
     const double total = energy.kinetic + energy.strain;
     if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
     return grown(recorder, state, total, sizeof what, what) ? watch_tell(recorder, state, what, messages)
-                                                             : SELAS_OK;
+                                                            : SELAS_OK;
 }
 
 /* Between the looks at everything; leaves nothing in the results. */
@@ -235,5 +236,5 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
     if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
     keep_energy(recorder, state, &energy, messages);
     return grown(recorder, state, total, sizeof what, what) ? watch_tell(recorder, state, what, messages)
-                                                             : SELAS_OK;
+                                                            : SELAS_OK;
 }

@@ -11,7 +11,8 @@
 #include <string.h>
 
 /* --- Where
- * --------------------------------------------------------------------------------------------------------- */
+ * ---------------------------------------------------------------------------------------------------------
+ */
 
 struct found {
     size_t spoiled;     /* points of the body whose values are not finite or overflow */
@@ -115,7 +116,8 @@ static void name_place(const struct recorder *recorder, const struct state *stat
 }
 
 /* --- Why
- * ----------------------------------------------------------------------------------------------------------- */
+ * -----------------------------------------------------------------------------------------------------------
+ */
 
 static const struct material *least_compressible(const struct scene *scene)
 {
@@ -140,7 +142,8 @@ static void say_step(const struct stepper *stepper, size_t size, char *text)
                  "courant out",
                  stepper->dt, stepper->limit);
     else
-        snprintf(text, size, "the time step %.3g was not held against a stability limit (CFL); try a smaller one",
+        snprintf(text, size,
+                 "the time step %.3g was not held against a stability limit (CFL); try a smaller one",
                  stepper->dt);
 }
 
@@ -170,10 +173,11 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
         snprintf(text, size, "an absorbing face (nu = %.3g); try boundary%%layer = 'lysmer' or another box",
                  stiff->poisson);
     else
-        snprintf(text, size,
-                 "none that is known: the step is %.0f %% of the limit (CFL), there is no viscosity, nu is %.3g; "
-                 "look at loads, tables and the machine",
-                 100.0 * stepper->dt / stepper->limit, stiff->poisson);
+        snprintf(
+            text, size,
+            "none that is known: the step is %.0f %% of the limit (CFL), there is no viscosity, nu is %.3g; "
+            "look at loads, tables and the machine",
+            100.0 * stepper->dt / stepper->limit, stiff->poisson);
 }
 
 selas_status watch_tell(const struct recorder *recorder, const struct state *state, const char *what,
