@@ -1,7 +1,8 @@
 #!/bin/sh
 # Sizes that no machine has, in decks and in files that a deck names: each ends in a message and exit status 2 or 1
 # within seconds, and before memory is taken (the program has 700 MB of addresses and no more).
-selas=$(realpath "${1:-build}")/selas
+build=$(realpath "${1:-build}")
+selas=$build/selas
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -61,6 +62,20 @@ deck "10^9 values" "error: " 'body%low=1000000000*1.0'
 deck "more values than integers go" "error: " 'body%low=99999999999999999999999*1.0'
 deck "more seeds than integers go" "error: " 'body%seed=99999999999999999999999'
 
+refused 1 "10^8 rows of histories" "no memory for 1000000.. rows" -q right.nml output%history_step=1e-8
+for method in "method%variant=paper" "method%variant=cloud" "method%name=sph" "method%name=sph method%variant=updated-lagrangian" \
+    "method%name=sph body%jitter=0.1"; do
+    # shellcheck disable=SC2086
+    deck "6e10 points, $method" "error: .* points need at least" body%spacing=0.001 $method
+done
+deck "more stages than there are" "expected a number in" stepping%max_stages=1000000000000
+deck "a degree of 10^9" "expected a number in" method%degree=1000000000
+refused 1 "a checkpoint without end" "no checkpoint of selas" -q restart /dev/zero
+refused 1 "a run.h5 without end" "cannot read" -q rerun /dev/zero
+refused 1 "a history without end" "a byte 0" diff /dev/zero right.nml
+refused 2 "a deck without end" "too long for a deck" -q /dev/urandom
+refused 2 "a folder for a deck" "is a directory" -q .
+
 # a deck and a table of one line that has no end
 head -c 1000000000 /dev/zero | tr '\000' '1' >long.txt
 refused 2 "a deck that is one line of 1 GB" "1000000000 bytes: a deck has at most" long.txt
@@ -83,4 +98,12 @@ echo '0.25 0.25 0.25 0.125 0 0 1 nan' >points
 # shellcheck disable=SC2086
 refused 2 "a surface of no area" "finite area" -q right.nml $points
 
-# Files in HDF5 (huge extents, links to elsewhere) are regress/unit/test_stored.c.
+# huge extents, links to elsewhere, virtual sets and raw files in HDF5, in as little room
+stored=$build/test/test_stored
+if [ -x "$stored" ]; then
+    if (ulimit -v $room && "$stored") >text 2>&1; then
+        echo "ok - files in HDF5 whose extents and links are hostile, in 700 MB"
+    else
+        echo "not ok - files in HDF5 whose extents and links are hostile: $(grep -i error text | head -3)"
+    fi
+fi

@@ -231,7 +231,8 @@ selas_status run_program(selas_simulation *simulation, const char *from, bool qu
     selas_status status = run_with_progress(&run, from);
     if (status == SELAS_OK) {
         status = selas_write(simulation);
-        if (status == SELAS_FILE_ERROR) keep_state(&run, "the results could not be written");
+        if (status == SELAS_FILE_ERROR || status == SELAS_NO_MEMORY)
+            keep_state(&run, "the results could not be written");
     }
     if (status == SELAS_OK && !quiet) print_summary(simulation);
     free(run.path);

@@ -31,6 +31,12 @@ selas_status trace_create(struct recorder *recorder, struct messages *messages)
     const double step = scene->output.history_step;
     size_t rows = 0; /* known to be possible before the run, not after it */
     if (step > 0.0 && row_count(scene->end_time, step, &rows, messages) != SELAS_OK) return SELAS_BAD_SCENE;
+    double *finished = array_new(rows, (6 * scene->receivers + 1) * sizeof *finished);
+    array_free(finished); /* taken at the end: is it to be had at all? */
+    if (finished == NULL)
+        return fail(messages, SELAS_NO_MEMORY,
+                    "no memory for %zu rows of %zu receivers (output%%history_step = %g)", rows,
+                    scene->receivers, step);
     const size_t expected = recorder->stepper->steps + recorder->stepper->extra + 2;
     recorder->trace = array_new(scene->receivers, sizeof *recorder->trace);
     if (recorder->trace == NULL)
