@@ -42,12 +42,12 @@ static double pressed_share(const struct scene *scene, const struct load *load)
     long cells[2] = {1, 1};
     int axis[2] = {0}, axes = 0;
     body_from_deck(body, load->centre, centre);
-    for (int a = 0; a < scene->dimension; a++)
+    for (int a = 0; a < scene->dimension && axes < 2; a++)
         if (a != face_axis(load->face)) axis[axes++] = a;
     for (int fine = 0; fine < 2; fine++) { /* particles, and small pieces between them */
         const double step = body->spacing / (fine ? FINE : 1);
         double first[2] = {0};
-        for (int k = 0; k < axes; k++) {
+        for (int k = 0; k < axes && k < 2; k++) {
             const double low = fmax(body->low[axis[k]], centre[axis[k]] - half_size(load, axis[k]));
             const double high = fmin(body->high[axis[k]], centre[axis[k]] + half_size(load, axis[k]));
             first[k] = floor((low - body->low[axis[k]]) / step);
@@ -58,7 +58,7 @@ static double pressed_share(const struct scene *scene, const struct load *load)
                 const long cell[2] = {i, j};
                 double square = 0.0;
                 bool within = true;
-                for (int k = 0; k < axes; k++) {
+                for (int k = 0; k < axes && k < 2; k++) {
                     const double x = body->low[axis[k]] + (first[k] + (double)cell[k] + 0.5) * step;
                     square += (x - centre[axis[k]]) * (x - centre[axis[k]]);
                     within = within && fabs(x - centre[axis[k]]) <= half_size(load, axis[k]);
