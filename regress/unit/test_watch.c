@@ -208,10 +208,26 @@ static void test_consistent(void **state)
     plant_all(&family, "in the layer's memory of stress", phi, there, 2, "behind face x+");
 }
 
+/* Whole steps of the fused operator keep velocities of their own: here the displacement is spoiled. */
+static void test_whole_steps(void **state)
+{
+    (void)state;
+    static const struct family family = {"consistent, whole steps", "symmetry = .false.", "",
+                                         "none that is known"};
+    selas_simulation *simulation = begun(&family);
+    const struct consistent *c = consistent_of(simulation->model);
+    assert_true(simulation->stepper->one_pass);
+    const size_t inside[2] = {14, 9}, index = inside[0] + inside[1] * c->plane;
+    const double place[2] = {c->spline[0]->greville[inside[0]], c->spline[1]->greville[inside[1]]};
+    selas_close(&simulation);
+    plant_all(&family, "inside", index, place, 2, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_consistent),
+        cmocka_unit_test(test_whole_steps),
         cmocka_unit_test(test_paper),
         cmocka_unit_test(test_total_lagrangian),
         cmocka_unit_test(test_updated_lagrangian),

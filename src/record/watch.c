@@ -184,6 +184,7 @@ static selas_status judge(struct recorder *recorder, const struct state *state, 
     char what[200];
     struct energy energy = {0};
     if (recorder->model->class->energy == NULL) return SELAS_OK;
+    state_settle(recorder->stepper, state, false);
     recorder->model->class->energy(recorder->model, state->y, &energy);
     const double total = energy.kinetic + energy.strain;
     if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
