@@ -50,6 +50,8 @@ static bool same_numbers(const char *what, const double *one, const double *othe
 static bool same(selas_simulation *whole, selas_simulation *other)
 {
     const struct model *model = whole->model;
+    state_settle(whole->stepper, &whole->state, true);
+    state_settle(other->stepper, &other->state, true);
     bool good = same_numbers("state", whole->state.y, other->state.y, model->state_size) &&
                 same_numbers("acceleration", whole->state.a, other->state.a, model->unknowns);
     for (size_t r = 0; r < whole->scene->receivers && good; r++) {
