@@ -169,10 +169,10 @@ wanted() {
     : >"$out/wanted.txt"
     inside=0
     tried=0
-    for pair in $(some '1:.1 1:.02 1:.003 2:.05 2:.02 3:.02 3:.005 4:.15 4:.1 4:.05 4:.035 5:.03 5:.005 6:.05 6:.01 7:.1 7:.02 8:.05 8:.005' '1:.02 5:.03'); do
+    for pair in $(some '1:.1 1:.02 1:.003 2:.05 2:.02 3:.02 3:.005 4:.15 4:.1 4:.05 4:.035 5:.03 5:.005 6:.05 6:.01 7:.1 7:.02 8:.05 8:.005 9:.05 9:.01 10:.1 10:.02 11:.05 11:.02 12:.1 12:.02 w1:.05 w1:.01 w1:.002 w2:.05 w2:.01 w2:.002 w3:.05 w3:.01 w3:.002 w4:.05 w4:.01 w4:.002 w5:.05 w5:.01 w6:.05 w6:.01 w7:.05 w7:.01 w8:.05 w8:.01 w8:.002 w9:.05 w9:.01 w9:.002 w10:.05 w10:.01 w10:.002' '1:.02 5:.03 w2:.01 w9:.01'); do
         number=${pair%:*}
         want=${pair#*:}
-        scene "$number" >"$out/wanted.nml"
+        deck_of "$number" >"$out/wanted.nml"
         rm -rf "$out/run"
         "$build/selas" -q "$out/wanted.nml" "scene%accuracy=$want" output%plots=F "output%directory=$out/run" >"$out/log" 2>&1
         reached=$(vector 2>/dev/null)

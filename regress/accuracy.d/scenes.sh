@@ -51,5 +51,37 @@ scene() {
         echo "&load face='z-', shape='square', centre=0,0,0, size=1,1, direction=0,0,1, history='gaussian', width=.2, delay=1 /"
         echo "&receiver name='a', position=0,0,0 / &receiver name='b', position=.8,0,0 /"
         ;;
+    9) # a quarter of a box with layers behind its faces
+        box 5 1 2 1 0,0,0 3.2,2.4,2.4
+        echo "&boundary face='x-','y-', kind='symmetry' / &boundary face='x+','y+','z+', kind='transmitting', layer='pml' /"
+        echo "&load face='z-', shape='square', centre=0,0,0, size=.8,.8, direction=0,0,1, history='gaussian', width=.24, delay=1.3 /"
+        echo "&receiver name='a', position=.3,.2,0 / &receiver name='b', position=1.6,.8,0 /"
+        ;;
+    10) # a box so large that nothing comes back, a disc, oblique
+        box 2.6 2 1.8 1 -4,-4,0 4,4,3.2
+        echo "&load face='z-', shape='disc', centre=0,0,0, size=1.5, direction=1,0,2, history='ricker', frequency=.8, delay=1.4 /"
+        echo "&receiver name='a', position=0,0,0 / &receiver name='b', position=1,.5,0 /"
+        ;;
+    12) # a small quarter with layers
+        box 4 1 1.7320508 1 0,0,0 2,1.5,1.5
+        echo "&boundary face='x-','y-', kind='symmetry' / &boundary face='x+','y+','z+', kind='transmitting', layer='pml' /"
+        echo "&load face='z-', shape='square', centre=0,0,0, size=1,1, direction=0,0,1, history='gaussian', width=.3, delay=1.5 /"
+        echo "&receiver name='a', position=.25,.25,0 / &receiver name='b', position=1.2,.3,0 /"
+        ;;
+    11) # a box in SI units with layers, soft ground, off its middle
+        box .06 1900 500 200 -10,-8,0 10,8,8
+        echo "&boundary face='x-','x+','y-','y+','z+', kind='transmitting', layer='pml' /"
+        echo "&load face='z-', shape='square', centre=-2,0,0, size=4,4, direction=0,0,1, history='triangle', duration=.03, smoothing=.015 /"
+        echo "&receiver name='a', position=-2,0,0 / &receiver name='b', position=5,2,0 /"
+        ;;
+    esac
+}
+box() { # box END DENSITY P_SPEED S_SPEED LOW HIGH
+    ground "$1" "$2" "$3" "$4" | sed "s/shape = 'half-space'/shape = 'box', low = $5, high = $6/"
+}
+deck_of() { # deck_of NUMBER: a scene, or a wave of waves.sh (w1, w2, ...)
+    case $1 in
+    w*) wave "$1" ;;
+    *) scene "$1" ;;
     esac
 }

@@ -391,7 +391,7 @@ static void settings(void **unused)
          {"'spacing' does not belong to a deck with scene%accuracy"}},
         {"&scene dimension=3, end_time=6, accuracy=.01 /\n" ROCK BODY,
          "t.nml:1:33: error:",
-         {"no table of errors", "shape = 'half-space' without low and high", "give body%spacing"}},
+         {"no table of errors", "patches that press on half-spaces", "give body%spacing"}},
         {ACCURATE "&method degree=3 /\n" SEEN_PATCH, "t.nml:4:9: error:", {"'degree' does not belong"}},
         {ACCURATE "&stepping courant=.2 /\n" SEEN_PATCH, "t.nml:4:11: error:", {"'courant' does not belong"}},
         {ACCURATE "&output low_pass=9 /\n" SEEN_PATCH, "t.nml:4:9: error:", {"'low_pass' does not belong"}},
@@ -400,6 +400,11 @@ static void settings(void **unused)
          "delay=2 /\n",
          "t.nml:1:33: error:",
          {"no table of errors", "with receivers"}},
+        {"&scene dimension=1, end_time=6, accuracy=.01 /\n" ROCK
+         "&body material='rock', shape='box', low=0, high=4 /\n&receiver name='r', position=2 /\n"
+         "&initial kind='plane-wave', wave='p', direction=1, centre=1, wavelength=.5, amplitude=1 /\n",
+         "t.nml:1:33: error:",
+         {"no table of errors", "plane pulses"}},
         {ACCURATE "&receiver name='r', position=1,0,0 /\n&load face='z-', shape='point', centre=0,0,0, "
                   "direction=0,0,1, history='gaussian', width=.3, delay=2 /\n",
          "t.nml:1:33: error:",

@@ -65,6 +65,10 @@ struct consistent_options consistent_options_of(const struct scene *scene)
         options.degree = 4;
         options.sweeps = 0;
     }
+    if (scene->method.degree > 0) { /* scene%accuracy */
+        options.degree = scene->method.degree;
+        options.sweeps = scene->method.sweeps;
+    }
     if (given(group, "degree")) options.degree = (int)deck_integer(group, "degree", 0);
     if (given(group, "mass")) {
         const char *mass = deck_text(group, "mass", 0);

@@ -1,6 +1,7 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
  * (doc/absorbing-faces.md, sections 3 and 6). */
 #include "method/pml_fast.h"
+#include "scene/echo.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -32,57 +33,13 @@ static double face_position(const struct scene *scene, int face)
     return face % 2 == 0 ? scene->body.low[face / 2] : scene->body.high[face / 2];
 }
 
-/* Distance of a place (deck coordinates) from a face, or of its mirror image where the opposite face is a
- * symmetry plane. */
-static double distance(const struct scene *scene, int face, const double position[3])
-{
-    double place[3];
-    const int opposite = face ^ 1, axis = face / 2;
-    body_from_deck(&scene->body, position, place);
-    const double direct = fabs(place[axis] - face_position(scene, face));
-    if (scene->boundary[opposite].kind != BOUNDARY_SYMMETRY) return direct;
-    const double image = 2 * face_position(scene, opposite) - place[axis];
-    return fmin(direct, fabs(image - face_position(scene, face)));
-}
-
-static double source_distance(const struct scene *scene, int face)
-{
-    double nearest = INFINITY;
-    if (scene->initial.kind != INITIAL_REST) return 0;
-    for (int other = 0; other < BOX_FACES; other++)
-        if (scene->boundary[other].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[other].kind == BOUNDARY_DISPLACEMENT)
-            return 0;
-    for (size_t l = 0; l < scene->loads; l++) {
-        const struct load *load = &scene->load[l];
-        const bool moves = load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
-        if (load->shape == LOAD_FACE || moves) return 0;
-        const double size = load->shape == LOAD_POINT ? 0 : fmax(load->size[0], load->size[1]) / 2;
-        nearest = fmin(nearest, distance(scene, face, load->centre) - size);
-    }
-    return fmax(nearest, 0);
-}
-
-static double seen_distance(const struct scene *scene, int face)
-{
-    double nearest = INFINITY;
-    if (scene->snapshots > 0) return 0;
-    for (size_t r = 0; r < scene->receivers; r++)
-        nearest = fmin(nearest, distance(scene, face, scene->receiver[r].position));
-    for (size_t p = 0; p < scene->profiles; p++)
-        nearest = fmin(nearest, fmin(distance(scene, face, scene->profile[p].from),
-                                     distance(scene, face, scene->profile[p].to)));
-    return nearest;
-}
-
 bool layer_unneeded(const struct scene *scene, int face)
 {
     double fastest = 0;
     for (size_t m = 0; m < scene->materials; m++)
         fastest = fmax(fastest, scene->material[m].p_speed);
     if (scene->boundary[face].always || scene->receivers + scene->profiles == 0) return false;
-    const double path = source_distance(scene, face) + seen_distance(scene, face);
-    return path - 4 * scene->body.spacing > 1.02 * fastest * scene->end_time;
+    return echo_path(scene, face) - 4 * scene->body.spacing > 1.02 * fastest * scene->end_time;
 }
 
 static bool layer_asked(const struct scene *scene, int face)

@@ -1,65 +1,54 @@
-/* The spacing that scene%accuracy leads to (doc/accuracy.md).
- *
- * The default method's error at a receiver has, at each frequency, three parts relative to the exact velocity
- * (measured, regress/accuracy): that of the load's own field, of the source and the surface, and of the way,
- *   e^2 = (S n^-s (size/r)^q)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c_R, (1) n the
- * points along the load's shortest edge, r the distance, g = 1 along the axes of the lattice and less between
- * them. With V the exact velocity's spectrum the relative L2 error of the history is E(h)^2 = sum e^2 |V|^2 /
- * sum |V|^2,                                                                     (2) and the spacing is the
- * largest h for which E(h) is AIM times the wanted error at every receiver. */
-#include "base/memory.h"
-#include "exact/half_space.h"
-#include "exact/lamb.h"
-#include "scene/build.h"
+/* scene%accuracy: which kind of scene it is, and what no kind can serve (doc/accuracy.md). */
+#include "scene/accuracy.h"
 
-#include <fftw3.h>
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-/* Coefficients of (1), fitted by regress/accuracy.d/law.sh to runs of the default method: nu .1 to .4, 3 to
- * 10 points along the load's edge, receivers up to two edges away; errors predicted within a factor of 1.36
- * (r.m.s.).
- */
-static const struct {
-    double near, near_order, near_distance, source, source_order, way, way_order, diagonal;
-} law = {16.3, 5.22, 2.54, 0.0068, 5.95, 0.000861, 3.41, 0.29};
-/* What a frequency that the lattice cannot carry errs, relative; the middle of [1/5, 1]. */
-static const double LARGEST = 1.22, AIM = 0.45;
-static const double BURIED = 0.6; /* receivers in the ground err less (measured) */
-static const double SLOWLY = 1.1;
-enum { ROWS = 4096 };
+static const struct accuracy_kind *const kinds[] = {&accuracy_wave, &accuracy_ground};
+enum { KINDS = sizeof kinds / sizeof *kinds };
 
-void check_accuracy(struct builder *builder)
+static const struct accuracy_kind *kind_of(const struct scene *scene)
 {
-    static const char *const method[] = {"degree", "ends", "mass", "depth_mass", "dissipation", NULL};
+    for (int k = 0; k < KINDS; k++)
+        if (kinds[k]->looks_like(scene)) return kinds[k];
+    return NULL;
+}
+
+/* What the deck chooses itself leaves the program no choice. */
+static void refuse_choices(struct builder *builder)
+{
+    static const char *const method[] = {"degree",         "ends",     "mass",      "depth_mass",
+                                         "dissipation",    "gradient", "hourglass", "viscosity_alpha",
+                                         "viscosity_beta", NULL};
     static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
     static const char *const body_words[] = {"spacing", NULL};
+    static const char *const layer[] = {"layer_points", "layer_reflection", NULL};
     static const char *const output[] = {"low_pass", NULL};
-    const struct scene *scene = builder->scene;
-    const struct deck_group *group = deck_get(builder->deck, "scene", 0);
     const char *purpose = "a deck with scene%accuracy, which makes that choice";
     refuse(builder, deck_get(builder->deck, "method", 0), method, purpose);
     refuse(builder, deck_get(builder->deck, "stepping", 0), step, purpose);
     refuse(builder, deck_get(builder->deck, "output", 0), output, purpose);
+    for (size_t k = 0; k < deck_count(builder->deck, "boundary"); k++)
+        refuse(builder, deck_get(builder->deck, "boundary", k), layer, purpose);
     if (deck_count(builder->deck, "body") > 0)
         refuse(builder, deck_get(builder->deck, "body", 0), body_words, purpose);
-    const char *why = NULL;
-    if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
-        why = "method 'smoothed-point', variant 'consistent'";
-    else if (scene->dimension != 3 || scene->body.shape != BODY_HALF_SPACE || !scene->body.chosen)
-        why = "shape = 'half-space' without low and high in three dimensions";
-    else if (scene->body.layers > 0)
-        why = "ground of one material";
-    else if (scene->receivers == 0 || scene->loads == 0)
-        why = "scenes with loads, and with receivers, where the error is taken";
-    else
-        for (size_t k = 0; k < scene->loads; k++) {
-            const double *velocity = scene->load[k].velocity;
-            if (scene->load[k].shape != LOAD_SQUARE && scene->load[k].shape != LOAD_DISC)
-                why = "loads on a square or a disc";
-            if (velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0) why = "loads that do not move";
-        }
+}
+
+void check_accuracy(struct builder *builder)
+{
+    const struct deck_group *group = deck_get(builder->deck, "scene", 0);
+    const struct accuracy_kind *kind = kind_of(builder->scene);
+    refuse_choices(builder);
+    if (builder->scene->materials == 0) return; /* complained of elsewhere */
+    if (kind == NULL) {
+        complain(builder, group, "accuracy",
+                 "there is no table of errors for this scene, only for patches that press on half-spaces and "
+                 "boxes "
+                 "of one ground, and for plane pulses, loads and motions of whole faces of a box; give "
+                 "body%%spacing "
+                 "in place of accuracy");
+        return;
+    }
+    const char *why = kind->refusal(builder->scene);
     if (why != NULL)
         complain(builder, group, "accuracy",
                  "there is no table of errors for this scene, only for %s; give body%%spacing in place of "
@@ -67,182 +56,8 @@ void check_accuracy(struct builder *builder)
                  why);
 }
 
-/* --- The exact velocity's spectrum -------------------------------------------------------------------- */
-
-struct place {
-    double distance, size; /* to the nearest load's centre; that load's shortest edge */
-    double diagonal;       /* 0 along an axis of the lattice, 1 halfway between two */
-    double depth;
-    double *power; /* [ROWS / 2 + 1] sum over components of |V|^2 */
-};
-
-static void set_place(const struct scene *scene, const double position[3], struct place *place)
-{
-    place->distance = INFINITY;
-    for (size_t k = 0; k < scene->loads; k++) {
-        const struct load *load = &scene->load[k];
-        double away[3];
-        for (int c = 0; c < 3; c++)
-            away[c] = position[c] - load->centre[c];
-        body_direction_from_deck(&scene->body, away, away);
-        const double across = hypot(away[0], away[1]), distance = hypot(across, away[2]);
-        if (distance >= place->distance) continue;
-        place->distance = distance;
-        place->depth = away[2];
-        place->size = load->shape == LOAD_DISC ? load->size[0] : fmin(load->size[0], load->size[1]);
-        place->diagonal = across > 0 ? .5 - .5 * cos(4 * atan2(away[1], away[0])) : 0;
-    }
-}
-
-/* |V|^2 of three components; the history goes on for a quarter of its length, fading out, so that its end
- * makes no frequencies. */
-static selas_status find_power(struct exact *exact, double end_time, const struct receiver *receiver,
-                               double *power, struct messages *messages)
-{
-    double *time = array_new(ROWS, sizeof *time);
-    double *value = array_new((size_t)6 * ROWS, sizeof *value);
-    double *in = fftw_malloc(ROWS * sizeof *in);
-    fftw_complex *out = fftw_malloc((ROWS / 2 + 1) * sizeof *out);
-    selas_status status = SELAS_NO_MEMORY;
-    fftw_plan plan = NULL;
-    if (time != NULL && value != NULL && in != NULL && out != NULL) {
-        for (int i = 0; i < ROWS; i++)
-            time[i] = 1.25 * end_time / ROWS * i;
-        status = exact->class->history(exact, receiver->position, ROWS, time, value, messages);
-#pragma omp critical(selas_fftw_planner)
-        plan = fftw_plan_dft_r2c_1d(ROWS, in, out, FFTW_ESTIMATE);
-    } else {
-        fail(messages, status, "no memory for the spectrum of a receiver");
-    }
-    for (int c = 3; c < 6 && plan != NULL && status == SELAS_OK; c++) {
-        for (int i = 0; i < ROWS; i++) {
-            const double late = fmax(0, time[i] / end_time - 1) * 4;
-            in[i] = value[6 * i + c] * .5 * (1 + cos(M_PI * late));
-        }
-        fftw_execute(plan);
-        for (int j = 0; j <= ROWS / 2; j++)
-            power[j] += creal(out[j] * conj(out[j]));
-    }
-#pragma omp critical(selas_fftw_planner)
-    if (plan != NULL) fftw_destroy_plan(plan);
-    fftw_free(in);
-    fftw_free(out);
-    array_free(time);
-    array_free(value);
-    return status;
-}
-
-/* --- The error law ------------------------------------------------------------------------------------ */
-
-static double predicted(const struct place *place, double h, double end_time, double rayleigh_speed)
-{
-    const double near = law.near * pow(h / place->size, law.near_order) *
-                        pow(fmin(1, place->size / place->distance), law.near_distance);
-    const double way = law.way * place->distance / h * (1 - place->diagonal * (1 - law.diagonal));
-    const double step = 2 * M_PI / (1.25 * end_time);
-    double error = 0, whole = 0;
-    for (int j = 1; j <= ROWS / 2; j++) {
-        const double kappa = j * step * h / rayleigh_speed;
-        const double source = law.source * pow(kappa, law.source_order);
-        const double path = way * pow(kappa, law.way_order);
-        error += place->power[j] * fmin(near * near + source * source + path * path, LARGEST * LARGEST);
-        whole += place->power[j];
-    }
-    return sqrt(error / whole) * (place->depth > .5 * place->size ? BURIED : 1);
-}
-
-static double worst(const struct scene *scene, const struct place *place, double h, double rayleigh_speed)
-{
-    double most = 0;
-    for (size_t i = 0; i < scene->receivers; i++)
-        most = fmax(most, predicted(&place[i], h, scene->end_time, rayleigh_speed));
-    return most;
-}
-
-/* Absorbing layers are as thick as a seventh of the P wavelength that carries most, and have so many points
- * that little enough comes back (measured). */
-static long enough_layer_points(const struct scene *scene, const struct place *place, double accuracy,
-                                double h, double p_speed)
-{
-    double slowest = INFINITY;
-    for (size_t i = 0; i < scene->receivers; i++) {
-        double first = 0, whole = 0;
-        for (int j = 1; j <= ROWS / 2; j++) {
-            whole += place[i].power[j];
-            first += j * place[i].power[j];
-        }
-        slowest = fmin(slowest, first / whole * 2 * M_PI / (1.25 * scene->end_time));
-    }
-    const long points = accuracy >= .02 ? 8 : accuracy >= .005 ? 10 : 12;
-    const double wavelength = 2 * M_PI * p_speed / slowest;
-    return (long)fmin(fmax((double)points, ceil(.15 * wavelength / h)), 40);
-}
-
-/* Where the error falls slower than h^2.5 it is that of waves that the lattice cannot carry: a history with
- * kinks. What of them rings on under the load depends on where its rim lies between the knots, and is several
- * times less where the edge is a whole number of spacings (measured): the next smaller one of that kind. */
-static double quiet_spacing(const struct scene *scene, const struct place *place, double h, double gain)
-{
-    double size = INFINITY;
-    for (size_t i = 0; i < scene->receivers; i++)
-        size = fmin(size, place[i].size);
-    return gain < pow(SLOWLY, 2.5) ? size / ceil(size / h - 1e-9) : h;
-}
-
-/* Fails only if no spacing will do. */
-static selas_status choose(const struct scene *scene, const struct place *place, double accuracy,
-                           struct accuracy_choice *choice, struct messages *messages)
-{
-    enum { MOST = 800 };
-    static const double finer = 1.01; /* 800 times: 1/2800 */
-    struct half_space ground;
-    const struct material *material = scene_material_at(scene, 0);
-    half_space_set(&ground, material->density, material->lambda, material->mu);
-    double h = ground.rayleigh_speed * scene->end_time, error = INFINITY;
-    for (size_t k = 0; k < scene->receivers; k++)
-        h = fmin(h, place[k].size / 2); /* at least two points along an edge */
-    for (int i = 0; i < MOST && !(error <= AIM * accuracy); i++) {
-        if (i > 0) h /= finer;
-        error = worst(scene, place, h, ground.rayleigh_speed);
-    }
-    if (!(error <= AIM * accuracy))
-        return fail(messages, SELAS_BAD_SCENE,
-                    "scene%%accuracy = %g is out of reach here: a spacing of %.3g would still leave %.2g",
-                    accuracy, h, error);
-    h = quiet_spacing(scene, place, h, error / worst(scene, place, h / SLOWLY, ground.rayleigh_speed));
-    error = worst(scene, place, h, ground.rayleigh_speed);
-    choice->spacing = h;
-    choice->layer_points = enough_layer_points(scene, place, accuracy, h, ground.p_speed);
-    snprintf(
-        choice->text, sizeof choice->text,
-        "%g wanted: spacing %.6g, degree 2, mass vc3, leapfrog with the time-dispersion transform; predicted "
-        "error %.2g",
-        accuracy, h, error);
-    return SELAS_OK;
-}
-
 selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
                              struct messages *messages)
 {
-    struct exact *exact = NULL;
-    struct scene longer = *scene;
-    longer.end_time *= 1.25;
-    struct place *place = array_new(scene->receivers, sizeof *place);
-    double *power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *power);
-    selas_status status = SELAS_NO_MEMORY;
-    if (place != NULL && power != NULL) {
-        status = lamb_create_within(&longer, 1e-3, &exact, messages);
-        for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
-            place[i].power = power + i * (ROWS / 2 + 1);
-            set_place(scene, scene->receiver[i].position, &place[i]);
-            status = find_power(exact, scene->end_time, &scene->receiver[i], place[i].power, messages);
-        }
-        if (status == SELAS_OK) status = choose(scene, place, accuracy, choice, messages);
-    } else {
-        fail(messages, status, "no memory for scene%%accuracy");
-    }
-    exact_free(&exact);
-    array_free(place);
-    array_free(power);
-    return status;
+    return kind_of(scene)->choose(scene, accuracy, choice, messages);
 }

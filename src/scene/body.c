@@ -49,6 +49,21 @@ static double nearest_spacing(const struct body *body, int dimension, double wan
     return best;
 }
 
+double dividing_spacing(const struct body *body, int dimension, double at_most)
+{
+    double shortest = INFINITY;
+    for (int c = 0; c < dimension; c++)
+        shortest = fmin(shortest, body->high[c] - body->low[c]);
+    const double first = fmax(1, ceil(shortest / at_most * (1 - 1e-9)));
+    for (double n = first; n <= 4 * first; n++) {
+        bool all = true;
+        for (int c = 0; c < dimension; c++)
+            all = all && divides(shortest / n, body->high[c] - body->low[c]);
+        if (all) return shortest / n;
+    }
+    return 0;
+}
+
 /* Smoothed points lie on the faces, so the spacing must divide every edge; SPH fits it edge by edge. */
 static void check_division(struct builder *builder, const struct deck_group *group)
 {

@@ -65,13 +65,20 @@ void build_snapshots(struct builder *builder);
 /* body.c: spacing of the deck, or the one chosen for it; false (without complaint) if there is none. */
 bool take_spacing(const struct builder *builder, const struct deck_group *group, double *spacing);
 
+/* body.c: the largest spacing of at most `at_most` that divides every edge of the box; 0 if none above a
+ * quarter of it does. */
+double dividing_spacing(const struct body *body, int dimension, double at_most);
+
 /* accuracy.c: refuses what scene%accuracy cannot serve or leaves no choice in (called when all else is
  * built). */
 void check_accuracy(struct builder *builder);
 struct accuracy_choice {
     double spacing;
-    long layer_points; /* of absorbing layers, where there are any */
-    char text[200];    /* for the plan */
+    long layer_points;  /* of absorbing layers, where there are any */
+    int degree, sweeps; /* of the consistent method; degree 0: as without scene%accuracy */
+    const char *scheme; /* NULL: as without scene%accuracy */
+    double courant;     /* 0: the default step */
+    char text[200];     /* for the plan */
 };
 /* What is to lead to the deck's scene%accuracy, from a scene built with any spacing. */
 selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,

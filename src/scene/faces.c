@@ -57,6 +57,7 @@ static void read_absorber(struct builder *builder, const struct deck_group *grou
     boundary->always = deck_logical(group, "always", 0);
     if (deck_given(group, "layer_points") && deck_given(group, "layer_reflection"))
         complain(builder, group, "layer_reflection", "give layer_points or layer_reflection, not both");
+    boundary->layer_points = builder->layer_points; /* scene%accuracy; else 0 */
     if (deck_given(group, "layer_points")) boundary->layer_points = deck_integer(group, "layer_points", 0);
     if (deck_given(group, "layer_reflection"))
         boundary->layer_reflection = deck_real(group, "layer_reflection", 0);

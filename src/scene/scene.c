@@ -150,7 +150,17 @@ static selas_status build(const struct deck *deck, const struct accuracy_choice 
     build_receivers(&builder);
     build_profiles(&builder);
     build_snapshots(&builder);
-    if (choice != NULL) check_accuracy(&builder);
+    if (choice != NULL) {
+        check_accuracy(&builder);
+        (*scene)->method.degree = choice->degree;
+        (*scene)->method.sweeps = choice->sweeps;
+        if (choice->scheme != NULL)
+            snprintf((*scene)->stepping.scheme, sizeof(*scene)->stepping.scheme, "%s", choice->scheme);
+        if (choice->courant > 0) {
+            (*scene)->stepping.courant = choice->courant;
+            (*scene)->stepping.safety = 0;
+        }
+    }
     if (builder.status != SELAS_OK) scene_free(scene);
     return builder.status;
 }

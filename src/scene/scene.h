@@ -156,6 +156,7 @@ struct method_choice {
     char name[NAME_SIZE];           /* 'smoothed-point', 'sph' */
     char variant[NAME_SIZE];        /* 'consistent', 'paper'; 'total-lagrangian', 'updated-lagrangian' */
     const struct deck_group *group; /* further options: each method reads its own with deck_*() */
+    int degree, sweeps; /* of the consistent method, chosen by scene%accuracy; degree 0: by group */
 };
 
 struct stepping_choice {

@@ -152,7 +152,8 @@ static bool has_middle_points(const struct scene *scene, int axis)
 {
     const struct deck_group *method = scene->method.group;
     const bool given = method != NULL && deck_values(method, "degree") > 0;
-    const double degree = given ? (double)deck_integer(method, "degree", 0) : 2.0;
+    const int chosen = scene->method.degree;
+    const double degree = chosen > 0 ? chosen : given ? (double)deck_integer(method, "degree", 0) : 2.0;
     const struct body *body = &scene->body;
     const double cells = (body->high[axis] - body->low[axis]) / body->spacing;
     return cells > 4.0 * degree + 0.5 && same(cells, 2.0 * round(0.5 * cells), 1e4);
