@@ -233,6 +233,11 @@ static double valid_until(const struct plane_wave *wave, const double position[3
     return fmax(0, distance) / scene->material[body->material].p_speed;
 }
 
+double plane_wave_until(const struct exact *exact, const double position[3])
+{
+    return valid_until((const struct plane_wave *)exact, position);
+}
+
 static selas_status check_place(const struct plane_wave *wave, const double position[3],
                                 struct messages *messages)
 {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* What may be chosen: degree, sweeps (0: exact mass), scheme; c_p dt / spacing at .9 of the limit in 1, 2, 3
- * dimensions and nanoseconds a point and step (measured: regress/accuracy.d/wave.sh). */
+ * dimensions and nanoseconds a point and step. */
 const struct accuracy_setting accuracy_settings[ACCURACY_SETTINGS] = {
     {2, 3, "leapfrog", {.48, .38, .31}, 15},
     {2, 3, "modified-equation", {.83, .66, .54}, 30},
@@ -81,7 +81,7 @@ static double square_frequency(const struct lattice_wave *wave, double spacing, 
 static const double LEAST_LEFT = .1;
 /* The modified equation's recorded velocity errs so many (omega dt)^4; dampers send back so many (omega
  * dt)^2; a wave reflected at a held end is so many (omega h/c)^3 off with sweeps in the place of the mass
- * (measured: regress/accuracy.d/wave-law.sh). */
+ * (measured: doc/accuracy.md, section 5). */
 static const double MODIFIED = .042, PLAIN_DAMPER = .0625, MODIFIED_DAMPER = .0272, HELD = .0165;
 
 static bool plain_leapfrog(const struct lattice_wave *wave)

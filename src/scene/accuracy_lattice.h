@@ -30,13 +30,13 @@ void lattice_wave_set(struct lattice_wave *wave, const struct accuracy_setting *
  */
 double lattice_speed_error(const struct lattice_wave *wave, double spacing, double omega);
 
-/* What a recorded velocity errs wherever the wave is (doc/accuracy.md, Eqs 8, 9): in time, and in place where
+/* What a recorded velocity errs wherever the wave is (doc/accuracy.md, Eqs 7, 8): in time, and in place where
  * it is read between lattice points. */
 double lattice_local_error(const struct lattice_wave *wave, double spacing, double omega,
                            const double position[3]);
-/* What each reflection at a held end costs (Eq 11). */
+/* What each reflection at a held end costs (Eq 10). */
 double lattice_held_error(const struct lattice_wave *wave, double spacing, double omega);
-/* The part of a wave that a damper (a transmitting face) sends back (Eq 10). */
+/* The part of a wave that a damper (a transmitting face) sends back (Eq 9). */
 double lattice_damper_error(const struct lattice_wave *wave, double spacing, double omega);
 
 #endif

@@ -1,5 +1,5 @@
 /* Plane waves as they arrive at receivers, exact, and what a lattice makes of them (doc/accuracy.md, section
- * 5, Eqs 6 to 11). */
+ * 5, Eqs 6 to 10). */
 #include "scene/arrivals.h"
 #include "base/memory.h"
 #include "exact/plane_wave.h"
@@ -34,6 +34,13 @@ static selas_status find_velocities(const struct scene *scene, double factor, do
             time[i] = changed.end_time * (i + 1) / (ROWS + 1);
         status = exact_plane_wave.create(&changed, &exact, messages);
     }
+    for (size_t k = 0; k < scene->receivers && status == SELAS_OK; k++)
+        if (plane_wave_until(exact, scene->receiver[k].position) < .99 * scene->end_time)
+            status =
+                fail(messages, SELAS_BAD_SCENE,
+                     "scene%%accuracy: faces beside the wave disturb it at receiver '%s' before end_time; "
+                     "give them a kind that lets it pass (rollers beside a P wave), or give body%%spacing",
+                     scene->receiver[k].name);
     for (size_t k = 0; k < scene->receivers && status == SELAS_OK; k++) {
         status = exact_plane_wave.history(exact, scene->receiver[k].position, ROWS, time, value, messages);
         double most[3] = {0};

@@ -10,7 +10,7 @@ enum { ARRIVAL_ROWS = 4096 };
 
 struct arrivals {
     double *velocity;   /* [ARRIVAL_ROWS] along the component that moves most */
-    double *change;     /* [ARRIVAL_ROWS] sine coefficients of q of Eq 1 */
+    double *change;     /* [ARRIVAL_ROWS] sine coefficients of q (Eq 6) */
     double *spectrum;   /* [ARRIVAL_ROWS] sine coefficients of the velocity */
     double largest;     /* velocity */
     double whole;       /* sum of the squared velocities until end_time */
