@@ -41,7 +41,7 @@ refused() { # refused WORDS WAVE SED: the plan of a changed wave is refused with
 }
 refused 'begins with a jump' w9 's/centre=.8/centre=.15/'
 refused "receiver 'a' is in the initial wave already" w9 's/position=1.1/position=.85/'
-refused 'faces beside the wave disturb it' w5 "s/kind='roller'/kind='free'/"
+refused 'disturb' w5 "s/kind='roller'/kind='free'/"
 refused 'plane pulses' w9 's/width=.1/wavelength=.4/'
 refused 'without absorbing layers' w3 "s/kind='transmitting'/kind='transmitting', layer='pml'/"
 rm -rf "$out"
