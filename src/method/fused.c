@@ -154,9 +154,24 @@ static bool find_plain(struct fused *f)
     return true;
 }
 
+/* How long rows are waited for: from the newest, which the strip or the narrow passes over y make, to the oldest
+ * that those behind still read. */
+static void lay_rings(struct fused *f)
+{
+    for (int field = 0; field < FUSED_FIELDS; field++) {
+        size_t rows = FUSED_STRIP + f->late[1];
+        if (field == ROW_CX) rows = FUSED_STRIP;
+        if (field == ROW_BY || field == ROW_BZ || field == ROW_CY || field == ROW_G)
+            rows = FUSED_STRIP + f->late[0] + (size_t)f->narrow / 2;
+        if (field >= ROW_T1) rows = f->late[1] + (size_t)f->wide / 2 + FUSED_ROWS - f->late[0];
+        f->ring[field] = rounded(rows, FUSED_ROWS);
+        f->start[field + 1] = f->start[field] + f->ring[field];
+    }
+}
+
 static bool lay_buffers(struct fused *f)
 {
-    f->ring_size = FUSED_FIELDS * f->ring * f->stride;
+    f->ring_size = f->start[FUSED_FIELDS] * f->stride;
     const size_t size = FUSED_PLANES * f->ring_size + 2 * FUSED_ROWS * f->stride + 2 * (f->stride - f->width);
     f->buffer = array_new((size_t)f->threads, sizeof *f->buffer);
     if (f->buffer == NULL) return false;
@@ -204,9 +219,7 @@ bool fused_create(struct consistent *c)
     f->stride = f->width + rounded(reach, FUSED_VECTOR / sizeof(double));
     f->late[0] = rounded(degree, FUSED_ROWS);
     f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
-    f->ring = 16;
-    while (f->ring < FUSED_STRIP + f->late[1] + reach)
-        f->ring *= 2;
+    lay_rings(f);
     return lay_side(c, 0) && lay_side(c, 1) && lay_depth(c) && find_plain(f) && lay_buffers(f);
 }
 

@@ -57,7 +57,8 @@ struct fused_watch {
 
 struct fused {
     size_t n[3], plane, volume;
-    size_t width, stride, ring; /* numbers in a row, from row to row, rows in a ring */
+    size_t width, stride; /* numbers in a row, from row to row */
+    size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
     int narrow, wide, deep;     /* taps of S and G, of N, of products over depth */
     bool bare;                  /* B is the identity */
     size_t late[2];             /* rows that narrow and wide passes over y lag behind */

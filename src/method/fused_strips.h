@@ -18,7 +18,7 @@ struct strip {
 
 static REAL *row_of(const struct fused *f, REAL *ring, enum fused_row field, size_t j)
 {
-    return ring + ((size_t)field * f->ring + (j & (f->ring - 1))) * f->stride;
+    return ring + (f->start[field] + j % f->ring[field]) * f->stride;
 }
 
 /* out := init + matrix `side` of y times a field, rows j .. j + 3; init may be out. Rows beyond the ends are
@@ -30,8 +30,12 @@ static void y_pass(const struct strip *s, bool wide, enum fused_side side, enum 
     const REAL *rows[FUSED_MOST_TAPS];
     const size_t taps = (size_t)(wide ? f->wide : f->narrow);
     const REAL *weight = (const REAL *)f->y[side] + j * taps;
-    for (size_t t = 0; t < taps + FUSED_ROWS - 1; t++)
-        rows[t] = row_of(f, s->ring, field, j + f->ring + t - taps / 2);
+    const size_t ring = f->ring[field];
+    size_t place = (j + ring - taps / 2) % ring;
+    for (size_t t = 0; t < taps + FUSED_ROWS - 1; t++) {
+        rows[t] = s->ring + (f->start[field] + place) * f->stride;
+        place = place + 1 < ring ? place + 1 : 0;
+    }
     const bool plain = f->plain[j / FUSED_ROWS];
     (wide    ? plain ? s->kernel->y_wide : s->kernel->y_wide_ends
      : plain ? s->kernel->y_narrow
