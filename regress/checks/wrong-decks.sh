@@ -75,8 +75,12 @@ refused "unknown name in an override" right.nml "override: error: unknown name '
 refused "a filter with a Runge-Kutta scheme" right.nml \
     "error: the filter of method 'smoothed-point', variant 'paper', acts on leapfrog's half-step velocity.*" \
     method%variant=paper stepping%scheme=rk4
-refused "single precision" right.nml "override: error: no method has a state in single precision.*" \
+refused "single precision of another method" right.nml "override: error: only the consistent smoothed-point method.*" \
+    method%precision=single method%variant=paper
+refused "single precision without the fused operator" right.nml "error: method%precision = 'single' needs the fused operator.*" \
     method%precision=single
+refused "single precision with another scheme" right.nml "error: method%precision = 'single' needs scheme 'leapfrog'.*" \
+    method%precision=single method%variant=consistent body%spacing=0.2 stepping%scheme=rk4
 refused "no file" none.nml "none.nml:1:1: error: cannot be opened: .*"
 refused "directory" . ".:1:1: error: is a directory, not a deck"
 

@@ -180,14 +180,16 @@ static void describe(const struct model *model,
                  FUSED_STRIP);
         tell(context, "operator", text);
         tell(context, "step",
-             model->class->advance != NULL ? "leapfrog's is one pass with the operator"
-                                           : "apart from the operator");
+             model->single                   ? "leapfrog's is one pass with the operator, in single precision"
+             : model->class->advance != NULL ? "leapfrog's is one pass with the operator"
+                                             : "apart from the operator");
         snprintf(text, sizeof text, "planes below %g of the largest displacement move nothing",
                  c->fused->quiet);
         tell(context, "quiet planes", c->fused->quiet > 0 ? text : "all are computed");
-        if (c->fused->skipped > 0) {
+        const struct fused *used = model->single ? c->fused->single : c->fused;
+        if (used->skipped > 0) {
             snprintf(text, sizeof text, "%.1f %% of blocks of planes, all calls so far",
-                     100 * (double)c->fused->skipped / (double)c->fused->blocks);
+                     100 * (double)used->skipped / (double)used->blocks);
             tell(context, "operator skipped", text);
         }
     }
@@ -409,13 +411,12 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     status = build(c, messages);
     if (c->pml != NULL) c->own_class.remember = remember;
     if (c->pml != NULL) c->own_class.unseen = layers_fastest;
-    if (status == SELAS_OK && !fused_steps_create(c))
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for a model");
+    c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
+    if (status == SELAS_OK) status = fused_steps_create(c, messages);
     if (status != SELAS_OK) {
         destroy(&c->model);
         return status;
     }
-    c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
     c->model.component_stride = c->volume;
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;

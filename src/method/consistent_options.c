@@ -78,6 +78,7 @@ struct consistent_options consistent_options_of(const struct scene *scene)
         options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
     if (given(group, "dissipation")) options.dissipation = deck_real(group, "dissipation", 0);
     options.quiet = given(group, "quiet") ? deck_real(group, "quiet", 0) : 1e-12;
+    options.single = group != NULL && strcmp(deck_text(group, "precision", 0), "single") == 0;
     if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
     if (given(group, "ends")) options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
     options.tuned = layered(&scene->body) && tunable(scene, &options);

@@ -96,9 +96,8 @@ static double *by_diagonals(const struct band *band, double factor, int taps, si
     return table;
 }
 
-static bool lay_side(struct consistent *c, int axis)
+static bool lay_side(struct consistent *c, struct fused *f, int axis)
 {
-    struct fused *f = c->fused;
     const int other = 1 - axis;
     for (int which = 0; which < SIDE_MATRICES; which++) {
         const bool inverse = which == SIDE_N_EVEN || which == SIDE_N_ODD;
@@ -117,9 +116,8 @@ static bool lay_side(struct consistent *c, int axis)
     return true;
 }
 
-static bool lay_depth(struct consistent *c)
+static bool lay_depth(struct consistent *c, struct fused *f)
 {
-    struct fused *f = c->fused;
     for (int component = 0; component < 3; component++)
         for (int which = 0; which < OVER_DEPTH_MATRICES; which++) {
             double factor = 1;
@@ -154,8 +152,8 @@ static bool find_plain(struct fused *f)
     return true;
 }
 
-/* How long rows are waited for: from the newest, which the strip or the narrow passes over y make, to the oldest
- * that those behind still read. */
+/* How long rows are waited for: from the newest, which the strip or the narrow passes over y make, to the
+ * oldest that those behind still read. */
 static void lay_rings(struct fused *f)
 {
     for (int field = 0; field < FUSED_FIELDS; field++) {
@@ -176,13 +174,13 @@ static bool lay_buffers(struct fused *f)
     f->buffer = array_new((size_t)f->threads, sizeof *f->buffer);
     if (f->buffer == NULL) return false;
     for (int t = 0; t < f->threads; t++) {
-        f->buffer[t] = array_new(size, sizeof(double));
+        f->buffer[t] = array_new(size, f->number);
         if (f->buffer[t] == NULL) return false;
     }
     f->size = array_new(f->n[2], sizeof *f->size);
     f->computed = array_new(rounded(f->n[2], FUSED_PLANES) / FUSED_PLANES, sizeof *f->computed);
     if (f->size == NULL || f->computed == NULL) return false;
-    f->bytes = sizeof *f + (size_t)f->threads * size * sizeof(double);
+    f->bytes = sizeof *f + (size_t)f->threads * size * f->number;
     return true;
 }
 
@@ -196,17 +194,36 @@ static bool shares_masses(const struct consistent *c)
     return true;
 }
 
-bool fused_create(struct consistent *c)
+/* Numbers of a table in single precision, in place. */
+static void shorten(double *table, size_t n)
+{
+    float *single = (float *)table;
+    for (size_t i = 0; i < n; i++) {
+        const float value = (float)table[i];
+        memcpy(single + i, &value, sizeof value);
+    }
+}
+
+static void shorten_all(struct fused *f)
+{
+    for (int which = 0; which < SIDE_MATRICES; which++) {
+        const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
+        shorten(f->x[which], taps * f->width);
+        shorten(f->y[which], taps * rounded(f->n[1], FUSED_ROWS));
+    }
+    for (int component = 0; component < 3; component++)
+        for (int which = 0; which < OVER_DEPTH_MATRICES; which++)
+            shorten(f->z[component][which], (size_t)f->deep * rounded(f->n[2], FUSED_PLANES));
+}
+
+/* Tables and rings for numbers of so many bytes; NULL: no memory. */
+static struct fused *fused_new(struct consistent *c, size_t number)
 {
     const size_t degree = (size_t)c->options.degree, reach = degree * (size_t)c->options.sweeps;
-    if (c->dimension != 3 || c->weighted[WEIGHT_MU] != NULL || !shares_masses(c)) return true;
-    if (degree != 2 || c->n[0] * sizeof(double) < FUSED_VECTOR) return true;
-    for (int axis = 0; axis < 3; axis++)
-        if (c->n[axis] < 2 * reach + 2) return true;
     struct fused *f = array_new(1, sizeof *f);
-    c->fused = f;
-    if (f == NULL) return false;
+    if (f == NULL) return NULL;
     memcpy(f->n, c->n, sizeof f->n);
+    f->number = number;
     f->plane = c->plane;
     f->volume = c->volume;
     f->threads = c->threads;
@@ -215,12 +232,31 @@ bool fused_create(struct consistent *c)
     f->narrow = (int)(2 * degree + 1);
     f->wide = (int)(2 * reach + 1);
     f->deep = (int)(2 * (reach + degree) + 1);
-    f->width = rounded(f->n[0], FUSED_VECTOR / sizeof(double));
-    f->stride = f->width + rounded(reach, FUSED_VECTOR / sizeof(double));
+    f->width = rounded(f->n[0], FUSED_VECTOR / number);
+    f->stride = f->width + rounded(reach, FUSED_VECTOR / number);
     f->late[0] = rounded(degree, FUSED_ROWS);
     f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
     lay_rings(f);
-    return lay_side(c, 0) && lay_side(c, 1) && lay_depth(c) && find_plain(f) && lay_buffers(f);
+    const bool good =
+        lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && find_plain(f) && lay_buffers(f);
+    if (good && number == sizeof(float)) shorten_all(f);
+    if (good) return f;
+    fused_free(f);
+    return NULL;
+}
+
+bool fused_create(struct consistent *c)
+{
+    const size_t degree = (size_t)c->options.degree, reach = degree * (size_t)c->options.sweeps;
+    if (c->dimension != 3 || c->weighted[WEIGHT_MU] != NULL || !shares_masses(c)) return true;
+    if (degree != 2 || c->n[0] * sizeof(double) < FUSED_VECTOR) return true;
+    for (int axis = 0; axis < 3; axis++)
+        if (c->n[axis] < 2 * reach + 2) return true;
+    c->fused = fused_new(c, sizeof(double));
+    if (c->fused == NULL) return false;
+    if (!c->options.single || c->n[0] * sizeof(float) < FUSED_VECTOR) return true;
+    c->fused->single = fused_new(c, sizeof(float));
+    return c->fused->single != NULL;
 }
 
 void fused_look(struct fused *fused, const double *u)
@@ -263,6 +299,7 @@ void fused_count(struct fused *f)
 void fused_free(struct fused *fused)
 {
     if (fused == NULL) return;
+    fused_free(fused->single);
     for (int which = 0; which < SIDE_MATRICES; which++) {
         array_free(fused->x[which]);
         array_free(fused->y[which]);
@@ -273,7 +310,7 @@ void fused_free(struct fused *fused)
     for (int t = 0; fused->buffer != NULL && t < fused->threads; t++)
         array_free(fused->buffer[t]);
     array_free(fused->buffer);
-    array_free(fused->w);
+    array_free(fused->kept);
     array_free(fused->watch.entry);
     array_free(fused->watch.before);
     array_free(fused->plain);

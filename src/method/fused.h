@@ -57,14 +57,14 @@ struct fused_watch {
 
 struct fused {
     size_t n[3], plane, volume;
-    size_t width, stride; /* numbers in a row, from row to row */
+    size_t width, stride;                               /* numbers in a row, from row to row */
     size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
-    int narrow, wide, deep;     /* taps of S and G, of N, of products over depth */
-    bool bare;                  /* B is the identity */
-    size_t late[2];             /* rows that narrow and wide passes over y lag behind */
-    double *x[SIDE_MATRICES];   /* [taps * width] by diagonals */
-    double *y[SIDE_MATRICES];   /* [rows * taps] */
-    bool *plain;                /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
+    int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
+    bool bare;                                          /* B is the identity */
+    size_t late[2];           /* rows that narrow and wide passes over y lag behind */
+    double *x[SIDE_MATRICES]; /* [taps * width] by diagonals */
+    double *y[SIDE_MATRICES]; /* [rows * taps] */
+    bool *plain;              /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
     double *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
     double quiet;   /* planes whose displacements are all below this times the largest do not move others */
     double *size;   /* [n[2]] largest displacement in each plane */
@@ -72,8 +72,11 @@ struct fused {
     size_t loudest; /* ... and its plane */
     bool *computed; /* [blocks of planes] in this call */
     unsigned long blocks, skipped; /* of planes so far */
-    struct fused_watch watch;
-    double *w; /* velocity half a step ahead: what steps in one pass keep beside u */
+    size_t number;                 /* bytes of a number in tables and rings */
+    struct fused *single;          /* the same in floats, if the scene's steps are */
+    struct fused_watch watch;      /* of both */
+    void *kept;        /* what steps in one pass go on from: the velocity half a step ahead, ... */
+    size_t kept_bytes; /* ... in single precision u before it and the layers' memory behind it */
     int threads;
     double **buffer;  /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */
@@ -99,22 +102,38 @@ void fused_look(struct fused *fused, const double *u);
  * FUSED_PLANES. */
 void fused_planes_double(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
+void fused_planes_single(const struct fused *fused, int thread, size_t first,
+                         const struct fused_fields *fields);
 /* Counts the blocks of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
 
+/* What steps in one pass work on; extra: the layers' memory variables, NULL without layers. */
+struct step_fields_double {
+    double *u, *w, *extra, *work;
+};
+struct step_fields_single {
+    float *u, *w, *extra, *work;
+};
+
 /* fused_step.h. w := v + dt/2 a from w = v, with entries of a that are watched; `work` has room for a. */
-void fused_begin_double(const struct consistent *c, const struct drive *drive, double dt, const double *u,
-                        double *w, double *work, double *a);
+void fused_begin_double(const struct consistent *c, const struct drive *drive, double dt,
+                        const struct step_fields_double *fields, double *a);
+void fused_begin_single(const struct consistent *c, const struct drive *drive, double dt,
+                        const struct step_fields_single *fields, double *a);
 /* u += dt w, w += dt a at the new u; entries of y and a that are watched. */
-void fused_advance_double(const struct consistent *c, const struct drive *drive, double dt, double *u,
-                          double *w, double *y, double *a);
+void fused_advance_double(const struct consistent *c, const struct drive *drive, double dt,
+                          const struct step_fields_double *fields, double *y, double *a);
+void fused_advance_single(const struct consistent *c, const struct drive *drive, double dt,
+                          const struct step_fields_single *fields, double *y, double *a);
 /* u and v = w - dt/2 a in y; a if it is not NULL. */
-void fused_settle_double(const struct consistent *c, const struct drive *drive, double dt, const double *u,
-                         const double *w, double *work, double *y, double *a);
+void fused_settle_double(const struct consistent *c, const struct drive *drive, double dt,
+                         const struct step_fields_double *fields, double *y, double *a);
+void fused_settle_single(const struct consistent *c, const struct drive *drive, double dt,
+                         const struct step_fields_single *fields, double *y, double *a);
 
 /* fused_model.c: if the scene's steps of leapfrog can be made in one pass, takes what that needs and puts it
- * into the model's class; false: no memory. */
-bool fused_steps_create(struct consistent *c);
+ * into the model's class; SELAS_UNSUPPORTED: options.single, but they cannot. Needs model.state_size. */
+selas_status fused_steps_create(struct consistent *c, struct messages *messages);
 /* Keeps v and a (and y, if the state is kept apart) right at these control values, in all components. False:
  * no memory. */
 bool fused_watch(struct consistent *c, size_t count, const size_t *place);

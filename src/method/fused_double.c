@@ -2,6 +2,7 @@
  * order: each needs those before. */
 #define REAL double
 #define NAME(name) name##_double
+#define FUSED(c) ((c)->fused)
 #include "method/fused_kernel.h"
 
 #include "method/fused_strips.h"

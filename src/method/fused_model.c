@@ -1,6 +1,7 @@
 /* Steps of leapfrog in one pass as functions of the consistent model, and what is looked at after each. */
 #include "method/fused.h"
 #include "method/hform.h"
+#include "method/pml_fast.h"
 
 #include "base/memory.h"
 
@@ -63,48 +64,106 @@ static bool watch_loads(struct consistent *c)
     return true;
 }
 
+static struct step_fields_double fields_double(const struct consistent *c, double *y)
+{
+    return (struct step_fields_double){
+        .u = y, .w = c->fused->kept, .extra = y + 2 * c->model.unknowns, .work = c->hform->work};
+}
+
+static struct step_fields_single fields_single(const struct consistent *c)
+{
+    const size_t n = c->model.unknowns;
+    float *kept = c->fused->kept;
+    return (struct step_fields_single){
+        .u = kept, .w = kept + n, .extra = kept + 2 * n, .work = (float *)c->hform->work};
+}
+
 static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
     const size_t n = model->unknowns;
     sort_watched(&c->fused->watch);
-    memcpy(c->fused->w, y + n, n * sizeof *y);
-    fused_begin_double(c, drive, dt, y, c->fused->w, c->hform->work, a);
     model->evaluations++;
+    if (model->single) {
+        const struct step_fields_single fields = fields_single(c);
+        for (size_t i = 0; i < model->state_size; i++)
+            fields.u[i] = (float)y[i];
+        fused_begin_single(c, drive, dt, &fields, a);
+        return;
+    }
+    const struct step_fields_double fields = fields_double(c, y);
+    memcpy(fields.w, y + n, n * sizeof *y);
+    fused_begin_double(c, drive, dt, &fields, a);
 }
 
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    fused_advance_double(c, drive, dt, y, c->fused->w, y, a);
     model->evaluations++;
+    if (model->single) {
+        const struct step_fields_single fields = fields_single(c);
+        fused_advance_single(c, drive, dt, &fields, y, a);
+        return;
+    }
+    const struct step_fields_double fields = fields_double(c, y);
+    fused_advance_double(c, drive, dt, &fields, y, a);
 }
 
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    fused_settle_double(c, drive, dt, y, c->fused->w, c->hform->work, y, a);
+    if (!model->single) {
+        const struct step_fields_double fields = fields_double(c, y);
+        fused_settle_double(c, drive, dt, &fields, y, a);
+        return;
+    }
+    const struct step_fields_single fields = fields_single(c);
+    fused_settle_single(c, drive, dt, &fields, y, a);
+    for (size_t i = 2 * model->unknowns; i < model->state_size; i++)
+        y[i] = fields.u[i];
 }
 
 static void *kept(struct model *model, size_t *bytes)
 {
-    *bytes = model->unknowns * sizeof(double);
-    return consistent_of(model)->fused->w;
+    *bytes = consistent_of(model)->fused->kept_bytes;
+    return consistent_of(model)->fused->kept;
 }
 
-bool fused_steps_create(struct consistent *c)
+/* Why steps of leapfrog cannot be made in one pass here; NULL: they can. */
+static const char *obstacle(const struct consistent *c)
 {
     bool moving = c->moving_loads > 0;
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
-    if (c->fused == NULL || moving || c->model.damped || c->hform->dissipation != NULL || c->pml != NULL)
-        return true;
+    if (c->fused == NULL)
+        return "the fused operator: three dimensions, degree 2, a mass of sweeps, one kind of ground, no "
+               "thin body";
+    if (moving) return "no moving faces or loads";
+    if (c->model.damped) return "absorbing layers ('pml') in place of dampers ('lysmer')";
+    if (c->hform->dissipation != NULL) return "no dissipation";
+    if (c->pml != NULL && (c->pml->fast == NULL || c->pml->drag > 0)) return "layers whose passes are shared";
+    if (!c->options.single) return NULL;
+    if (c->fused->single == NULL) return "16 control values along x";
+    if (c->pml != NULL && c->pml->single == NULL) return "layers whose passes are shared";
+    return NULL;
+}
+
+selas_status fused_steps_create(struct consistent *c, struct messages *messages)
+{
+    const char *missing = obstacle(c);
+    if (missing != NULL && c->options.single)
+        return fail(messages, SELAS_UNSUPPORTED, "method%%precision = 'single' needs %s", missing);
+    if (missing != NULL) return SELAS_OK;
     struct model_class *class = &c->own_class;
     class->begin = begin;
     class->advance = advance;
     class->settle = settle;
     class->kept = kept;
-    c->fused->w = array_new(c->model.unknowns, sizeof *c->fused->w);
-    c->fused->bytes += c->model.unknowns * sizeof *c->fused->w;
-    return c->fused->w != NULL && watch_loads(c);
+    c->model.single = c->options.single;
+    c->fused->kept_bytes =
+        c->options.single ? c->model.state_size * sizeof(float) : c->model.unknowns * sizeof(double);
+    c->fused->kept = array_new(1, c->fused->kept_bytes);
+    c->fused->bytes += c->fused->kept_bytes;
+    if (c->fused->kept != NULL && watch_loads(c)) return SELAS_OK;
+    return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
 }

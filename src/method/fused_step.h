@@ -7,7 +7,7 @@
  * w come from memory once and go there once. A thread has planes of its own; those that its neighbours read
  * too are brought on first, and all threads wait for that. */
 #include "method/fused.h"
-#include "method/pml.h"
+#include "method/pml_fast.h"
 
 #include <omp.h>
 #include <string.h>
@@ -59,7 +59,7 @@ static void add_rest(const struct consistent *c, const struct drive *drive, size
 static void pass_block(struct pass *pass, size_t first)
 {
     const struct consistent *c = pass->c;
-    const struct fused *f = c->fused;
+    const struct fused *f = FUSED(c);
     const size_t reach = (size_t)f->deep / 2, low = first < reach ? 0 : first - reach;
     const size_t planes = f->n[2] - first < FUSED_PLANES ? f->n[2] - first : FUSED_PLANES;
     const size_t high = first + FUSED_PLANES + reach, upto = high < pass->limit ? high : pass->limit;
@@ -97,7 +97,7 @@ static size_t bound_of(const struct fused *f, int thread, int threads)
 static void pass_over(const struct consistent *c, const struct drive *drive,
                       const struct fused_fields *fields, bool bring, double level)
 {
-    const struct fused *f = c->fused;
+    const struct fused *f = FUSED(c);
     const size_t reach = (size_t)f->deep / 2;
 #pragma omp parallel num_threads(f->threads)
     {
@@ -146,57 +146,63 @@ static double largest_before(const struct fused *f, const REAL *u)
     return largest > 0 && largest == f->largest ? largest : look(f, u);
 }
 
-/* a := acceleration, layers apart. */
-static void accelerate(const struct consistent *c, const struct drive *drive, const REAL *u, REAL *a)
+/* a := acceleration. */
+static void accelerate(const struct consistent *c, const struct drive *drive,
+                       const struct NAME(step_fields) * step, REAL *a)
 {
-    const struct fused_fields fields = {.u = u, .a = a};
-    const double level = c->fused->quiet * look(c->fused, u);
+    const struct fused_fields fields = {.u = step->u, .a = a};
+    const double level = FUSED(c)->quiet * look(FUSED(c), step->u);
     pass_over(c, drive, &fields, false, level);
-    fused_count(c->fused);
+    if (c->pml != NULL) NAME(pml_fast_accelerate)(c, 1, step->extra, a);
+    fused_count(FUSED(c));
 }
 
-void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt, const REAL *u,
-                       REAL *w, REAL *work, double *a)
+void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
+                       const struct NAME(step_fields) * step, double *a)
 {
     const struct fused_watch *watch = &c->fused->watch;
-    accelerate(c, drive, u, work);
+    accelerate(c, drive, step, step->work);
     for (size_t i = 0; i < c->model.unknowns; i++)
-        w[i] += (REAL)(dt / 2) * work[i];
+        step->w[i] += (REAL)(dt / 2) * step->work[i];
     for (size_t i = 0; i < watch->count; i++)
-        a[watch->entry[i]] = work[watch->entry[i]];
+        a[watch->entry[i]] = step->work[watch->entry[i]];
 }
 
-void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, double dt, REAL *u, REAL *w,
-                         double *y, double *a)
+/* The layers' memory goes on before u does, from the displacements in the middle of the step; what it does
+ * then comes last. */
+void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, double dt,
+                         const struct NAME(step_fields) * step, double *y, double *a)
 {
-    struct fused *f = c->fused;
-    const struct fused_watch *watch = &f->watch;
-    const struct fused_fields fields = {.u = u, .a = w, .moved = u, .dt = dt};
-    const double level = f->quiet * largest_before(f, u);
+    struct fused *f = FUSED(c);
+    const struct fused_watch *watch = &c->fused->watch;
+    const struct fused_fields fields = {.u = step->u, .a = step->w, .moved = step->u, .dt = dt};
+    const double level = f->quiet * largest_before(f, step->u);
     const size_t n = c->model.unknowns;
     memset(f->size, 0, f->n[2] * sizeof *f->size);
     for (size_t i = 0; i < watch->count; i++)
-        watch->before[i] = w[watch->entry[i]];
+        watch->before[i] = step->w[watch->entry[i]];
+    if (c->pml != NULL) NAME(pml_fast_remember)(c, dt, dt / 2, step->u, step->w, step->extra);
     pass_over(c, drive, &fields, true, level);
+    if (c->pml != NULL) NAME(pml_fast_accelerate)(c, dt, step->extra, step->w);
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
-        const double before = watch->before[i], after = w[at];
-        y[at] = u[at];
+        const double before = watch->before[i], after = step->w[at];
+        y[at] = step->u[at];
         y[n + at] = (before + after) / 2;
         a[at] = (after - before) / dt;
     }
     fused_count(f);
 }
 
-void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, double dt, const REAL *u,
-                        const REAL *w, REAL *work, double *y, double *a)
+void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, double dt,
+                        const struct NAME(step_fields) * step, double *y, double *a)
 {
     const size_t n = c->model.unknowns;
-    accelerate(c, drive, u, work);
+    accelerate(c, drive, step, step->work);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t i = 0; i < n; i++) {
-        y[i] = u[i];
-        y[n + i] = w[i] - dt / 2 * work[i];
-        if (a != NULL) a[i] = work[i];
+        y[i] = step->u[i];
+        y[n + i] = step->w[i] - dt / 2 * step->work[i];
+        if (a != NULL) a[i] = step->work[i];
     }
 }

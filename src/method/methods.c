@@ -28,9 +28,12 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,
                     scene->method.variant);
     const struct deck_group *group = scene->method.group;
-    if (group != NULL && strcmp(deck_text(group, "precision", 0), "single") == 0)
-        return deck_error(scene->deck, group, "precision", messages,
-                          "no method has a state in single precision; expected 'double'");
+    if (group != NULL && strcmp(deck_text(group, "precision", 0), "single") == 0 &&
+        class != &consistent_class)
+        return deck_error(
+            scene->deck, group, "precision", messages,
+            "only the consistent smoothed-point method has a state in single precision; expected "
+            "'double'");
     const unsigned axes = class->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(class, scene, axes, model, messages);
     return class->create(scene, model, messages);

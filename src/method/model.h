@@ -139,6 +139,7 @@ struct model {
     size_t state_size;         /* numbers in y */
     size_t component_stride, point_stride;
     size_t bytes;       /* memory held by the model */
+    bool single;        /* steps in one pass keep the state in single precision; y is what others see of it */
     bool damped;        /* C is not zero */
     double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
                            [1/time] */

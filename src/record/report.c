@@ -87,6 +87,26 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
     }
 }
 
+/* What rounding of the state adds: each step rounds u and the sums of a anew, and the weights in single
+ * precision are those of a ground whose waves are a little faster or slower (doc/performance.md, section 4).
+ */
+static void write_precision(FILE *out, const struct recorder *recorder)
+{
+    const double steps = (double)recorder->last_step;
+    double worst = 0.0;
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
+        double size[2] = {0.0, 0.0};
+        for (size_t i = 0; i < 6 * recorder->rows; i++)
+            size[i % 6 / 3] = fmax(size[i % 6 / 3], fabs(recorder->trace[r].value[i]));
+        if (size[0] == 0.0) continue;
+        const double turned = recorder->stepper->dt * size[1] / size[0];
+        worst = fmax(worst, 0x1p-24 * (2.0 * sqrt(steps) + 1.5 * steps * turned));
+    }
+    if (recorder->model->single && worst > 0.0)
+        fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",
+                worst);
+}
+
 static void write_speed_against_error(FILE *out, const struct recorder *recorder,
                                       const struct run_figures *figures)
 {
@@ -129,6 +149,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
                                 recorder->trace[r].value, tell_line, out);
     }
     write_energy(out, recorder);
+    write_precision(out, recorder);
     write_cost(out, recorder, figures);
     write_speed_against_error(out, recorder, figures);
     return safe_file_close(&file, SELAS_OK, messages);

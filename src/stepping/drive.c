@@ -64,6 +64,9 @@ static const double *host_row(struct stepper *stepper, long n)
 
 selas_status drive_by_host(struct stepper *stepper, const struct host_drive *host, struct messages *messages)
 {
+    if (stepper->model->single)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "loads and faces that a host drives need method%%precision = 'double'");
     stepper->host = host;
     stepper->host_row =
         array_new(HOST_ROWS * (stepper->model->scene->loads + FACES), sizeof *stepper->host_row);

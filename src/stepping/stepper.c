@@ -216,6 +216,9 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
             "the filter of method '%s', variant '%s', acts on leapfrog's half-step velocity and cannot "
             "be had with scheme '%s'; take scheme 'leapfrog' or method%%filter = 0",
             class->method, class->variant, name);
+    if (stepper->model->single && stepper->scheme != &scheme_leapfrog)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "method%%precision = 'single' needs scheme 'leapfrog', not '%s'", name);
     if (class->remember != NULL && stepper->scheme != &scheme_leapfrog)
         return fail(messages, SELAS_UNSUPPORTED,
                     "absorbing layers (boundary%%layer = 'pml') need scheme 'leapfrog', not '%s'", name);

@@ -1,0 +1,12 @@
+/* The fused operator and step in single precision: kernels for degree 2 with one to three sweeps. In this
+ * order: each needs those before. */
+#define REAL float
+#define NAME(name) name##_single
+#define FUSED(c) ((c)->fused->single)
+#include "method/fused_kernel.h"
+
+#include "method/fused_strips.h"
+
+#include "method/hform_edges.h"
+
+#include "method/fused_step.h"
