@@ -148,6 +148,12 @@ static void test_single(void **state)
     for (int scene = 0; scene < 6; scene++) {
         struct plain_scene plain;
         random_scene(&plain, scene, .25);
+        for (int face = 0; face < 6; face++) { /* what steps in single precision do not have */
+            struct boundary *boundary = &plain.scene.boundary[face];
+            const bool damped =
+                boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_LYSMER;
+            if (damped || boundary->kind == BOUNDARY_VELOCITY) boundary->kind = BOUNDARY_FREE;
+        }
         const struct consistent_options options = {
             .degree = 2, .sweeps = 3, .depth_exact = scene % 2 == 0, .single = true};
         struct run run = marched(&plain, options, 0);
