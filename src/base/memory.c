@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { ALIGNMENT = 64 };
+enum { ALIGNMENT = 64, PLACE = sizeof(void *) };
 
 /* Systems grant more than they have and end the program when it is used: an array that no machine of this
  * size holds is refused here. */
@@ -26,11 +26,11 @@ void *array_new(size_t count, size_t size)
     if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
     if (beyond_machine(count * size)) return NULL;
     const size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    unsigned char *given = calloc(1, bytes + ALIGNMENT + sizeof given);
+    unsigned char *given = calloc(1, bytes + ALIGNMENT + PLACE);
     if (given == NULL) return NULL;
-    const size_t past = ((uintptr_t)given + sizeof given) % ALIGNMENT;
-    unsigned char *array = given + sizeof given + (past == 0 ? 0 : ALIGNMENT - past);
-    memcpy(array - sizeof given, &given, sizeof given);
+    const size_t past = ((uintptr_t)given + PLACE) % ALIGNMENT;
+    unsigned char *array = given + PLACE + (past == 0 ? 0 : ALIGNMENT - past);
+    memcpy(array - PLACE, &given, PLACE);
     return array;
 }
 
@@ -38,6 +38,6 @@ void array_free(void *array)
 {
     unsigned char *given = NULL;
     if (array == NULL) return;
-    memcpy(&given, (unsigned char *)array - sizeof given, sizeof given);
+    memcpy(&given, (unsigned char *)array - PLACE, PLACE);
     free(given);
 }
