@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-static const struct accuracy_kind *const kinds[] = {&accuracy_wave, &accuracy_ground};
-enum { KINDS = sizeof kinds / sizeof *kinds };
+static const struct accuracy_kind *const kinds[2] = {&accuracy_wave, &accuracy_ground};
+enum { KINDS = 2 };
 
 static const struct accuracy_kind *kind_of(const struct scene *scene)
 {

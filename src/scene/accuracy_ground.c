@@ -199,8 +199,11 @@ static double quiet_spacing(const struct scene *scene, const struct place *place
         size = fmin(size, place[i].size);
     if (gain >= pow(SLOWLY, 2.5)) return h;
     if (scene->body.chosen) return size / ceil(size / h - 1e-9);
-    for (double finer = h; finer > .5 * h; finer = dividing_spacing(&scene->body, 3, .999 * finer))
+    double finer = h;
+    while (finer > .5 * h) {
         if (fabs(size / finer - round(size / finer)) < 1e-6) return finer;
+        finer = dividing_spacing(&scene->body, 3, .999 * finer);
+    }
     return h;
 }
 

@@ -171,21 +171,22 @@ static double enough(const struct lattice_wave *wave, const struct arrivals *pla
     for (int c = 0; c < dimension; c++)
         shortest = fmin(shortest, body->high[c] - body->low[c]);
     double h = dividing_spacing(body, dimension, shortest / least_cells(wave));
-    for (; h > shortest / finest; h = dividing_spacing(body, dimension, h / coarse)) {
+    while (h > shortest / finest) {
         *error = worst(wave, place, h, work);
         found = h;
         if (*error <= ACCURACY_AIM * accuracy) break;
         last = h;
+        h = dividing_spacing(body, dimension, h / coarse);
     }
     if (!(h > shortest / finest)) return 0;
-    for (h = dividing_spacing(body, dimension, last / fine); h > found * (1 + 1e-9) && isfinite(last);
-         h = dividing_spacing(body, dimension, h / fine)) {
-        const double here = worst(wave, place, h, work);
-        if (here > ACCURACY_MOST * accuracy ||
-            (here > ACCURACY_AIM * accuracy && *error > ACCURACY_LEAST * accuracy))
-            continue;
-        *error = here;
-        return h;
+    h = isfinite(last) ? dividing_spacing(body, dimension, last / fine) : 0;
+    while (h > found * (1 + 1e-9)) {
+        const double here = worst(wave, place, h, work), most = ACCURACY_MOST * accuracy;
+        if (here <= most && (here <= ACCURACY_AIM * accuracy || *error <= ACCURACY_LEAST * accuracy)) {
+            *error = here;
+            return h;
+        }
+        h = dividing_spacing(body, dimension, h / fine);
     }
     return found;
 }
@@ -271,13 +272,14 @@ static selas_status choose(const struct scene *scene, double accuracy, struct ac
     double *work = array_new(3 * ARRIVAL_ROWS, sizeof *work);
     selas_status status = work == NULL ? fail(messages, SELAS_NO_MEMORY, "no memory for scene%%accuracy")
                                        : arrivals_create(scene, &place, messages);
-    for (size_t k = 0; k < scene->receivers && status == SELAS_OK; k++)
+    for (size_t k = 0; place != NULL && k < scene->receivers && status == SELAS_OK; k++)
         if (fabs(place[k].velocity[0]) > seen * place[k].largest)
             status = fail(messages, SELAS_BAD_SCENE,
                           "scene%%accuracy: receiver '%s' is in the initial wave already at t = 0, where no "
                           "error is predicted; move it on, or give body%%spacing",
                           scene->receiver[k].name);
-    if (status == SELAS_OK) status = choose_setting(scene, place, accuracy, work, choice, messages);
+    if (place != NULL && status == SELAS_OK)
+        status = choose_setting(scene, place, accuracy, work, choice, messages);
     array_free(work);
     arrivals_free(&place);
     return status;
