@@ -145,7 +145,8 @@ static void test_single(void **state)
 {
     (void)state;
     double worst = 0;
-    for (int scene = 0; scene < 6; scene++) {
+    int served = 0;
+    for (int scene = 0; scene < 30; scene++) {
         struct plain_scene plain;
         random_scene(&plain, scene, .25);
         for (int face = 0; face < 6; face++) { /* what steps in single precision do not have */
@@ -156,6 +157,13 @@ static void test_single(void **state)
         }
         const struct consistent_options options = {
             .degree = 2, .sweeps = 3, .depth_exact = scene % 2 == 0, .single = true};
+        struct model *made = NULL;
+        if (consistent_create_with(&plain.scene, &options, &made, &(struct messages){0}) != SELAS_OK)
+            continue; /* layers that damp velocities besides */
+        const bool fit = consistent_of(made)->pml != NULL;
+        model_free(&made);
+        if (!fit) continue;
+        served++;
         struct run run = marched(&plain, options, 0);
         const struct consistent *c = consistent_of(run.model);
         const size_t extra = run.model->state_size - 2 * run.n;
@@ -183,7 +191,8 @@ static void test_single(void **state)
         free(a4);
         free(memory4);
     }
-    print_message("# single precision: %.1e\n", worst);
+    print_message("# single precision, %d scenes: %.1e\n", served, worst);
+    assert_true(served >= 3);
     assert_true(worst < 2e-6);
 }
 
