@@ -37,7 +37,7 @@ static void start(struct stepper *stepper, struct state *state)
     model->class->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 
-/* The second half of a step: from w(n+1/2) to v(n+1). */
+/* The second half of a step: from w(n+1/2) to v(n+1), memory being at its end. */
 static void close_step(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
@@ -45,10 +45,7 @@ static void close_step(struct stepper *stepper, struct state *state)
     double *v = state->y + model->unknowns;
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
-    if (model->class->remember != NULL) {
-        model->class->remember(model, stepper->dt, state->y);
-        drive.extra = v + model->unknowns;
-    }
+    if (model->class->remember != NULL) drive.extra = v + model->unknowns;
     model->class->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
     leapfrog_kick(stepper, state);
 }
@@ -58,6 +55,7 @@ static void step(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     if (!stepper->one_pass) {
         leapfrog_drift(stepper, state);
+        if (model->class->remember != NULL) model->class->remember(model, stepper->dt, state->y);
         close_step(stepper, state);
         return;
     }
