@@ -86,10 +86,11 @@ static double fma_of(const struct fused *f)
 }
 
 struct timing {
-    double call, step, fma, bytes; /* ns and FMA a point; bytes a point of model and state */
+    double call, apart, step, fma, bytes; /* ns and FMA a point; bytes a point of model and state */
 };
 
-static struct timing measure(const size_t n[3], bool exact, bool unfused)
+/* `apart`: updates and operator one after the other; `step`: as the program does it. */
+static struct timing measure(const size_t n[3], bool exact, bool unfused, bool single)
 {
     struct plain_scene plain;
     struct messages messages = {0};
@@ -97,7 +98,7 @@ static struct timing measure(const size_t n[3], bool exact, bool unfused)
     const double size[3] = {(double)n[0] - 2, (double)n[1] - 2, (double)n[2] - 2};
     plain_box(&plain, 3, size, 1);
     const struct consistent_options options = {
-        .degree = 2, .sweeps = 3, .depth_exact = exact, .unfused = unfused};
+        .degree = 2, .sweeps = 3, .depth_exact = exact, .unfused = unfused, .single = single};
     if (consistent_create_with(&plain.scene, &options, &model, &messages) != SELAS_OK) {
         fputs(messages.text, stderr);
         exit(1);
@@ -114,17 +115,24 @@ static struct timing measure(const size_t n[3], bool exact, bool unfused)
         seed = seed * 6364136223846793005u + 1442695040888963407u;
         state.y[i] = (double)(seed >> 11) * 0x1p-52 - 1;
     }
-    struct timing timing = {INFINITY, INFINITY, 0, 0};
+    struct timing timing = {INFINITY, INFINITY, INFINITY, 0, 0};
+    scheme_leapfrog.start(&stepper, &state);
+    const bool one_pass = stepper.one_pass;
     const int repeats = points > 1000000 ? 3 : 3 + (int)(3000000 / points);
     for (int repeat = 0; repeat < repeats; repeat++) {
         double start = now();
         model->class->accelerate(model, &(struct drive){0}, 0, state.y, NULL, state.a);
         timing.call = fmin(timing.call, now() - start);
-        start = now();
-        scheme_leapfrog.step(&stepper, &state);
-        timing.step = fmin(timing.step, now() - start);
+        for (int way = 0; way < 2; way++) {
+            double *least = way == 0 ? &timing.apart : &timing.step;
+            stepper.one_pass = one_pass && way == 1;
+            start = now();
+            scheme_leapfrog.step(&stepper, &state);
+            *least = fmin(*least, now() - start);
+        }
     }
     timing.call *= 1e9 / (double)points;
+    timing.apart *= 1e9 / (double)points;
     timing.step *= 1e9 / (double)points;
     const struct fused *fused = consistent_of(model)->fused;
     timing.fma = fused != NULL ? fma_of(fused) : NAN;
@@ -141,22 +149,28 @@ int main(int count, char **word)
     omp_set_num_threads(1);
     const double fma = peak(), stream = bandwidth();
     printf("Machine, one thread: %.1f FMA/ns (double), triad %.1f GB/s.\n\n", fma, stream);
-    printf("| lattice | over depth | passes | ns a call | ns a step | FMA | share of FMA peak | bytes a "
-           "point |\n"
-           "|---|---|---|---|---|---|---|---|\n");
+    printf("| lattice | over depth | passes | ns a call | ns a step, apart | ns a step | FMA | share of FMA "
+           "peak "
+           "| bytes a point |\n"
+           "|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 1; i + 2 < count; i += 3) {
         const size_t n[3] = {strtoul(word[i], NULL, 10), strtoul(word[i + 1], NULL, 10),
                              strtoul(word[i + 2], NULL, 10)};
-        for (int kind = 0; kind < 4; kind++) {
-            const bool exact = kind % 2 == 1, unfused = kind >= 2;
+        for (int kind = 0; kind < 6; kind++) {
+            const bool exact = kind % 2 == 1, unfused = kind >= 4, single = kind / 2 == 1;
             if (unfused && n[0] * n[1] * n[2] > 1000000) continue;
-            const struct timing t = measure(n, exact, unfused);
-            printf("| %zu x %zu x %zu | %s | %s | %.1f | %.1f |", n[0], n[1], n[2], exact ? "exact" : "same",
-                   unfused ? "one by one" : "fused", t.call, t.step);
-            if (unfused)
-                printf(" | | %.0f |\n", t.bytes);
+            const struct timing t = measure(n, exact, unfused, single);
+            printf("| %zu x %zu x %zu | %s | %s | ", n[0], n[1], n[2], exact ? "exact" : "same",
+                   unfused  ? "one by one"
+                   : single ? "single"
+                            : "fused");
+            if (single)
+                printf("| | %.1f | %.0f | | %.0f |\n", t.step, t.fma, t.bytes);
+            else if (unfused)
+                printf("%.1f | %.1f | %.1f | | | %.0f |\n", t.call, t.apart, t.step, t.bytes);
             else
-                printf(" %.0f | %.0f %% | %.0f |\n", t.fma, 100 * t.fma / t.call / fma, t.bytes);
+                printf("%.1f | %.1f | %.1f | %.0f | %.0f %% | %.0f |\n", t.call, t.apart, t.step, t.fma,
+                       100 * t.fma / t.call / fma, t.bytes);
             fflush(stdout);
         }
     }

@@ -130,10 +130,12 @@ static bool lay_depth(struct consistent *c, struct fused *f)
     return true;
 }
 
-/* Groups of rows whose weights over y are all the same, but for rounding. */
+/* Groups of rows whose weights over y are all the same, but for the rounding of positions up to n spacings.
+ */
 static bool find_plain(struct fused *f)
 {
     const size_t groups = rounded(f->n[1], FUSED_ROWS) / FUSED_ROWS;
+    const double rounding = 2 * DBL_EPSILON * (double)f->n[1];
     f->plain = array_new(groups, sizeof *f->plain);
     if (f->plain == NULL) return false;
     for (size_t group = 0; group < groups; group++) {
@@ -145,8 +147,7 @@ static bool find_plain(struct fused *f)
             for (size_t i = 0; i < taps; i++)
                 largest = fmax(largest, fabs(row[i]));
             for (size_t i = taps; i < FUSED_ROWS * taps; i++)
-                f->plain[group] =
-                    f->plain[group] && fabs(row[i] - row[i - taps]) <= 4 * DBL_EPSILON * largest;
+                f->plain[group] = f->plain[group] && fabs(row[i] - row[i - taps]) <= rounding * largest;
         }
     }
     return true;
