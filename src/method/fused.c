@@ -106,7 +106,7 @@ static bool lay_side(struct consistent *c, struct fused *f, int axis)
         const struct band *band =
             inverse ? c->hform->inverse[which == SIDE_N_ODD ? axis : other][axis] : made;
         const int taps = inverse ? f->wide : f->narrow;
-        double **table = axis == 0 ? &f->x[which] : &f->y[which];
+        void **table = axis == 0 ? &f->x[which] : &f->y[which];
         if (band != NULL)
             *table = axis == 0 ? by_diagonals(band, factor, taps, f->width)
                                : by_rows(band, factor, taps, rounded(f->n[1], FUSED_ROWS));
@@ -142,7 +142,7 @@ static bool find_plain(struct fused *f)
         f->plain[group] = true;
         for (int which = 0; which < SIDE_MATRICES; which++) {
             const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
-            const double *row = f->y[which] + group * FUSED_ROWS * taps;
+            const double *row = (const double *)f->y[which] + group * FUSED_ROWS * taps;
             double largest = 0;
             for (size_t i = 0; i < taps; i++)
                 largest = fmax(largest, fabs(row[i]));
@@ -196,11 +196,12 @@ static bool shares_masses(const struct consistent *c)
 }
 
 /* Numbers of a table in single precision, in place. */
-static void shorten(double *table, size_t n)
+static void shorten(void *table, size_t n)
 {
-    float *single = (float *)table;
+    const double *long_one = table;
+    float *single = table;
     for (size_t i = 0; i < n; i++) {
-        const float value = (float)table[i];
+        const float value = (float)long_one[i];
         memcpy(single + i, &value, sizeof value);
     }
 }

@@ -61,11 +61,11 @@ struct fused {
     size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
     int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
     bool bare;                                          /* B is the identity */
-    size_t late[2];           /* rows that narrow and wide passes over y lag behind */
-    double *x[SIDE_MATRICES]; /* [taps * width] by diagonals */
-    double *y[SIDE_MATRICES]; /* [rows * taps] */
-    bool *plain;              /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
-    double *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
+    size_t late[2];         /* rows that narrow and wide passes over y lag behind */
+    void *x[SIDE_MATRICES]; /* [taps * width] by diagonals */
+    void *y[SIDE_MATRICES]; /* [rows * taps] */
+    bool *plain;            /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
+    void *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
     double quiet;   /* planes whose displacements are all below this times the largest do not move others */
     double *size;   /* [n[2]] largest displacement in each plane */
     double largest; /* of them after the last step in one pass ... */
@@ -78,7 +78,7 @@ struct fused {
     void *kept;        /* what steps in one pass go on from: the velocity half a step ahead, ... */
     size_t kept_bytes; /* ... in single precision u before it and the layers' memory behind it */
     int threads;
-    double **buffer;  /* [threads] */
+    void **buffer;    /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */
     size_t bytes;
 };

@@ -74,8 +74,8 @@ static struct step_fields_single fields_single(const struct consistent *c)
 {
     const size_t n = c->model.unknowns;
     float *kept = c->fused->kept;
-    return (struct step_fields_single){
-        .u = kept, .w = kept + n, .extra = kept + 2 * n, .work = (float *)c->hform->work};
+    void *work = c->hform->work;
+    return (struct step_fields_single){.u = kept, .w = kept + n, .extra = kept + 2 * n, .work = work};
 }
 
 static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)

@@ -88,7 +88,7 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
 }
 
 /* What rounding of the state adds: each step rounds u and the sums of a anew, and the weights in single
- * precision are those of a ground whose waves are a little faster or slower (doc/performance.md, section 4).
+ * precision are those of a ground whose waves are a little faster or slower (doc/performance.md, F3).
  */
 static void write_precision(FILE *out, const struct recorder *recorder)
 {
@@ -100,7 +100,7 @@ static void write_precision(FILE *out, const struct recorder *recorder)
             size[i % 6 / 3] = fmax(size[i % 6 / 3], fabs(recorder->trace[r].value[i]));
         if (size[0] == 0.0) continue;
         const double turned = recorder->stepper->dt * size[1] / size[0];
-        worst = fmax(worst, 0x1p-24 * (2.0 * sqrt(steps) + 1.5 * steps * turned));
+        worst = fmax(worst, 0x1p-24 * (3.0 * sqrt(steps) + 2.0 * steps * turned));
     }
     if (recorder->model->single && worst > 0.0)
         fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",
