@@ -169,7 +169,8 @@ static void measure(struct lattice *lattice, const double wave[3], double omega[
             state->y[from * c->volume + p] = cos(wave[0] * x + wave[1] * y + wave[2] * z);
         }
         lattice->stepper.scheme->start(&lattice->stepper, state);
-        leapfrog_drift(&lattice->stepper, state);
+        lattice->stepper.scheme->step(&lattice->stepper, state);
+        state_settle(&lattice->stepper, state, false);
         for (size_t to = 0; to < 3; to++)
             t[to][from] = state->y[to * c->volume + middle];
     }
