@@ -132,6 +132,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
     if (!is_box(&scene->body)) return adviser.count;
     look_at_receivers(&adviser);
+    look_at_layers(&adviser, stepper);
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, k);

@@ -12,6 +12,7 @@
 #include "exact/lamb.h"
 #include "scene/accuracy.h"
 #include "scene/echo.h"
+#include "scene/outlook.h"
 
 #include <fftw3.h>
 #include <math.h>
@@ -170,10 +171,8 @@ static double worst(const struct scene *scene, const struct place *place, double
     return most;
 }
 
-/* Absorbing layers are as thick as a seventh of the P wavelength that carries most, and have so many points
- * that little enough comes back (measured). */
-static long enough_layer_points(const struct scene *scene, const struct place *place, double accuracy,
-                                double h, double p_speed)
+/* P wavelength at the mean frequency of |V|^2, the longest of all receivers. */
+static double mean_wavelength(const struct scene *scene, const struct place *place, double p_speed)
 {
     double slowest = INFINITY;
     for (size_t i = 0; i < scene->receivers; i++) {
@@ -184,9 +183,15 @@ static long enough_layer_points(const struct scene *scene, const struct place *p
         }
         slowest = fmin(slowest, first / whole * 2 * M_PI / (1.25 * scene->end_time));
     }
+    return 2 * M_PI * p_speed / slowest;
+}
+
+/* Absorbing layers are as thick as a seventh of the P wavelength that carries most, and have so many points
+ * that little enough comes back (measured). */
+static long enough_layer_points(double accuracy, double h, double wavelength)
+{
     const long points = accuracy >= .02 ? 8 : accuracy >= .005 ? 10 : 12;
-    const double wavelength = 2 * M_PI * p_speed / slowest;
-    return (long)fmin(fmax((double)points, ceil(.15 * wavelength / h)), 40);
+    return (long)fmin(fmax((double)points, ceil(LAYER_THICKNESS * wavelength / h)), 40);
 }
 
 /* Where the error falls slower than h^2.5 it is that of waves that the lattice cannot carry: a history with
@@ -239,7 +244,7 @@ static selas_status choose(const struct scene *scene, const struct place *place,
     h = quiet_spacing(scene, place, h, error / worst(scene, place, h / SLOWLY, ground.rayleigh_speed));
     error = worst(scene, place, h, ground.rayleigh_speed);
     choice->spacing = h;
-    choice->layer_points = enough_layer_points(scene, place, accuracy, h, ground.p_speed);
+    choice->layer_points = enough_layer_points(accuracy, h, mean_wavelength(scene, place, ground.p_speed));
     snprintf(
         choice->text, sizeof choice->text,
         "%g wanted: spacing %.6g, degree 2, mass vc3, leapfrog with the time-dispersion transform; predicted "
@@ -248,30 +253,63 @@ static selas_status choose(const struct scene *scene, const struct place *place,
     return SELAS_OK;
 }
 
-static selas_status choose_for(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
-                               struct messages *messages)
+/* Places and spectra of all receivers; both arrays are array_free()d by the caller, whatever comes back. */
+static selas_status find_places(const struct scene *scene, struct place **place, double **power,
+                                struct messages *messages)
 {
     struct exact *exact = NULL;
     struct scene longer = *scene;
     longer.end_time *= 1.25;
-    struct place *place = array_new(scene->receivers, sizeof *place);
-    double *power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *power);
-    selas_status status = SELAS_NO_MEMORY;
-    if (place != NULL && power != NULL) {
-        status = lamb_create_within(&longer, 1e-3, &exact, messages);
-        for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
-            place[i].power = power + i * (ROWS / 2 + 1);
-            set_place(scene, scene->receiver[i].position, &place[i]);
-            status = find_power(exact, scene->end_time, &scene->receiver[i], place[i].power, messages);
-        }
-        if (status == SELAS_OK) status = choose(scene, place, accuracy, choice, messages);
-    } else {
-        fail(messages, status, "no memory for scene%%accuracy");
+    *place = array_new(scene->receivers, sizeof **place);
+    *power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof **power);
+    if (*place == NULL || *power == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
+    selas_status status = lamb_create_within(&longer, 1e-3, &exact, messages);
+    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
+        (*place)[i].power = *power + i * (ROWS / 2 + 1);
+        set_place(scene, scene->receiver[i].position, &(*place)[i]);
+        status = find_power(exact, scene->end_time, &scene->receiver[i], (*place)[i].power, messages);
     }
     exact_free(&exact);
+    return status;
+}
+
+static selas_status choose_for(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
+                               struct messages *messages)
+{
+    struct place *place = NULL;
+    double *power = NULL;
+    selas_status status = find_places(scene, &place, &power, messages);
+    if (status == SELAS_OK) status = choose(scene, place, accuracy, choice, messages);
     array_free(place);
     array_free(power);
     return status;
+}
+
+bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
+{
+    enum { ENOUGH = 8 }; /* receivers looked at: each costs an exact history */
+    struct scene few = *scene;
+    struct messages unsaid = {0};
+    struct place *place = NULL;
+    double *power = NULL;
+    bool known = false;
+    if (!looks_like(scene) || refusal(scene) != NULL) return false;
+    if (few.receivers > ENOUGH) few.receivers = ENOUGH;
+    if (find_places(&few, &place, &power, &unsaid) == SELAS_OK) {
+        const double h = scene->body.spacing;
+        const struct material *material = scene_material_at(scene, 0);
+        struct half_space ground;
+        half_space_set(&ground, material->density, material->lambda, material->mu);
+        outlook->error = worst(&few, place, h, ground.rayleigh_speed);
+        outlook->wavelength = mean_wavelength(&few, place, ground.p_speed);
+        outlook->layer_points = enough_layer_points(outlook->error / ACCURACY_AIM, h, outlook->wavelength);
+        known = isfinite(outlook->error) && isfinite(outlook->wavelength);
+    }
+    array_free(place);
+    array_free(power);
+    messages_free(&unsaid);
+    return known;
 }
 
 const struct accuracy_kind accuracy_ground = {looks_like, refusal, choose_for};
