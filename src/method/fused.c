@@ -180,7 +180,8 @@ static bool lay_buffers(struct fused *f)
     }
     f->size = array_new(f->n[2], sizeof *f->size);
     f->computed = array_new(rounded(f->n[2], FUSED_PLANES) / FUSED_PLANES, sizeof *f->computed);
-    if (f->size == NULL || f->computed == NULL) return false;
+    f->bound = array_new((size_t)f->threads + 1, sizeof *f->bound);
+    if (f->size == NULL || f->computed == NULL || f->bound == NULL) return false;
     f->bytes = sizeof *f + (size_t)f->threads * size * f->number;
     return true;
 }
@@ -318,5 +319,6 @@ void fused_free(struct fused *fused)
     array_free(fused->plain);
     array_free(fused->size);
     array_free(fused->computed);
+    array_free(fused->bound);
     array_free(fused);
 }

@@ -71,6 +71,7 @@ struct fused {
     double largest; /* of them after the last step in one pass ... */
     size_t loudest; /* ... and its plane */
     bool *computed; /* [blocks of planes] in this call */
+    size_t *bound;  /* [threads + 1] planes where those of a thread begin */
     unsigned long blocks, skipped; /* of planes so far */
     size_t number;                 /* bytes of a number in tables and rings */
     struct fused *single;          /* the same in floats, if the scene's steps are */

@@ -9,7 +9,6 @@
 #include "method/fused.h"
 #include "method/pml_fast.h"
 
-#include <omp.h>
 #include <string.h>
 
 /* What the blocks of a thread share. */
@@ -85,12 +84,42 @@ static void pass_block(struct pass *pass, size_t first)
         add_rest(c, pass->drive, k, fields->moved == NULL ? 1 : fields->dt, fields->u, fields->a);
 }
 
-/* Bounds of a thread's planes. */
-static size_t bound_of(const struct fused *f, int thread, int threads)
+/* Where the planes of each thread begin, so that all have about as much to do: a block that was quiet in the
+ * last call, and is only brought on, costs an eighth of one that is computed. What is computed does not
+ * depend on the bounds. */
+static void lay_bounds(const struct fused *f)
 {
-    const size_t blocks = (f->n[2] + FUSED_PLANES - 1) / FUSED_PLANES;
-    const size_t plane = blocks * (size_t)thread / (size_t)threads * FUSED_PLANES;
-    return plane < f->n[2] ? plane : f->n[2];
+    enum { COMPUTED = 8, QUIET = 1 };
+    const size_t blocks = (f->n[2] + FUSED_PLANES - 1) / FUSED_PLANES, threads = (size_t)f->threads;
+    size_t all = 0, done = 0, thread = 1;
+    for (size_t block = 0; block < blocks; block++)
+        all += f->computed[block] ? COMPUTED : QUIET;
+    f->bound[0] = 0;
+    for (size_t block = 0; block < blocks; block++) {
+        while (thread < threads && done * threads >= all * thread)
+            f->bound[thread++] = block * FUSED_PLANES;
+        done += f->computed[block] ? COMPUTED : QUIET;
+    }
+    while (thread <= threads)
+        f->bound[thread++] = f->n[2];
+}
+
+/* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. */
+static void pass_thread(const struct consistent *c, const struct drive *drive,
+                        const struct fused_fields *fields, bool bring, double level, int thread, int stage)
+{
+    const struct fused *f = FUSED(c);
+    const size_t reach = (size_t)f->deep / 2, from = f->bound[thread], end = f->bound[thread + 1];
+    const size_t low = !bring || from + reach > end ? end : from + reach;
+    const size_t high = end == f->n[2] ? end : end > low + reach ? end - reach : low;
+    if (stage == 0) {
+        bring_planes(f, fields, from, low);
+        bring_planes(f, fields, high, end);
+        return;
+    }
+    struct pass pass = {c, drive, *fields, level, low, high, thread};
+    for (size_t first = from; first < end; first += FUSED_PLANES)
+        pass_block(&pass, first);
 }
 
 /* All planes; u is brought on too if `bring`. */
@@ -98,21 +127,12 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
                       const struct fused_fields *fields, bool bring, double level)
 {
     const struct fused *f = FUSED(c);
-    const size_t reach = (size_t)f->deep / 2;
+    lay_bounds(f);
 #pragma omp parallel num_threads(f->threads)
-    {
-        const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
-        const size_t from = bound_of(f, thread, threads), end = bound_of(f, thread + 1, threads);
-        const size_t low = !bring || from + reach > end ? end : from + reach;
-        const size_t high = end == f->n[2] ? end : end > low + reach ? end - reach : low;
-        struct pass pass = {c, drive, *fields, level, low, high, thread};
-        if (bring) {
-            bring_planes(f, fields, from, low);
-            bring_planes(f, fields, high, end);
-#pragma omp barrier
-        }
-        for (size_t first = from; first < end; first += FUSED_PLANES)
-            pass_block(&pass, first);
+    for (int stage = bring ? 0 : 1; stage < 2; stage++) {
+#pragma omp for schedule(static, 1)
+        for (int thread = 0; thread < f->threads; thread++)
+            pass_thread(c, drive, fields, bring, level, thread, stage);
     }
 }
 
