@@ -271,7 +271,8 @@ void fused_look(struct fused *fused, const double *u)
     for (size_t k = 0; k < f->n[2]; k++) {
         f->size[k] = 0;
         for (size_t component = 0; f->quiet > 0 && component < 3; component++)
-            f->size[k] = fmax(f->size[k], largest_size(u + component * f->volume + k * f->plane, f->plane));
+            f->size[k] =
+                fmax(f->size[k], largest_size_double(u + component * f->volume + k * f->plane, f->plane));
     }
     for (size_t k = 0; k < f->n[2]; k++)
         largest = fmax(largest, f->size[k]);

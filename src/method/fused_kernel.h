@@ -90,19 +90,6 @@ EACH_MACHINE REAL NAME(fused_drift)(size_t n, REAL dt, const REAL *restrict w, R
     return largest;
 }
 
-/* Largest |x|. */
-REAL NAME(fused_size)(size_t n, const REAL *x);
-EACH_MACHINE REAL NAME(fused_size)(size_t n, const REAL *x)
-{
-    REAL largest = 0;
-#pragma omp simd reduction(max : largest)
-    for (size_t i = 0; i < n; i++) {
-        const REAL size = x[i] < 0 ? -x[i] : x[i];
-        largest = size > largest ? size : largest;
-    }
-    return largest;
-}
-
 /* w += dt a */
 void NAME(fused_kick)(size_t n, REAL dt, const REAL *a, REAL *w);
 EACH_MACHINE void NAME(fused_kick)(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)

@@ -7,6 +7,7 @@
  * w come from memory once and go there once. A thread has planes of its own; those that its neighbours read
  * too are brought on first, and all threads wait for that. */
 #include "method/fused.h"
+#include "method/passes.h"
 #include "method/pml_fast.h"
 
 #include <string.h>
@@ -140,7 +141,7 @@ static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
 {
     REAL largest = 0;
     for (size_t component = 0; component < 3; component++) {
-        const REAL size = NAME(fused_size)(f->plane, u + component * f->volume + k * f->plane);
+        const REAL size = NAME(largest_size)(u + component * f->volume + k * f->plane, f->plane);
         if (size > largest) largest = size;
     }
     return largest;

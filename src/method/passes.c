@@ -108,14 +108,17 @@ void pass_over_neighbours(const double *value, size_t taps, double factor, const
 #undef NEIGHBOURS
 }
 
-EACH_MACHINE
-double largest_size(const double *x, size_t n)
-{
-    double largest = 0;
-#pragma omp simd reduction(max : largest)
-    for (size_t i = 0; i < n; i++) {
-        const double size = x[i] < 0 ? -x[i] : x[i];
-        largest = size > largest ? size : largest;
+#define LARGEST_SIZE(name, type)                                                                             \
+    EACH_MACHINE                                                                                             \
+    type name(const type *x, size_t n)                                                                       \
+    {                                                                                                        \
+        type largest = 0;                                                                                    \
+        _Pragma("omp simd reduction(max : largest)") for (size_t i = 0; i < n; i++)                          \
+        {                                                                                                    \
+            const type size = x[i] < 0 ? -x[i] : x[i];                                                       \
+            largest = size > largest ? size : largest;                                                       \
+        }                                                                                                    \
+        return largest;                                                                                      \
     }
-    return largest;
-}
+LARGEST_SIZE(largest_size_double, double)
+LARGEST_SIZE(largest_size_single, float)

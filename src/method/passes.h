@@ -13,6 +13,7 @@ void pass_over_neighbours(const double *value, size_t taps, double factor, const
                           double *out);
 
 /* Largest |x[i]|, i < n. */
-double largest_size(const double *x, size_t n);
+double largest_size_double(const double *x, size_t n);
+float largest_size_single(const float *x, size_t n);
 
 #endif

@@ -192,16 +192,3 @@ EACH_MACHINE bool NAME(pml_loud)(size_t rows, size_t step, size_t n, REAL level,
     }
     return false;
 }
-
-/* The largest size. */
-REAL NAME(pml_largest)(size_t n, const REAL *x);
-EACH_MACHINE REAL NAME(pml_largest)(size_t n, const REAL *x)
-{
-    REAL largest = 0;
-#pragma omp simd reduction(max : largest)
-    for (size_t i = 0; i < n; i++) {
-        const REAL size = x[i] < 0 ? -x[i] : x[i];
-        largest = size > largest ? size : largest;
-    }
-    return largest;
-}

@@ -1,6 +1,7 @@
 /* The order of the layers' shared passes (pml_fast.h, L1 to L4) for numbers of type REAL; included by
  * pml_fast_double.c and pml_fast_single.c. Threads share rows or groups of rows along b; none writes what
  * another one reads. */
+#include "method/passes.h"
 #include "method/pml_fast.h"
 
 #include <math.h>
@@ -63,7 +64,7 @@ static struct level level_of(const struct consistent *c, const REAL *u)
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         for (size_t i = 0; i < 3; i++)
-            largest = fmax(largest, (double)NAME(pml_largest)(c->plane, u + i * c->volume + k * c->plane));
+            largest = fmax(largest, (double)NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
     largest *= c->options.quiet;
     return (struct level){(REAL)largest, (REAL)(largest / spacing),
                           (REAL)(largest * stiffness / (spacing * spacing))};
