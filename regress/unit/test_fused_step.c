@@ -292,6 +292,7 @@ static void test_refused(void **unused)
         assert_int_equal(consistent_create_with(&plain.scene, &options, &model, &messages),
                          SELAS_UNSUPPORTED);
         assert_non_null(strstr(messages.text, "precision"));
+        messages_free(&messages);
         options.single = false;
     }
 }

@@ -158,8 +158,10 @@ static void test_single(void **state)
         const struct consistent_options options = {
             .degree = 2, .sweeps = 3, .depth_exact = scene % 2 == 0, .single = true};
         struct model *made = NULL;
-        if (consistent_create_with(&plain.scene, &options, &made, &(struct messages){0}) != SELAS_OK)
-            continue; /* layers that damp velocities besides */
+        struct messages messages = {0};
+        const selas_status status = consistent_create_with(&plain.scene, &options, &made, &messages);
+        messages_free(&messages);
+        if (status != SELAS_OK) continue; /* layers that damp velocities besides */
         const bool fit = consistent_of(made)->pml != NULL;
         model_free(&made);
         if (!fit) continue;

@@ -297,6 +297,7 @@ static void test_refusals(void **state)
         assert_int_equal(consistent_create_with(&plain.scene, &wrong[i], &model, &messages),
                          SELAS_UNSUPPORTED);
         assert_non_null(strstr(messages.text, "method%tuned"));
+        messages_free(&messages);
     }
 }
 

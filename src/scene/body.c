@@ -54,12 +54,13 @@ double dividing_spacing(const struct body *body, int dimension, double at_most)
     double shortest = INFINITY;
     for (int c = 0; c < dimension; c++)
         shortest = fmin(shortest, body->high[c] - body->low[c]);
-    const double first = fmax(1, ceil(shortest / at_most * (1 - 1e-9)));
-    for (double n = first; n <= 4 * first; n++) {
-        bool all = true;
+    const long first = (long)fmin(fmax(1, ceil(shortest / at_most * (1 - 1e-9))), 1e6);
+    for (long n = first; n <= 4 * first; n++) {
+        const double spacing = shortest / (double)n;
+        bool all = spacing <= at_most * (1 + 1e-9);
         for (int c = 0; c < dimension; c++)
-            all = all && divides(shortest / n, body->high[c] - body->low[c]);
-        if (all) return shortest / n;
+            all = all && divides(spacing, body->high[c] - body->low[c]);
+        if (all) return spacing;
     }
     return 0;
 }
