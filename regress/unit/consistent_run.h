@@ -132,6 +132,16 @@ static inline void run_free(struct run *run)
     model_free(&run->model);
 }
 
+/* Velocity at a place. */
+static inline void velocity_at(const struct run *run, const double place[3], double value[3])
+{
+    struct probe probe = {0};
+    struct messages messages = {0};
+    assert_int_equal(run->model->class->probe(run->model, place, &probe, &messages), SELAS_OK);
+    run->model->class->observe(run->model, &probe, SELAS_VELOCITY, run->y, run->a, value);
+    probe_free(&probe);
+}
+
 /* v holds v(n-1/2) on entry and v(n+1/2) at the end. */
 static inline void leap(struct run *run, const struct drive *drive, double dt)
 {

@@ -64,10 +64,6 @@ static double difference(const struct plain_scene *plain, struct consistent_opti
     return used ? error / largest : -1;
 }
 
-/* Weights that agree within the rounding of the knots are taken as one: some ten roundings of the largest
- * value. */
-static const double rounding = 1e-14;
-
 static void test_random_scenes(void **state)
 {
     (void)state;
@@ -83,7 +79,7 @@ static void test_random_scenes(void **state)
         worst = fmax(worst, error);
     }
     print_message("# 36 scenes: %.1e\n", worst);
-    assert_true(worst < rounding);
+    assert_true(worst < 3e-15);
 }
 
 /* Thin bodies and other degrees go on one by one; the narrowest that are fused are right. */
@@ -101,7 +97,7 @@ static void test_thin(void **state)
             const struct consistent_options options = {
                 .degree = 2, .sweeps = 3, .depth_exact = cells % 2 == 0};
             const double error = difference(&plain, options);
-            assert_true(error < rounding);
+            assert_true(error < 3e-15);
             assert_true((error >= 0) == (cells >= 13));
             used += error >= 0;
         }

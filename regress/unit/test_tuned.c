@@ -267,13 +267,8 @@ static void test_symmetry_planes(void **state)
     static const double places[3][3] = {{4.8, 4.5, 0}, {5.7, 4.6, .4}, {6.4, 6.7, 1.2}};
     for (int place = 0; place < 3; place++) {
         double value[2][3];
-        for (int i = 0; i < 2; i++) {
-            struct probe probe = {0};
-            struct messages messages = {0};
-            run[i].model->class->probe(run[i].model, places[place], &probe, &messages);
-            run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a, value[i]);
-            probe_free(&probe);
-        }
+        for (int i = 0; i < 2; i++)
+            velocity_at(&run[i], places[place], value[i]);
         if (place < 2) assert_true(fabs(value[0][2]) > .05);
         for (int component = 0; component < 3; component++)
             assert_near(value[1][component], value[0][component], 1e-12);

@@ -1,53 +1,26 @@
 /* The operator of updated-Lagrangian SPH: patch tests of velocity gradient, Jaumann rate and stress
  * divergence, ghosts of every wall, viscosity, artificial stress, spectrum, and that neither threads nor
  * lists change a bit. */
-#include "method/updated_lagrangian.h"
-#include "plain_scene.h"
 #include "points/lattice.h"
+#include "updated_run.h"
 
 #include "near.h"
 
 #include <omp.h>
 #include <stdlib.h>
 
-/* A model with its own state; switches: correction and Jaumann only. */
-struct fixture {
-    struct plain_scene plain;
-    struct updated_options options;
-    struct model *model;
-    double *y, *rate;
-};
-
 static double scatter(size_t k)
 {
     return 2 * random_uniform(7, k) - 1;
 }
 
+/* Switches: correction and Jaumann only. */
 static void box(struct fixture *f, int dimension, double spacing)
 {
     const double size[3] = {1, .8, .6};
     plain_box(&f->plain, dimension, size, spacing);
     f->options = updated_lagrangian_published();
     f->options.alpha = f->options.beta = f->options.artificial_stress = 0;
-}
-
-static void make(struct fixture *f)
-{
-    struct messages messages = {0};
-    struct cloud *cloud = NULL;
-    if (cloud_create(&f->plain.scene, &cloud, &messages) != SELAS_OK ||
-        updated_lagrangian_new(&f->plain.scene, &f->options, cloud, &f->model, &messages) != SELAS_OK)
-        fail_msg("%s", messages.text);
-    f->y = calloc(f->model->state_size, sizeof *f->y);
-    f->rate = calloc(f->model->state_size, sizeof *f->rate);
-    updated_initialise(f->model, f->y);
-}
-
-static void drop(struct fixture *f)
-{
-    free(f->y);
-    free(f->rate);
-    f->model->class->destroy(f->model);
 }
 
 static size_t components(const struct fixture *f)

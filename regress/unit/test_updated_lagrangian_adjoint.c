@@ -1,20 +1,12 @@
 /* Updated-Lagrangian SPH with forces by the adjoint of the velocity gradient and with hourglass control: the
  * power of the stresses is the work of the forces, the control is symmetric, resists what alternates and lets
  * linear motions pass. */
-#include "method/updated_lagrangian.h"
-#include "plain_scene.h"
 #include "points/lattice.h"
+#include "updated_run.h"
 
 #include "near.h"
 
 #include <stdlib.h>
-
-struct fixture {
-    struct plain_scene plain;
-    struct updated_options options;
-    struct model *model;
-    double *y, *rate;
-};
 
 static double scatter(size_t k)
 {
@@ -34,25 +26,6 @@ static void box(struct fixture *f, int dimension, bool walls)
     f->options = updated_lagrangian_published();
     f->options.alpha = f->options.beta = f->options.artificial_stress = 0;
     f->options.jaumann = false;
-}
-
-static void make(struct fixture *f)
-{
-    struct messages messages = {0};
-    struct cloud *cloud = NULL;
-    if (cloud_create(&f->plain.scene, &cloud, &messages) != SELAS_OK ||
-        updated_lagrangian_new(&f->plain.scene, &f->options, cloud, &f->model, &messages) != SELAS_OK)
-        fail_msg("%s", messages.text);
-    f->y = calloc(f->model->state_size, sizeof *f->y);
-    f->rate = calloc(f->model->state_size, sizeof *f->rate);
-    updated_initialise(f->model, f->y);
-}
-
-static void drop(struct fixture *f)
-{
-    free(f->y);
-    free(f->rate);
-    f->model->class->destroy(f->model);
 }
 
 static void evaluate(struct fixture *f)

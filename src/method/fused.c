@@ -262,28 +262,17 @@ bool fused_create(struct consistent *c)
     return c->fused->single != NULL;
 }
 
-void fused_look(struct fused *fused, const double *u)
+void fused_look(struct fused *f, const double *u)
 {
-    struct fused *f = fused;
-    double largest = 0;
+    const double level = f->quiet * fused_sizes_double(f, u);
     const size_t reach = (size_t)f->deep / 2;
-#pragma omp parallel for num_threads(f->threads) schedule(static)
-    for (size_t k = 0; k < f->n[2]; k++) {
-        f->size[k] = 0;
-        for (size_t component = 0; f->quiet > 0 && component < 3; component++)
-            f->size[k] =
-                fmax(f->size[k], largest_size_double(u + component * f->volume + k * f->plane, f->plane));
-    }
-    for (size_t k = 0; k < f->n[2]; k++)
-        largest = fmax(largest, f->size[k]);
     for (size_t from = 0; from < f->n[2]; from += FUSED_PLANES) {
         bool *computed = &f->computed[from / FUSED_PLANES];
         *computed = !(f->quiet > 0);
         for (size_t k = from < reach ? 0 : from - reach; k < from + FUSED_PLANES + reach && k < f->n[2]; k++)
-            *computed = *computed || f->size[k] > f->quiet * largest;
-        f->blocks++;
-        f->skipped += !*computed;
+            *computed = *computed || f->size[k] > level;
     }
+    fused_count(f);
 }
 
 void fused_count(struct fused *f)

@@ -105,6 +105,9 @@ void fused_planes_double(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
 void fused_planes_single(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
+/* The largest displacement, and that of each plane in size[] (all 0 where quiet is 0). */
+double fused_sizes_double(const struct fused *fused, const double *u);
+double fused_sizes_single(const struct fused *fused, const float *u);
 /* Counts the blocks of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
 

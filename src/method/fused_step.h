@@ -147,8 +147,7 @@ static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
     return largest;
 }
 
-/* Largest |u|, all planes looked at. */
-static double look(const struct fused *f, const REAL *u)
+double NAME(fused_sizes)(const struct fused *f, const REAL *u)
 {
     double largest = 0;
 #pragma omp parallel for num_threads(f->threads) schedule(static)
@@ -164,7 +163,7 @@ static double largest_before(const struct fused *f, const REAL *u)
 {
     if (f->quiet <= 0) return 0;
     const double largest = plane_size(f, f->loudest, u);
-    return largest > 0 && largest == f->largest ? largest : look(f, u);
+    return largest > 0 && largest == f->largest ? largest : NAME(fused_sizes)(f, u);
 }
 
 /* a := acceleration. */
@@ -172,7 +171,7 @@ static void accelerate(const struct consistent *c, const struct drive *drive,
                        const struct NAME(step_fields) * step, REAL *a)
 {
     const struct fused_fields fields = {.u = step->u, .a = a};
-    const double level = FUSED(c)->quiet * look(FUSED(c), step->u);
+    const double level = FUSED(c)->quiet * NAME(fused_sizes)(FUSED(c), step->u);
     pass_over(c, drive, &fields, false, level);
     if (c->pml != NULL) NAME(pml_fast_accelerate)(c, 1, step->extra, a);
     fused_count(FUSED(c));
@@ -202,7 +201,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     memset(f->size, 0, f->n[2] * sizeof *f->size);
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = step->w[watch->entry[i]];
-    if (c->pml != NULL) NAME(pml_fast_remember)(c, dt, dt / 2, step->u, step->w, step->extra);
+    if (c->pml != NULL) NAME(pml_fast_remember)(c, dt, dt / 2, level, step->u, step->w, step->extra);
     pass_over(c, drive, &fields, true, level);
     if (c->pml != NULL) NAME(pml_fast_accelerate)(c, dt, step->extra, step->w);
     for (size_t i = 0; i < watch->count; i++) {

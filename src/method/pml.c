@@ -164,7 +164,7 @@ void pml_remember(const struct consistent *c, double dt, double to_middle, const
                   double *extra)
 {
     if (c->pml->fast != NULL) {
-        pml_fast_remember_double(c, dt, to_middle, u, v, extra);
+        pml_fast_remember_double(c, dt, to_middle, pml_fast_quiet_double(c, u), u, v, extra);
         return;
     }
     for (size_t s = 0; s < c->pml->slabs; s++)

@@ -77,9 +77,13 @@ void pml_fast_free(struct consistent *c);
 
 void pml_fast_accelerate_double(const struct consistent *c, double factor, const double *extra, double *a);
 void pml_fast_accelerate_single(const struct consistent *c, double factor, const float *extra, float *a);
-void pml_fast_remember_double(const struct consistent *c, double dt, double to_middle, const double *u,
-                              const double *v, double *extra);
-void pml_fast_remember_single(const struct consistent *c, double dt, double to_middle, const float *u,
-                              const float *v, float *extra);
+/* Displacements of this size and less move nothing: method%quiet times the largest in u (0 without quiet). */
+double pml_fast_quiet_double(const struct consistent *c, const double *u);
+double pml_fast_quiet_single(const struct consistent *c, const float *u);
+/* quiet: that size, for whoever knows it already. */
+void pml_fast_remember_double(const struct consistent *c, double dt, double to_middle, double quiet,
+                              const double *u, const double *v, double *extra);
+void pml_fast_remember_single(const struct consistent *c, double dt, double to_middle, double quiet,
+                              const float *u, const float *v, float *extra);
 
 #endif

@@ -55,19 +55,13 @@ struct level {
     REAL displacement, slope, force;
 };
 
-static struct level level_of(const struct consistent *c, const REAL *u)
+static struct level levels(const struct consistent *c, double displacement)
 {
     const double spacing = c->model.scene->body.spacing;
     const double stiffness = c->property[WEIGHT_P] / c->property[WEIGHT_DENSITY];
-    double largest = 0;
     if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1};
-#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
-    for (size_t k = 0; k < c->n[DEPTH]; k++)
-        for (size_t i = 0; i < 3; i++)
-            largest = fmax(largest, (double)NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
-    largest *= c->options.quiet;
-    return (struct level){(REAL)largest, (REAL)(largest / spacing),
-                          (REAL)(largest * stiffness / (spacing * spacing))};
+    return (struct level){(REAL)displacement, (REAL)(displacement / spacing),
+                          (REAL)(displacement * stiffness / (spacing * spacing))};
 }
 
 /* Memory of row b: is any of it larger than the level? */
@@ -271,10 +265,21 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
     FAST(c)->skipped += skipped;
 }
 
-void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, const REAL *u,
-                             const REAL *v, REAL *extra)
+double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
 {
-    const struct level level = level_of(c, u);
+    double largest = 0;
+    if (!(c->options.quiet > 0)) return 0;
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        for (size_t i = 0; i < 3; i++)
+            largest = fmax(largest, (double)NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
+    return c->options.quiet * largest;
+}
+
+void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, double quiet,
+                             const REAL *u, const REAL *v, REAL *extra)
+{
+    const struct level level = levels(c, quiet);
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
 #pragma omp parallel for num_threads(c->threads) schedule(static)

@@ -179,27 +179,6 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
     return true;
 }
 
-static selas_status judge(struct recorder *recorder, const struct state *state, struct messages *messages)
-{
-    char what[200];
-    struct energy energy = {0};
-    if (recorder->model->class->energy == NULL) return SELAS_OK;
-    state_settle(recorder->stepper, state, false);
-    recorder->model->class->energy(recorder->model, state->y, &energy);
-    const double total = energy.kinetic + energy.strain;
-    if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
-    return grown(recorder, state, total, sizeof what, what) ? watch_tell(recorder, state, what, messages)
-                                                            : SELAS_OK;
-}
-
-/* Between the looks at everything; leaves nothing in the results. */
-static selas_status glance(struct recorder *recorder, const struct state *state, struct messages *messages)
-{
-    bool energetic = false;
-    if (!sample_sound(recorder, state, &energetic)) return watch_sound(recorder, state, messages);
-    return energetic ? judge(recorder, state, messages) : SELAS_OK;
-}
-
 static void keep_energy(struct recorder *recorder, const struct state *state, const struct energy *energy,
                         struct messages *messages)
 {
@@ -219,23 +198,39 @@ static void keep_energy(struct recorder *recorder, const struct state *state, co
     }
 }
 
+/* Energy of a settled state; kept for the report if it is one of those looked at regularly. */
+static selas_status judge(struct recorder *recorder, const struct state *state, bool keep,
+                          struct messages *messages)
+{
+    char what[200];
+    struct energy energy = {0};
+    if (recorder->model->class->energy == NULL) return SELAS_OK;
+    recorder->model->class->energy(recorder->model, state->y, &energy);
+    const double total = energy.kinetic + energy.strain;
+    if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
+    if (keep) keep_energy(recorder, state, &energy, messages);
+    return grown(recorder, state, total, sizeof what, what) ? watch_tell(recorder, state, what, messages)
+                                                            : SELAS_OK;
+}
+
+/* Between the looks at everything; leaves nothing in the results. */
+static selas_status glance(struct recorder *recorder, const struct state *state, struct messages *messages)
+{
+    bool energetic = false;
+    if (!sample_sound(recorder, state, &energetic)) return watch_sound(recorder, state, messages);
+    if (!energetic) return SELAS_OK;
+    state_settle(recorder->stepper, state, false);
+    return judge(recorder, state, false, messages);
+}
+
 selas_status watch_observe(struct recorder *recorder, const struct state *state, struct messages *messages)
 {
     struct watch *watch = &recorder->watch;
-    char what[200];
     if (watch->by_work || watch->with_faces) add_work(recorder, state);
     if (state->step < watch->next) return glance(recorder, state, messages);
     watch->next = state->step + EVERY;
     const unsigned long end = recorder->stepper->steps; /* the balance at the end is wanted in any case */
     if (state->step < end && watch->next > end) watch->next = end;
     const selas_status sound = watch_sound(recorder, state, messages);
-    if (sound != SELAS_OK) return sound;
-    if (recorder->model->class->energy == NULL) return SELAS_OK;
-    struct energy energy = {0};
-    recorder->model->class->energy(recorder->model, state->y, &energy);
-    const double total = energy.kinetic + energy.strain;
-    if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
-    keep_energy(recorder, state, &energy, messages);
-    return grown(recorder, state, total, sizeof what, what) ? watch_tell(recorder, state, what, messages)
-                                                            : SELAS_OK;
+    return sound != SELAS_OK ? sound : judge(recorder, state, true, messages);
 }
