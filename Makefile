@@ -141,11 +141,7 @@ $(BUILD)/test/%: regress/unit/%.c $(BUILD)/libselas.a
 
 # The library's ways to memory go through regress/unit/allocation.c, where they can fail
 WRAPPED  = malloc calloc realloc free aligned_alloc strdup strndup open_memstream fftw_malloc fftw_alloc_real \
-           fftw_alloc_complex fftw_free gsl_matrix_alloc gsl_matrix_calloc gsl_matrix_free gsl_vector_alloc \
-           gsl_vector_calloc gsl_vector_free gsl_eigen_symmv_alloc gsl_eigen_symmv_free \
-           gsl_integration_glfixed_table_alloc gsl_integration_glfixed_table_free \
-           gsl_integration_cquad_workspace_alloc gsl_integration_cquad_workspace_free gsl_min_fminimizer_alloc \
-           gsl_min_fminimizer_free
+           fftw_alloc_complex fftw_free
 $(BUILD)/test/test_no_memory: regress/unit/test_no_memory.c regress/unit/allocation.c $(BUILD)/libselas.a
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")

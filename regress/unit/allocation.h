@@ -1,6 +1,7 @@
 /* Memory that runs out on purpose: the linker puts the functions below in the place of those that the library
- * takes and gives back memory by (`--wrap`, see the Makefile), the one numbered `allocation_fails` finds
- * none. What they gave and has not come back is counted, with the number that it had. */
+ * takes and gives back memory by (`--wrap`, see the Makefile), and where GSL does so; the one numbered
+ * `allocation_fails` finds none. What they gave and has not come back is counted, with the number that it
+ * had. */
 #ifndef SELAS_ALLOCATION_H
 #define SELAS_ALLOCATION_H
 

@@ -7,7 +7,6 @@
 #include "exact/frequency.h"
 #include "scene/initial.h"
 
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,6 +27,29 @@ double beam_euler_bernoulli(const struct beam *beam)
 {
     const double kappa = fundamental(beam);
     return kappa * kappa * sqrt(beam->young * beam->width * beam->width / (12 * beam->density));
+}
+
+/* e = exp(a) of 4 x 4 matrices in rows: the series of a / 2^HALVES, squared HALVES times. */
+static void exponential(const double a[16], double e[16])
+{
+    enum { HALVES = 8, TERMS = 12 };
+    double term[16], next[16];
+    for (int k = 0; k < 16; k++)
+        e[k] = term[k] = k % 5 == 0;
+    for (int pass = 1; pass < TERMS + HALVES; pass++) {
+        const bool series = pass < TERMS;
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++) {
+                double sum = 0;
+                for (int k = 0; k < 4; k++)
+                    sum += series ? term[4 * i + k] * ldexp(a[4 * k + j], -HALVES) / pass
+                                  : e[4 * i + k] * e[4 * k + j];
+                next[4 * i + j] = sum;
+            }
+        memcpy(series ? term : e, next, sizeof next);
+        for (int k = 0; series && k < 16; k++)
+            e[k] += term[k];
+    }
 }
 
 /* Timoshenko's equations for (w, psi, M, Q) with harmonic motion, lengths in L and per unit of depth:
@@ -63,9 +85,7 @@ static double determinant(const struct beam *beam, double frequency)
         for (int j = 0; j < 4; j++)
             a[4 * i + j] *= beam->length * scale[j] / scale[i];
     double e[16];
-    const gsl_matrix_const_view from = gsl_matrix_const_view_array(a, 4, 4);
-    gsl_matrix_view to = gsl_matrix_view_array(e, 4, 4);
-    gsl_linalg_exponential_ss(&from.matrix, &to.matrix, GSL_PREC_DOUBLE);
+    exponential(a, e);
     return e[2 * 4 + 2] * e[3 * 4 + 3] - e[2 * 4 + 3] * e[3 * 4 + 2];
 }
 

@@ -2,6 +2,8 @@
  * system; w minimises the residual (GSL, Brent's method; variable projection of Golub & Pereyra 1973). */
 #include "exact/frequency.h"
 
+#include "base/gsl_errors.h"
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_min.h>
@@ -37,7 +39,8 @@ static double residual(double w, void *data)
     gsl_matrix_view matrix = gsl_matrix_view_array(normal, 3, 3);
     const gsl_vector_view side = gsl_vector_view_array(right, 3);
     gsl_vector_view solution = gsl_vector_view_array(fit, 3);
-    gsl_linalg_HH_solve(&matrix.matrix, &side.vector, &solution.vector);
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS) return INFINITY;
+    gsl_linalg_cholesky_solve(&matrix.matrix, &side.vector, &solution.vector);
     return 1 - (fit[0] * right[0] + fit[1] * right[1] + fit[2] * right[2]) / all;
 }
 
@@ -49,6 +52,7 @@ selas_status fit_frequency(size_t n, const double *time, const double *value, si
         return fail(messages, SELAS_BAD_ARGUMENT, "a frequency needs a history of two periods");
     struct series series = {n, stride, time, value};
     const double step = (1.5 - 1 / 1.5) * guess / SCAN;
+    gsl_errors_returned();
     double best = guess;
     double least = INFINITY;
     for (int k = 0; k < SCAN; k++) {
@@ -60,8 +64,10 @@ selas_status fit_frequency(size_t n, const double *time, const double *value, si
     }
     gsl_function function = {residual, &series};
     gsl_min_fminimizer *search = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    if (search == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory to fit a frequency");
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    if (search == NULL) {
+        gsl_errors_as_before();
+        return fail(messages, SELAS_NO_MEMORY, "no memory to fit a frequency");
+    }
     int status = gsl_min_fminimizer_set(search, &function, best, best - step, best + step);
     for (int k = 0; k < ITERATIONS && status == GSL_SUCCESS; k++) {
         status = gsl_min_fminimizer_iterate(search);
@@ -71,7 +77,7 @@ selas_status fit_frequency(size_t n, const double *time, const double *value, si
     }
     *frequency = gsl_min_fminimizer_x_minimum(search);
     gsl_min_fminimizer_free(search);
-    gsl_set_error_handler(handler);
+    gsl_errors_as_before();
     if (status != GSL_SUCCESS && !(*frequency > 0))
         return fail(messages, SELAS_NOT_CONVERGED, "no frequency near %g in the history", guess);
     return SELAS_OK;

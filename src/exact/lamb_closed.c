@@ -13,6 +13,7 @@
  * a, B^2 = 1 - q^2, g = cs/c_R.               (7) */
 #include "exact/lamb_closed.h"
 
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "exact/gauss12.h"
 
@@ -300,8 +301,10 @@ selas_status lamb_closed_step(const struct lamb_closed *closed, const struct pat
 {
     displacement[0] = displacement[1] = displacement[2] = 0;
     if (t <= 0) return SELAS_OK;
+    gsl_errors_returned();
     gsl_integration_glfixed_table *rule =
         gsl_integration_glfixed_table_alloc(patch->shape == PATCH_DISC ? 3 * NODES : NODES);
+    gsl_errors_as_before();
     if (rule == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for a quadrature");
     const bool disc = patch->shape == PATCH_DISC;
     static const double turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};

@@ -302,6 +302,9 @@ static selas_status prepare(struct work *work, double end_time, struct messages 
             const double x = signal->position[0] - load->patch.centre[0];
             const double y = signal->position[1] - load->patch.centre[1];
             lamb_split_static(&problem->ground, load, x, y, signal->position[2], signal->statics + 3 * l);
+            if (load->patch.shape == PATCH_DISC &&
+                isnan(signal->statics[3 * l])) /* no room for the rule of its edge */
+                return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
             lamb_split_front(&problem->ground, load, x, y, signal->position[2], signal->front + 3 * l);
         }
     }

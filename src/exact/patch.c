@@ -4,6 +4,8 @@
  * functions. */
 #include "exact/patch.h"
 
+#include "base/gsl_errors.h"
+
 #include <gsl/gsl_integration.h>
 #include <math.h>
 
@@ -183,6 +185,7 @@ static void disc_potentials(double radius, double x, double y, double depth, str
                  ny = distance > 0 ? y / distance : 0;
     struct edge edge = {radius, distance, depth, 0};
     const gsl_function function = {edge_integrand, &edge};
+    gsl_errors_returned(); /* also where a rule stops short of what was asked for */
     gsl_integration_cquad_workspace *space = gsl_integration_cquad_workspace_alloc(400);
     double value[8] = {0};
     const bool rim = depth <= 0 && patch_side_share(distance, radius) == .5;
@@ -199,6 +202,7 @@ static void disc_potentials(double radius, double x, double y, double depth, str
     for (size_t k = 0; space == NULL && k < sizeof value / sizeof *value; k++)
         value[k] = (double)NAN; /* no memory: no number rather than a wrong one */
     gsl_integration_cquad_workspace_free(space);
+    gsl_errors_as_before();
     potentials->angle = value[0];
     potentials->plain = value[1];
     potentials->plain_x = nx * value[2];

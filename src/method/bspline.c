@@ -4,6 +4,7 @@
  * rational integrands of mapped ends get enough points for rounding (doc/consistent-method.md, section 2). */
 #include "method/bspline.h"
 
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_integration.h>
@@ -245,7 +246,9 @@ static bool lay_gauss(struct spline *s)
     s->gauss = (size_t)s->degree + 1 + (s->control != NULL ? 11 : 0);
     s->gauss_position = array_new(s->gauss, sizeof *s->gauss_position);
     s->gauss_weight = array_new(s->gauss, sizeof *s->gauss_weight);
+    gsl_errors_returned();
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(s->gauss);
+    gsl_errors_as_before();
     const bool good = table != NULL && s->gauss_position != NULL && s->gauss_weight != NULL;
     if (good)
         for (size_t q = 0; q < s->gauss; q++)

@@ -6,10 +6,10 @@
  * quadratic ones are enough. */
 #include "method/cloud_method.h"
 
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "points/lattice.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
@@ -34,10 +34,10 @@ selas_status cloud_fit_weights(size_t count, size_t terms, const double *basis, 
     gsl_matrix_view a = gsl_matrix_view_array(matrix, terms, terms);
     gsl_vector_view b = gsl_vector_view_array(rest, terms);
     gsl_vector_view x = gsl_vector_view_array(change, terms);
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gsl_errors_returned();
     const bool solved = gsl_linalg_cholesky_decomp1(&a.matrix) == 0 &&
                         gsl_linalg_cholesky_solve(&a.matrix, &b.vector, &x.vector) == 0;
-    gsl_set_error_handler(handler);
+    gsl_errors_as_before();
     bool positive = solved;
     for (size_t i = 0; i < count && solved; i++) {
         double factor = 1;

@@ -8,10 +8,10 @@
  * STRIDE. (GSL's sparse GMRES wants the matrix stored and knows no preconditioner.) */
 #include "method/cloud_pairs.h"
 
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_blas.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
@@ -169,9 +169,9 @@ static selas_status factorise(struct cloud_solver *solver, struct messages *mess
         largest = fmax(largest, gsl_matrix_get(matrix, a, a));
     for (size_t a = 0; a < solver->total; a++) /* the quadratic functions are its null space */
         gsl_matrix_set(matrix, a, a, gsl_matrix_get(matrix, a, a) + 1e-9 * largest);
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gsl_errors_returned();
     const int failed = gsl_linalg_cholesky_decomp1(matrix);
-    gsl_set_error_handler(handler);
+    gsl_errors_as_before();
     if (failed != 0) return fail(messages, SELAS_BAD_SCENE, "the points are too uneven for the cloud method");
     return SELAS_OK;
 }
@@ -239,10 +239,10 @@ selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_s
     solver->z = array_new(n, sizeof *solver->z);
     solver->scale = array_new(n, sizeof *solver->scale);
     solver->null = array_new(QUADRATICS * n, sizeof *solver->null);
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gsl_errors_returned();
     solver->factor = gsl_matrix_calloc(solver->total, solver->total);
     solver->small = gsl_vector_calloc(solver->total);
-    gsl_set_error_handler(handler);
+    gsl_errors_as_before();
     selas_status status = SELAS_OK;
     if (solver->p == NULL || solver->q == NULL || solver->z == NULL || solver->scale == NULL ||
         solver->null == NULL || solver->factor == NULL || solver->small == NULL)

@@ -5,6 +5,7 @@
  * points between them give rounding. */
 #include "method/disc.h"
 
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "method/tuned_spline.h"
 
@@ -56,7 +57,9 @@ bool disc_moments(const struct spline *first, bool first_odd, const struct splin
                   const struct disc *disc, double *moment)
 {
     memset(moment, 0, first->count * second->count * sizeof *moment);
+    gsl_errors_returned();
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
+    gsl_errors_as_before();
     double *chord = array_new(2 * second->count, sizeof *chord);
     const bool good = table != NULL && chord != NULL;
     for (double theta = -M_PI / 2; good && theta < M_PI / 2 - 1e-12;) {

@@ -7,6 +7,7 @@
  * error told. Other models: power iteration in the Euclidean norm. */
 #include "stepping/stepping.h"
 
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_eigen.h>
@@ -41,6 +42,7 @@ struct tridiagonal {
 static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
 {
     const size_t n = t->n;
+    gsl_errors_returned();
     gsl_matrix *matrix = gsl_matrix_calloc(n, n);
     gsl_matrix *vectors = gsl_matrix_alloc(n, n);
     gsl_vector *values = gsl_vector_alloc(n);
@@ -63,6 +65,7 @@ static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
     gsl_matrix_free(vectors);
     gsl_vector_free(values);
     gsl_eigen_symmv_free(work);
+    gsl_errors_as_before();
     return room;
 }
 
