@@ -138,30 +138,26 @@ static void antisymmetrise(struct cloud_pairs *pairs)
         }
 }
 
-/* What the constraints of an axis still lack. */
+/* What the constraints of each axis still lack. */
 static void remainder_of(const struct tl_model *tl, const struct cloud_pairs *pairs, const double *boundary,
-                         size_t axis, double *rest)
+                         vec4 *rest)
 {
     const size_t d = pairs->d;
     for (size_t i = 0; i < pairs->points; i++) {
-        double *r = rest + (d + 1) * i;
-        memset(r, 0, (d + 1) * sizeof *r);
-        r[0] = -0.5 * boundary[d * i + axis];
-        r[axis + 1] = tl->cloud->volume[i] / tl->cloud->spacing;
+        vec4 *r = rest + (d + 1) * i;
+        for (size_t axis = 0; axis < d; axis++) {
+            r[0][axis] = -0.5 * boundary[d * i + axis];
+            r[axis + 1][axis] = tl->cloud->volume[i] / tl->cloud->spacing;
+        }
         for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-            const double value = pairs->value[d * k + axis];
+            vec4 value = {0};
+            for (size_t axis = 0; axis < d; axis++)
+                value[axis] = pairs->value[d * k + axis];
             r[0] -= value;
             for (size_t c = 0; c < d; c++)
                 r[c + 1] -= value * pairs->offset[d * k + c];
         }
     }
-}
-
-static void correct(struct cloud_pairs *pairs, size_t axis, const double *l)
-{
-    for (size_t i = 0; i < pairs->points; i++)
-        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++)
-            pairs->value[pairs->d * k + axis] += pairs->weight[k] * cloud_pair_sees(pairs, l, i, k);
 }
 
 static selas_status pair_correction(const struct tl_model *tl, struct cloud_pairs *pairs,
@@ -171,8 +167,8 @@ static selas_status pair_correction(const struct tl_model *tl, struct cloud_pair
     const size_t n = (d + 1) * pairs->points;
     const double size = pow(tl->cloud->spacing, (double)d - 1);
     double *boundary = array_new(d * pairs->points, sizeof *boundary);
-    double *rest = array_new(n, sizeof *rest);
-    double *multiplier = array_new(n, sizeof *multiplier);
+    vec4 *rest = array_new(n, sizeof *rest);
+    vec4 *multiplier = array_new(n, sizeof *multiplier);
     struct cloud_solver *solver = NULL;
     selas_status status = SELAS_OK;
     if (boundary == NULL || rest == NULL || multiplier == NULL)
@@ -184,14 +180,15 @@ static selas_status pair_correction(const struct tl_model *tl, struct cloud_pair
             boundary[d * i + c] += element->area * element->normal[c];
     }
     if (status == SELAS_OK) status = cloud_solver_create(pairs, &solver, messages);
-    for (size_t axis = 0; axis < d && status == SELAS_OK; axis++) {
-        remainder_of(tl, pairs, boundary, axis, rest);
-        if (cloud_solve(solver, rest, wanted * size, multiplier) < 0)
+    if (status == SELAS_OK) {
+        remainder_of(tl, pairs, boundary, rest);
+        if (cloud_solve(solver, rest, wanted * size, multiplier) >= 0)
+            cloud_pairs_correct(pairs, multiplier);
+        else
             status =
                 fail(messages, SELAS_BAD_SCENE,
                      "no gradients that sum by parts were found for these points: they are too uneven, or "
                      "method%%smoothing_length is too small");
-        if (status == SELAS_OK) correct(pairs, axis, multiplier);
     }
     cloud_solver_free(&solver);
     array_free(boundary);

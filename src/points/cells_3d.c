@@ -159,17 +159,21 @@ static void box(struct polyhedron *cell, const struct body *body, const double x
     }
 }
 
-static void clip_by(struct polyhedron *cell, const double *position, size_t i, size_t j)
+/* Clips by the bisector to point j if its distance lies in from <= r < to. */
+static void clip_by(struct polyhedron *cell, const double *position, size_t i, size_t j, double from,
+                    double to)
 {
     double normal[3];
     if (i == j) return;
     for (size_t c = 0; c < 3; c++)
         normal[c] = position[3 * j + c] - position[3 * i + c];
-    clip(cell, normal, 0.5 * dot(normal, normal));
+    const double square = dot(normal, normal);
+    if (square >= from * from && square < to * to) clip(cell, normal, 0.5 * square);
 }
 
 selas_status cells_3d(struct cloud *cloud, const struct body *body, struct messages *messages)
 {
+    const double close = 1.8 * body->spacing; /* most cells are done by the points within it */
     struct neighbours near = {0};
     const selas_status status =
         neighbours_find(&near, 3, cloud->points, cloud->position, 3 * body->spacing, false, messages);
@@ -182,10 +186,14 @@ selas_status cells_3d(struct cloud *cloud, const struct body *body, struct messa
         struct polyhedron cell;
         box(&cell, body, cloud->position + 3 * i);
         for (size_t k = near.start[i]; k < near.start[i + 1]; k++)
-            clip_by(&cell, cloud->position, i, near.index[k]);
-        if (2 * farthest(&cell) > near.radius)
-            for (size_t j = 0; j < cloud->points; j++)
-                clip_by(&cell, cloud->position, i, j);
+            clip_by(&cell, cloud->position, i, near.index[k], 0, close);
+        /* bisectors to points beyond twice the farthest corner pass the cell by */
+        double reach = 2 * farthest(&cell);
+        for (size_t k = near.start[i]; k < near.start[i + 1]; k++)
+            clip_by(&cell, cloud->position, i, near.index[k], close, reach);
+        reach = 2 * farthest(&cell);
+        for (size_t j = 0; j < cloud->points && reach > near.radius; j++)
+            clip_by(&cell, cloud->position, i, j, close, reach);
         cloud->volume[i] = volume(&cell);
     }
     neighbours_free(&near);
