@@ -54,6 +54,10 @@ void spline_free(struct spline *spline);
 
 /* Element that holds x (the nearest one if x is outside). */
 size_t spline_locate(const struct spline *spline, double x);
+/* The parameter at x in an element, and x at a parameter where `first` is the first function that is not 0.
+ */
+double spline_parameter(const struct spline *spline, const struct spline_element *element, double x);
+double spline_place(const struct spline *spline, size_t first, double parameter);
 
 /* Functions that are not zero at x: control value, value and slope d/dx of degree + 1 of them (an index may
  * occur twice where functions are folded). x may lie a little outside: the end's polynomial goes on. */
