@@ -36,9 +36,10 @@ static void refuse_choices(struct builder *builder)
 void check_accuracy(struct builder *builder)
 {
     const struct deck_group *group = deck_get(builder->deck, "scene", 0);
-    const struct accuracy_kind *kind = kind_of(builder->scene);
+    const bool sound = builder->status == SELAS_OK && builder->scene->materials > 0;
     refuse_choices(builder);
-    if (builder->scene->materials == 0) return; /* complained of elsewhere */
+    if (!sound) return; /* complained of elsewhere: a body may have no material that is known */
+    const struct accuracy_kind *kind = kind_of(builder->scene);
     if (kind == NULL) {
         complain(builder, group, "accuracy",
                  "there is no table of errors for this scene, only for patches that press on half-spaces and "
