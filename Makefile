@@ -127,7 +127,7 @@ $(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))
 
 # Multiplication and addition of the lattice and SPH operators in one instruction where the machine has it
 $(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/pml_fast_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
-$(BUILD)/obj/method/total_lagrangian_kernels.o $(BUILD)/obj/method/updated_lagrangian_rate.o: ALL_C += -ffp-contract=fast
+$(BUILD)/obj/method/total_lagrangian_kernels.o $(BUILD)/obj/method/total_lagrangian_points.o $(BUILD)/obj/method/updated_lagrangian_rate.o: ALL_C += -ffp-contract=fast
 
 $(BUILD)/obj/%.o: src/%.c
 	@mkdir -p $(@D)

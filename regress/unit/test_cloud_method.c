@@ -31,8 +31,9 @@ static struct model *create(const struct scene *scene)
 static double pair(const struct tl_model *tl, size_t i, size_t j, size_t c)
 {
     const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++)
-        if (tl->gradient.index[k] == j) return tl->cloud->volume[i] * tl->gradient.weight[d * k + c];
+    for (size_t k = tl_first(&tl->gradient, i); k < tl_last(&tl->gradient, i); k++)
+        if (tl_neighbour(&tl->gradient, i, k) == j)
+            return tl->cloud->volume[i] * tl->gradient.weight[d * k + c];
     return 0;
 }
 
@@ -64,8 +65,8 @@ static void summation_by_parts(void **state)
             for (size_t c = 0; c < n; c++) {
                 double linear[3] = {0};
                 double sum = 0;
-                for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++) {
-                    const size_t j = tl->gradient.index[k];
+                for (size_t k = tl_first(&tl->gradient, i); k < tl_last(&tl->gradient, i); k++) {
+                    const size_t j = tl_neighbour(&tl->gradient, i, k);
                     const double q = pair(tl, i, j, c);
                     assert_near(q, -pair(tl, j, i, c), 1e-15);
                     sum += q;

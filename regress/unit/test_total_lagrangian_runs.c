@@ -1,6 +1,6 @@
 /* The fast paths of total-Lagrangian SPH: runs of lattice points summed eight at a time give what the same
- * points give one at a time, in every dimension, degree and law, and any number of threads gives the same
- * bits. */
+ * points give one at a time, in every dimension, degree and law; points that share a row of weights give what
+ * they give with rows of their own; and any number of threads gives the same bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -129,6 +129,63 @@ static void scattered_points_have_no_runs(void **state)
     model_free(&model);
 }
 
+static struct tl_model *box_of(struct box_scene *box, int dimension, double spacing, double jitter)
+{
+    make_box(box, dimension, 1, spacing);
+    box->scene.body.jitter = jitter;
+    box->scene.boundary[FACE_X_HIGH].kind = BOUNDARY_FIXED;
+    box->scene.boundary[FACE_Y_LOW].kind = BOUNDARY_SYMMETRY;
+    struct tl_options options = tl_default_options();
+    options.degree = 1; /* quadratic weights are others off lattices */
+    options.viscosity_alpha = .1;
+    return make(&box->scene, &options);
+}
+
+/* Points moved by a millionth of what would matter are no lattice to the set-up: each has a row of its own,
+ * from its own neighbours. */
+static void shared_rows_are_those_of_each(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++) {
+        struct box_scene lattice, scattered;
+        struct tl_model *shared = box_of(&lattice, d, d == 2 ? .04 : .09, 0);
+        struct tl_model *own = box_of(&scattered, d, d == 2 ? .04 : .09, 1e-9);
+        assert_int_equal(shared->model.points, own->model.points);
+        assert_true(shared->cloud->grid[0] > 0 && own->cloud->grid[0] == 0);
+        assert_true(own->gradient.rows == own->model.points && shared->gradient.rows < own->model.points / 2);
+        double *a = acceleration(shared), *b = acceleration(own), largest = 0, difference = 0;
+        for (size_t k = 0; k < shared->model.unknowns; k++) {
+            largest = fmax(largest, fabs(b[k]));
+            difference = fmax(difference, fabs(a[k] - b[k]));
+        }
+        if (!(difference <= 1e-7 * largest)) fail_msg("dimension %d: %g of %g", d, difference, largest);
+        array_free(a);
+        array_free(b);
+        struct model *models[2] = {&shared->model, &own->model};
+        model_free(&models[0]);
+        model_free(&models[1]);
+    }
+}
+
+/* A larger lattice has no more rows than the smaller one, but for points whose ghosts stand elsewhere. */
+static void rows_do_not_grow(void **state)
+{
+    (void)state;
+    size_t rows[2], points[2];
+    for (int k = 0; k < 2; k++) {
+        struct box_scene box;
+        make_box(&box, 2, 1, k == 0 ? .03 : .015);
+        const struct tl_options options = tl_default_options();
+        struct tl_model *tl = make(&box.scene, &options);
+        rows[k] = tl->gradient.rows + tl->transposed.rows + tl->pair.rows;
+        points[k] = tl->model.points;
+        struct model *model = &tl->model;
+        model_free(&model);
+    }
+    assert_true(points[1] > 3 * points[0]);
+    assert_int_equal(rows[1], rows[0]);
+}
+
 static void threads_do_not_matter(void **state)
 {
     (void)state;
@@ -157,6 +214,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(runs_are_points),
         cmocka_unit_test(scattered_points_have_no_runs),
+        cmocka_unit_test(shared_rows_are_those_of_each),
+        cmocka_unit_test(rows_do_not_grow),
         cmocka_unit_test(threads_do_not_matter),
     };
     omp_set_num_threads(1);

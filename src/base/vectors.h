@@ -10,6 +10,7 @@
 #include <string.h>
 
 /* Aligned as a double is, so that they can be loaded from anywhere in an array. */
+typedef double vec2 __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double vec4 __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double vec8 __attribute__((vector_size(64), aligned(8), may_alias));
 
@@ -21,6 +22,7 @@ typedef long long mask8 __attribute__((vector_size(64), aligned(8), may_alias));
 enum { VEC = 8 };
 
 /* The vectors that stand at an address. */
+#define VEC2(address) (*(const vec2 *)(address))
 #define VEC4(address) (*(const vec4 *)(address))
 #define VEC8(address) (*(const vec8 *)(address))
 

@@ -230,14 +230,20 @@ selas_status cloud_gradients(struct tl_model *tl, const struct neighbours *near,
     if (status == SELAS_OK) status = first_guess(tl, &pairs, messages);
     if (status == SELAS_OK) status = pair_correction(tl, &pairs, messages);
     const size_t d = pairs.d;
-    for (size_t i = 0; i < pairs.points && status == SELAS_OK; i++) {
-        for (size_t k = pairs.start[i]; k < pairs.start[i + 1]; k++) {
-            tl->gradient.index[k] = pairs.index[k];
+    bool room = true;
+    for (size_t i = 0; i < pairs.points && status == SELAS_OK && room; i++) {
+        struct tl_like like;
+        for (size_t k = pairs.start[i]; k < pairs.start[i + 1] && room; k++) {
+            double weight[3] = {0};
             for (size_t c = 0; c < d; c++)
-                tl->gradient.weight[d * k + c] = pairs.value[d * k + c] / tl->cloud->volume[i];
+                weight[c] = pairs.value[d * k + c] / tl->cloud->volume[i];
+            room = tl_rows_add(&tl->gradient, i, pairs.index[k], weight);
         }
-        tl->gradient.start[i + 1] = pairs.start[i + 1];
+        tl_likes(tl, i, 0, &like);
+        room = room && tl_rows_close(&tl->gradient, i, &like, NULL, 0);
     }
+    if (status == SELAS_OK && !(room && tl_rows_end(&tl->gradient)))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", pairs.start[pairs.points]);
     pairs_free(&pairs);
     return status;
 }

@@ -35,15 +35,17 @@ static void destroy(struct model *model)
     }
     tl_rows_free(&tl->gradient);
     tl_rows_free(&tl->transposed);
-    tl_rows_free(&tl->returned);
     tl_rows_free(&tl->pair);
     tl_rows_free(&tl->viscous);
     neighbours_free(&tl->near);
     cloud_free(&tl->cloud);
     void *const arrays[] = {tl->deck_position,
                             tl->site_position,
+                            tl->place,
                             tl->ghost,
                             tl->source,
+                            tl->returned_start,
+                            tl->returned,
                             tl->gradient_blocks.block,
                             tl->stress_blocks.block,
                             tl->force_blocks.block,
@@ -53,12 +55,8 @@ static void destroy(struct model *model)
                             (void *)tl->material,
                             tl->elastic,
                             tl->load,
-                            tl->site_u,
+                            tl->numbers,
                             tl->site_v,
-                            tl->H,
-                            tl->A,
-                            tl->force,
-                            tl->extra,
                             tl->found,
                             tl->spacing};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
@@ -223,7 +221,7 @@ static void describe(const struct model *model,
     tell(context, "law", elastic_law_name(tl->options.law));
     snprintf(text, sizeof text, "%s", tl->options.kernel->name);
     tell(context, "kernel", text);
-    snprintf(text, sizeof text, "%.1f", (double)tl->gradient.start[model->points] / (double)model->points);
+    snprintf(text, sizeof text, "%.1f", tl_neighbours_of_a_point(tl));
     tell(context, "neighbours a point", text);
     snprintf(text, sizeof text, "%zu", tl->ghosts);
     tell(context, "ghosts", text);
@@ -313,15 +311,8 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
         tl->spacing[i] = tl->options.cloud ? tl->cloud->spacing : pow(tl->cloud->volume[i], 1.0 / (double)d);
         body_to_deck(&scene->body, x, tl->deck_position + 3 * i);
     }
-    return neighbours_find(&tl->near, scene->dimension, n, tl->cloud->position, tl_search_radius(tl), false,
-                           messages);
-}
-
-static size_t rows_bytes(const struct tl_rows *rows, size_t count, size_t width)
-{
-    if (rows->start == NULL) return 0;
-    return (count + 1) * sizeof *rows->start +
-           rows->start[count] * (sizeof *rows->index + width * sizeof *rows->weight);
+    return neighbours_cells(&tl->near, scene->dimension, n, tl->cloud->position, tl_search_radius(tl),
+                            messages);
 }
 
 static void fill_model(struct tl_model *tl)
@@ -342,12 +333,32 @@ static void fill_model(struct tl_model *tl)
     model->damped = tl->damper != NULL || viscous;
     model->self_adjoint = true;
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
-    model->bytes = sizeof *tl + rows_bytes(&tl->gradient, n, d) + rows_bytes(&tl->transposed, tl->sites, d) +
-                   rows_bytes(&tl->pair, n, 1) + rows_bytes(&tl->viscous, n, 2) +
-                   neighbours_bytes(&tl->near) +
+    model->bytes = sizeof *tl + tl_rows_bytes(&tl->gradient) + tl_rows_bytes(&tl->transposed) +
+                   tl_rows_bytes(&tl->pair) + tl_rows_bytes(&tl->viscous) + neighbours_bytes(&tl->near) +
                    tl->sites * (3 + (viscous ? 3 : 2) * d + d * d) * sizeof(double) +
                    n * (9 + d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
                    tl->ghosts * sizeof(struct tl_ghost);
+}
+
+/* The arrays that the loops read and write, in one piece of memory: a processor takes a load for one of what
+ * an earlier instruction stores, and waits, if both are at the same place of a page, as they would be for
+ * points near each other if all arrays began at the same place. */
+static selas_status allocate_numbers(struct tl_model *tl, struct messages *messages)
+{
+    enum { PAGE = 512, APART = 72, ARRAYS = 5 };
+    const size_t d = (size_t)tl->cloud->dimension;
+    tl->plane =
+        ((d * tl->sites + VEC - 1) / PAGE + 1) * PAGE + APART; /* room to read a vector at the last point */
+    const size_t counts[ARRAYS] = {tl->plane, tl->plane, tl->plane, d * tl->plane, d * tl->plane};
+    double **const arrays[ARRAYS] = {&tl->site_u, &tl->force, &tl->extra, &tl->H, &tl->A};
+    size_t total = 0;
+    for (size_t k = 0; k < ARRAYS; k++)
+        total += counts[k];
+    tl->numbers = array_new(total, sizeof *tl->numbers);
+    if (tl->numbers == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu sites", tl->sites);
+    for (size_t k = 0, place = 0; k < ARRAYS; place += counts[k++])
+        if (k != 2 || tl->options.hourglass > 0) *arrays[k] = tl->numbers + place;
+    return SELAS_OK;
 }
 
 selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
@@ -369,16 +380,7 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     if (status == SELAS_OK) status = fill_points(tl, messages);
     if (status == SELAS_OK) status = tl_make_rows(tl, messages);
     if (status == SELAS_OK && options->cloud) status = cloud_hold(tl, messages);
-    if (status == SELAS_OK) {
-        const size_t d = (size_t)scene->dimension;
-        tl->plane = (d * tl->sites + VEC - 1) / VEC * VEC; /* and room to read a vector at the last point */
-        tl->site_u = array_new(d * tl->sites + VEC, sizeof(double));
-        tl->force = array_new(d * tl->sites, sizeof(double));
-        tl->H = array_new(d * tl->plane + VEC, sizeof(double));
-        tl->A = array_new(d * tl->plane + VEC, sizeof(double));
-        if (tl->site_u == NULL || tl->force == NULL || tl->H == NULL || tl->A == NULL)
-            status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu sites", tl->sites);
-    }
+    if (status == SELAS_OK) status = allocate_numbers(tl, messages);
     if (status == SELAS_OK) status = tl_make_loads(tl, messages);
     if (status == SELAS_OK) status = tl_make_dampers(tl, messages);
     if (status != SELAS_OK) {

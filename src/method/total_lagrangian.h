@@ -29,17 +29,38 @@ struct tl_options tl_default_options(void);
 selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
                                      struct model **model, struct messages *messages);
 
-/* Compressed rows: entries start[i] .. start[i + 1] - 1 of site i. */
+/* Rows of weights, shared by the points (or sites) that have the same: total_lagrangian_rows.c. The numbers
+ * of neighbour start[of[i]] + n of point i stand shift[that] after those of i. */
 struct tl_rows {
-    size_t *start;
-    uint32_t *index;
-    double *weight; /* [width] numbers an entry */
+    size_t points, width, rows;
+    ptrdiff_t dimension;
+    uint32_t *of;                      /* [points] row of each */
+    size_t *start;                     /* [rows + 1] */
+    int32_t *shift;                    /* dimension * (number of the neighbour less that of the point) */
+    double *weight;                    /* [width] numbers an entry */
+    uint32_t *example;                 /* [rows] a point of each */
+    size_t open, entry_room, row_room; /* while they are made */
 };
 
-/* Points (of a kind of row: sites) in sequence that one kernel does at a time. In a run all rows are that of
- * the point `pattern`, moved along: total_lagrangian_runs.c. */
+static inline size_t tl_first(const struct tl_rows *rows, size_t i)
+{
+    return rows->start[rows->of[i]];
+}
+
+static inline size_t tl_last(const struct tl_rows *rows, size_t i)
+{
+    return rows->start[rows->of[i] + 1];
+}
+
+static inline size_t tl_neighbour(const struct tl_rows *rows, size_t i, size_t k)
+{
+    return (size_t)((ptrdiff_t)i + rows->shift[k] / rows->dimension);
+}
+
+/* Points (of a kind of row: sites) in sequence that one kernel does at a time. In a run all have the same
+ * row: total_lagrangian_runs.c. */
 struct tl_block {
-    uint32_t first, pattern;
+    uint32_t first;
     uint16_t count;
     bool run;
 };
@@ -73,13 +94,15 @@ struct tl_model {
     double frame[3][3];
     double *deck_position; /* [3 * points] */
     double *site_position; /* [3 * sites], body frame */
+    double *place;         /* [dimension * sites] the same */
     size_t sites, ghosts;
     struct tl_ghost *ghost;
     bool moving;               /* some face is prescribed to move */
     struct tl_rows gradient;   /* rows of points over sites: G_ij */
     struct tl_rows transposed; /* rows of sites over points: G_ji, G_ii = minus the sum over j of G_ij */
-    struct tl_rows returned;   /* rows of points over ghosts (numbered from 0), no weights */
     size_t sources, *source;   /* points that have ghosts */
+    size_t *returned_start;    /* [sources + 1]: their ghosts, numbered from 0, ... */
+    uint32_t *returned;        /* ... stand in here */
     struct tl_blocks gradient_blocks, stress_blocks, force_blocks; /* of the points; the last of the sites */
     struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
     struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
@@ -92,6 +115,7 @@ struct tl_model {
     struct tl_load *load;             /* [scene->loads] */
     struct neighbours near;           /* of the points, for probes */
     uint32_t *found;                  /* [points] for tl_probe */
+    double *numbers;                  /* what site_u, H, A, force and extra stand in */
     double *site_u, *site_v;          /* [dimension * sites]; site_v NULL without viscosity */
     size_t plane;                     /* at least dimension * sites */
     double *H;                  /* [dimension * plane]: H_ab of site s at b * plane + dimension * s + a */
@@ -106,6 +130,26 @@ struct tl_model {
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
 /* total_lagrangian_setup.c: gradient weights, hourglass pairs, viscosity pairs. */
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
+/* Points before one that may share its row; `sure` of them do, but for ghosts. `inside`: no ghost is near. */
+struct tl_like {
+    size_t before, sure, point[3];
+    bool inside;
+};
+/* total_lagrangian_rows.c: rows are made point by point, in sequence, by sharing or by adding entries and
+ * closing. False: no memory. */
+bool tl_rows_begin(struct tl_rows *rows, int dimension, size_t points, size_t width);
+bool tl_rows_add(struct tl_rows *rows, size_t i, size_t j, const double *weight);
+/* With x, places of the sites, the row is shared only where neighbours stand in the same directions. */
+bool tl_rows_close(struct tl_rows *rows, size_t i, const struct tl_like *like, const double *x, double scale);
+bool tl_rows_end(struct tl_rows *rows);
+void tl_rows_free(struct tl_rows *rows);
+size_t tl_rows_bytes(const struct tl_rows *rows);
+double tl_neighbours_of_a_point(const struct tl_model *tl); /* mean number in the gradients */
+void tl_likes(const struct tl_model *tl, size_t i, size_t layers, struct tl_like *like);
+/* Takes the row of a point that is sure to have the same; false if there is none. */
+bool tl_rows_share(const struct tl_model *tl, struct tl_rows *rows, size_t i, const struct tl_like *like,
+                   bool of_materials);
+bool tl_near(double a, double b, double scale); /* the same but for the rounding of positions */
 /* total_lagrangian_runs.c: cuts the points into blocks, after all rows are there. */
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages);
 double tl_radius(const struct tl_model *tl);        /* of the weights, in length */
@@ -113,11 +157,11 @@ double tl_search_radius(const struct tl_model *tl); /* the largest a point's wei
 /* Neighbours that a quadratic fit should have: those of a point inside a lattice; linear ones take what there
  * is. */
 size_t tl_wanted(const struct tl_model *tl);
-/* total_lagrangian_lattice.c: gradient = 'central'. Weights of a point over sites into index and gradient (3
- * numbers a site, at most 12 sites), 0 if it has no neighbour along an axis; weights of a value at a place of
- * the body over at most 64 points. */
-size_t tl_central_row(const struct tl_model *tl, const struct neighbours *near, size_t i, uint32_t *index,
-                      double *gradient);
+/* total_lagrangian_lattice.c: gradient = 'central'. Weights of a point over sites, of those near it, into
+ * index and gradient (3 numbers a site, at most 12 sites), 0 if it has no neighbour along an axis; weights of
+ * a value at a place of the body over at most 64 points. */
+size_t tl_central_row(const struct tl_model *tl, const uint32_t *near, size_t count, size_t i,
+                      uint32_t *index, double *gradient);
 size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], size_t *index, double *weight,
                         double *gradient);
 /* A place of the body's frame on a symmetry plane or roller across the axis. */
@@ -153,14 +197,16 @@ static inline void tl_tensor(const struct tl_model *tl, size_t i, double H[9])
         for (size_t b = 0; b < d; b++)
             H[d * a + b] = tl->H[b * tl->plane + d * i + a];
 }
+/* The point that a site is or mirrors. */
+static inline size_t tl_source(const struct tl_model *tl, size_t site)
+{
+    return site < tl->cloud->points ? site : tl->ghost[site - tl->cloud->points].source;
+}
 /* Adds to tl->force of the ghosts what the hourglass pairs pull at them. */
 void tl_ghost_hourglass(struct tl_model *tl);
 /* H of one point for displacements u (ghosts by the amplitudes of the last drive). */
 void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double H[9]);
 void tl_viscosity(struct tl_model *tl);
 double tl_strain_energy(struct tl_model *tl);
-
-selas_status tl_rows_allocate(struct tl_rows *rows, size_t count, size_t entries, size_t width);
-void tl_rows_free(struct tl_rows *rows);
 
 #endif

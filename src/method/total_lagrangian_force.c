@@ -80,8 +80,8 @@ void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t n = tl->cloud->points;
     memset(H, 0, sizeof(double[9]));
-    for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++) {
-        const size_t j = tl->gradient.index[k];
+    for (size_t k = tl_first(&tl->gradient, i); k < tl_last(&tl->gradient, i); k++) {
+        const size_t j = tl_neighbour(&tl->gradient, i, k);
         for (size_t a = 0; a < d; a++) {
             const double other = j < n ? u[d * j + a] : ghost_value(tl, u, j - n, a, tl->displacement);
             for (size_t b = 0; b < d; b++)
@@ -120,8 +120,8 @@ void tl_divergence(struct tl_model *tl)
 #pragma omp for schedule(static)
         for (size_t s = 0; s < tl->sources; s++) {
             const size_t i = tl->source[s];
-            for (size_t k = tl->returned.start[i]; k < tl->returned.start[i + 1]; k++) {
-                const size_t g = tl->returned.index[k];
+            for (size_t k = tl->returned_start[s]; k < tl->returned_start[s + 1]; k++) {
+                const size_t g = tl->returned[k];
                 for (size_t a = 0; a < d; a++)
                     tl->force[d * i + a] += tl->ghost[g].sign[a] * tl->force[d * (tl->cloud->points + g) + a];
             }
@@ -141,10 +141,10 @@ void tl_forces(struct tl_model *tl)
 INLINED double hourglass_energy(const struct tl_model *tl, const size_t d, size_t i)
 {
     double sum = 0;
-    for (size_t k = tl->pair.start[i]; k < tl->pair.start[i + 1]; k++) {
+    for (size_t k = tl_first(&tl->pair, i); k < tl_last(&tl->pair, i); k++) {
         double X[3];
         double e[3];
-        mismatch(tl, d, i, tl->pair.index[k], X, e);
+        mismatch(tl, d, i, tl_neighbour(&tl->pair, i, k), X, e);
         for (size_t a = 0; a < d; a++)
             sum += 0.25 * tl->pair.weight[k] * e[a] * e[a];
     }
@@ -184,13 +184,14 @@ void tl_ghost_hourglass(struct tl_model *tl)
     const size_t n = tl->cloud->points;
     const size_t d = (size_t)tl->cloud->dimension;
     for (size_t i = 0; tl->extra != NULL && i < n; i++)
-        for (size_t k = tl->pair.start[i]; k < tl->pair.start[i + 1]; k++) {
+        for (size_t k = tl_first(&tl->pair, i); k < tl_last(&tl->pair, i); k++) {
+            const size_t j = tl_neighbour(&tl->pair, i, k);
             double X[3];
             double e[3];
-            if (tl->pair.index[k] < n) continue;
-            mismatch(tl, d, i, tl->pair.index[k], X, e);
+            if (j < n) continue;
+            mismatch(tl, d, i, j, X, e);
             for (size_t a = 0; a < d; a++)
-                tl->force[d * tl->pair.index[k] + a] -= 0.5 * tl->pair.weight[k] * e[a];
+                tl->force[d * j + a] -= 0.5 * tl->pair.weight[k] * e[a];
         }
 }
 
@@ -204,8 +205,8 @@ void tl_viscosity(struct tl_model *tl)
 #pragma omp parallel for schedule(static) if (n > TL_SERIAL)
     for (size_t i = 0; i < n; i++) {
         const double speed = tl->material[i]->p_speed;
-        for (size_t k = tl->viscous.start[i]; k < tl->viscous.start[i + 1]; k++) {
-            const size_t j = tl->viscous.index[k];
+        for (size_t k = tl_first(&tl->viscous, i); k < tl_last(&tl->viscous, i); k++) {
+            const size_t j = tl_neighbour(&tl->viscous, i, k);
             double r[3] = {0};
             double square = 0;
             double approach = 0;

@@ -130,13 +130,17 @@ static bool add_mirror(const struct tl_model *tl, struct sites *sites, int face,
 
 static bool keep(struct tl_model *tl, const struct sites *sites)
 {
-    const size_t n = tl->cloud->points;
+    const size_t n = tl->cloud->points, d = (size_t)tl->cloud->dimension;
     tl->sites = sites->count;
     tl->ghosts = sites->count - n;
     tl->site_position = array_new(3 * tl->sites, sizeof(double));
     tl->ghost = array_new(tl->ghosts, sizeof *tl->ghost);
     if (tl->site_position == NULL || tl->ghost == NULL) return false;
     memcpy(tl->site_position, sites->position, tl->sites * sizeof(double[3]));
+    tl->place = array_new(d * tl->sites, sizeof(double));
+    if (tl->place == NULL) return false;
+    for (size_t s = 0; s < tl->sites; s++)
+        memcpy(tl->place + d * s, tl->site_position + 3 * s, d * sizeof(double));
     memcpy(tl->ghost, sites->ghost + n, tl->ghosts * sizeof *tl->ghost);
     return true;
 }

@@ -1,24 +1,17 @@
-/* Inner loops of total-Lagrangian SPH, for one block of points at a time (equations:
+/* Inner loops of total-Lagrangian SPH over runs, and the stresses of all points (equations:
  * total_lagrangian_force.c).
  *
  * The tensors H and A stand in planes: column b of all points, H_ab of point i at plane b, place d i + a. So
  * the numbers of a point stand beside each other as those of the displacements do, and every sum over
  * neighbours is one of short vectors times a number.
  *
- * Runs (points in sequence whose neighbours stand at the same distances in memory with the same weights, as
- * those of a lattice do) are summed eight points at a time: their d vectors of eight numbers are loaded from
- * the neighbours' place, and the weights are read once. The other points are summed one at a time, with a
- * vector of four numbers of which the first d count. The last eight points of a run are summed again where
- * they overlap those before; nothing is read that is written here. */
+ * Runs (points in sequence that share a row of weights, as those of a lattice do) are summed eight points at
+ * a time: their d vectors of eight numbers are loaded from the neighbours' place, and the weights are read
+ * once. The last eight points of a run are summed again where they overlap those before; nothing is read that
+ * is written here. The other points: total_lagrangian_points.c. */
 #include "method/total_lagrangian_kernels.h"
 
 enum { MOST = 3 };
-
-/* Distance in memory from the first point of the row's run to neighbour k, in points. */
-INLINED ptrdiff_t shift_of(const struct tl_rows *rows, const struct tl_block *block, size_t k)
-{
-    return (ptrdiff_t)rows->index[k] - (ptrdiff_t)block->pattern;
-}
 
 /* First of the eight points that begin at p of a run; the last eight where there are no more. */
 INLINED size_t eight_at(const struct tl_block *block, size_t p)
@@ -31,7 +24,7 @@ INLINED size_t eight_at(const struct tl_block *block, size_t p)
 INLINED void gradient_run(struct tl_model *tl, const struct tl_block *block, const size_t d)
 {
     const struct tl_rows *rows = &tl->gradient;
-    const size_t begin = rows->start[block->pattern], end = rows->start[block->pattern + 1];
+    const size_t begin = tl_first(rows, block->first), end = tl_last(rows, block->first);
     for (size_t p = 0; p < block->count; p += VEC) {
         const size_t i = eight_at(block, p);
         const double *u = tl->site_u + d * i;
@@ -42,7 +35,7 @@ INLINED void gradient_run(struct tl_model *tl, const struct tl_block *block, con
                 sum[b][v] = (vec8){0};
         }
         for (size_t k = begin; k < end; k++) {
-            const double *other = u + (ptrdiff_t)d * shift_of(rows, block, k);
+            const double *other = u + rows->shift[k];
             const double *g = rows->weight + d * k;
             for (size_t v = 0; v < d; v++) {
                 const vec8 difference = VEC8(other + VEC * v) - own[v];
@@ -53,35 +46,6 @@ INLINED void gradient_run(struct tl_model *tl, const struct tl_block *block, con
         for (size_t b = 0; b < d; b++)
             for (size_t v = 0; v < d; v++)
                 *(vec8 *)(tl->H + b * tl->plane + d * i + VEC * v) = sum[b][v];
-    }
-}
-
-/* Sums are taken in two interleaved halves: one sum would wait for each addition before. */
-INLINED void gradient_points(struct tl_model *tl, const struct tl_block *block, const size_t d)
-{
-    const struct tl_rows *rows = &tl->gradient;
-    for (size_t i = block->first; i < block->first + block->count; i++) {
-        const vec4 own = VEC4(tl->site_u + d * i);
-        const size_t end = rows->start[i + 1];
-        vec4 even[MOST] = {0}, odd[MOST] = {0};
-        size_t k = rows->start[i];
-        for (; k + 1 < end; k += 2) {
-            const vec4 first = VEC4(tl->site_u + d * rows->index[k]) - own;
-            const vec4 second = VEC4(tl->site_u + d * rows->index[k + 1]) - own;
-            const double *g = rows->weight + d * k;
-            for (size_t b = 0; b < d; b++) {
-                even[b] += first * g[b];
-                odd[b] += second * g[d + b];
-            }
-        }
-        if (k < end) {
-            const vec4 last = VEC4(tl->site_u + d * rows->index[k]) - own;
-            for (size_t b = 0; b < d; b++)
-                even[b] += last * rows->weight[d * k + b];
-        }
-        for (size_t b = 0; b < d; b++)
-            for (size_t a = 0; a < d; a++)
-                tl->H[b * tl->plane + d * i + a] = even[b][a] + odd[b][a];
     }
 }
 
@@ -193,18 +157,18 @@ INLINED void stress_run(struct tl_model *tl, const struct tl_block *block, const
 {
     const struct tl_rows *rows = &tl->pair;
     const bool controlled = tl->extra != NULL;
-    const size_t begin = controlled ? rows->start[block->pattern] : 0,
-                 end = controlled ? rows->start[block->pattern + 1] : 0;
-    const double *origin = tl->site_position + 3 * (size_t)block->pattern;
+    const size_t begin = controlled ? tl_first(rows, block->first) : 0,
+                 end = controlled ? tl_last(rows, block->first) : 0;
+    const double *origin = tl->place + d * block->first;
     for (size_t p = 0; p < block->count; p += VEC) {
         const size_t i = eight_at(block, p);
         const double *u = tl->site_u + d * i, *H = tl->H + d * i;
         vec8 A[MOST][MOST], moment[MOST][MOST] = {{{0}}}, force[MOST] = {{0}};
         for (size_t k = begin; k < end; k++) {
-            const ptrdiff_t shift = (ptrdiff_t)d * shift_of(rows, block, k);
+            const ptrdiff_t shift = rows->shift[k];
             double X[MOST];
             for (size_t b = 0; b < d; b++)
-                X[b] = tl->site_position[3 * (size_t)rows->index[k] + b] - origin[b];
+                X[b] = origin[rows->shift[k] + (ptrdiff_t)b] - origin[b];
             for (size_t v = 0; v < d; v++) {
                 vec8 seen = {0};
                 for (size_t b = 0; b < d; b++)
@@ -223,35 +187,6 @@ INLINED void stress_run(struct tl_model *tl, const struct tl_block *block, const
                 *(vec8 *)(tl->A + b * tl->plane + d * i + VEC * v) = A[b][v] - 0.5 * moment[b][v];
             if (controlled) *(vec8 *)(tl->extra + d * i + VEC * v) = force[v];
         }
-    }
-}
-
-/* Hourglass forces of point i, and A without their moment. */
-INLINED void control_point(struct tl_model *tl, size_t i, const size_t d)
-{
-    const struct tl_rows *rows = &tl->pair;
-    const vec4 u = VEC4(tl->site_u + d * i);
-    vec4 H[MOST], moment[MOST] = {0}, force = {0};
-    for (size_t b = 0; b < d; b++)
-        H[b] = VEC4(tl->H + b * tl->plane + d * i);
-    for (size_t k = rows->start[i]; k < rows->start[i + 1]; k++) {
-        const size_t j = rows->index[k];
-        double X[MOST];
-        vec4 seen = {0};
-        for (size_t b = 0; b < d; b++) {
-            X[b] = tl->site_position[3 * j + b] - tl->site_position[3 * i + b];
-            seen += (H[b] + VEC4(tl->H + b * tl->plane + d * j)) * X[b];
-        }
-        vec4 e = VEC4(tl->site_u + d * j) - u - 0.5 * seen;
-        e *= rows->weight[k];
-        force += e;
-        for (size_t b = 0; b < d; b++)
-            moment[b] += e * X[b];
-    }
-    for (size_t a = 0; a < d; a++) {
-        tl->extra[d * i + a] = force[a];
-        for (size_t b = 0; b < d; b++)
-            tl->A[b * tl->plane + d * i + a] -= 0.5 * moment[b][a];
     }
 }
 
@@ -292,8 +227,6 @@ INLINED void stress_points(struct tl_model *tl, const struct tl_block *block, co
         } else {
             stress_point(tl, i, d);
         }
-        for (size_t k = i; tl->extra != NULL && k < next; k++)
-            control_point(tl, k, d);
     }
 }
 
@@ -302,13 +235,13 @@ INLINED void stress_points(struct tl_model *tl, const struct tl_block *block, co
 INLINED void force_run(struct tl_model *tl, const struct tl_block *block, const size_t d)
 {
     const struct tl_rows *rows = &tl->transposed;
-    const size_t begin = rows->start[block->pattern], end = rows->start[block->pattern + 1];
+    const size_t begin = tl_first(rows, block->first), end = tl_last(rows, block->first);
     for (size_t p = 0; p < block->count; p += VEC) {
         const size_t s = eight_at(block, p);
         const bool extra = tl->extra != NULL && s < tl->cloud->points;
         vec8 sum[MOST][MOST] = {{{0}}};
         for (size_t k = begin; k < end; k++) {
-            const double *A = tl->A + (ptrdiff_t)d * ((ptrdiff_t)s + shift_of(rows, block, k));
+            const double *A = tl->A + d * s + rows->shift[k];
             const double *g = rows->weight + d * k;
             for (size_t b = 0; b < d; b++)
                 for (size_t v = 0; v < d; v++)
@@ -323,43 +256,12 @@ INLINED void force_run(struct tl_model *tl, const struct tl_block *block, const 
     }
 }
 
-INLINED void force_points(struct tl_model *tl, const struct tl_block *block, const size_t d)
-{
-    const struct tl_rows *rows = &tl->transposed;
-    for (size_t s = block->first; s < block->first + block->count; s++) {
-        const bool extra = tl->extra != NULL && s < tl->cloud->points;
-        const size_t end = rows->start[s + 1];
-        vec4 even[MOST] = {0}, odd[MOST] = {0};
-        size_t k = rows->start[s];
-        for (; k + 1 < end; k += 2) {
-            const double *first = tl->A + d * rows->index[k], *second = tl->A + d * rows->index[k + 1];
-            const double *g = rows->weight + d * k;
-            for (size_t b = 0; b < d; b++) {
-                even[b] += VEC4(first + b * tl->plane) * g[b];
-                odd[b] += VEC4(second + b * tl->plane) * g[d + b];
-            }
-        }
-        if (k < end)
-            for (size_t b = 0; b < d; b++)
-                even[b] += VEC4(tl->A + b * tl->plane + d * rows->index[k]) * rows->weight[d * k + b];
-        for (size_t a = 0; a < d; a++) {
-            double force = extra ? tl->extra[d * s + a] : 0;
-            for (size_t b = 0; b < d; b++)
-                force -= even[b][a] + odd[b][a];
-            tl->force[d * s + a] = force;
-        }
-    }
-}
-
 /* --- One function for each dimension --- */
 
 #define BLOCK_FUNCTIONS(d)                                                                                   \
     EACH_MACHINE static void gradient_##d(struct tl_model *tl, const struct tl_block *block)                 \
     {                                                                                                        \
-        if (block->run)                                                                                      \
-            gradient_run(tl, block, d);                                                                      \
-        else                                                                                                 \
-            gradient_points(tl, block, d);                                                                   \
+        gradient_run(tl, block, d);                                                                          \
     }                                                                                                        \
     EACH_MACHINE static void stress_##d(struct tl_model *tl, const struct tl_block *block)                   \
     {                                                                                                        \
@@ -370,10 +272,7 @@ INLINED void force_points(struct tl_model *tl, const struct tl_block *block, con
     }                                                                                                        \
     EACH_MACHINE static void force_##d(struct tl_model *tl, const struct tl_block *block)                    \
     {                                                                                                        \
-        if (block->run)                                                                                      \
-            force_run(tl, block, d);                                                                         \
-        else                                                                                                 \
-            force_points(tl, block, d);                                                                      \
+        force_run(tl, block, d);                                                                             \
     }
 BLOCK_FUNCTIONS(1)
 BLOCK_FUNCTIONS(2)
@@ -382,17 +281,24 @@ BLOCK_FUNCTIONS(3)
 void tl_gradient_block(struct tl_model *tl, const struct tl_block *block)
 {
     void (*const of[MOST])(struct tl_model *, const struct tl_block *) = {gradient_1, gradient_2, gradient_3};
-    of[tl->cloud->dimension - 1](tl, block);
+    if (block->run)
+        of[tl->cloud->dimension - 1](tl, block);
+    else
+        tl_gradient_points(tl, block);
 }
 
 void tl_stress_block(struct tl_model *tl, const struct tl_block *block)
 {
     void (*const of[MOST])(struct tl_model *, const struct tl_block *) = {stress_1, stress_2, stress_3};
     of[tl->cloud->dimension - 1](tl, block);
+    if (!block->run && tl->extra != NULL) tl_control_points(tl, block);
 }
 
 void tl_force_block(struct tl_model *tl, const struct tl_block *block)
 {
     void (*const of[MOST])(struct tl_model *, const struct tl_block *) = {force_1, force_2, force_3};
-    of[tl->cloud->dimension - 1](tl, block);
+    if (block->run)
+        of[tl->cloud->dimension - 1](tl, block);
+    else
+        tl_force_points(tl, block);
 }

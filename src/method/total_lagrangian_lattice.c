@@ -22,13 +22,13 @@ static double step_of(const struct tl_model *tl, int axis)
 
 /* Sites on the line through i along an axis, one and two steps below and above: 1 + site, 0 where there is
  * none. Order: -2, -1, 1, 2. */
-static void sites_along(const struct tl_model *tl, const struct neighbours *near, size_t i, int axis,
+static void sites_along(const struct tl_model *tl, const uint32_t *near, size_t count, size_t i, int axis,
                         size_t beside[4])
 {
     const double step = step_of(tl, axis);
     memset(beside, 0, 4 * sizeof *beside);
-    for (size_t k = near->start[i]; k < near->start[i + 1]; k++) {
-        const size_t j = near->index[k];
+    for (size_t k = 0; k < count; k++) {
+        const size_t j = near[k];
         double steps = 0;
         bool along = true;
         for (int c = 0; c < 3; c++) {
@@ -44,8 +44,8 @@ static void sites_along(const struct tl_model *tl, const struct neighbours *near
     }
 }
 
-size_t tl_central_row(const struct tl_model *tl, const struct neighbours *near, size_t i, uint32_t *index,
-                      double *gradient)
+size_t tl_central_row(const struct tl_model *tl, const uint32_t *near, size_t found, size_t i,
+                      uint32_t *index, double *gradient)
 {
     static const double fourth[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
     static const double second[4] = {0, -0.5, 0.5, 0};
@@ -54,7 +54,7 @@ size_t tl_central_row(const struct tl_model *tl, const struct neighbours *near, 
     size_t count = 0;
     for (int axis = 0; axis < tl->cloud->dimension; axis++) {
         size_t beside[4];
-        sites_along(tl, near, i, axis, beside);
+        sites_along(tl, near, found, i, axis, beside);
         if (beside[1] == 0 && beside[2] == 0) return 0;
         const double *row = beside[1] == 0 ? ahead : beside[2] == 0 ? behind : second;
         if (row == second && beside[0] != 0 && beside[3] != 0) row = fourth;

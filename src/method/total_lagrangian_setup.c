@@ -1,6 +1,6 @@
 /* Set-up of total-Lagrangian SPH: gradient weights by weighted least squares in the reference configuration,
- * their transposed rows, and the pairs of hourglass control and viscosity. */
-#include "method/total_lagrangian.h"
+ * and their transposed rows. */
+#include "method/total_lagrangian_setup.h"
 
 #include "base/memory.h"
 #include "method/cloud_method.h"
@@ -9,23 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-selas_status tl_rows_allocate(struct tl_rows *rows, size_t count, size_t entries, size_t width)
-{
-    rows->start = array_new(count + 1, sizeof *rows->start);
-    rows->index = array_new(entries, sizeof *rows->index);
-    rows->weight = width > 0 ? array_new(entries * width, sizeof *rows->weight) : NULL;
-    const bool room = rows->start != NULL && rows->index != NULL && (rows->weight != NULL || width == 0);
-    return room ? SELAS_OK : SELAS_NO_MEMORY;
-}
-
-void tl_rows_free(struct tl_rows *rows)
-{
-    array_free(rows->start);
-    array_free(rows->index);
-    array_free(rows->weight);
-    *rows = (struct tl_rows){0};
-}
-
 double tl_radius(const struct tl_model *tl)
 {
     double length = tl->options.smoothing_length;
@@ -33,31 +16,48 @@ double tl_radius(const struct tl_model *tl)
     return length * tl->options.kernel->support * tl->cloud->spacing;
 }
 
-struct work {
-    size_t room;
-    uint32_t *index;
-    double *offset, *weight, *gradient, *fit;
-};
-
-static void work_free(struct work *work)
+static void work_free(struct tl_work *work)
 {
+    array_free(work->near);
     array_free(work->index);
     array_free(work->offset);
     array_free(work->weight);
     array_free(work->gradient);
     array_free(work->fit);
+    *work = (struct tl_work){0};
 }
 
-static bool work_allocate(struct work *work, size_t room)
+static bool work_allocate(struct tl_work *work, size_t room)
 {
+    work_free(work);
     work->room = room;
+    work->near = array_new(room, sizeof *work->near);
     work->index = array_new(room, sizeof *work->index);
     work->offset = array_new(3 * room, sizeof *work->offset);
     work->weight = array_new(room, sizeof *work->weight);
     work->gradient = array_new(3 * room, sizeof *work->gradient);
     work->fit = array_new(FIT_TERMS * room, sizeof *work->fit);
-    return work->index != NULL && work->offset != NULL && work->weight != NULL && work->gradient != NULL &&
-           work->fit != NULL;
+    return work->near != NULL && work->index != NULL && work->offset != NULL && work->weight != NULL &&
+           work->gradient != NULL && work->fit != NULL;
+}
+
+bool tl_find_near(const struct tl_model *tl, const struct neighbours *near, size_t i, double radius,
+                  struct tl_work *work)
+{
+    const double *x = tl->site_position + 3 * i;
+    work->found = neighbours_within(near, x, radius, work->room, work->near);
+    if (work->found <= work->room) return true;
+    if (!work_allocate(work, 2 * work->found)) return false;
+    work->found = neighbours_within(near, x, radius, work->room, work->near);
+    return true;
+}
+
+double tl_distance(const double *a, const double *b)
+{
+    double square = 0;
+    for (int c = 0; c < 3; c++)
+        square += (a[c] - b[c]) * (a[c] - b[c]);
+    return sqrt(square);
 }
 
 static double site_volume(const struct tl_model *tl, size_t s)
@@ -77,18 +77,18 @@ static double weight_exponent(const struct tl_model *tl, bool cut)
     return cut ? 0.2 : 2;
 }
 
-/* Sites within `radius` of point i with their weights; returns how many. Linear: V |W'| / r, the corrected
- * kernel gradient. Quadratic: V W^exponent. */
-static size_t collect(const struct tl_model *tl, const struct neighbours *near, size_t i, double radius,
-                      double exponent, struct work *work)
+/* Of the sites near point i those within `radius`, with their weights; returns how many. Linear: V |W'| / r,
+ * the corrected kernel gradient. Quadratic: V W^exponent. */
+static size_t collect(const struct tl_model *tl, size_t i, double radius, double exponent,
+                      struct tl_work *work)
 {
     const struct kernel *kernel = tl->options.kernel;
     const double *x = tl->site_position + 3 * i;
     const double h = radius / kernel->support;
     const bool quadratic = tl->options.degree == 2;
     size_t count = 0;
-    for (size_t k = near->start[i]; k < near->start[i + 1] && count < work->room; k++) {
-        const size_t j = near->index[k];
+    for (size_t k = 0; k < work->found; k++) {
+        const size_t j = work->near[k];
         double square = 0;
         if (j == i && !quadratic) continue;
         for (size_t c = 0; c < 3; c++) {
@@ -126,23 +126,28 @@ size_t tl_wanted(const struct tl_model *tl)
     return lattice_neighbours(tl->cloud->dimension, tl_radius(tl) / tl->cloud->spacing);
 }
 
-/* Gradient weights of point i into work->gradient; returns how many sites they take, 0 if no radius will do.
- * Quadratic gradients at faces and corners grow their radius until they have as many neighbours as inside: a
- * one-sided fit over few points has large weights, which would limit the time step. */
-static size_t fit_point(const struct tl_model *tl, const struct neighbours *near, size_t i, struct work *work)
+/* Gradient weights of point i into work->gradient; returns how many sites they take, 0 if no radius up to
+ * `most` will do, SIZE_MAX if there is no memory. Quadratic gradients at faces and corners grow their radius
+ * until they have as many neighbours as inside: a one-sided fit over few points has large weights, which
+ * would limit the time step. */
+static size_t fit_point(const struct tl_model *tl, const struct neighbours *near, size_t i, double most,
+                        struct tl_work *work)
 {
-    if (tl->options.central) return tl_central_row(tl, near, i, work->index, work->gradient);
     const double reach = tl_radius(tl) / tl->cloud->spacing;
     const bool quadratic = tl->options.degree == 2;
     const size_t wanted = tl_wanted(tl);
-    double radius = reach * tl->spacing[i];
+    double radius = reach * tl->spacing[i], found = tl->options.central ? most : radius;
     size_t count = 0;
     bool done = false;
     bool cut = false;
-    for (; !done && radius <= near->radius * (1 + 1e-12); radius *= 1.03) {
-        count = collect(tl, near, i, radius, weight_exponent(tl, cut), work);
+    if (!tl_find_near(tl, near, i, found, work)) return SIZE_MAX;
+    if (tl->options.central)
+        return tl_central_row(tl, work->near, work->found, i, work->index, work->gradient);
+    for (; !done && radius <= most * (1 + 1e-12); radius *= 1.03) {
+        if (radius > found && !tl_find_near(tl, near, i, found = most, work)) return SIZE_MAX;
+        count = collect(tl, i, radius, weight_exponent(tl, cut), work);
         cut = cut || count < wanted;
-        if (count < wanted && radius * 1.03 < near->radius) continue;
+        if (count < wanted && radius * 1.03 < most) continue;
         const struct fit fit = {tl->cloud->dimension, tl->options.degree, radius,   count,
                                 work->offset,         work->weight,       work->fit};
         done = quadratic ? fit_free(&fit, NULL, work->gradient) : fit_through_centre(&fit, work->gradient);
@@ -150,14 +155,32 @@ static size_t fit_point(const struct tl_model *tl, const struct neighbours *near
     return done ? count : 0;
 }
 
-static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *near, struct work *work,
+selas_status tl_no_memory(const struct tl_model *tl, struct messages *messages)
+{
+    return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu points", tl->cloud->points);
+}
+
+size_t tl_layers_within(const struct tl_model *tl, double radius)
+{
+    double least = radius;
+    for (size_t c = 0; c < (size_t)tl->cloud->dimension && tl->cloud->grid[0] > 0; c++) {
+        const struct body *body = &tl->model.scene->body;
+        least = fmin(least, (body->high[c] - body->low[c]) / (double)tl->cloud->grid[c]);
+    }
+    return (size_t)ceil(radius / least) + 1;
+}
+
+static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
                                   struct messages *messages)
 {
-    const size_t d = (size_t)tl->cloud->dimension;
-    const size_t n = tl->cloud->points;
-    size_t entries = 0;
-    for (size_t i = 0; i < n; i++) {
-        const size_t count = fit_point(tl, near, i, work);
+    const double most = tl_search_radius(tl);
+    const size_t layers = tl_layers_within(tl, most);
+    struct tl_rows *rows = &tl->gradient;
+    for (size_t i = 0; i < tl->cloud->points; i++) {
+        struct tl_like like;
+        tl_likes(tl, i, layers, &like);
+        if (tl_rows_share(tl, rows, i, &like, false)) continue;
+        const size_t count = fit_point(tl, near, i, most, work);
         if (count == 0)
             return fail(
                 messages, SELAS_BAD_SCENE,
@@ -165,206 +188,153 @@ static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *
                 "too thin for its spacing",
                 i, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1], tl->cloud->position[3 * i + 2],
                 tl->options.degree);
-        for (size_t k = 0; k < count; k++) {
-            if (work->index[k] == i) continue;
-            tl->gradient.index[entries] = work->index[k];
-            for (size_t a = 0; a < d; a++)
-                tl->gradient.weight[d * entries + a] = work->gradient[3 * k + a];
-            entries++;
-        }
-        tl->gradient.start[i + 1] = entries;
+        bool room = count < SIZE_MAX;
+        for (size_t k = 0; room && k < count; k++)
+            if (work->index[k] != i) room = tl_rows_add(rows, i, work->index[k], work->gradient + 3 * k);
+        if (!room || !tl_rows_close(rows, i, &like, NULL, 0)) return tl_no_memory(tl, messages);
     }
-    return SELAS_OK;
+    return tl_rows_end(rows) ? SELAS_OK : tl_no_memory(tl, messages);
 }
 
 /* G_ii = minus the sum over j of G_ij; false if that is 0 but for rounding, as inside a lattice. */
 static bool own_weight(const struct tl_model *tl, size_t i, double own[3])
 {
-    const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_rows *rows = &tl->gradient;
     double size = 0;
     own[0] = own[1] = own[2] = 0;
-    for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++)
-        for (size_t a = 0; a < d && a < 3; a++) {
-            own[a] -= tl->gradient.weight[d * k + a];
-            size += fabs(tl->gradient.weight[d * k + a]);
+    for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
+        for (size_t a = 0; a < rows->width && a < 3; a++) {
+            own[a] -= rows->weight[rows->width * k + a];
+            size += fabs(rows->weight[rows->width * k + a]);
         }
     return fabs(own[0]) + fabs(own[1]) + fabs(own[2]) > 1e-13 * size;
 }
 
-/* Entries of each site, to start[site + 1]. */
-static void count_entries(const struct tl_model *tl, size_t *start)
+/* Largest distance of the neighbours in the gradients. */
+static double reach_of_rows(const struct tl_model *tl)
 {
+    const struct tl_rows *rows = &tl->gradient;
+    double most = 0;
+    for (size_t r = 0; r < rows->rows; r++)
+        for (size_t k = rows->start[r]; k < rows->start[r + 1]; k++) {
+            const size_t i = rows->example[r];
+            most = fmax(most, tl_distance(tl->site_position + 3 * i,
+                                          tl->site_position + 3 * tl_neighbour(rows, i, k)));
+        }
+    return most * (1 + 1e-9);
+}
+
+/* Adds what stands for site s in the row of point i to the open transposed row. */
+static bool add_transposed(struct tl_model *tl, size_t s, size_t i)
+{
+    const struct tl_rows *rows = &tl->gradient;
     double own[3];
-    for (size_t k = 0; k < tl->gradient.start[tl->cloud->points]; k++)
-        start[tl->gradient.index[k] + 1]++;
-    for (size_t i = 0; i < tl->cloud->points; i++)
-        start[i + 1] += own_weight(tl, i, own);
-    for (size_t s = 0; s < tl->sites; s++)
-        start[s + 1] += start[s];
+    if (i == s && own_weight(tl, i, own)) return tl_rows_add(&tl->transposed, s, i, own);
+    if (i == s) return true;
+    const ptrdiff_t shift = rows->dimension * ((ptrdiff_t)s - (ptrdiff_t)i);
+    for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
+        if (rows->shift[k] == shift)
+            return tl_rows_add(&tl->transposed, s, i, rows->weight + rows->width * k);
+    return true;
 }
 
-static selas_status transpose(struct tl_model *tl, struct messages *messages)
+/* Rows of the sites over the points whose gradients they enter. */
+static selas_status transpose(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
+                              struct messages *messages)
 {
-    const size_t d = (size_t)tl->cloud->dimension;
-    const size_t n = tl->cloud->points;
-    const size_t entries = tl->gradient.start[n] + n;
-    struct tl_rows *rows = &tl->transposed;
-    size_t *next = array_new(tl->sites + 1, sizeof *next);
-    if (next == NULL || tl_rows_allocate(rows, tl->sites, entries, d) != SELAS_OK || rows->weight == NULL) {
-        array_free(next);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", entries);
+    const double reach = reach_of_rows(tl);
+    const size_t layers = tl_layers_within(tl, reach) + tl_layers_within(tl, tl_search_radius(tl));
+    for (size_t s = 0; s < tl->sites; s++) {
+        struct tl_like like;
+        tl_likes(tl, s, layers, &like);
+        if (tl_rows_share(tl, &tl->transposed, s, &like, false)) continue;
+        bool room = tl_find_near(tl, near, s, reach, work);
+        for (size_t k = 0; room && k < work->found && work->near[k] < tl->cloud->points; k++)
+            room = add_transposed(tl, s, work->near[k]);
+        if (!room || !tl_rows_close(&tl->transposed, s, &like, NULL, 0)) return tl_no_memory(tl, messages);
     }
-    count_entries(tl, rows->start);
-    memcpy(next, rows->start, tl->sites * sizeof *next);
-    for (size_t i = 0; i < n; i++) {
-        double own[3];
-        if (own_weight(tl, i, own)) {
-            const size_t place = next[i]++;
-            rows->index[place] = (uint32_t)i;
-            memcpy(rows->weight + d * place, own, d * sizeof(double));
-        }
-        for (size_t k = tl->gradient.start[i]; k < tl->gradient.start[i + 1]; k++) {
-            const size_t place = next[tl->gradient.index[k]]++;
-            rows->index[place] = (uint32_t)i;
-            memcpy(rows->weight + d * place, tl->gradient.weight + d * k, d * sizeof(double));
-        }
-    }
-    array_free(next);
-    return SELAS_OK;
+    return tl_rows_end(&tl->transposed) ? SELAS_OK : tl_no_memory(tl, messages);
 }
 
-/* Ghosts of each point. */
+/* Ghosts of each point that has some. */
 static selas_status return_rows(struct tl_model *tl, struct messages *messages)
 {
     const size_t n = tl->cloud->points;
-    struct tl_rows *rows = &tl->returned;
-    size_t *next = array_new(n + 1, sizeof *next);
-    if (next == NULL || tl_rows_allocate(rows, n, tl->ghosts, 0) != SELAS_OK) {
-        array_free(next);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu ghosts", tl->ghosts);
+    uint32_t *count = array_new(n + 1, sizeof *count);
+    bool room = count != NULL;
+    for (size_t g = 0; room && g < tl->ghosts; g++)
+        tl->sources += count[tl->ghost[g].source]++ == 0;
+    tl->source = array_new(tl->sources, sizeof *tl->source);
+    tl->returned_start = array_new(tl->sources + 1, sizeof *tl->returned_start);
+    tl->returned = array_new(tl->ghosts, sizeof *tl->returned);
+    room = room && tl->source != NULL && tl->returned_start != NULL && tl->returned != NULL;
+    for (size_t i = 0, s = 0; room && i < n; i++) {
+        if (count[i] == 0) continue;
+        tl->source[s] = i;
+        tl->returned_start[s + 1] = tl->returned_start[s] + count[i];
+        count[i] = (uint32_t)s++;
     }
-    for (size_t g = 0; g < tl->ghosts; g++)
-        rows->start[tl->ghost[g].source + 1]++;
-    for (size_t i = 0; i < n; i++)
-        rows->start[i + 1] += rows->start[i];
-    memcpy(next, rows->start, n * sizeof *next);
-    for (size_t g = 0; g < tl->ghosts; g++)
-        rows->index[next[tl->ghost[g].source]++] = (uint32_t)g;
-    array_free(next);
-    tl->source = array_new(tl->ghosts, sizeof *tl->source);
-    if (tl->source == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu ghosts", tl->ghosts);
-    for (size_t i = 0; i < n; i++)
-        if (rows->start[i + 1] > rows->start[i]) tl->source[tl->sources++] = i;
-    return SELAS_OK;
+    for (size_t g = 0; room && g < tl->ghosts; g++)
+        tl->returned[tl->returned_start[count[tl->ghost[g].source]]++] = (uint32_t)g;
+    for (size_t s = tl->sources; room && s > 0; s--) /* moved on while filling, and now back */
+        tl->returned_start[s] = tl->returned_start[s - 1];
+    if (room) tl->returned_start[0] = 0;
+    array_free(count);
+    return room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for %zu ghosts", tl->ghosts);
 }
 
-static double distance(const double *a, const double *b)
-{
-    double square = 0;
-    for (int c = 0; c < 3; c++)
-        square += (a[c] - b[c]) * (a[c] - b[c]);
-    return sqrt(square);
-}
-
-/* Pairs of nearest points (8 in a plane lattice, 18 in space): k_ij = hourglass * (lambda + 2 mu) * volume /
- * (2 dimension |X_ij|^2), so that what the gradients miss of the strain e_ij / |X_ij| counts as a strain with
- * about `hourglass` times the modulus. */
-static selas_status hourglass_pairs(struct tl_model *tl, const struct neighbours *near,
-                                    struct messages *messages)
-{
-    const size_t n = tl->cloud->points;
-    const double usual = 2 * tl->cloud->dimension;
-    tl->extra = array_new((size_t)tl->cloud->dimension * n, sizeof(double));
-    if (tl->extra == NULL || tl_rows_allocate(&tl->pair, n, near->start[n], 1) != SELAS_OK)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for hourglass pairs");
-    size_t entries = 0;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            const size_t j = near->index[k];
-            if (j == i || (j >= n && tl->ghost[j - n].curved)) continue;
-            const size_t source = j < n ? j : tl->ghost[j - n].source;
-            const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
-            if (r > 1.6 * fmax(tl->spacing[i], tl->spacing[source])) continue;
-            double stiffness = 0;
-            const size_t both[2] = {i, source};
-            for (int e = 0; e < 2; e++) {
-                const struct elastic *elastic = &tl->elastic[both[e]];
-                stiffness += 0.5 * (elastic->plane_lambda + 2 * elastic->mu) * tl->cloud->volume[both[e]];
-            }
-            tl->pair.index[entries] = (uint32_t)j;
-            tl->pair.weight[entries++] = tl->options.hourglass * stiffness / (usual * r * r);
-        }
-        tl->pair.start[i + 1] = entries;
-    }
-    return SELAS_OK;
-}
-
-static selas_status viscosity_pairs(struct tl_model *tl, const struct neighbours *near,
-                                    struct messages *messages)
-{
-    const size_t n = tl->cloud->points;
-    const struct kernel *kernel = tl->options.kernel;
-    const double per_spacing = tl_radius(tl) / (kernel->support * tl->cloud->spacing);
-    tl->site_v = array_new((size_t)tl->cloud->dimension * tl->sites, sizeof(double));
-    if (tl->site_v == NULL || tl_rows_allocate(&tl->viscous, n, near->start[n], 2) != SELAS_OK)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for viscosity pairs");
-    size_t entries = 0;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t k = near->start[i]; k < near->start[i + 1]; k++) {
-            const size_t j = near->index[k];
-            const double r = distance(tl->site_position + 3 * i, tl->site_position + 3 * j);
-            const size_t source = j < n ? j : tl->ghost[j - n].source;
-            const double h = 0.5 * per_spacing * (tl->spacing[i] + tl->spacing[source]);
-            const double slope = -kernel_derivative(kernel, tl->cloud->dimension, r, h);
-            if (j == i || !(slope > 0)) continue;
-            tl->viscous.index[entries] = (uint32_t)j;
-            tl->viscous.weight[2 * entries] = tl->mass[i] * tl->mass[source] * slope;
-            tl->viscous.weight[2 * entries++ + 1] = h;
-        }
-        tl->viscous.start[i + 1] = entries;
-    }
-    return SELAS_OK;
-}
-
-static size_t longest_row(const struct neighbours *near, size_t n)
-{
-    size_t longest = 0;
-    for (size_t i = 0; i < n; i++)
-        if (near->start[i + 1] - near->start[i] > longest) longest = near->start[i + 1] - near->start[i];
-    return longest;
-}
-
-double tl_search_radius(const struct tl_model *tl)
+static double largest_spacing(const struct tl_model *tl)
 {
     double largest = 0;
     for (size_t i = 0; i < tl->cloud->points; i++)
         largest = fmax(largest, tl->spacing[i]);
-    return 1.5 * tl_radius(tl) / tl->cloud->spacing * largest;
+    return largest;
+}
+
+double tl_search_radius(const struct tl_model *tl)
+{
+    return 1.5 * tl_radius(tl) / tl->cloud->spacing * largest_spacing(tl);
+}
+
+static selas_status fill_rows(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
+                              struct messages *messages)
+{
+    const int dimension = tl->cloud->dimension;
+    const size_t n = tl->cloud->points, d = (size_t)dimension;
+    const bool viscous = tl->options.viscosity_alpha > 0 || tl->options.viscosity_beta > 0;
+    bool room = work_allocate(work, 256) && tl_rows_begin(&tl->gradient, dimension, n, d) &&
+                tl_rows_begin(&tl->transposed, dimension, tl->sites, d);
+    if (room && tl->options.hourglass > 0) room = tl_rows_begin(&tl->pair, dimension, n, 1);
+    if (room && viscous) {
+        tl->site_v = array_new(d * tl->sites, sizeof(double));
+        room = tl->site_v != NULL && tl_rows_begin(&tl->viscous, dimension, n, 2);
+    }
+    if (!room) return tl_no_memory(tl, messages);
+    selas_status status =
+        tl->options.cloud ? cloud_gradients(tl, near, messages) : fill_gradient(tl, near, work, messages);
+    if (status == SELAS_OK) status = transpose(tl, near, work, messages);
+    if (status == SELAS_OK) status = return_rows(tl, messages);
+    if (status == SELAS_OK && tl->options.hourglass > 0)
+        status = tl_make_hourglass(tl, 1.6 * (1 + 1e-9) * largest_spacing(tl), near, work, messages);
+    if (status == SELAS_OK && viscous) status = tl_make_viscosity(tl, near, work, messages);
+    return status;
 }
 
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
 {
-    const size_t n = tl->cloud->points;
-    const size_t d = (size_t)tl->cloud->dimension;
     struct neighbours near = {0};
-    struct work work = {0};
-    selas_status status = tl_make_ghosts(tl, tl_search_radius(tl), messages);
+    struct tl_work work = {0};
+    const int d = tl->cloud->dimension;
+    const double most = tl_search_radius(tl), usual = most / 1.5;
+    selas_status status = tl_make_ghosts(tl, most, messages);
+    if (status == SELAS_OK && tl->sites > INT32_MAX / 3)
+        status =
+            fail(messages, SELAS_UNSUPPORTED, "%zu points are more than this method can number", tl->sites);
     if (status == SELAS_OK)
-        status = neighbours_find(&near, (int)d, tl->sites, tl->site_position, tl_search_radius(tl), true,
-                                 messages);
-    if (status == SELAS_OK) {
-        if (!work_allocate(&work, longest_row(&near, n)) ||
-            tl_rows_allocate(&tl->gradient, n, near.start[n], d) != SELAS_OK)
-            status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs", near.start[n]);
-    }
-    if (status == SELAS_OK)
-        status = tl->options.cloud ? cloud_gradients(tl, &near, messages)
-                                   : fill_gradient(tl, &near, &work, messages);
-    if (status == SELAS_OK) status = transpose(tl, messages);
-    if (status == SELAS_OK) status = return_rows(tl, messages);
-    if (status == SELAS_OK && tl->options.hourglass > 0) status = hourglass_pairs(tl, &near, messages);
-    if (status == SELAS_OK && (tl->options.viscosity_alpha > 0 || tl->options.viscosity_beta > 0))
-        status = viscosity_pairs(tl, &near, messages);
+        status = tl->options.cloud
+                     ? neighbours_find(&near, d, tl->sites, tl->site_position, most, true, messages)
+                     : neighbours_cells(&near, d, tl->sites, tl->site_position, usual, messages);
+    if (status == SELAS_OK) status = fill_rows(tl, &near, &work, messages);
     if (status == SELAS_OK) status = tl_find_runs(tl, messages);
     neighbours_free(&near);
     work_free(&work);

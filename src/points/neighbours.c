@@ -28,10 +28,10 @@ static bool grow(void *array, size_t *room, size_t count, size_t size)
     return fresh != NULL;
 }
 
-static bool grow_points(struct neighbours *n, size_t points)
+static bool grow_points(struct neighbours *n, size_t points, bool lists)
 {
-    if (points < n->point_room && n->start != NULL) return true;
-    return grow(&n->start, NULL, points + 1, sizeof *n->start) &&
+    if (points < n->point_room && (n->start != NULL || !lists)) return true;
+    return (!lists || grow(&n->start, NULL, points + 1, sizeof *n->start)) &&
            grow(&n->cell_member, NULL, points, sizeof *n->cell_member) &&
            grow(&n->cell_of, &n->point_room, points + 1, sizeof *n->cell_of);
 }
@@ -115,13 +115,14 @@ static void fill_cells(struct neighbours *n)
 }
 
 /* Range of cells that hold everything within the radius of x. */
-static void cell_range(const struct neighbours *n, const double *place, long low[3], long high[3])
+static void cell_range(const struct neighbours *n, const double *place, double radius, long low[3],
+                       long high[3])
 {
     for (int c = 0; c < 3; c++) {
         low[c] = high[c] = 0;
         if (c >= n->dimension) continue;
-        low[c] = cell_along(n, c, place[c] - n->radius);
-        high[c] = cell_along(n, c, place[c] + n->radius);
+        low[c] = cell_along(n, c, place[c] - radius);
+        high[c] = cell_along(n, c, place[c] + radius);
     }
 }
 
@@ -139,12 +140,12 @@ static void sort(uint32_t *index, size_t count)
 
 /* What gather() does, for a constant dimension. Cells in sequence along x hold members in sequence. */
 static inline size_t gather_in(const int dimension, const struct neighbours *n, const double *place,
-                               size_t not_this, size_t room, uint32_t *index)
+                               double radius, size_t not_this, size_t room, uint32_t *index)
 {
-    const double limit = n->radius * n->radius;
+    const double limit = radius * radius;
     long low[3], high[3], cell[3];
     size_t count = 0;
-    cell_range(n, place, low, high);
+    cell_range(n, place, radius, low, high);
     for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
         for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++) {
             cell[0] = low[0];
@@ -160,17 +161,18 @@ static inline size_t gather_in(const int dimension, const struct neighbours *n, 
     return count;
 }
 
-/* Gathers the points within the radius of a place except `not_this`; only the first `room` are written. */
-static size_t gather(const struct neighbours *n, const double *place, size_t not_this, size_t room,
-                     uint32_t *index)
+/* Gathers the points within a radius of a place except `not_this`; only the first `room` are written. */
+static size_t gather(const struct neighbours *n, const double *place, double radius, size_t not_this,
+                     size_t room, uint32_t *index)
 {
-    return n->dimension == 1   ? gather_in(1, n, place, not_this, room, index)
-           : n->dimension == 2 ? gather_in(2, n, place, not_this, room, index)
-                               : gather_in(3, n, place, not_this, room, index);
+    return n->dimension == 1   ? gather_in(1, n, place, radius, not_this, room, index)
+           : n->dimension == 2 ? gather_in(2, n, place, radius, not_this, room, index)
+                               : gather_in(3, n, place, radius, not_this, room, index);
 }
 
-selas_status neighbours_find(struct neighbours *n, int dimension, size_t points, const double *position,
-                             double radius, bool with_self, struct messages *messages)
+/* Checks what a search is asked for and sorts the points into cells. */
+static selas_status sort_points(struct neighbours *n, int dimension, size_t points, const double *position,
+                                double radius, bool lists, struct messages *messages)
 {
     if (!(radius > 0) || !isfinite(radius))
         return fail(messages, SELAS_BAD_ARGUMENT, "the radius %g of the neighbours must be positive", radius);
@@ -180,14 +182,27 @@ selas_status neighbours_find(struct neighbours *n, int dimension, size_t points,
     n->points = points;
     n->position = position;
     n->radius = radius;
-    if (!grow_points(n, points))
+    if (!grow_points(n, points, lists))
         return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu points", points);
     const selas_status status = lay_cells(n, messages);
+    if (status == SELAS_OK) fill_cells(n);
+    return status;
+}
+
+selas_status neighbours_cells(struct neighbours *n, int dimension, size_t points, const double *position,
+                              double radius, struct messages *messages)
+{
+    return sort_points(n, dimension, points, position, radius, false, messages);
+}
+
+selas_status neighbours_find(struct neighbours *n, int dimension, size_t points, const double *position,
+                             double radius, bool with_self, struct messages *messages)
+{
+    const selas_status status = sort_points(n, dimension, points, position, radius, true, messages);
     if (status != SELAS_OK) return status;
-    fill_cells(n);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < points; i++)
-        n->start[i + 1] = gather(n, position + 3 * i, with_self ? points : i, 0, NULL);
+        n->start[i + 1] = gather(n, position + 3 * i, radius, with_self ? points : i, 0, NULL);
     n->start[0] = 0;
     for (size_t i = 0; i < points; i++)
         n->start[i + 1] += n->start[i];
@@ -201,17 +216,23 @@ selas_status neighbours_find(struct neighbours *n, int dimension, size_t points,
     for (size_t i = 0; i < points; i++) {
         uint32_t *row = n->index + n->start[i];
         const size_t count = n->start[i + 1] - n->start[i];
-        gather(n, position + 3 * i, with_self ? points : i, count, row);
+        gather(n, position + 3 * i, radius, with_self ? points : i, count, row);
         sort(row, count);
     }
     return SELAS_OK;
 }
 
-size_t neighbours_at(const struct neighbours *n, const double place[3], size_t room, uint32_t *index)
+size_t neighbours_within(const struct neighbours *n, const double place[3], double radius, size_t room,
+                         uint32_t *index)
 {
-    const size_t count = gather(n, place, n->points, room, index);
+    const size_t count = gather(n, place, radius, n->points, room, index);
     sort(index, count < room ? count : room);
     return count;
+}
+
+size_t neighbours_at(const struct neighbours *n, const double place[3], size_t room, uint32_t *index)
+{
+    return neighbours_within(n, place, n->radius, room, index);
 }
 
 size_t neighbours_nearest(const struct neighbours *n, const double place[3])
@@ -219,7 +240,7 @@ size_t neighbours_nearest(const struct neighbours *n, const double place[3])
     long low[3], high[3], cell[3];
     size_t nearest = n->points;
     double least = n->radius * n->radius;
-    cell_range(n, place, low, high);
+    cell_range(n, place, n->radius, low, high);
     for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
         for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++)
             for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
@@ -237,7 +258,8 @@ size_t neighbours_nearest(const struct neighbours *n, const double place[3])
 
 size_t neighbours_bytes(const struct neighbours *n)
 {
-    return n->point_room * (sizeof *n->start + sizeof *n->cell_member + sizeof *n->cell_of) +
+    const size_t list = n->start != NULL ? sizeof *n->start : 0;
+    return n->point_room * (list + sizeof *n->cell_member + sizeof *n->cell_of) +
            n->pair_room * sizeof *n->index + n->cell_room * sizeof *n->cell_start;
 }
 

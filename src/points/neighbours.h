@@ -11,7 +11,8 @@
 
 struct neighbours {
     size_t points;
-    size_t *start;   /* [points + 1]: neighbours of i stand at start[i] .. start[i + 1] - 1 */
+    size_t *start;   /* [points + 1]: neighbours of i stand at start[i] .. start[i + 1] - 1; NULL after
+                        neighbours_cells() */
     uint32_t *index; /* [start[points]]: ascending in each row */
 
     /* the cells, kept for neighbours_at and for the next search; of no concern to users */
@@ -32,6 +33,15 @@ struct neighbours {
 selas_status neighbours_find(struct neighbours *neighbours, int dimension, size_t points,
                              const double *position, double radius, bool with_self,
                              struct messages *messages);
+
+/* The cells alone, of about the size `radius`, for the functions below. On `neighbours` that are zero. Errors
+ * as above. */
+selas_status neighbours_cells(struct neighbours *neighbours, int dimension, size_t points,
+                              const double *position, double radius, struct messages *messages);
+
+/* As neighbours_at, for any radius. */
+size_t neighbours_within(const struct neighbours *neighbours, const double place[3], double radius,
+                         size_t room, uint32_t *index);
 
 /* Points closer than the radius of the last search to any place, ascending; at most `room` are written,
  * returns how many there are. The positions of the last search must still be there. */
