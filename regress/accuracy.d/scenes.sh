@@ -74,14 +74,53 @@ scene() {
         echo "&load face='z-', shape='square', centre=-2,0,0, size=4,4, direction=0,0,1, history='triangle', duration=.03, smoothing=.015 /"
         echo "&receiver name='a', position=-2,0,0 / &receiver name='b', position=5,2,0 /"
         ;;
+    l1) # a layer on rock, a quarter, nothing comes back: tuned splines
+        strata 4.5 0,0,0 6,6,5 '1 1.9 1.1' '.8 1.1 .6:0' 'x:.7'
+        echo "&boundary face='x-','y-', kind='symmetry' /"
+        echo "&load face='z-', shape='square', centre=0,0,0, size=1,1, direction=0,0,1, history='gaussian', width=.3, delay=1.6 /"
+        echo "&receiver name='a', position=.3,.2,0 / &receiver name='b', position=1.4,.5,0 /"
+        ;;
+    l2) # two layers on rock, SI units; the box is the program's
+        strata .06 '' '' '2200 900 500' '1700 400 200:0' '1900 600 320:3' 'x:7'
+        echo "&load face='z-', shape='square', centre=0,0,0, size=4,4, direction=0,0,1, history='gaussian', width=.004, delay=.02 /"
+        echo "&receiver name='a', position=0,0,0 / &receiver name='b', position=5,0,0 /"
+        ;;
+    l3) # a stiff layer on soft ground, a disc, absorbing layers: splines of degree 2 with sweeps
+        strata 5 0,0,0 2,2,2 '1 1.5 .8' '1.1 2.2 1.2:0' 'x:.5'
+        echo "&boundary face='x-','y-', kind='symmetry' / &boundary face='x+','y+','z+', kind='transmitting', layer='pml' /"
+        echo "&load face='z-', shape='disc', centre=0,0,0, size=1.2, direction=0,0,1, history='gaussian', width=.35, delay=1.8 /"
+        echo "&receiver name='a', position=0,0,0 / &receiver name='b', position=1.5,0,0 /"
+        ;;
+    l4) # a soft layer, Ricker's wavelet, absorbing layers
+        strata 6 0,0,0 2,2,2 '1 1.7320508 1' '1 .95 .55:0' 'x:.5'
+        echo "&boundary face='x-','y-', kind='symmetry' / &boundary face='x+','y+','z+', kind='transmitting', layer='pml' /"
+        echo "&load face='z-', shape='square', centre=0,0,0, size=1,1, direction=0,0,1, history='ricker', frequency=.35, delay=3 /"
+        echo "&receiver name='a', position=0,0,0 / &receiver name='b', position=1.5,.5,0 /"
+        ;;
     esac
 }
+strata() { # strata END LOW HIGH ROCK LAYER:TOP... x:TOP: density, P and S speed of each; x is the rock below; no LOW: a half-space
+    if [ -n "$2" ]; then set -- "$1" "shape = 'box', low = $2, high = $3" "$@"; else set -- "$1" "shape = 'half-space'" "$@"; fi
+    where=$2
+    echo "&scene dimension = 3, end_time = $1 /"
+    stratum rock "$6"
+    shift 6
+    for layer; do
+        name=rock
+        case $layer in
+        x:*) ;;
+        *)
+            name=soil${layer#*:}
+            stratum "$name" "${layer%:*}"
+            ;;
+        esac
+        echo "&layer material = '$name', top = ${layer#*:} /"
+    done
+    echo "&body material = 'rock', $where /"
+    echo "&reference kind = 'lamb' /"
+    echo "&output plots = .false. /"
+}
+stratum() { echo "&material name = '$1', density = ${2%% *}, p_speed = $(echo "$2" | cut -d' ' -f2), s_speed = ${2##* } /"; }
 box() { # box END DENSITY P_SPEED S_SPEED LOW HIGH
     ground "$1" "$2" "$3" "$4" | sed "s/shape = 'half-space'/shape = 'box', low = $5, high = $6/"
-}
-deck_of() { # deck_of NUMBER: a scene, or a wave of waves.sh (w1, w2, ...)
-    case $1 in
-    w*) wave "$1" ;;
-    *) scene "$1" ;;
-    esac
 }

@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-static const struct accuracy_kind *const kinds[2] = {&accuracy_wave, &accuracy_ground};
-enum { KINDS = 2 };
+enum { KINDS = 4 };
+static const struct accuracy_kind *const kinds[KINDS] = {&accuracy_beam, &accuracy_plate, &accuracy_wave,
+                                                         &accuracy_ground};
 
 static const struct accuracy_kind *kind_of(const struct scene *scene)
 {
@@ -14,17 +15,20 @@ static const struct accuracy_kind *kind_of(const struct scene *scene)
 }
 
 /* What the deck chooses itself leaves the program no choice. */
-static void refuse_choices(struct builder *builder)
+static void refuse_choices(struct builder *builder, const struct accuracy_kind *kind)
 {
-    static const char *const method[] = {"degree",         "ends",     "mass",      "depth_mass",
-                                         "dissipation",    "gradient", "hourglass", "viscosity_alpha",
-                                         "viscosity_beta", NULL};
+    static const char *const method[] = {"degree",           "ends",        "mass",      "tuned",
+                                         "depth_mass",       "dissipation", "hourglass", "kernel",
+                                         "smoothing_length", NULL};
+    static const char *const particles[] = {"gradient", "viscosity_alpha", "viscosity_beta", NULL};
     static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
     static const char *const body_words[] = {"spacing", NULL};
     static const char *const layer[] = {"layer_points", "layer_reflection", NULL};
     static const char *const output[] = {"low_pass", NULL};
     const char *purpose = "a deck with scene%accuracy, which makes that choice";
     refuse(builder, deck_get(builder->deck, "method", 0), method, purpose);
+    if (kind != NULL && !kind->particles)
+        refuse(builder, deck_get(builder->deck, "method", 0), particles, purpose);
     refuse(builder, deck_get(builder->deck, "stepping", 0), step, purpose);
     refuse(builder, deck_get(builder->deck, "output", 0), output, purpose);
     for (size_t k = 0; k < deck_count(builder->deck, "boundary"); k++)
@@ -33,20 +37,24 @@ static void refuse_choices(struct builder *builder)
         refuse(builder, deck_get(builder->deck, "body", 0), body_words, purpose);
 }
 
+const char *accuracy_gradient(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    return deck_values(group, "gradient") > 0 ? deck_text(group, "gradient", 0) : "quadratic";
+}
+
 void check_accuracy(struct builder *builder)
 {
     const struct deck_group *group = deck_get(builder->deck, "scene", 0);
     const bool sound = builder->status == SELAS_OK && builder->scene->materials > 0;
-    refuse_choices(builder);
+    const struct accuracy_kind *kind = sound ? kind_of(builder->scene) : NULL;
+    refuse_choices(builder, kind);
     if (!sound) return; /* complained of elsewhere: a body may have no material that is known */
-    const struct accuracy_kind *kind = kind_of(builder->scene);
     if (kind == NULL) {
         complain(builder, group, "accuracy",
                  "there is no table of errors for this scene, only for patches that press on half-spaces and "
-                 "boxes "
-                 "of one ground, and for plane pulses, loads and motions of whole faces of a box; give "
-                 "body%%spacing "
-                 "in place of accuracy");
+                 "boxes of ground, for plane pulses, loads and motions of whole faces of a box, for swinging "
+                 "beams and for plates with a hole; give body%%spacing in place of accuracy");
         return;
     }
     const char *why = kind->refusal(builder->scene);

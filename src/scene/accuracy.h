@@ -12,9 +12,13 @@ struct accuracy_kind {
     /* Fails (SELAS_BAD_SCENE) only if no spacing will do or the exact solution is not for this scene. */
     selas_status (*choose)(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
                            struct messages *messages);
+    bool particles; /* the deck may say gradient and viscosity of particles: there are tables for them */
 };
 
-extern const struct accuracy_kind accuracy_ground, accuracy_wave;
+extern const struct accuracy_kind accuracy_beam, accuracy_ground, accuracy_plate, accuracy_wave;
+
+/* Gradient of particles that the deck asks for, or the default. */
+const char *accuracy_gradient(const struct scene *scene);
 
 /* The middle, in ratio, of a fifth of the wanted error and all of it. */
 #define ACCURACY_AIM 0.45

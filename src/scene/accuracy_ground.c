@@ -1,16 +1,11 @@
-/* The spacing that scene%accuracy leads to (doc/accuracy.md).
- *
- * The default method's error at a receiver has, at each frequency, three parts relative to the exact velocity
- * (measured, regress/accuracy): that of the load's own field, of the source and the surface, and of the way,
- *   e^2 = (S n^-s (size/r)^q)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c_R, (1) n the
- * points along the load's shortest edge, r the distance, g = 1 along the axes of the lattice and less between
- * them. With V the exact velocity's spectrum the relative L2 error of the history is E(h)^2 = sum e^2 |V|^2 /
- * sum |V|^2,                                                                     (2) and the spacing is the
- * largest h for which E(h) is AIM times the wanted error at every receiver. */
+/* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
+ * 4): the largest one for which the error law of accuracy_surface.c, with the exact velocity's spectrum,
+ * gives AIM times the wanted error at every receiver. */
 #include "base/memory.h"
 #include "exact/half_space.h"
 #include "exact/lamb.h"
 #include "scene/accuracy.h"
+#include "scene/accuracy_surface.h"
 #include "scene/echo.h"
 #include "scene/outlook.h"
 
@@ -19,23 +14,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Coefficients of (1), fitted by regress/accuracy.d/law.sh to runs of the default method: nu .1 to .4, 3 to
- * 10 points along the load's edge, receivers up to two edges away; errors predicted within a factor of 1.36
- * (r.m.s.).
- */
-static const struct {
-    double near, near_order, near_distance, source, source_order, way, way_order, diagonal;
-} law = {16.3, 5.22, 2.54, 0.0068, 5.95, 0.000861, 3.41, 0.29};
-/* What a frequency that the lattice cannot carry errs, relative. */
-static const double LARGEST = 1.22;
-static const double BURIED = 0.6; /* receivers in the ground err less (measured) */
 static const double SLOWLY = 1.1;
-enum { ROWS = 4096 };
-
-static bool absorbs(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML;
-}
+enum { ROWS = SURFACE_ROWS };
 
 /* The faces of a box that stands for a half-space: the loaded one free, the others mirrors, absorbing layers
  * or so far away that what they send back is too late. */
@@ -47,9 +27,10 @@ static const char *faces_refusal(const struct scene *scene)
     if (surface != BOUNDARY_FREE) return "half-spaces with a free surface";
     for (int face = 0; face < FACE_Z_HIGH + 1; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (face == FACE_Z_LOW || boundary->kind == BOUNDARY_SYMMETRY || absorbs(boundary)) continue;
+        if (face == FACE_Z_LOW || boundary->kind == BOUNDARY_SYMMETRY || has_absorbing_layer(boundary))
+            continue;
         if (scene->body.absorbing && !boundary->given) continue;
-        if (echo_path(&seen, face) < 1.02 * scene_material_at(scene, 0)->p_speed * scene->end_time &&
+        if (echo_path(&seen, face) < 1.02 * surface_ground_of(scene, 0).p_speed * scene->end_time &&
             !scene->body.chosen)
             return "boxes with faces that absorb by layers (layer = 'pml'), are symmetry planes, or stand so "
                    "far away that nothing comes back before end_time";
@@ -68,7 +49,6 @@ static const char *refusal(const struct scene *scene)
     if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
         return "method 'smoothed-point', variant 'consistent'";
     if (scene->body.shape != BODY_HALF_SPACE && scene->body.shape != BODY_BOX) return "half-spaces and boxes";
-    if (scene->body.layers > 0) return "ground of one material";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     for (size_t k = 0; k < scene->loads; k++) {
         const double *velocity = scene->load[k].velocity;
@@ -81,14 +61,7 @@ static const char *refusal(const struct scene *scene)
 
 /* --- The exact velocity's spectrum -------------------------------------------------------------------- */
 
-struct place {
-    double distance, size; /* to the nearest load's centre; that load's shortest edge */
-    double diagonal;       /* 0 along an axis of the lattice, 1 halfway between two */
-    double depth;
-    double *power; /* [ROWS / 2 + 1] sum over components of |V|^2 */
-};
-
-static void set_place(const struct scene *scene, const double position[3], struct place *place)
+static void set_place(const struct scene *scene, const double position[3], struct surface_place *place)
 {
     place->distance = INFINITY;
     for (size_t k = 0; k < scene->loads; k++) {
@@ -144,35 +117,17 @@ static selas_status find_power(struct exact *exact, double end_time, const struc
     return status;
 }
 
-/* --- The error law ------------------------------------------------------------------------------------ */
-
-static double predicted(const struct place *place, double h, double end_time, double rayleigh_speed)
-{
-    const double near = law.near * pow(h / place->size, law.near_order) *
-                        pow(fmin(1, place->size / place->distance), law.near_distance);
-    const double way = law.way * place->distance / h * (1 - place->diagonal * (1 - law.diagonal));
-    const double step = 2 * M_PI / (1.25 * end_time);
-    double error = 0, whole = 0;
-    for (int j = 1; j <= ROWS / 2; j++) {
-        const double kappa = j * step * h / rayleigh_speed;
-        const double source = law.source * pow(kappa, law.source_order);
-        const double path = way * pow(kappa, law.way_order);
-        error += place->power[j] * fmin(near * near + source * source + path * path, LARGEST * LARGEST);
-        whole += place->power[j];
-    }
-    return sqrt(error / whole) * (place->depth > .5 * place->size ? BURIED : 1);
-}
-
-static double worst(const struct scene *scene, const struct place *place, double h, double rayleigh_speed)
+static double worst(const struct scene *scene, const struct surface_place *place, double h,
+                    const struct surface_ground *ground)
 {
     double most = 0;
     for (size_t i = 0; i < scene->receivers; i++)
-        most = fmax(most, predicted(&place[i], h, scene->end_time, rayleigh_speed));
+        most = fmax(most, surface_error(&place[i], h, scene->end_time, ground));
     return most;
 }
 
 /* P wavelength at the mean frequency of |V|^2, the longest of all receivers. */
-static double mean_wavelength(const struct scene *scene, const struct place *place, double p_speed)
+static double mean_wavelength(const struct scene *scene, const struct surface_place *place, double p_speed)
 {
     double slowest = INFINITY;
     for (size_t i = 0; i < scene->receivers; i++) {
@@ -197,7 +152,8 @@ static long enough_layer_points(double accuracy, double h, double wavelength)
 /* Where the error falls slower than h^2.5 it is that of waves that the lattice cannot carry: a history with
  * kinks. What of them rings on under the load depends on where its rim lies between the knots, and is several
  * times less where the edge is a whole number of spacings (measured): the next smaller one of that kind. */
-static double quiet_spacing(const struct scene *scene, const struct place *place, double h, double gain)
+static double quiet_spacing(const struct scene *scene, const struct surface_place *place, double h,
+                            double gain)
 {
     double size = INFINITY;
     for (size_t i = 0; i < scene->receivers; i++)
@@ -212,25 +168,52 @@ static double quiet_spacing(const struct scene *scene, const struct place *place
     return h;
 }
 
+/* True if the edges of all squares lie on knots, where tuned splines err least. */
+static bool rims_on_knots(const struct scene *scene, double h)
+{
+    for (size_t k = 0; k < scene->loads; k++)
+        for (int c = 0; c < 4 && scene->load[k].shape == LOAD_SQUARE; c++) {
+            const int axis = c / 2;
+            const double edge = scene->load[k].centre[axis] + (c % 2 - .5) * scene->load[k].size[axis];
+            const double cells = (edge - scene->body.low[axis]) / h;
+            if (cells > 0 && fabs(cells - round(cells)) > 1e-6) return false;
+        }
+    return true;
+}
+
+/* The largest spacing up to h that will do; 0 if there is none. */
+static double possible_spacing(const struct scene *scene, const struct surface_ground *ground, double h)
+{
+    const struct load *load = &scene->load[0];
+    if (scene->body.chosen && (!ground->tuned || load->shape != LOAD_SQUARE)) return h;
+    if (scene->body.chosen) { /* the lattice stands on the load's centre */
+        const double half = .5 * fmin(load->size[0], load->size[1]);
+        return half / ceil(half / h - 1e-9);
+    }
+    const double first = dividing_spacing(&scene->body, 3, h);
+    double finer = first;
+    while (ground->tuned && finer > .5 * first && !rims_on_knots(scene, finer))
+        finer = dividing_spacing(&scene->body, 3, .999 * finer);
+    return finer > .5 * first ? finer : first;
+}
+
 /* Fails only if no spacing will do. */
-static selas_status choose(const struct scene *scene, const struct place *place, double accuracy,
+static selas_status choose(const struct scene *scene, const struct surface_place *place, double accuracy,
                            struct accuracy_choice *choice, struct messages *messages)
 {
     enum { MOST = 800 };
     static const double finer = 1.01; /* 800 times: 1/2800 */
-    struct half_space ground;
-    const struct material *material = scene_material_at(scene, 0);
-    half_space_set(&ground, material->density, material->lambda, material->mu);
-    double h = ground.rayleigh_speed * scene->end_time, error = INFINITY;
+    double most = INFINITY, error = INFINITY;
     for (size_t k = 0; k < scene->receivers; k++)
-        h = fmin(h, place[k].size / 2); /* at least two points along an edge */
-    double last = INFINITY, last_error = INFINITY;
+        most = fmin(most, place[k].size / 2); /* at least two points along an edge */
+    const struct surface_ground ground = surface_ground_of(scene, most);
+    most = fmin(most, ground.rayleigh_speed * scene->end_time);
+    double h = most, last = INFINITY, last_error = INFINITY;
     for (int i = 0; i < MOST && h > 0 && !(error <= ACCURACY_AIM * accuracy); i++) {
         last = h;
         last_error = error;
-        if (i > 0) h /= finer;
-        if (!scene->body.chosen) h = dividing_spacing(&scene->body, 3, h);
-        error = h > 0 ? worst(scene, place, h, ground.rayleigh_speed) : INFINITY;
+        h = possible_spacing(scene, &ground, i > 0 ? h / finer : h);
+        error = h > 0 ? worst(scene, place, h, &ground) : INFINITY;
     }
     if (error < ACCURACY_LEAST * accuracy &&
         last_error <= ACCURACY_MOST * accuracy) { /* few spacings divide */
@@ -241,20 +224,23 @@ static selas_status choose(const struct scene *scene, const struct place *place,
         return fail(messages, SELAS_BAD_SCENE,
                     "scene%%accuracy = %g is out of reach here: a spacing of %.3g would still leave %.2g",
                     accuracy, h, error);
-    h = quiet_spacing(scene, place, h, error / worst(scene, place, h / SLOWLY, ground.rayleigh_speed));
-    error = worst(scene, place, h, ground.rayleigh_speed);
+    const double gain = error / worst(scene, place, h / SLOWLY, &ground);
+    if (!ground.tuned) h = quiet_spacing(scene, place, h, gain);
+    error = worst(scene, place, h, &ground);
     choice->spacing = h;
     choice->layer_points = enough_layer_points(accuracy, h, mean_wavelength(scene, place, ground.p_speed));
-    snprintf(
-        choice->text, sizeof choice->text,
-        "%g wanted: spacing %.6g, degree 2, mass vc3, leapfrog with the time-dispersion transform; predicted "
-        "error %.2g",
-        accuracy, h, error);
+    if (ground.layers > 1) {
+        choice->degree = ground.tuned ? 4 : 2;
+        choice->sweeps = ground.tuned ? 0 : 3;
+    }
+    snprintf(choice->text, sizeof choice->text,
+             "%g wanted: spacing %.6g, %s, leapfrog with the time-dispersion transform; predicted error %.2g",
+             accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", error);
     return SELAS_OK;
 }
 
 /* Places and spectra of all receivers; both arrays are array_free()d by the caller, whatever comes back. */
-static selas_status find_places(const struct scene *scene, struct place **place, double **power,
+static selas_status find_places(const struct scene *scene, struct surface_place **place, double **power,
                                 struct messages *messages)
 {
     struct exact *exact = NULL;
@@ -277,7 +263,7 @@ static selas_status find_places(const struct scene *scene, struct place **place,
 static selas_status choose_for(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
                                struct messages *messages)
 {
-    struct place *place = NULL;
+    struct surface_place *place = NULL;
     double *power = NULL;
     selas_status status = find_places(scene, &place, &power, messages);
     if (status == SELAS_OK) status = choose(scene, place, accuracy, choice, messages);
@@ -291,17 +277,16 @@ bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
     enum { ENOUGH = 8 }; /* receivers looked at: each costs an exact history */
     struct scene few = *scene;
     struct messages unsaid = {0};
-    struct place *place = NULL;
+    struct surface_place *place = NULL;
     double *power = NULL;
     bool known = false;
     if (!looks_like(scene) || refusal(scene) != NULL) return false;
+    if (scene->body.layers > 0) return false; /* exact histories take seconds there */
     if (few.receivers > ENOUGH) few.receivers = ENOUGH;
     if (find_places(&few, &place, &power, &unsaid) == SELAS_OK) {
         const double h = scene->body.spacing;
-        const struct material *material = scene_material_at(scene, 0);
-        struct half_space ground;
-        half_space_set(&ground, material->density, material->lambda, material->mu);
-        outlook->error = worst(&few, place, h, ground.rayleigh_speed);
+        const struct surface_ground ground = surface_ground_of(scene, h);
+        outlook->error = worst(&few, place, h, &ground);
         outlook->wavelength = mean_wavelength(&few, place, ground.p_speed);
         outlook->layer_points = enough_layer_points(outlook->error / ACCURACY_AIM, h, outlook->wavelength);
         known = isfinite(outlook->error) && isfinite(outlook->wavelength);
@@ -312,4 +297,4 @@ bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
     return known;
 }
 
-const struct accuracy_kind accuracy_ground = {looks_like, refusal, choose_for};
+const struct accuracy_kind accuracy_ground = {looks_like, refusal, choose_for, false};

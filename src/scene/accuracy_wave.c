@@ -285,4 +285,4 @@ static selas_status choose(const struct scene *scene, double accuracy, struct ac
     return status;
 }
 
-const struct accuracy_kind accuracy_wave = {looks_like, refusal, choose};
+const struct accuracy_kind accuracy_wave = {looks_like, refusal, choose, false};
