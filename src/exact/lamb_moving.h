@@ -10,8 +10,10 @@ struct moving_patch {
 };
 
 /* Histories at n receivers for times up to end_time, from all the patches; signal[i].position is given. To be
- * read by lamb_signal_value() with a problem without loads. Patches must be slower than every Rayleigh wave
- * and their histories smooth (SELAS_BAD_SCENE). On failure all value are NULL. */
+ * read by lamb_signal_value() with a problem without loads. Histories must be smooth; points, and loads on
+ * layers, slower than every Rayleigh wave (SELAS_BAD_SCENE). Behind a patch that is faster velocity has
+ * logarithmic poles on the Mach lines of its corners: values there are those of wavenumbers up to 400/edge to
+ * 670/edge, displacements good to 1e-4 .. 1e-3. On failure all value are NULL. */
 selas_status lamb_moving(const struct lamb_problem *ground, size_t patches, const struct moving_patch *patch,
                          double end_time, size_t n, struct lamb_signal *signal, struct messages *messages);
 
