@@ -38,35 +38,30 @@ struct tridiagonal {
     double alpha[LANCZOS_STEPS], beta[LANCZOS_STEPS]; /* beta[j] couples j and j + 1 */
 };
 
-/* Largest Ritz value and the bound on its distance to an eigenvalue. */
+/* Largest Ritz value and the bound on its distance to an eigenvalue. (GSL's own workspace is made here: its
+ * allocator loses blocks where the last ones are not to be had.) */
 static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
 {
     const size_t n = t->n;
-    gsl_errors_returned();
-    gsl_matrix *matrix = gsl_matrix_calloc(n, n);
-    gsl_matrix *vectors = gsl_matrix_alloc(n, n);
-    gsl_vector *values = gsl_vector_alloc(n);
-    gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);
-    const bool room = matrix != NULL && vectors != NULL && values != NULL && work != NULL;
-    if (room) {
-        for (size_t j = 0; j < n; j++) {
-            gsl_matrix_set(matrix, j, j, t->alpha[j]);
-            if (j + 1 < n) {
-                gsl_matrix_set(matrix, j, j + 1, t->beta[j]);
-                gsl_matrix_set(matrix, j + 1, j, t->beta[j]);
-            }
-        }
-        gsl_eigen_symmv(matrix, values, vectors, work);
-        const size_t top = gsl_vector_max_index(values);
-        *theta = gsl_vector_get(values, top);
-        *bound = t->beta[n - 1] * fabs(gsl_matrix_get(vectors, n - 1, top));
+    double *numbers = array_new((2 * n + 5) * n, sizeof *numbers);
+    if (numbers == NULL) return false;
+    gsl_matrix_view matrix = gsl_matrix_view_array(numbers, n, n);
+    gsl_matrix_view vectors = gsl_matrix_view_array(numbers + n * n, n, n);
+    double *line = numbers + 2 * n * n;
+    gsl_vector_view values = gsl_vector_view_array(line, n);
+    gsl_eigen_symmv_workspace work = {n, line + n, line + 2 * n, line + 3 * n, line + 4 * n};
+    for (size_t j = 0; j < n; j++) {
+        numbers[n * j + j] = t->alpha[j];
+        if (j + 1 < n) numbers[n * j + j + 1] = numbers[n * (j + 1) + j] = t->beta[j];
     }
-    gsl_matrix_free(matrix);
-    gsl_matrix_free(vectors);
-    gsl_vector_free(values);
-    gsl_eigen_symmv_free(work);
+    gsl_errors_returned();
+    gsl_eigen_symmv(&matrix.matrix, &values.vector, &vectors.matrix, &work);
     gsl_errors_as_before();
-    return room;
+    const size_t top = gsl_vector_max_index(&values.vector);
+    *theta = gsl_vector_get(&values.vector, top);
+    *bound = t->beta[n - 1] * fabs(gsl_matrix_get(&vectors.matrix, n - 1, top));
+    array_free(numbers);
+    return true;
 }
 
 static double dot(size_t n, const double *x, const double *y)
