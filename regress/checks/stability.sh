@@ -30,8 +30,8 @@ expect() { # expect WHAT STATUS PATTERN DECK OVERRIDES...
 }
 expect 'growth is stopped with place and time' 1 'went unstable at t = .*fastest at' "$out/box.nml"
 # the last good checkpoint is at least a hundred steps old, and named
-for every in 10 60 150; do
-    expect "growth names the last good checkpoint, one every $every steps" 1 'likely: ' "$out/box.nml" stepping%time_step=.03 "output%checkpoint_every=$every"
+named() { # named WHAT DECK EVERY
+    expect "$1 names the last good checkpoint, one every $3 steps" 1 'likely: ' "$2" stepping%time_step=.03 "output%checkpoint_every=$3"
     step=$(sed -n 's/.*unstable at t = .*(step \([0-9]*\)).*/\1/p' "$out/log")
     good=$(sed -n 's/^the last good checkpoint is that of step \([0-9]*\), t = [0-9.]*: selas restart .*/\1/p' "$out/log")
     file=$(sed -n 's/^the last good .*: selas restart //p' "$out/log")
@@ -43,7 +43,12 @@ for every in 10 60 150; do
         cat "$out/log"
     fi
     rm -rf "$out/run"
-done
+}
+for every in 10 60 150; do named growth "$out/box.nml" $every; done
+# the same body driven by a face, for which there is no balance of energy
+sed -e '/^&load/,/^  history/d' -e 's/end_time = 20/end_time = 40/' "$out/box.nml" >"$out/moved.nml"
+echo "&boundary face = 'x-', kind = 'displacement', direction = 1, 0, 0, history = 'gaussian', width = .3, delay = 2 /" >>"$out/moved.nml"
+named 'growth with a moved face' "$out/moved.nml" 60
 expect 'growth too small to stop is warned of' 0 'warning: the body ends with .* that nobody gave it' "$out/box.nml" scene%end_time=7.6
 expect 'a scheme that is unstable for every step is refused' 2 'unstable for every time step' input/bar.nml \
     method%viscosity_alpha=0 method%viscosity_beta=0
