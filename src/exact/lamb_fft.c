@@ -8,6 +8,7 @@
  * the tolerance. */
 #include "exact/lamb_fft.h"
 
+#include "base/fft_room.h"
 #include "base/memory.h"
 #include "exact/lamb_sum.h"
 
@@ -132,7 +133,7 @@ static bool make_plan(struct work *work)
         work->plan = NULL;
         work->fft_in = fftw_malloc((rows / 2 + 1) * sizeof *work->fft_in);
         work->fft_out = fftw_malloc(rows * sizeof *work->fft_out);
-        if (work->fft_in != NULL && work->fft_out != NULL)
+        if (work->fft_in != NULL && work->fft_out != NULL && fft_room(rows))
             work->plan = fftw_plan_dft_c2r_1d((int)rows, work->fft_in, work->fft_out, FFTW_ESTIMATE);
         room = work->plan != NULL;
     }

@@ -10,6 +10,7 @@
  * far beyond the spectrum elsewhere. So each direction has an end of its own. */
 #include "exact/lamb_moving.h"
 
+#include "base/fft_room.h"
 #include "base/memory.h"
 #include "exact/gauss12.h"
 
@@ -319,7 +320,8 @@ static bool to_time(const struct job *job, double end_time, const double complex
     double complex *in = fftw_malloc((rows / 2 + 1) * sizeof *in);
     double *out = fftw_malloc(rows * sizeof *out);
 #pragma omp critical(selas_fftw_planner)
-    if (in != NULL && out != NULL) plan = fftw_plan_dft_c2r_1d((int)rows, in, out, FFTW_ESTIMATE);
+    if (in != NULL && out != NULL && fft_room(rows))
+        plan = fftw_plan_dft_c2r_1d((int)rows, in, out, FFTW_ESTIMATE);
     bool room = plan != NULL;
     for (size_t r = 0; room && r < job->receivers; r++) {
         signal[r].end_time = end_time;

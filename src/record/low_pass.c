@@ -4,6 +4,8 @@
  * to rounding. The series goes on that far on both sides before it meets itself. */
 #include "record/parts.h"
 
+#include "base/fft_room.h"
+
 #include <complex.h>
 #include <fftw3.h>
 #include <math.h>
@@ -45,7 +47,7 @@ selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, siz
     const size_t length = rows + 3 * pad;
     double *line = fftw_alloc_real(length);
     fftw_complex *spectrum = fftw_alloc_complex(length / 2 + 1);
-    if (line == NULL || spectrum == NULL) {
+    if (line == NULL || spectrum == NULL || !fft_room(length)) {
         fftw_free(line);
         fftw_free(spectrum);
         return fail(messages, SELAS_NO_MEMORY, "no memory to filter a history of %zu rows", rows);

@@ -10,6 +10,8 @@
  * over all times and FREQUENCIES frequencies, equally spaced in log f. */
 #include "record/diff.h"
 
+#include "base/fft_room.h"
+
 #include <complex.h>
 #include <fftw3.h>
 #include <math.h>
@@ -63,7 +65,8 @@ static bool spectra_create(struct spectra *spectra, size_t n, const double *a, c
     spectra->b = fftw_alloc_complex(spectra->length);
     spectra->line_a = fftw_alloc_complex(spectra->length);
     spectra->line_b = fftw_alloc_complex(spectra->length);
-    if (spectra->a == NULL || spectra->b == NULL || spectra->line_a == NULL || spectra->line_b == NULL)
+    if (spectra->a == NULL || spectra->b == NULL || spectra->line_a == NULL || spectra->line_b == NULL ||
+        !fft_room(4 * spectra->length))
         return false;
     spectra_plan(spectra);
     if (spectra->forward_a == NULL || spectra->forward_b == NULL || spectra->backward_a == NULL ||

@@ -1,6 +1,7 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
  * 4): the largest one for which the error law of accuracy_surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
+#include "base/fft_room.h"
 #include "base/memory.h"
 #include "exact/half_space.h"
 #include "exact/lamb.h"
@@ -90,7 +91,7 @@ static selas_status find_power(struct exact *exact, double end_time, const struc
     fftw_complex *out = fftw_malloc((ROWS / 2 + 1) * sizeof *out);
     selas_status status = SELAS_NO_MEMORY;
     fftw_plan plan = NULL;
-    if (time != NULL && value != NULL && in != NULL && out != NULL) {
+    if (time != NULL && value != NULL && in != NULL && out != NULL && fft_room(ROWS)) {
         for (int i = 0; i < ROWS; i++)
             time[i] = 1.25 * end_time / ROWS * i;
         status = exact->class->history(exact, receiver->position, ROWS, time, value, messages);

@@ -1,6 +1,7 @@
 /* Plane waves as they arrive at receivers, exact, and what a lattice makes of them (doc/accuracy.md, section
  * 5, Eqs 6 to 10). */
 #include "scene/arrivals.h"
+#include "base/fft_room.h"
 #include "base/memory.h"
 #include "exact/plane_wave.h"
 
@@ -61,6 +62,7 @@ static selas_status find_velocities(const struct scene *scene, double factor, do
 static bool transform(double *value)
 {
     fftw_plan plan = NULL;
+    if (!fft_room(ROWS)) return false;
 #pragma omp critical(selas_fftw_planner)
     plan = fftw_plan_r2r_1d(ROWS, value, value, FFTW_RODFT00, FFTW_ESTIMATE);
     if (plan == NULL) return false;

@@ -11,6 +11,7 @@
  * not more steps. */
 #include "stepping/time_dispersion.h"
 
+#include "base/fft_room.h"
 #include "base/memory.h"
 
 #include <complex.h>
@@ -35,8 +36,10 @@ selas_status time_dispersion_warp(const struct history *history, int integrals, 
      * the rows kept */
     const double eta = 28.0 / ((double)length * dt);
     fftw_complex *spectrum = fftw_alloc_complex(length);
-    if (spectrum == NULL)
+    if (spectrum == NULL || !fft_room(length)) {
+        fftw_free(spectrum);
         return fail(messages, SELAS_NO_MEMORY, "no memory to warp a history of %zu rows", rows);
+    }
     for (size_t k = 0; k < length; k++) {
         const double phase =
             2.0 * PI * (k <= length / 2 ? (double)k : (double)k - (double)length) / (double)length;
@@ -133,7 +136,7 @@ selas_status time_dispersion_unwarp(double dt, size_t n, double *u, double *v, d
     fftw_complex *spectrum[3] = {NULL, NULL, NULL};
     double *padded = fftw_alloc_real(length);
     struct quadrature quadrature = {0};
-    bool room = quadrature_create(dt, length, &quadrature) && padded != NULL;
+    bool room = quadrature_create(dt, length, &quadrature) && padded != NULL && fft_room(length);
     for (size_t c = 0; c < 3; c++) {
         spectrum[c] = fftw_alloc_complex(length / 2 + 1);
         room = room && spectrum[c] != NULL;
