@@ -1,5 +1,15 @@
-# Least squares of the logarithm of Eq 5 of doc/accuracy.md over runs, receivers and pulses; see law.sh.
+# Least squares of the logarithm of Eq 5 of doc/accuracy.md over runs, receivers and pulses; see law.sh and law-layered.sh. Variables: scale, of the
+# pulses' times; felt, wavelengths down to which a surface wave feels the ground; together, the near part too is less between the axes; start.
+function speed(s, w,    mean, round, depth) { # of the surface wave of a frequency: src/scene/accuracy_surface.c
+    mean = 1 / sc[s]
+    for (round = 1; round <= 6 && felt; round++) {
+        depth = felt * 2 * pi / (w * mean)
+        mean = 1 / below[s] + (1 / sc[s] - 1 / below[s]) * (1 - exp(-top[s] / depth))
+    }
+    return 1 / mean
+}
 function pulse(k, w,    x, y, v) { # |spectrum|^2
+    w *= scale
     if (k <= 7) return exp(-(w * width[k])^2)
     if (k <= 10) { # triangles: duration 2 smooth, 2 kinked, 1 smooth
         x = w * (k == 10 ? .25 : .5); v = (sin(x) / x)^4
@@ -10,7 +20,7 @@ function pulse(k, w,    x, y, v) { # |spectrum|^2
     return (x * x * exp(-x * x))^2
 }
 function predicted(i,    near, way, n, j, e, k, s) {
-    near = exp(p[5]) * h[i]^p[6] / (r[i] > 1 ? r[i]^p[7] : 1)
+    near = exp(p[5]) * h[i]^p[6] / (r[i] > 1 ? r[i]^p[7] : 1) * (together ? 1 - diagonal[i] * (1 - p[8]) : 1)
     way = exp(p[3]) * r[i] / h[i] * (1 - diagonal[i] * (1 - p[8]))
     s = 0
     for (j = 1; j <= count[i]; j++) {
@@ -25,12 +35,12 @@ function cost(    i, s, x) {
     for (i = 1; i <= cases; i++) { x = log(predicted(i) / error[i]); s += x * x }
     return sqrt(s / cases)
 }
-BEGIN { pi = atan2(0, -1); split(".15 .2 .25 .3 .4 .5 .7", width, " ") }
+BEGIN { pi = atan2(0, -1); if (!scale) scale = 1; if (!start) start = "-4.8 5.5 -7.5 3.5 3.1 5.46 2 .5"; split(".15 .2 .25 .3 .4 .5 .7", width, " ") }
 {
     key = $1 " " $2
     if (key != last) { series++; last = key; name[series] = key; rows[series] = 0 }
     n = ++rows[series]
-    sh[series] = $3; sc[series] = $4; sr[series] = $5; sd[series] = $6
+    sh[series] = $3; sc[series] = $4; sr[series] = $5; sd[series] = $6; top[series] = $10; below[series] = $11
     sw[series, n] = $7; d2[series, n] = $8; v2[series, n] = $9
 }
 END {
@@ -45,10 +55,10 @@ END {
             v = v2[s, n] * pulse(k, sw[s, n]) / den
             if (v < 1e-9) continue
             count[i]++
-            kappa[i, count[i]] = sw[s, n] * sh[s] / sc[s]; weight[i, count[i]] = v
+            kappa[i, count[i]] = sw[s, n] * sh[s] / speed(s, sw[s, n]); weight[i, count[i]] = v
         }
     }
-    split("-4.8 5.5 -7.5 3.5 3.1 5.46 2 .5", p, " ")
+    split(start, p, " ")
     split(".3 .5 .3 .5 .3 .3 .5 .2", step, " ")
     best = cost()
     for (round = 1; round <= 30; round++) for (q = 1; q <= 8; q++) {

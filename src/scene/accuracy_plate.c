@@ -14,7 +14,7 @@ struct setting {
     const char *gradient;
     double factor, order;
 };
-static const struct setting settings[] = {{"quadratic", 1.37, 1.5}, {"linear", 1.03, 1.38}};
+static const struct setting settings[] = {{"quadratic", 1.55, 1.5}, {"linear", 1.89, 1.48}};
 enum { SETTINGS = sizeof settings / sizeof *settings };
 /* Spacings over E that (1) was measured at, and half the finest. */
 static const double COARSEST = .08, FINEST = .01;
