@@ -20,7 +20,7 @@ all_trials() {
     echo w1:.002 w2:.002 w3:.002 w4:.002 w8:.002 w10:.002
     echo b1:.03 b1:.01 b2:.03 b2:.01 b3:.02 b3:.001 b4:.1 b4:.03 b5:.035 b5:.006 b6:.025 b6:.001 p1:.04 p1:.015 p2:.04 p2:.015 p3:.04 p3:.015
 }
-quick_trials() { echo 1:.02 5:.03 9:.01 12:.01 l4:.05 w2:.01 w9:.01 b1:.03 b3:.001 p2:.04; }
+quick_trials() { echo 1:.02 5:.03 9:.01 12:.01 l3:.05 w2:.01 w9:.01 b1:.03 b3:.001 p2:.04; }
 trials_page() { # the table of doc/accuracy.md, section 4
     {
         echo '| scene | wanted | chosen | reached | reached / wanted |'
@@ -45,10 +45,10 @@ trials() { # trials [NUMBER:ERROR ...]
         rm -rf "$out/run"
         "$build/selas" -q "$out/trial.nml" "scene%accuracy=$want" output%plots=F "output%directory=$out/run" >"$out/log" 2>&1
         reached=$(error_of "$number" 2>/dev/null)
-        ratio=$(awk -v e="${reached:-9}" -v w="$want" 'BEGIN { printf "%.2f", e / w }')
+        ratio=$(awk -v e="${reached:-9}" -v w="$want" 'BEGIN { printf "%.3f", e / w }')
         chosen=$(sed -n 's/^accuracy: [^:]*: \([^;]*\);.*/\1/p' "$out/run/report.txt")
         awk -v n="$number" -v w="$want" -v e="${reached:-9}" -v r="$ratio" -v c="$chosen" \
-            'BEGIN { printf "| %s | %s | %s | %.2g | %s |\n", n, w, c, e, r (r > 1 ? " too large" : r < .2 ? " better than asked for" : "") }' >>"$out/trials.txt"
+            'BEGIN { printf "| %s | %s | %s | %.2g | %.2f%s |\n", n, w, c, e, r, (r > 1 ? " too large" : r < .2 ? " better than asked for" : "") }' >>"$out/trials.txt"
         tried=$((tried + 1))
         if awk "BEGIN { exit !($ratio <= 1) }"; then
             good "scene $number: error $reached where $want is wanted ($ratio)"
