@@ -308,7 +308,11 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
         tl->elastic[i] = elastic_of(tl->material[i], tl->options.law, scene->dimension, scene->plane);
         tl->mass[i] = tl->material[i]->density * tl->cloud->volume[i];
         /* of clouds points on faces have half volumes */
-        tl->spacing[i] = tl->options.cloud ? tl->cloud->spacing : pow(tl->cloud->volume[i], 1.0 / (double)d);
+        const double *volume = tl->cloud->volume + i;
+        if (i > 0 && volume[0] == volume[-1])
+            tl->spacing[i] = tl->spacing[i - 1];
+        else
+            tl->spacing[i] = tl->options.cloud ? tl->cloud->spacing : pow(*volume, 1.0 / (double)d);
         body_to_deck(&scene->body, x, tl->deck_position + 3 * i);
     }
     return neighbours_cells(&tl->near, scene->dimension, n, tl->cloud->position, tl_search_radius(tl),

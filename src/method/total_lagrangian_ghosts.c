@@ -17,10 +17,10 @@
 
 enum treatment { LEAVE, SLIP, HOLD };
 
-struct sites {
+struct ghosts {
     size_t count, room;
     double (*position)[3];
-    struct tl_ghost *ghost; /* [count], those of the points too: plain ones */
+    struct tl_ghost *ghost;
 };
 
 static bool moves(const struct boundary *boundary)
@@ -55,19 +55,19 @@ static selas_status treatment_of(const struct tl_model *tl, int face, enum treat
     return SELAS_OK;
 }
 
-static bool add(struct sites *sites, const double position[3], const struct tl_ghost *ghost)
+static bool add(struct ghosts *ghosts, const double position[3], const struct tl_ghost *ghost)
 {
-    if (sites->count == sites->room) {
-        const size_t room = sites->room + sites->room / 2 + 64;
-        void *position_larger = realloc(sites->position, room * sizeof *sites->position);
-        if (position_larger != NULL) sites->position = position_larger;
-        void *ghost_larger = realloc(sites->ghost, room * sizeof *sites->ghost);
-        if (ghost_larger != NULL) sites->ghost = ghost_larger;
+    if (ghosts->count == ghosts->room) {
+        const size_t room = ghosts->room + ghosts->room / 2 + 64;
+        void *position_larger = realloc(ghosts->position, room * sizeof *ghosts->position);
+        if (position_larger != NULL) ghosts->position = position_larger;
+        void *ghost_larger = realloc(ghosts->ghost, room * sizeof *ghosts->ghost);
+        if (ghost_larger != NULL) ghosts->ghost = ghost_larger;
         if (position_larger == NULL || ghost_larger == NULL) return false;
-        sites->room = room;
+        ghosts->room = room;
     }
-    memcpy(sites->position[sites->count], position, sizeof(double[3]));
-    sites->ghost[sites->count++] = *ghost;
+    memcpy(ghosts->position[ghosts->count], position, sizeof(double[3]));
+    ghosts->ghost[ghosts->count++] = *ghost;
     return true;
 }
 
@@ -102,16 +102,19 @@ static bool mirrored(const struct body *body, int face, double radius, double x[
     return true;
 }
 
-static bool add_mirror(const struct tl_model *tl, struct sites *sites, int face, bool slips, double radius)
+/* Mirrors the points and the ghosts there are. */
+static bool add_mirror(const struct tl_model *tl, struct ghosts *ghosts, int face, bool slips, double radius)
 {
     double motion[3];
     face_motion(tl->model.scene, face, motion);
-    const size_t before = sites->count;
-    for (size_t s = 0; s < before; s++) {
-        double x[3];
-        memcpy(x, sites->position[s], sizeof x);
-        struct tl_ghost ghost = sites->ghost[s];
-        if (!mirrored(&tl->model.scene->body, face, radius, x, &ghost.volume)) continue;
+    const size_t n = tl->cloud->points, before = ghosts->count;
+    for (size_t s = 0; s < n + before; s++) {
+        double x[3], part = 1;
+        memcpy(x, s < n ? tl->cloud->position + 3 * s : ghosts->position[s - n], sizeof x);
+        if (!mirrored(&tl->model.scene->body, face, radius, x, &part)) continue;
+        struct tl_ghost ghost = {.source = s, .sign = {1, 1, 1}, .mirror = {1, 1, 1}};
+        if (s >= n) ghost = ghosts->ghost[s - n];
+        ghost.volume = part * (s < n ? tl->cloud->volume[s] : ghost.volume);
         if (face < BOX_FACES)
             ghost.mirror[face / 2] *= -1;
         else
@@ -123,48 +126,47 @@ static bool add_mirror(const struct tl_model *tl, struct sites *sites, int face,
                 ghost.motion[c][f] *= -1;
             ghost.motion[c][face] += 2 * motion[c];
         }
-        if (!add(sites, x, &ghost)) return false;
+        if (!add(ghosts, x, &ghost)) return false;
     }
     return true;
 }
 
-static bool keep(struct tl_model *tl, const struct sites *sites)
+static bool keep(struct tl_model *tl, const struct ghosts *ghosts)
 {
     const size_t n = tl->cloud->points, d = (size_t)tl->cloud->dimension;
-    tl->sites = sites->count;
-    tl->ghosts = sites->count - n;
+    tl->ghosts = ghosts->count;
+    tl->sites = n + tl->ghosts;
     tl->site_position = array_new(3 * tl->sites, sizeof(double));
     tl->ghost = array_new(tl->ghosts, sizeof *tl->ghost);
     if (tl->site_position == NULL || tl->ghost == NULL) return false;
-    memcpy(tl->site_position, sites->position, tl->sites * sizeof(double[3]));
+    memcpy(tl->site_position, tl->cloud->position, n * sizeof(double[3]));
+    if (tl->ghosts > 0) {
+        memcpy(tl->site_position + 3 * n, ghosts->position, tl->ghosts * sizeof(double[3]));
+        memcpy(tl->ghost, ghosts->ghost, tl->ghosts * sizeof *tl->ghost);
+    }
     tl->place = array_new(d * tl->sites, sizeof(double));
     if (tl->place == NULL) return false;
     for (size_t s = 0; s < tl->sites; s++)
-        memcpy(tl->place + d * s, tl->site_position + 3 * s, d * sizeof(double));
-    memcpy(tl->ghost, sites->ghost + n, tl->ghosts * sizeof *tl->ghost);
+        for (size_t c = 0; c < d; c++)
+            tl->place[d * s + c] = tl->site_position[3 * s + c];
     return true;
 }
 
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages)
 {
-    struct sites sites = {0};
+    struct ghosts ghosts = {0};
     enum treatment treatment[FACES];
     selas_status status = SELAS_OK;
     bool room = true;
-    for (size_t i = 0; i < tl->cloud->points && room; i++) {
-        const struct tl_ghost plain = {
-            .source = i, .sign = {1, 1, 1}, .mirror = {1, 1, 1}, .volume = tl->cloud->volume[i]};
-        room = add(&sites, tl->cloud->position + 3 * i, &plain);
-    }
     for (int face = 0; face < FACES && status == SELAS_OK; face++) {
         status = treatment_of(tl, face, &treatment[face], messages);
         tl->moving = tl->moving || moves(&tl->model.scene->boundary[face]);
     }
     for (int face = 0; face < FACES && status == SELAS_OK && room; face++)
-        if (treatment[face] != LEAVE) room = add_mirror(tl, &sites, face, treatment[face] == SLIP, radius);
-    if (status == SELAS_OK && room) room = keep(tl, &sites);
+        if (treatment[face] != LEAVE) room = add_mirror(tl, &ghosts, face, treatment[face] == SLIP, radius);
+    if (status == SELAS_OK && room) room = keep(tl, &ghosts);
     if (status == SELAS_OK && !room) status = fail(messages, SELAS_NO_MEMORY, "no memory for ghosts");
-    free(sites.position);
-    free(sites.ghost);
+    free(ghosts.position);
+    free(ghosts.ghost);
     return status;
 }

@@ -199,7 +199,7 @@ INLINED void force_of(struct tl_model *tl, size_t s, const size_t d)
     EACH_MACHINE static void name##_##d(struct tl_model *tl, const struct tl_block *block)                   \
     {                                                                                                        \
         for (size_t i = block->first, last = i + block->count; i < last; i++)                                \
-            call;                                                                                            \
+            (call);                                                                                          \
     }
 OF_BLOCK(gradient, 1, gradient_of(tl, i, 1))
 OF_BLOCK(gradient, 2, gradient_in_plane(tl, i))
