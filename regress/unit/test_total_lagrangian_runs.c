@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "box_scene.h"
 #include "method/total_lagrangian.h"
+#include "stepping/stepping.h"
 
 #include <math.h>
 #include <omp.h>
@@ -186,6 +187,53 @@ static void rows_do_not_grow(void **state)
     assert_int_equal(rows[1], rows[0]);
 }
 
+/* The largest frequency and the bound on its error, of the model or, with `whole`, without shortening. */
+static double fastest(struct tl_model *tl, bool whole, double *error)
+{
+    const struct model_class *class = tl->model.class;
+    struct model_class without = *class;
+    struct messages messages = {0};
+    double omega = 0;
+    without.shorten = NULL;
+    if (whole) tl->model.class = &without;
+    const selas_status status = largest_frequency(&tl->model, &omega, error, &messages);
+    tl->model.class = class;
+    if (status != SELAS_OK) fail_msg("%s", messages.text);
+    messages_free(&messages);
+    return omega;
+}
+
+/* Long lattices are measured on shorter ones: with what is added never below the true frequency, and little
+ * above. */
+static void short_bodies_are_fast_enough(void **state)
+{
+    (void)state;
+    static const enum boundary_kind kind[3] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_SYMMETRY};
+    for (int d = 2; d <= 3; d++)
+        for (int k = 0; k < 3; k++)
+            for (int degree = 1; degree <= 2; degree++) {
+                struct box_scene box;
+                make_box(&box, d, d == 2 ? .05 : .06, d == 2 ? .0025 : .0075);
+                box.scene.body.high[0] = 1;
+                box.scene.boundary[FACE_X_LOW].kind = box.scene.boundary[FACE_X_HIGH].kind = kind[k];
+                box.scene.boundary[FACE_Y_LOW].kind = kind[(k + 1) % 3];
+                struct tl_options options = tl_default_options();
+                options.degree = degree;
+                struct tl_model *tl = make(&box.scene, &options);
+                double error, short_error;
+                const double omega = fastest(tl, true, &error);
+                const unsigned long calls = tl->model.evaluations;
+                const double shorter = fastest(tl, false, &short_error);
+                assert_int_equal(tl->model.evaluations, calls); /* it was another model */
+                if (!(shorter * (1 + short_error) >= omega) ||
+                    !(shorter * (1 - short_error) <= omega * (1 + error)))
+                    fail_msg("dimension %d, degree %d, faces %d: %.8g +- %g, whole %.8g +- %g", d, degree, k,
+                             shorter, short_error, omega, error);
+                struct model *model = &tl->model;
+                model_free(&model);
+            }
+}
+
 static void threads_do_not_matter(void **state)
 {
     (void)state;
@@ -216,6 +264,7 @@ int main(void)
         cmocka_unit_test(scattered_points_have_no_runs),
         cmocka_unit_test(shared_rows_are_those_of_each),
         cmocka_unit_test(rows_do_not_grow),
+        cmocka_unit_test(short_bodies_are_fast_enough),
         cmocka_unit_test(threads_do_not_matter),
     };
     omp_set_num_threads(1);

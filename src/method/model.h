@@ -90,6 +90,11 @@ struct model_class {
     /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the
      * body at rest (for measuring its spectrum). NULL for linear models. */
     void (*linearise)(struct model *model, bool on);
+    /* A smaller model with the same operator but for its length (*shorter; NULL: none that is worth it),
+     * whose largest frequency is below this one's by not more than the part `deficit` of it. Free it with
+     * model_free(). NULL: there is none. */
+    selas_status (*shorten)(const struct model *model, struct model **shorter, double *deficit,
+                            struct messages *messages);
     /* Methods with state of their own. NULL: measured with accelerate(). */
     selas_status (*spectrum)(struct model *model, struct spectrum *spectrum, struct messages *messages);
     /* Filters the increment of one step: u_before and u are the displacements at both ends; changes u and

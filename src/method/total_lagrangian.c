@@ -56,6 +56,7 @@ static void destroy(struct model *model)
                             tl->elastic,
                             tl->load,
                             tl->numbers,
+                            tl->own_scene,
                             tl->site_v,
                             tl->found,
                             tl->spacing};
@@ -241,6 +242,7 @@ static const struct model_class linear_class = {
     .destroy = destroy,
     .accelerate = accelerate,
     .rate = rate,
+    .shorten = tl_shorten,
     .initialise = initialise,
     .probe = tl_model_probe,
     .observe = tl_observe,
@@ -277,6 +279,7 @@ const struct model_class total_lagrangian_class = {
     .destroy = destroy,
     .accelerate = accelerate,
     .rate = rate,
+    .shorten = tl_shorten,
     .linearise = linearise,
     .initialise = initialise,
     .probe = tl_model_probe,

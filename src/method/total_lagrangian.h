@@ -91,6 +91,7 @@ struct tl_model {
     struct model model;
     struct tl_options options;
     struct cloud *cloud;
+    struct scene *own_scene; /* of a shortened model, else NULL */
     double frame[3][3];
     double *deck_position; /* [3 * points] */
     double *site_position; /* [3 * sites], body frame */
@@ -171,6 +172,9 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
+/* total_lagrangian_short.c: entry of the model's class. */
+selas_status tl_shorten(const struct model *model, struct model **shorter, double *deficit,
+                        struct messages *messages);
 /* total_lagrangian_observe.c: entries of the model's class. */
 selas_status tl_model_probe(struct model *model, const double position[3], struct probe *probe,
                             struct messages *messages);

@@ -4,7 +4,8 @@
  * takes one call of the operator and one product with M a step; models that cannot tell M v give energies in
  * their place, alpha = q.Kq = 2 strain(q), beta^2 = r.Mr = 2 kinetic(r). The largest Ritz value theta is a
  * lower bound, and some eigenvalue lies within beta |last component of the Ritz vector| of it: that is the
- * error told. Other models: power iteration in the Euclidean norm. */
+ * error told. Other models: power iteration in the Euclidean norm. Models that have a shorter one of the same
+ * operator are measured on that. */
 #include "stepping/stepping.h"
 
 #include "base/gsl_errors.h"
@@ -159,7 +160,7 @@ static double power_iteration(struct model *model, double *y, double *a)
     return theta;
 }
 
-selas_status largest_frequency(struct model *model, double *omega, double *error, struct messages *messages)
+static selas_status measure(struct model *model, double *omega, double *error, struct messages *messages)
 {
     const bool self_adjoint = model->self_adjoint;
     double *y = array_new(model->state_size, sizeof *y);
@@ -179,6 +180,20 @@ selas_status largest_frequency(struct model *model, double *omega, double *error
     *omega = sqrt(theta);
     *error = theta > 0.0 ? 0.5 * bound / theta : 0.0;
     return SELAS_OK;
+}
+
+selas_status largest_frequency(struct model *model, double *omega, double *error, struct messages *messages)
+{
+    struct model *shorter = NULL;
+    double deficit = 0.0;
+    if (model->class->shorten != NULL) {
+        const selas_status status = model->class->shorten(model, &shorter, &deficit, messages);
+        if (status != SELAS_OK) return status;
+    }
+    const selas_status status = measure(shorter != NULL ? shorter : model, omega, error, messages);
+    if (shorter != NULL) *error += deficit;
+    model_free(&shorter);
+    return status;
 }
 
 selas_status largest_damping(struct model *model, double speed, double *rate, struct messages *messages)
