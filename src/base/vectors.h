@@ -16,6 +16,9 @@ typedef double vec8 __attribute__((vector_size(64), aligned(8), may_alias));
 
 typedef float float8 __attribute__((vector_size(32), aligned(4), may_alias));
 
+/* Of bytes. */
+typedef char byte8 __attribute__((vector_size(8)));
+
 /* What comparisons of vec8 give: all bits where they hold. */
 typedef long long mask8 __attribute__((vector_size(64), aligned(8), may_alias));
 

@@ -120,7 +120,8 @@ static void choose_lengths(struct updated *updated)
     updated->smoothing_length = options->smoothing_length * spacing;
     updated->reach = options->kernel->support * updated->smoothing_length;
     updated->skin = .15 * spacing;
-    updated->repulsion_scale = 1 / options->kernel->shape(updated->dimension, 1 / options->smoothing_length);
+    const double shape = 6 * options->kernel->shape(updated->dimension, 1 / options->smoothing_length);
+    updated->repulsion_scale = 1 / (shape * shape * shape * shape);
     const double h = updated->smoothing_length;
     updated->slope_scale =
         options->kernel->normalisation[updated->dimension - 1] / pow(h, updated->dimension + 2);

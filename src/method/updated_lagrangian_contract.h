@@ -7,13 +7,15 @@
 #include "base/vectors.h"
 #include "method/updated_lagrangian.h"
 
-/* Sums over the neighbours of eight particles. */
+/* Sums over the neighbours of eight particles, with 2 W' / slope_scale for W': contract() puts that right. */
 struct eight_sums {
     vec8 matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
     vec8 full[6];        /* the same over all: with the ghosts of loaded faces */
     vec8 velocity[3][3]; /* V (v_j - v_i) grad W */
-    vec8 push[6][3];     /* m (s_j/rho_j^2 - Pi I + f^4 (R_i + R_j)) grad W; in contract() s_i/rho_i^2 too */
-    vec8 pull[3];        /* m grad W */
+    vec8 push[6][3];     /* m (s_j/rho_j^2 + f^4 R_j) grad W */
+    vec8 pull[3];        /* m grad W, which s_i/rho_i^2 multiplies */
+    vec8 soft[3];        /* m f^4 grad W, which R_i multiplies */
+    vec8 damp[3];        /* m Pi grad W */
 };
 
 /* Inverse of L; the identity where the neighbours do not span the space. */
@@ -82,6 +84,20 @@ INLINED void give_lanes(const vec8 *value, double *rows, size_t width, size_t en
         rows[width * n + entry] = lane[n];
 }
 
+/* What grad W of the sums is multiplied with: L^-1 and the scale of the kernel, which the sums go without. */
+INLINED void correction(const struct updated *updated, const int dimension, const vec8 sums[6],
+                        vec8 inverse[3][3])
+{
+    const double scale = updated->slope_scale / 2;
+    vec8 matrix[6] = {{0}};
+    for (int s = 0; updated->options.correction && s < dimension * (dimension + 1) / 2; s++)
+        matrix[s] = scale * sums[s];
+    invert(dimension, matrix, inverse);
+    for (int a = 0; a < dimension; a++)
+        for (int b = 0; b < dimension; b++)
+            inverse[a][b] *= scale;
+}
+
 /* Rates of the particles i ... i + count - 1, at most eight. */
 INLINED void contract(const struct updated *updated, const int dimension, size_t i, size_t count,
                       const struct eight_sums *sums, const double *y, double *dydt)
@@ -91,9 +107,8 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
     const double *density = y + 2 * unknowns + i, *stress = y + 2 * unknowns + points + stresses * i;
     double *acceleration = dydt + unknowns + dim * i, *density_rate = dydt + 2 * unknowns + i,
            *stresses_rate = dydt + 2 * unknowns + points + stresses * i;
-    vec8 matrix[6] = {{0}}, inverse[3][3], gradient[3][3], trace = {0}, own[6] = {{0}}, rate[6];
-    if (updated->options.correction) memcpy(matrix, sums->matrix, sizeof matrix);
-    invert(dimension, matrix, inverse);
+    vec8 inverse[3][3], gradient[3][3], trace = {0}, own[6] = {{0}}, soft[6] = {{0}}, rate[6], thinning;
+    correction(updated, dimension, sums->matrix, inverse);
     for (int a = 0; a < dimension; a++) {
         for (int b = 0; b < dimension; b++) {
             gradient[a][b] = sums->velocity[a][0] * inverse[b][0];
@@ -102,22 +117,30 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
         }
         trace += gradient[a][a];
     }
-    if (updated->pressed && updated->options.correction) invert(dimension, sums->full, inverse);
+    if (updated->pressed) correction(updated, dimension, sums->full, inverse);
     const double *packed = updated_packed(updated, i);
     const size_t step = updated_step(updated), place = updated->ordered ? 1 : updated->layout.size;
-    for (size_t s = 0; s < stresses; s++)
+    const vec8 none = {0}, one = none + 1;
+    take_lanes(density, 1, 0, count, &thinning);
+    const vec8 volume = 1 / (thinning + WHERE(thinning == 0, one));
+    for (size_t s = 0; s < stresses; s++) {
         take_lanes(packed + step * (updated->layout.tension + s), place, 0, count, &own[s]);
+        own[s] *= volume;
+        if (!updated->repulsive) continue;
+        take_lanes(packed + step * (updated->layout.repulsion + s), place, 0, count, &soft[s]);
+        soft[s] *= volume;
+    }
     for (int a = 0; a < dimension; a++) {
         vec8 sum = {0};
         for (int c = 0; c < dimension; c++)
             for (int b = 0; b < dimension; b++) {
                 const int s = updated_component[dimension][a][b];
-                sum += (sums->push[s][c] + own[s] * sums->pull[c]) * inverse[b][c];
+                vec8 push = sums->push[s][c] + own[s] * sums->pull[c] + soft[s] * sums->soft[c];
+                if (a == b) push -= sums->damp[c];
+                sum += push * inverse[b][c];
             }
         give_lanes(&sum, acceleration, dim, (size_t)a, count);
     }
-    vec8 thinning;
-    take_lanes(density, 1, 0, count, &thinning);
     thinning *= -trace;
     give_lanes(&thinning, density_rate, 1, 0, count);
     for (size_t s = 0; s < stresses; s++)
@@ -147,6 +170,8 @@ INLINED void put_sums(const int dimension, const struct eight_sums *parts, size_
     }
     for (int a = 0; a < dimension; a++) {
         put_lane(&parts->pull[a], lane, &eight->pull[a]);
+        put_lane(&parts->soft[a], lane, &eight->soft[a]);
+        put_lane(&parts->damp[a], lane, &eight->damp[a]);
         for (int b = 0; b < dimension; b++)
             put_lane(&parts->velocity[a][b], lane, &eight->velocity[a][b]);
     }

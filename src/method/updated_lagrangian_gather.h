@@ -17,18 +17,28 @@
 
 #include "method/updated_lagrangian_pairs.h"
 
-/* Sums of the particles i ... i + 7; i is a multiple of eight. */
-INLINED void gather_eight(const struct updated *updated, const int dimension, const struct pair_switches on,
-                          size_t i, struct eight_sums *sums)
+/* Sums of the particles first ... last - 1, eight in each; first is a multiple of eight. Chunk by chunk of
+ * all of them: what the neighbours of the first eight are read from is in the first-level cache still when
+ * the second eight need it. */
+INLINED void gather_eights(const struct updated *updated, const int dimension, const struct pair_switches on,
+                           size_t first, size_t last, struct eight_sums *sums)
 {
     const struct pair_constants constants = pair_constants_of(updated);
-    const struct pairs pairs = {.own = updated_packed(updated, i),
-                                .other = updated_packed(updated, i),
-                                .own_stride = updated->stride,
-                                .other_stride = updated->stride,
-                                .shift = updated->shift + updated->neighbours.start[i],
-                                .count = (int)updated->shifts[i / VEC]};
-    add_pairs(updated, &constants, dimension, on, &pairs, sums);
+    bool more = true;
+    for (int k = 0; more; k += CHUNK) {
+        more = false;
+        for (size_t i = first; i < last; i += VEC) {
+            const struct pairs pairs = {.own = updated_packed(updated, i),
+                                        .other = updated_packed(updated, i),
+                                        .own_stride = updated->stride,
+                                        .other_stride = updated->stride,
+                                        .shift = updated->shift + updated->neighbours.start[i],
+                                        .count = (int)updated->shifts[i / VEC]};
+            if (k < pairs.count)
+                add_chunk(updated, &constants, dimension, on, &pairs, k, &sums[(i - first) / VEC]);
+            more = more || k + CHUNK < pairs.count;
+        }
+    }
 }
 
 enum {
@@ -93,7 +103,8 @@ INLINED void gather_one(const struct updated *updated, const int dimension, cons
                                     .other_stride = ROW,
                                     .shift = shift,
                                     .count = (count + VEC - 1) / VEC};
-        add_pairs(updated, &constants, dimension, on, &pairs, &parts);
+        for (int k = 0; k < pairs.count; k += CHUNK)
+            add_chunk(updated, &constants, dimension, on, &pairs, k, &parts);
     }
     put_sums(dimension, &parts, lane, sums);
 }

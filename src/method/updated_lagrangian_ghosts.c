@@ -185,7 +185,7 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
     packed[step * layout.mass] = mass;
     packed[step * layout.density] = image->density;
     packed[step * layout.length] = updated->length[source];
-    const double inverse = 1 / (image->density * image->density);
+    const double inverse = 1 / image->density;
     for (size_t s = 0; s < stresses; s++)
         packed[step * (layout.tension + s)] = image->stress[s] * inverse;
 }
@@ -195,7 +195,7 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
 static void repel(const struct updated *updated, size_t place)
 {
     const struct updated_layout layout = updated->layout;
-    const double epsilon = updated->options.artificial_stress;
+    const double epsilon = updated->options.artificial_stress * updated->repulsion_scale;
     const size_t places = updated->cloud->points + updated->ghosts, stresses = (size_t)updated->stresses;
     double *packed = updated_packed(updated, place);
     if (updated->ordered) {

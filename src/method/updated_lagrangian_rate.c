@@ -33,15 +33,15 @@ INLINED void rates(const struct updated *updated, const int dimension, size_t fi
                    const double *y, double *dydt)
 {
     const struct pair_switches on = {updated->alpha > 0 || updated->beta > 0, updated->repulsive,
-                                     updated->cubic, updated->even};
-    for (size_t i = first; i < last; i += VEC) {
-        const size_t count = i + VEC < last ? VEC : last - i;
-        _Alignas(64) struct eight_sums sums = {.matrix = {{0}}};
-        if (updated->ordered) gather_eight(updated, dimension, on, i, &sums);
-        for (size_t n = 0; !updated->ordered && n < count; n++)
-            gather_one(updated, dimension, on, i + n, n, &sums);
-        contract(updated, dimension, i, count, &sums, y, dydt);
-    }
+                                     updated->cubic, updated->even, updated->pressed};
+    _Alignas(64) struct eight_sums sums[BLOCK / VEC] = {{.matrix = {{0}}}};
+    if (updated->ordered)
+        gather_eights(updated, dimension, on, first, last, sums);
+    else
+        for (size_t i = first; i < last; i++)
+            gather_one(updated, dimension, on, i, (i - first) % VEC, &sums[(i - first) / VEC]);
+    for (size_t i = first; i < last; i += VEC)
+        contract(updated, dimension, i, i + VEC < last ? VEC : last - i, &sums[(i - first) / VEC], y, dydt);
 }
 
 /* Instances with constant dimension. */
