@@ -108,7 +108,7 @@ static void read_table(const struct job *job, double along, struct span *span, d
             re += weight[i] * creal(at[i]);
             im += weight[i] * cimag(at[i]);
         }
-        value[j - span->first] = CMPLX(re, im);
+        value[j - span->first] = re + I * im;
     }
 }
 
@@ -118,7 +118,7 @@ static void add_line(struct span span, const double complex *line, double comple
     const double re = creal(factor), im = cimag(factor);
     for (long j = span.first; j <= span.last; j++) {
         const double complex value = line[j - span.first];
-        to[j] += CMPLX(re * creal(value) - im * cimag(value), re * cimag(value) + im * creal(value));
+        to[j] += re * creal(value) - im * cimag(value) + I * (re * cimag(value) + im * creal(value));
     }
 }
 
