@@ -42,6 +42,7 @@ static void destroy(struct model *model)
     array_free(c->class_plane);
     array_free(c->line_buffer);
     array_free(c->face_buffer);
+    array_free(c->own_scene);
     array_free(c);
 }
 
@@ -445,6 +446,7 @@ const struct model_class consistent_class = {
     .field = consistent_field,
     .energy = energy,
     .weigh = weigh,
+    .shorten = consistent_shorten,
     .power = power,
     .describe = describe,
 };

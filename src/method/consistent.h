@@ -80,11 +80,12 @@ struct consistent {
     size_t layer[BOX_FACES];      /* points of the absorbing layer behind the face; 0: none */
     struct pml *pml;              /* NULL: no layers */
     struct model_class own_class; /* consistent_class and what only some scenes have */
-    double *lane_buffer;          /* [threads * n[0] * LANES] */
-    double *line_buffer;          /* [threads * (n[0] + n[1])] */
-    double *face_buffer;          /* [dimension * plane] */
-    struct hform *hform;          /* NULL: exact mass */
-    struct fused *fused;          /* NULL: the scene is none for it, or it is not wanted */
+    struct scene *own_scene; /* of a body that was cut (consistent_short.c); NULL: the scene is borrowed */
+    double *lane_buffer;     /* [threads * n[0] * LANES] */
+    double *line_buffer;     /* [threads * (n[0] + n[1])] */
+    double *face_buffer;     /* [dimension * plane] */
+    struct hform *hform;     /* NULL: exact mass */
+    struct fused *fused;     /* NULL: the scene is none for it, or it is not wanted */
     int threads;
     struct tuned_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
     struct band *collocation[3][2];    /* [axis][odd]: LU factors of the values at the Greville points */
@@ -159,6 +160,16 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
 
 /* consistent.c: fastest wave of the ground that a face touches. */
 double consistent_fastest(const struct consistent *c, int face);
+
+/* consistent_short.c: the model on a body whose axes of more cells than `longest` are cut to so many (but
+ * see lost_cells()); free it with model_free(). */
+selas_status consistent_cut(const struct consistent *c, size_t longest, struct model **cut,
+                            struct messages *messages);
+/* Bound on the part of the largest frequency that this one lacks. */
+double consistent_deficit(const struct consistent *c, size_t longest);
+/* The model's shorten(). */
+selas_status consistent_shorten(const struct model *model, struct model **shorter, double *deficit,
+                                struct messages *messages);
 
 /* consistent_observe.c */
 bool observe_create(struct consistent *c);
