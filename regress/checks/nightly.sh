@@ -37,6 +37,7 @@ cp changed regress/cases/pulse-fixed/accepted/far.dat
 mkdir regress/cases/aa-broken
 printf 'what: refused\ndeck: input/plane-wave.nml\noverride: body%%spacing=-1\natol: 1e-7\nrtol: 1e-7\nhalf: quick\n' >regress/cases/aa-broken/case
 check 'a changed number and a refused deck: status 1' sh -c "! regress/nightly -q -b $build >night.log 2>&1"
+check 'the heads of cases end as they should' sh -c "! grep -qE '[;,] *</small>' $page"
 check 'the page is red' grep -q '<header class="red">' $page
 check 'all other cases were run' sh -c "grep -q '^passed bar-rk4' $summary && grep -q '^passed pulse-transmitting' $summary"
 check 'both failures are told' sh -c "grep -q '^FAILED aa-broken' $summary && grep -q 'not ok - pulse-fixed: histories as accepted' $summary"

@@ -73,7 +73,7 @@ static void plot_channel(FILE *script, const char *folder, const char *receiver,
     gnuplot_panel(script, WIDTH, HEIGHT, TOP + MAIN + GAP, TOP + MAIN + GAP + DIFFERENCE);
     gnuplot_time_axis(script, true);
     gnuplot_range(script, difference[0], difference[1], TICS / 2);
-    fprintf(script, "set ylabel 'difference'\nplot $both u 1:4 w l lc rgb '#b3202c' lw 1.4 t ");
+    fprintf(script, "set ylabel 'difference' offset 1,0\nplot $both u 1:4 w l lc rgb '#b3202c' lw 1.4 t ");
     if (isfinite(d->excess) && d->excess > 1.0)
         fprintf(script, "'second - first: %.3g times what is allowed, at t = %.4g'\n", d->excess, d->when);
     else
