@@ -24,7 +24,7 @@ struct setting {
 static const struct setting settings[] = {
     {"consistent", NULL, "leapfrog", .264, 0, 7.2, 2, .32, 0, 0, 1, 1, 3, 1, false},
     {"consistent", NULL, "leapfrog", .0733, 1, 0, 2.88, 0, .224, 1.56, 1.3, 2, 3, 1, true},
-    {"consistent", NULL, "modified-equation", 0, 0, 0, 0, 1, .11, 1.64, 4.6, 3, 0, 1, true},
+    {"consistent", NULL, "modified-equation", .000241, 1, 0, 2.03, 0, .108, 1.64, 4.6, 3, 0, 1, true},
     {"total-lagrangian", "quadratic", NULL, .415, 0, 0, 2, 0, 0, 0, 1, 0, 0, 4, false},
     {"total-lagrangian", "linear", NULL, 5.61, 0, 0, 2, 4.7, 0, 0, 1, 0, 0, 4, false},
 };
