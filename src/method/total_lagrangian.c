@@ -342,7 +342,7 @@ static void fill_model(struct tl_model *tl)
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
     model->bytes = sizeof *tl + tl_rows_bytes(&tl->gradient) + tl_rows_bytes(&tl->transposed) +
                    tl_rows_bytes(&tl->pair) + tl_rows_bytes(&tl->viscous) + neighbours_bytes(&tl->near) +
-                   tl->sites * (3 + (viscous ? 3 : 2) * d + d * d) * sizeof(double) +
+                   tl->sites * (3 + (viscous ? 4 : 3) * d + d * d) * sizeof(double) +
                    n * (9 + d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
                    tl->ghosts * sizeof(struct tl_ghost);
 }
