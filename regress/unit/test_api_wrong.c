@@ -310,9 +310,29 @@ static int nothing_was_printed(void **state)
     return length == 0 ? 0 : -1;
 }
 
+/* Every status has a name and a gloss of its own; a number that is none is told as such. */
+static void test_statuses(void **state)
+{
+    (void)state;
+    assert_string_equal(selas_status_name(SELAS_UNSTABLE), "SELAS_UNSTABLE");
+    for (int one = SELAS_OK; one <= SELAS_STOPPED; one++) {
+        assert_true(strlen(selas_status_gloss((selas_status)one)) > 5);
+        for (int other = SELAS_OK; other < one; other++) {
+            assert_string_not_equal(selas_status_name((selas_status)one),
+                                    selas_status_name((selas_status)other));
+            assert_string_not_equal(selas_status_gloss((selas_status)one),
+                                    selas_status_gloss((selas_status)other));
+        }
+    }
+    assert_string_equal(selas_status_name((selas_status)99), "unknown status");
+    assert_string_equal(selas_status_gloss((selas_status)-1), "unknown status");
+    assert_string_equal(selas_version(), SELAS_VERSION);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_statuses),
         cmocka_unit_test_setup_teardown(test_wrong_handles, listen_to_output, nothing_was_printed),
         cmocka_unit_test_setup_teardown(test_wrong_words, listen_to_output, nothing_was_printed),
         cmocka_unit_test_setup_teardown(test_wrong_calls, listen_to_output, nothing_was_printed),
