@@ -184,13 +184,13 @@ static void describe(const struct model *model,
              model->single                   ? "leapfrog's is one pass with the operator, in single precision"
              : model->class->advance != NULL ? "leapfrog's is one pass with the operator"
                                              : "apart from the operator");
-        snprintf(text, sizeof text, "planes below %g of the largest displacement move nothing",
+        snprintf(text, sizeof text, "what is below %g of the largest displacement moves nothing",
                  c->fused->quiet);
-        tell(context, "quiet planes", c->fused->quiet > 0 ? text : "all are computed");
+        tell(context, "quiet parts", c->fused->quiet > 0 ? text : "all are computed");
         const struct fused *used = model->single ? c->fused->single : c->fused;
         if (used->skipped > 0) {
-            snprintf(text, sizeof text, "%.1f %% of blocks of planes, all calls so far",
-                     100 * (double)used->skipped / (double)used->blocks);
+            snprintf(text, sizeof text, "%.1f %% of points, all calls so far",
+                     100 * (double)used->skipped / (double)used->points);
             tell(context, "operator skipped", text);
         }
     }

@@ -84,14 +84,14 @@ static double *by_rows(const struct band *band, double factor, int taps, size_t 
     return table;
 }
 
-/* The same by diagonals: [taps * width]. */
-static double *by_diagonals(const struct band *band, double factor, int taps, size_t width)
+/* The same by vectors: [width / vector][taps][vector]. */
+static double *by_vectors(const struct band *band, double factor, int taps, size_t width, size_t vector)
 {
     double *rows = by_rows(band, factor, taps, band->n);
     double *table = rows == NULL ? NULL : array_new((size_t)taps * width, sizeof *table);
     for (size_t i = 0; table != NULL && i < band->n; i++)
         for (size_t t = 0; t < (size_t)taps; t++)
-            table[t * width + i] = rows[i * (size_t)taps + t];
+            table[(i / vector * (size_t)taps + t) * vector + i % vector] = rows[i * (size_t)taps + t];
     array_free(rows);
     return table;
 }
@@ -108,7 +108,7 @@ static bool lay_side(struct consistent *c, struct fused *f, int axis)
         const int taps = inverse ? f->wide : f->narrow;
         void **table = axis == 0 ? &f->x[which] : &f->y[which];
         if (band != NULL)
-            *table = axis == 0 ? by_diagonals(band, factor, taps, f->width)
+            *table = axis == 0 ? by_vectors(band, factor, taps, f->width, FUSED_VECTOR / f->number)
                                : by_rows(band, factor, taps, rounded(f->n[1], FUSED_ROWS));
         band_free(made);
         if (*table == NULL) return false;
@@ -178,11 +178,41 @@ static bool lay_buffers(struct fused *f)
         f->buffer[t] = array_new(size, f->number);
         if (f->buffer[t] == NULL) return false;
     }
-    f->size = array_new(f->n[2], sizeof *f->size);
-    f->computed = array_new(rounded(f->n[2], FUSED_PLANES) / FUSED_PLANES, sizeof *f->computed);
     f->bound = array_new((size_t)f->threads + 1, sizeof *f->bound);
-    if (f->size == NULL || f->computed == NULL || f->bound == NULL) return false;
     f->bytes = sizeof *f + (size_t)f->threads * size * f->number;
+    return f->bound != NULL;
+}
+
+/* Where loads act. */
+static void lay_loaded(const struct consistent *c, struct fused *f)
+{
+    for (size_t l = 0; l < c->model.scene->loads; l++) {
+        const struct sparse *load = &c->hform->load[l];
+        for (size_t at = 0; at < 3 * f->n[2]; at++)
+            for (size_t e = load->start[at]; e < load->start[at + 1]; e++) {
+                const size_t x = load->index[e] % f->n[0], y = load->index[e] / f->n[0];
+                const struct window one = {{x, y}, {x + 1, y + 1}};
+                f->loaded[at % f->n[2]] = window_join(&f->loaded[at % f->n[2]], &one);
+            }
+    }
+}
+
+static bool lay_windows(const struct consistent *c, struct fused *f)
+{
+    const size_t planes = f->n[2], blocks = rounded(planes, FUSED_PLANES) / FUSED_PLANES;
+    f->strips = rounded(f->n[1], FUSED_STRIP) / FUSED_STRIP;
+    f->size = array_new(planes, sizeof *f->size);
+    f->column = array_new(planes * f->n[0], f->number);
+    f->strip = array_new(planes * f->strips, f->number);
+    f->computed = array_new(blocks, sizeof *f->computed);
+    f->reached = array_new(planes, sizeof *f->reached);
+    f->will_reach = array_new(planes, sizeof *f->will_reach);
+    f->loaded = array_new(planes, sizeof *f->loaded);
+    f->bytes += planes * (f->n[0] + f->strips) * f->number + (3 * planes + blocks) * sizeof *f->loaded;
+    if (f->size == NULL || f->column == NULL || f->strip == NULL || f->computed == NULL ||
+        f->reached == NULL || f->will_reach == NULL || f->loaded == NULL)
+        return false;
+    lay_loaded(c, f);
     return true;
 }
 
@@ -240,8 +270,8 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->late[0] = rounded(degree, FUSED_ROWS);
     f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
     lay_rings(f);
-    const bool good =
-        lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && find_plain(f) && lay_buffers(f);
+    const bool good = lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && find_plain(f) &&
+                      lay_buffers(f) && lay_windows(c, f);
     if (good && number == sizeof(float)) shorten_all(f);
     if (good) return f;
     fused_free(f);
@@ -262,17 +292,9 @@ bool fused_create(struct consistent *c)
     return c->fused->single != NULL;
 }
 
-void fused_look(struct fused *f, const double *u)
+struct window fused_whole(const struct fused *f)
 {
-    const double level = f->quiet * fused_sizes_double(f, u);
-    const size_t reach = (size_t)f->deep / 2;
-    for (size_t from = 0; from < f->n[2]; from += FUSED_PLANES) {
-        bool *computed = &f->computed[from / FUSED_PLANES];
-        *computed = !(f->quiet > 0);
-        for (size_t k = from < reach ? 0 : from - reach; k < from + FUSED_PLANES + reach && k < f->n[2]; k++)
-            *computed = *computed || f->size[k] > level;
-    }
-    fused_count(f);
+    return (struct window){.end = {f->n[0], f->n[1]}};
 }
 
 void fused_count(struct fused *f)
@@ -283,9 +305,9 @@ void fused_count(struct fused *f)
             f->largest = f->size[k];
             f->loudest = k;
         }
-    for (size_t block = 0; block < rounded(f->n[2], FUSED_PLANES) / FUSED_PLANES; block++) {
-        f->blocks++;
-        f->skipped += !f->computed[block];
+    for (size_t k = 0; k < f->n[2]; k++) {
+        f->points += f->plane;
+        f->skipped += f->plane - window_points(&f->computed[k / FUSED_PLANES]);
     }
 }
 
@@ -308,7 +330,12 @@ void fused_free(struct fused *fused)
     array_free(fused->watch.before);
     array_free(fused->plain);
     array_free(fused->size);
+    array_free(fused->column);
+    array_free(fused->strip);
     array_free(fused->computed);
+    array_free(fused->reached);
+    array_free(fused->will_reach);
+    array_free(fused->loaded);
     array_free(fused->bound);
     array_free(fused);
 }

@@ -12,9 +12,10 @@
 #define SELAS_FUSED_H
 
 #include "method/consistent.h"
+#include "method/window.h"
 
-/* Planes that are made together; rows that passes over y take together; rows of a strip; bytes of a vector;
- * room for taps and the planes or rows made together. */
+/* Planes that are made together; rows that passes over y take together; rows of a strip, not less than passes
+ * over y reach; bytes of a vector; room for taps and the planes or rows made together. */
 enum { FUSED_PLANES = 4, FUSED_ROWS = 4, FUSED_STRIP = 8, FUSED_VECTOR = 64, FUSED_MOST_TAPS = 24 };
 
 /* Rows in the ring of a plane: inputs along the plane, what is summed, and what waits for its pass over y. */
@@ -62,22 +63,29 @@ struct fused {
     int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
     bool bare;                                          /* B is the identity */
     size_t late[2];         /* rows that narrow and wide passes over y lag behind */
-    void *x[SIDE_MATRICES]; /* [taps * width] by diagonals */
+    void *x[SIDE_MATRICES]; /* [width / vector][taps][vector] */
     void *y[SIDE_MATRICES]; /* [rows * taps] */
     bool *plain;            /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
     void *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
-    double quiet;   /* planes whose displacements are all below this times the largest do not move others */
-    double *size;   /* [n[2]] largest displacement in each plane */
+    double quiet;   /* where displacements are all below this times the largest they do not move others */
+    double *size;   /* [n[2]] largest displacement in each plane, ... */
+    void *column;   /* ... [n[2] * n[0]] in each of its columns, ... */
+    void *strip;    /* ... [n[2] * strips] in each strip of its rows */
+    size_t strips;  /* of a plane */
     double largest; /* of them after the last step in one pass ... */
     size_t loudest; /* ... and its plane */
-    bool *computed; /* [blocks of planes] in this call */
-    size_t *bound;  /* [threads + 1] planes where those of a thread begin */
-    unsigned long blocks, skipped; /* of planes so far */
-    size_t number;                 /* bytes of a number in tables and rings */
-    struct fused *single;          /* the same in floats, if the scene's steps are */
-    struct fused_watch watch;      /* of both */
-    void *kept;        /* what steps in one pass go on from: the velocity half a step ahead, ... */
-    size_t kept_bytes; /* ... in single precision u before it and the layers' memory behind it */
+    struct window *computed;   /* [blocks of planes] in this call */
+    struct window *reached;    /* [n[2]] outside of it u and w are 0 in steps in one pass, if `known`, ... */
+    struct window *will_reach; /* ... after this step ... */
+    struct window *loaded;     /* ... [n[2]] where loads act */
+    bool known;
+    size_t *bound;            /* [threads + 1] planes where those of a thread begin */
+    size_t points, skipped;   /* of all calls so far */
+    size_t number;            /* bytes of a number in tables and rings */
+    struct fused *single;     /* the same in floats, if the scene's steps are */
+    struct fused_watch watch; /* of both */
+    void *kept;               /* what steps in one pass go on from: the velocity half a step ahead, ... */
+    size_t kept_bytes;        /* ... in single precision u before it and the layers' memory behind it */
     int threads;
     void **buffer;    /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */
@@ -97,18 +105,18 @@ struct fused_fields {
  */
 bool fused_create(struct consistent *c);
 void fused_free(struct fused *fused);
-/* Sets computed[] for the displacements given: blocks of planes within reach of one that is not quiet. */
-void fused_look(struct fused *fused, const double *u);
-/* (F1) in the planes first .. first + FUSED_PLANES - 1 (those that are there), first a multiple of
- * FUSED_PLANES. */
+/* (F1) in the window computed[] of the planes first .. first + FUSED_PLANES - 1 (those that are there), first
+ * a multiple of FUSED_PLANES; an acceleration is 0 outside. */
 void fused_planes_double(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
 void fused_planes_single(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
-/* The largest displacement, and that of each plane in size[] (all 0 where quiet is 0). */
-double fused_sizes_double(const struct fused *fused, const double *u);
-double fused_sizes_single(const struct fused *fused, const float *u);
-/* Counts the blocks of a call and keeps the largest displacement. */
+/* fused_window.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
+void fused_look_double(struct fused *fused, const double *u);
+void fused_look_single(struct fused *fused, const float *u);
+/* All columns and rows. */
+struct window fused_whole(const struct fused *fused);
+/* Counts the points of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
 
 /* What steps in one pass work on; extra: the layers' memory variables, NULL without layers. */

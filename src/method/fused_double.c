@@ -5,6 +5,8 @@
 #define FUSED(c) ((c)->fused)
 #include "method/fused_kernel.h"
 
+#include "method/fused_window.h"
+
 #include "method/fused_strips.h"
 
 #include "method/hform_edges.h"

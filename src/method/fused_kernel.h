@@ -17,11 +17,18 @@ INLINED const lanes *at(const REAL *place)
     return (const lanes *)place;
 }
 
+#if defined(__GNUC__)
+#define FETCH(place) __builtin_prefetch(place, 0, 2)
+#else
+#define FETCH(place) (void)(place)
+#endif
+
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
  * for one row of n points. Without the last matrix, B, which is then the identity, its results are the input.
- */
+ * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
+ * does not foresee them. */
 INLINED void over_depth(const int taps, const int matrices, const REAL *const *in, const REAL *const *weight,
-                        size_t n, REAL *const *result)
+                        size_t n, size_t ahead, REAL *const *result)
 {
     for (size_t i = 0;; i += LANE_COUNT) {
         if (i + LANE_COUNT > n) i = n - LANE_COUNT;
@@ -29,6 +36,7 @@ INLINED void over_depth(const int taps, const int matrices, const REAL *const *i
         UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
         {
             const lanes value = *at(in[t] + i);
+            FETCH(in[t] + i + ahead);
             if (matrices < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
                 *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
             UNROLLED for (int m = 0; m < matrices; m++)
@@ -41,7 +49,8 @@ INLINED void over_depth(const int taps, const int matrices, const REAL *const *i
     }
 }
 
-/* Along x: out := init + matrix in, FUSED_ROWS rows; entries beyond the row are read, times 0. */
+/* Along x: out := init + matrix in, FUSED_ROWS rows, all from the same column on; entries beyond the row are
+ * read, times 0. */
 INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in, const REAL *init,
                      size_t width, size_t stride, REAL *out)
 {
@@ -50,7 +59,7 @@ INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in
         UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] = *at(init + (size_t)r * stride + i);
         UNROLLED for (int t = 0; t < taps; t++)
         {
-            const lanes weight = *at(matrix + (size_t)t * width + i);
+            const lanes weight = *at(matrix + i * (size_t)taps + (size_t)t * LANE_COUNT);
             UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] +=
                 weight * *at(in + (size_t)r * stride + i + t - taps / 2);
         }
@@ -76,18 +85,71 @@ INLINED void across_y(const int taps, const REAL *restrict weight, const size_t 
     }
 }
 
-/* u += dt w; gives the largest |u|. */
-REAL NAME(fused_drift)(size_t n, REAL dt, const REAL *w, REAL *u);
-EACH_MACHINE REAL NAME(fused_drift)(size_t n, REAL dt, const REAL *restrict w, REAL *restrict u)
+/* Largest |u| of so many rows in a vector of columns: that of each column so far in `column`, of all in
+ * `largest`. */
+INLINED void measured(size_t rows, size_t step, const REAL *restrict u, REAL *restrict column,
+                      REAL *restrict largest)
 {
-    REAL largest = 0;
-#pragma omp simd reduction(max : largest)
-    for (size_t i = 0; i < n; i++) {
-        u[i] += dt * w[i];
-        const REAL size = u[i] < 0 ? -u[i] : u[i];
-        largest = size > largest ? size : largest;
+    REAL most[LANE_COUNT] = {0};
+    for (size_t row = 0; row < rows; row++) {
+#pragma omp simd
+        for (int lane = 0; lane < LANE_COUNT; lane++) {
+            const REAL value = u[row * step + (size_t)lane], size = value < 0 ? -value : value;
+            most[lane] = size > most[lane] ? size : most[lane];
+        }
     }
+#pragma omp simd
+    for (int lane = 0; lane < LANE_COUNT; lane++) {
+        column[lane] = most[lane] > column[lane] ? most[lane] : column[lane];
+        largest[lane] = most[lane] > largest[lane] ? most[lane] : largest[lane];
+    }
+}
+
+/* The same for n columns, the last vector ending with them (less than a vector: one by one); gives the
+ * largest. */
+INLINED REAL measured_rows(size_t n, size_t rows, size_t step, const REAL *u, REAL *column)
+{
+    REAL lane[LANE_COUNT] = {0}, largest = 0;
+    for (size_t i = 0; n >= LANE_COUNT; i += LANE_COUNT) {
+        if (i + LANE_COUNT > n) i = n - LANE_COUNT;
+        measured(rows, step, u + i, column + i, lane);
+        if (i + LANE_COUNT == n) break;
+    }
+    for (size_t row = 0; n < LANE_COUNT && row < rows; row++)
+        for (size_t i = 0; i < n; i++) {
+            const REAL value = u[row * step + i], size = value < 0 ? -value : value;
+            column[i] = size > column[i] ? size : column[i];
+            lane[i] = size > lane[i] ? size : lane[i];
+        }
+    for (int i = 0; i < LANE_COUNT; i++)
+        largest = lane[i] > largest ? lane[i] : largest;
     return largest;
+}
+
+REAL NAME(fused_measure)(size_t n, size_t rows, size_t step, const REAL *u, REAL *column);
+EACH_MACHINE REAL NAME(fused_measure)(size_t n, size_t rows, size_t step, const REAL *u, REAL *column)
+{
+    return measured_rows(n, rows, step, u, column);
+}
+
+INLINED void moved(size_t n, REAL dt, const REAL *restrict w, REAL *restrict u)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        u[i] += dt * w[i];
+}
+
+/* The same with u += dt w before. */
+REAL NAME(fused_drift)(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, REAL *u, REAL *column);
+EACH_MACHINE REAL NAME(fused_drift)(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, REAL *u,
+                                    REAL *column)
+{
+    if (n == step)
+        moved(rows * n, dt, w, u);
+    else
+        for (size_t row = 0; row < rows; row++)
+            moved(n, dt, w + row * step, u + row * step);
+    return measured_rows(n, rows, step, u, column);
 }
 
 /* w += dt a */
@@ -102,10 +164,12 @@ EACH_MACHINE void NAME(fused_kick)(size_t n, REAL dt, const REAL *restrict a, RE
 /* One function for each kernel and number of taps, once for each kind of machine; at run time that which fits
  * is taken. */
 #define DEPTH_KERNEL(name, taps, matrices)                                                                   \
-    void name(const REAL *const *in, const REAL *const *weight, size_t n, REAL *const *result);              \
-    EACH_MACHINE void name(const REAL *const *in, const REAL *const *weight, size_t n, REAL *const *result)  \
+    void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,                      \
+              REAL *const *result);                                                                          \
+    EACH_MACHINE void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,         \
+                           REAL *const *result)                                                              \
     {                                                                                                        \
-        over_depth(taps, matrices, in, weight, n, result);                                                   \
+        over_depth(taps, matrices, in, weight, n, ahead, result);                                            \
     }
 #define X_KERNEL(name, taps)                                                                                 \
     void name(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride, REAL *out); \
@@ -136,8 +200,10 @@ SWEEPS(13, 17)
 
 struct kernels {
     int wide;
-    void (*two)(const REAL *const *in, const REAL *const *weight, size_t n, REAL *const *result);
-    void (*three)(const REAL *const *in, const REAL *const *weight, size_t n, REAL *const *result);
+    void (*two)(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,
+                REAL *const *result);
+    void (*three)(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,
+                  REAL *const *result);
     void (*x_narrow)(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride,
                      REAL *out);
     void (*x_wide)(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride,

@@ -123,10 +123,14 @@ static void settle(struct model *model, const struct drive *drive, double dt, do
         y[i] = fields.u[i];
 }
 
+/* Who asks may write. */
 static void *kept(struct model *model, size_t *bytes)
 {
-    *bytes = consistent_of(model)->fused->kept_bytes;
-    return consistent_of(model)->fused->kept;
+    struct fused *fused = consistent_of(model)->fused;
+    fused->known = false;
+    if (fused->single != NULL) fused->single->known = false;
+    *bytes = fused->kept_bytes;
+    return fused->kept;
 }
 
 /* Why steps of leapfrog cannot be made in one pass here; NULL: they can. */

@@ -22,19 +22,6 @@ struct pass {
     int thread;
 };
 
-static void bring_planes(const struct fused *f, const struct fused_fields *fields, size_t from, size_t end)
-{
-    for (size_t k = from; k < end; k++)
-        bring_on(f, fields, k, 0, f->n[1]);
-}
-
-static bool loud(const struct fused *f, double level, size_t from, size_t end)
-{
-    for (size_t k = from; k < end && k < f->n[2]; k++)
-        if (f->size[k] > level) return true;
-    return false;
-}
-
 /* Adds factor times what edges and loads do in plane k. */
 static void add_rest(const struct consistent *c, const struct drive *drive, size_t k, double factor,
                      const REAL *u, REAL *field)
@@ -54,52 +41,100 @@ static void add_rest(const struct consistent *c, const struct drive *drive, size
     }
 }
 
-/* Whether a block is computed hangs on planes that may not have been brought on yet: those are then brought
- * on before, else on the way. */
+/* What edges make of u, in plane k. */
+static struct window reached_by_edges(const struct consistent *c, const struct fused *f, size_t k)
+{
+    struct window reached = {{0, 0}, {0, 0}};
+    for (size_t e = 0; e < c->hform->edges; e++) {
+        const struct edge *edge = &c->hform->edge[e];
+        const bool along[2] = {edge->column[0] == NULL, edge->column[1] == NULL};
+        const bool upright = !along[0] && !along[1];
+        const size_t plane = upright ? k : edge->at[2];
+        const size_t half = upright && edge->depth != NULL ? edge->depth->half : 0;
+        if (k < edge->from[2] || k >= edge->to[2]) continue;
+        struct window source = {{0, 0}, {0, 0}};
+        for (size_t p = less(plane, half); p <= plane + half && p < f->n[2]; p++)
+            source = window_join(&source, &f->reached[p]);
+        if (!window_holds(&source, along[0] ? source.from[0] : edge->at[0],
+                          along[1] ? source.from[1] : edge->at[1]))
+            continue;
+        for (int axis = 0; axis < 2; axis++) {
+            if (along[axis]) continue;
+            source.from[axis] = edge->from[axis];
+            source.end[axis] = edge->to[axis];
+        }
+        reached = window_join(&reached, &source);
+    }
+    return reached;
+}
+
+/* What a block reads is brought on before, since its window hangs on that, or, where what neighbours have
+ * brought on shows that it is whole, on the way. */
+static void take_window(struct pass *pass, size_t first)
+{
+    const struct fused *f = FUSED(pass->c);
+    const size_t reach = (size_t)f->deep / 2, high = first + FUSED_PLANES + reach;
+    const size_t upto = high < pass->limit ? high : pass->limit;
+    struct fused_fields *fields = &pass->fields;
+    struct loud loud = nothing_loud(f);
+    fields->bring_on = pass->next;
+    fields->before = upto > pass->next ? upto : pass->next;
+    widen_loud(f, pass->level, less(first, reach), fields->bring_on, &loud);
+    widen_loud(f, pass->level, fields->before, high, &loud);
+    struct window window = window_of(f, &loud);
+    if (window_points(&window) < f->plane) {
+        bring_planes(f, fields, fields->bring_on, fields->before);
+        widen_loud(f, pass->level, fields->bring_on, fields->before, &loud);
+        window = window_of(f, &loud);
+        fields->bring_on = fields->before;
+    }
+    pass->next = fields->before;
+    f->computed[first / FUSED_PLANES] = window;
+}
+
 static void pass_block(struct pass *pass, size_t first)
 {
     const struct consistent *c = pass->c;
     const struct fused *f = FUSED(c);
-    const size_t reach = (size_t)f->deep / 2, low = first < reach ? 0 : first - reach;
-    const size_t planes = f->n[2] - first < FUSED_PLANES ? f->n[2] - first : FUSED_PLANES;
-    const size_t high = first + FUSED_PLANES + reach, upto = high < pass->limit ? high : pass->limit;
-    struct fused_fields *fields = &pass->fields;
-    fields->bring_on = pass->next;
-    fields->before = upto > pass->next ? upto : pass->next;
-    bool computed = f->quiet <= 0 || loud(f, pass->level, low, fields->bring_on) ||
-                    loud(f, pass->level, fields->before, high);
-    if (!computed) {
-        bring_planes(f, fields, fields->bring_on, fields->before);
-        computed = loud(f, pass->level, fields->bring_on, fields->before);
-        fields->bring_on = fields->before;
+    const struct fused_fields *fields = &pass->fields;
+    const bool step = fields->moved != NULL;
+    if (step) take_window(pass, first);
+    NAME(fused_planes)(f, pass->thread, first, fields);
+    for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
+        add_rest(c, pass->drive, k, step ? fields->dt : 1, fields->u, fields->a);
+        if (!step) continue;
+        const struct window edges = reached_by_edges(c, f, k);
+        struct window *after = &f->will_reach[k];
+        *after = window_join(&f->reached[k], &f->computed[first / FUSED_PLANES]);
+        *after = window_join(after, &f->loaded[k]);
+        *after = window_join(after, &edges);
     }
-    pass->next = fields->before;
-    f->computed[first / FUSED_PLANES] = computed;
-    if (computed)
-        NAME(fused_planes)(f, pass->thread, first, fields);
-    else
-        for (size_t component = 0; fields->moved == NULL && component < 3; component++)
-            memset((REAL *)fields->a + component * f->volume + first * f->plane, 0,
-                   planes * f->plane * sizeof(REAL));
-    for (size_t k = first; k < first + planes; k++)
-        add_rest(c, pass->drive, k, fields->moved == NULL ? 1 : fields->dt, fields->u, fields->a);
 }
 
-/* Where the planes of each thread begin, so that all have about as much to do: a block that was quiet in the
- * last call, and is only brought on, costs an eighth of one that is computed. What is computed does not
+/* What a block cost in the last call: a point that is only brought on an eighth of one that is computed. */
+static size_t cost(const struct fused *f, size_t block)
+{
+    enum { COMPUTED = 8 };
+    const size_t first = block * FUSED_PLANES;
+    size_t sum = 1 + COMPUTED * FUSED_PLANES * window_points(&f->computed[block]);
+    for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
+        sum += window_points(&f->reached[k]);
+    return sum;
+}
+
+/* Where the planes of each thread begin, so that all have about as much to do. What is computed does not
  * depend on the bounds. */
 static void lay_bounds(const struct fused *f)
 {
-    enum { COMPUTED = 8, QUIET = 1 };
     const size_t blocks = (f->n[2] + FUSED_PLANES - 1) / FUSED_PLANES, threads = (size_t)f->threads;
     size_t all = 0, done = 0, thread = 1;
     for (size_t block = 0; block < blocks; block++)
-        all += f->computed[block] ? COMPUTED : QUIET;
+        all += cost(f, block);
     f->bound[0] = 0;
     for (size_t block = 0; block < blocks; block++) {
         while (thread < threads && done * threads >= all * thread)
             f->bound[thread++] = block * FUSED_PLANES;
-        done += f->computed[block] ? COMPUTED : QUIET;
+        done += cost(f, block);
     }
     while (thread <= threads)
         f->bound[thread++] = f->n[2];
@@ -147,23 +182,12 @@ static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
     return largest;
 }
 
-double NAME(fused_sizes)(const struct fused *f, const REAL *u)
-{
-    double largest = 0;
-#pragma omp parallel for num_threads(f->threads) schedule(static)
-    for (size_t k = 0; k < f->n[2]; k++)
-        f->size[k] = f->quiet > 0 ? plane_size(f, k, u) : 0;
-    for (size_t k = 0; k < f->n[2]; k++)
-        if (f->size[k] > largest) largest = f->size[k];
-    return largest;
-}
-
 /* Largest |u| before a step: that kept from the last one if u has it still. */
 static double largest_before(const struct fused *f, const REAL *u)
 {
     if (f->quiet <= 0) return 0;
     const double largest = plane_size(f, f->loudest, u);
-    return largest > 0 && largest == f->largest ? largest : NAME(fused_sizes)(f, u);
+    return largest > 0 && largest == f->largest ? largest : all_sizes(f, u);
 }
 
 /* a := acceleration. */
@@ -171,16 +195,16 @@ static void accelerate(const struct consistent *c, const struct drive *drive,
                        const struct NAME(step_fields) * step, REAL *a)
 {
     const struct fused_fields fields = {.u = step->u, .a = a};
-    const double level = FUSED(c)->quiet * NAME(fused_sizes)(FUSED(c), step->u);
-    pass_over(c, drive, &fields, false, level);
+    NAME(fused_look)(FUSED(c), step->u);
+    pass_over(c, drive, &fields, false, 0);
     if (c->pml != NULL) NAME(pml_fast_accelerate)(c, 1, step->extra, a);
-    fused_count(FUSED(c));
 }
 
 void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
                        const struct NAME(step_fields) * step, double *a)
 {
     const struct fused_watch *watch = &c->fused->watch;
+    FUSED(c)->known = false;
     accelerate(c, drive, step, step->work);
     for (size_t i = 0; i < c->model.unknowns; i++)
         step->w[i] += (REAL)(dt / 2) * step->work[i];
@@ -198,12 +222,18 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     const struct fused_fields fields = {.u = step->u, .a = step->w, .moved = step->u, .dt = dt};
     const double level = f->quiet * largest_before(f, step->u);
     const size_t n = c->model.unknowns;
-    memset(f->size, 0, f->n[2] * sizeof *f->size);
+    if (!f->known) find_reached(f, step->u, step->w);
+    for (size_t k = 0; k < f->n[2]; k++)
+        forget_sizes(f, k);
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = step->w[watch->entry[i]];
     if (c->pml != NULL) NAME(pml_fast_remember)(c, dt, dt / 2, level, step->u, step->w, step->extra);
     pass_over(c, drive, &fields, true, level);
     if (c->pml != NULL) NAME(pml_fast_accelerate)(c, dt, step->extra, step->w);
+    if (c->pml != NULL) NAME(pml_fast_reached)(c, f->will_reach);
+    struct window *spare = f->reached;
+    f->reached = f->will_reach;
+    f->will_reach = spare;
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
         const double before = watch->before[i], after = step->w[at];

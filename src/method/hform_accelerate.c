@@ -17,17 +17,16 @@ static size_t block_of(const struct consistent *c)
 static void operator_block(const struct consistent *c, int thread, size_t k, const double *u, double *a)
 {
     double *out[3] = {NULL, NULL, NULL};
-    if (c->fused != NULL && c->fused->computed[k / FUSED_PLANES]) {
+    if (c->fused != NULL) {
         const struct fused_fields fields = {.u = u, .a = a};
         fused_planes_double(c->fused, thread, k, &fields);
         return;
     }
-    const size_t planes = c->n[DEPTH] - k < block_of(c) ? c->n[DEPTH] - k : block_of(c);
     for (int component = 0; component < c->dimension; component++) {
         out[component] = a + (size_t)component * c->volume + k * c->plane;
-        memset(out[component], 0, planes * c->plane * sizeof *a);
+        memset(out[component], 0, c->plane * sizeof *a);
     }
-    if (c->fused == NULL) tensor_plane(c->hform->acceleration, thread, k, 1, u, out);
+    tensor_plane(c->hform->acceleration, thread, k, 1, u, out);
 }
 
 /* What is added to the operator in plane k. */
@@ -51,7 +50,7 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
                       const double *v, double *a)
 {
     const size_t block = block_of(c);
-    if (c->fused != NULL) fused_look(c->fused, u);
+    if (c->fused != NULL) fused_look_double(c->fused, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = 0; from < c->n[DEPTH]; from += block) {
         const int thread = omp_get_thread_num();

@@ -19,6 +19,7 @@
 #define SELAS_PML_FAST_H
 
 #include "method/pml.h"
+#include "method/window.h"
 
 /* Rows made together, at most: along s, along b; numbers in a vector of doubles; numbers left free beside
  * rows that are read with neighbours; blocks of rows that a thread needs. */
@@ -77,6 +78,9 @@ void pml_fast_free(struct consistent *c);
 
 void pml_fast_accelerate_double(const struct consistent *c, double factor, const double *extra, double *a);
 void pml_fast_accelerate_single(const struct consistent *c, double factor, const float *extra, float *a);
+/* Brings the windows of planes out to where the last call has changed a. */
+void pml_fast_reached_double(const struct consistent *c, struct window *reached);
+void pml_fast_reached_single(const struct consistent *c, struct window *reached);
 /* Displacements of this size and less move nothing: method%quiet times the largest in u (0 without quiet). */
 double pml_fast_quiet_double(const struct consistent *c, const double *u);
 double pml_fast_quiet_single(const struct consistent *c, const float *u);

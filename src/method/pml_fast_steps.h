@@ -335,3 +335,24 @@ void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const 
         }
     }
 }
+
+void NAME(pml_fast_reached)(const struct consistent *c, struct window *reached)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &FAST(c)->slab[i];
+        const int across = s->axis[ROLE_S];
+        struct window window = {.end = {c->n[0], c->n[1]}};
+        if (across != DEPTH) window.from[across] = s->start;
+        if (across != DEPTH) window.end[across] = s->start + s->region;
+        for (size_t g = 0; g < s->over_b.groups; g++) {
+            if (group_rests(s, g)) continue;
+            const size_t from = s->over_b.group[g].to, end = from + s->over_b.group[g].rows;
+            if (across == DEPTH) window.from[1] = from;
+            if (across == DEPTH) window.end[1] = end;
+            const size_t first = across == DEPTH ? s->start : from;
+            const size_t last = across == DEPTH ? s->start + s->region : end;
+            for (size_t k = first; k < last; k++)
+                reached[k] = window_join(&reached[k], &window);
+        }
+    }
+}

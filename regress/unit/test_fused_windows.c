@@ -1,0 +1,192 @@
+/* Windows of the fused operator (method/fused_window.h): fields that are 0 but in some places against whole
+ * planes, to the bit; steps in one pass with and without parts at rest, and with what waves have reached
+ * followed or looked for anew in each step, for sources in a corner, in the middle and in two places. */
+#include "stepped.h"
+
+enum { SOURCES = 2 };
+
+/* A wide box with faces drawn by chance. */
+static void wide_scene(struct plain_scene *plain, bool layers, int long_axis)
+{
+    static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
+                                               BOUNDARY_SYMMETRY, BOUNDARY_TRANSMITTING};
+    double size[3];
+    for (int axis = 0; axis < 3; axis++)
+        size[axis] = .3 * (double)(14 + chance(8) + (axis == long_axis ? 60 : 12));
+    plain_box(plain, 3, size, .3);
+    for (int face = 0; face < 6; face++) {
+        struct boundary *boundary = &plain->scene.boundary[face];
+        boundary->kind = kinds[chance(layers ? 5 : 4)];
+        if (boundary->kind != BOUNDARY_TRANSMITTING) continue;
+        boundary->absorber = ABSORBER_PML;
+        boundary->layer_points = 4 + (long)chance(4);
+    }
+    plain->scene.boundary[4].kind = BOUNDARY_FREE;
+    struct load *load = plain_face_load(plain, FACE_Z_LOW, (double[]){.3, .5, 1});
+    load->shape = LOAD_SQUARE;
+    load->centre[0] = load->centre[1] = 1.4;
+    load->size[0] = load->size[1] = .9;
+    load->history = (struct history){.kind = HISTORY_STEP};
+}
+
+/* The same, drawn until steps in one pass serve it (layers' passes are not shared everywhere). */
+static void one_pass_scene(struct plain_scene *plain, bool layers, int long_axis)
+{
+    for (bool served = false; !served;) {
+        wide_scene(plain, layers, long_axis);
+        struct model *model = make(plain, (struct consistent_options){.degree = 2, .sweeps = 3});
+        served = model->class->advance != NULL;
+        model_free(&model);
+    }
+}
+
+/* Noise in some blocks of so many numbers; held values stay 0. */
+static void blocks_of_noise(const struct consistent *c, size_t blocks, double *u)
+{
+    enum { SIDE = 4 };
+    for (size_t block = 0; block < blocks; block++) {
+        size_t at[3];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = block == 0 && chance(3) == 0 ? 0 : chance(c->n[axis] - SIDE);
+        for (size_t i = 0; i < 3 * SIDE * SIDE * SIDE; i++) {
+            const size_t x = at[0] + i % SIDE, y = at[1] + i / SIDE % SIDE,
+                         z = at[2] + i / SIDE / SIDE % SIDE;
+            const size_t component = i / SIDE / SIDE / SIDE;
+            u[component * c->volume + z * c->plane + y * c->n[0] + x] = (double)chance(1000) / 500 - 1;
+        }
+    }
+    for (int component = 0; component < 3; component++)
+        for (size_t k = 0; k < c->n[DEPTH]; k++)
+            consistent_clear_held(c, component, k, u + (size_t)component * c->volume + k * c->plane);
+}
+
+static void test_same_bits(void **unused)
+{
+    (void)unused;
+    size_t skipped = 0, points = 0;
+    for (int i = 0; i < 18; i++) {
+        struct plain_scene plain;
+        wide_scene(&plain, false, i % 3);
+        struct consistent_options options = {
+            .degree = 2, .sweeps = 1 + i / 3 % 3, .depth_exact = i % 2 == 0, .quiet = 1e-12};
+        struct model *part = make(&plain, options);
+        options.quiet = 0;
+        struct model *whole = make(&plain, options);
+        const size_t n = part->unknowns;
+        double *u = array_new(n, sizeof *u), *a = array_new(n, sizeof *a), *b = array_new(n, sizeof *b);
+        blocks_of_noise(consistent_of(part), 1 + (size_t)i % SOURCES, u);
+        noise(n, a); /* all of it is to be set */
+        part->class->accelerate(part, &(struct drive){0}, 0, u, NULL, a);
+        whole->class->accelerate(whole, &(struct drive){0}, 0, u, NULL, b);
+        size_t different = 0;
+        for (size_t k = 0; k < n; k++)
+            different += a[k] != b[k];
+        assert_int_equal(different, 0);
+        skipped += consistent_of(part)->fused->skipped;
+        points += consistent_of(part)->fused->points;
+        assert_int_equal(consistent_of(whole)->fused->skipped, 0);
+        model_free(&part);
+        model_free(&whole);
+        array_free(u);
+        array_free(a);
+        array_free(b);
+    }
+    print_message("# 18 scenes: %.0f %% of points skipped\n", 100 * (double)skipped / (double)points);
+    assert_true(skipped > points / 4 && skipped < points);
+}
+
+/* A model that goes on from noise in some places, and from its load. */
+static struct stepped started(const struct plain_scene *plain, struct consistent_options options, int sources)
+{
+    const uint64_t before = seed;
+    struct stepped s = begin(plain, options, true, false);
+    blocks_of_noise(consistent_of(s.model), (size_t)sources, s.state.y);
+    if (sources > 0) s.stepper->scheme->start(s.stepper, &s.state);
+    seed = before;
+    return s;
+}
+
+static void settle(struct stepped *s)
+{
+    state_settle(s->stepper, &s->state, true);
+}
+
+/* Parts at rest left out, or not: differences of the size of what is left out. */
+static void test_quiet(void **unused)
+{
+    (void)unused;
+    double worst = 0;
+    size_t skipped = 0, points = 0;
+    for (int i = 0; i < 8; i++) {
+        struct plain_scene plain;
+        one_pass_scene(&plain, i % 2 == 1, i % 3);
+        struct consistent_options options = {
+            .degree = 2, .sweeps = 1 + i / 2 % 3, .depth_exact = i % 4 < 2, .quiet = 1e-14};
+        struct stepped part = started(&plain, options, i % (SOURCES + 1));
+        options.quiet = 0;
+        struct stepped whole = started(&plain, options, i % (SOURCES + 1));
+        const size_t n = part.model->unknowns;
+        for (int count = 0; count < 30; count++) {
+            step(&part);
+            step(&whole);
+        }
+        skipped += consistent_of(part.model)->fused->skipped;
+        points += consistent_of(part.model)->fused->points;
+        settle(&part);
+        settle(&whole);
+        worst = fmax(worst, difference(n, part.state.y, whole.state.y));
+        worst = fmax(worst, difference(n, part.state.y + n, whole.state.y + n));
+        worst = fmax(worst, difference(n, part.state.a, whole.state.a));
+        end(&part);
+        end(&whole);
+    }
+    print_message("# 8 scenes, 30 steps: %.1e, %.0f %% of points skipped\n", worst,
+                  100 * (double)skipped / (double)points);
+    assert_true(worst < 1e-12);
+    assert_true(skipped > points / 10);
+}
+
+/* What waves have reached is followed from step to step, or looked for in each, as after a restart, with any
+ * number of threads: the same bits. */
+static void test_reached(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 8; i++) {
+        struct plain_scene plain;
+        one_pass_scene(&plain, i % 2 == 1, i % 3);
+        const struct consistent_options options = {.degree = 2,
+                                                   .sweeps = 1 + i / 2 % 3,
+                                                   .depth_exact = i % 4 < 2,
+                                                   .quiet = 1e-12,
+                                                   .single = i % 4 == 3};
+        omp_set_num_threads(1);
+        struct stepped one = started(&plain, options, i % (SOURCES + 1));
+        omp_set_num_threads(1 + i % 4);
+        struct stepped other = started(&plain, options, i % (SOURCES + 1));
+        const size_t n = one.model->unknowns;
+        for (int count = 0; count < 30; count++) {
+            size_t bytes = 0;
+            other.model->class->kept(other.model, &bytes);
+            step(&one);
+            step(&other);
+        }
+        settle(&one);
+        settle(&other);
+        assert_memory_equal(one.state.y, other.state.y, 2 * n * sizeof(double));
+        assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
+        end(&one);
+        end(&other);
+    }
+    omp_set_num_threads(1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_quiet),
+        cmocka_unit_test(test_reached),
+    };
+    omp_set_num_threads(1);
+    return cmocka_run_group_tests_name("windows of the fused operator", tests, NULL, NULL);
+}
