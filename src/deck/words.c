@@ -43,7 +43,7 @@ static const struct word method_words[] = {
     {"fused", WORD_LOGICAL, 1, NULL, NULL, false,
      "passes of the operator fused where the scene allows it, which is the default (consistent)"},
     {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", false,
-     "planes over depth whose displacements are below this times the largest move nothing and cost nothing; "
+     "where displacements are below this times the largest they move nothing and cost nothing; "
      "1e-12 by default, 0: all are computed (consistent, fused)"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
      "compute half or quarter of a body where the scene has mirror planes"},
