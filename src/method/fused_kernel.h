@@ -26,7 +26,7 @@ INLINED const lanes *at(const REAL *place)
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
  * for one row of n points. Without the last matrix, B, which is then the identity, its results are the input.
  * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
- * does not foresee them. */
+ * does not foresee them. Floats, half as long, gain nothing from that. */
 INLINED void over_depth(const int taps, const int matrices, const REAL *const *in, const REAL *const *weight,
                         size_t n, size_t ahead, REAL *const *result)
 {
@@ -36,7 +36,7 @@ INLINED void over_depth(const int taps, const int matrices, const REAL *const *i
         UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
         {
             const lanes value = *at(in[t] + i);
-            FETCH(in[t] + i + ahead);
+            if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
             if (matrices < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
                 *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
             UNROLLED for (int m = 0; m < matrices; m++)
