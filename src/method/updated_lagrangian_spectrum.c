@@ -15,12 +15,12 @@
  * Neither operator is symmetric, as L_i stands before both stresses. Of the Ritz values of the Krylov space
  * the largest theta is taken, with its residual |A x - theta x| on top: the eigenvalues of operators like
  * these, which are nearly normal, are no further from theta than that. */
+#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "method/updated_lagrangian.h"
 
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -79,12 +79,17 @@ static void viscous_map(struct updated *updated, struct iteration *work)
 static bool largest_ritz(const struct iteration *work, size_t n, double *theta, double *residual,
                          double *part)
 {
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    gsl_matrix *matrix = gsl_matrix_alloc(n, n);
-    gsl_matrix_complex *vectors = gsl_matrix_complex_alloc(n, n);
-    gsl_vector_complex *values = gsl_vector_complex_alloc(n);
+    double *numbers = array_new((3 * n + 2) * n, sizeof *numbers);
+    if (numbers == NULL) return false;
+    gsl_matrix_view matrix_view = gsl_matrix_view_array(numbers, n, n);
+    gsl_matrix_complex_view vectors_view = gsl_matrix_complex_view_array(numbers + n * n, n, n);
+    gsl_vector_complex_view values_view = gsl_vector_complex_view_array(numbers + 3 * n * n, n);
+    gsl_matrix *matrix = &matrix_view.matrix;
+    gsl_matrix_complex *vectors = &vectors_view.matrix;
+    gsl_vector_complex *values = &values_view.vector;
+    gsl_errors_returned();
     gsl_eigen_nonsymmv_workspace *space = gsl_eigen_nonsymmv_alloc(n);
-    bool found = matrix != NULL && vectors != NULL && values != NULL && space != NULL;
+    bool found = space != NULL;
     if (found) {
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
@@ -102,11 +107,9 @@ static bool largest_ritz(const struct iteration *work, size_t n, double *theta, 
             part[i] = GSL_REAL(entry);
         }
     }
-    gsl_matrix_free(matrix);
-    gsl_matrix_complex_free(vectors);
-    gsl_vector_complex_free(values);
     gsl_eigen_nonsymmv_free(space);
-    gsl_set_error_handler(handler);
+    gsl_errors_as_before();
+    array_free(numbers);
     return found;
 }
 
