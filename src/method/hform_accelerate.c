@@ -1,4 +1,5 @@
 /* The H-form (hform.c makes it): acceleration, M v and energies. */
+#include "base/sums.h"
 #include "method/fused.h"
 #include "method/hform.h"
 #include "method/moving_load.h"
@@ -74,22 +75,15 @@ static bool all_zero(size_t n, const double *x)
     return true;
 }
 
-static double product(size_t n, const double *x, const double *y)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] * y[i];
-    return sum;
-}
-
 /* M v, M = rho H (x) H (x) H: mass_solve() with the factors of N gives H (x) H (x) H over the density. */
 void hform_weigh(struct consistent *c, const double *v, double *product)
 {
     const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
-    memcpy(product, v, c->model.unknowns * sizeof *product);
+    const size_t n = c->model.unknowns;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < n; i++)
+        product[i] = density * density * v[i];
     mass_solve(c, &c->hform->factors, product);
-    for (size_t i = 0; density != 1 && i < c->model.unknowns; i++)
-        product[i] *= density * density;
 }
 
 /* v.Mv / 2, and u.Ku / 2 = -u.M(-M^-1 K u) / 2. */
@@ -102,11 +96,11 @@ void hform_energy(struct consistent *c, const double *y, struct energy *energy)
     *energy = (struct energy){0};
     if (!all_zero(n, y + n)) {
         hform_weigh(c, y + n, work);
-        energy->kinetic = product(n, work, y + n) / 2;
+        energy->kinetic = sum_of_products(n, work, y + n, c->threads) / 2;
     }
     if (!all_zero(n, y)) {
         hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
         mass_solve(c, &c->hform->factors, work);
-        energy->strain = -scale * product(n, work, y) / 2;
+        energy->strain = -scale * sum_of_products(n, work, y, c->threads) / 2;
     }
 }

@@ -86,7 +86,9 @@ static double memory_of(const struct recorder *recorder)
 {
     const struct stepper *stepper = recorder->stepper;
     const struct model *model = recorder->model;
-    const double vectors = (double)stepper->scheme->vectors + 1.0;
+    double vectors = 1.0;
+    for (size_t i = 0; i < stepper->scheme->vectors; i++)
+        if (stepper->work[i] != NULL) vectors += 1.0; /* the state, and what the scheme works in */
     const double rows = (double)(stepper->steps + stepper->extra + 2);
     double bytes = (double)model->bytes +
                    8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +

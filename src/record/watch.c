@@ -5,7 +5,10 @@
  * energy is held against its largest value while the loads came on. */
 #include "record/watch.h"
 
+#include "base/sums.h"
+
 #include <math.h>
+#include <omp.h>
 #include <stdio.h>
 
 enum { EVERY = 50 };
@@ -110,10 +113,8 @@ static void add_work(struct recorder *recorder, const struct state *state)
 static const char *wrong_with_state(const struct recorder *recorder, const struct state *state)
 {
     const size_t size = recorder->model->state_size;
-    double overflow = 0.0, spoiled = 0.0; /* 0 * x is 0 for every finite x, and NaN otherwise */
-    for (size_t i = 0; i < size; i++)
-        overflow += 0.0 * (state->y[i] * state->y[i]);
-    if (overflow == 0.0) return NULL;
+    double spoiled = 0.0; /* 0 * x is 0 for every finite x, and NaN otherwise */
+    if (isfinite(sum_of_products(size, state->y, state->y, omp_get_max_threads()))) return NULL;
     for (size_t i = 0; i < size; i++)
         spoiled += 0.0 * state->y[i];
     return spoiled == 0.0 ? "the state overflows" : "the state is not finite";
