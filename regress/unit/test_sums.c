@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-enum { MANY = 3 * 1000 * 1000 + 17 };
+static const size_t MANY = 3000017;
 
 static void sums_of_all_lengths(void **unused)
 {
