@@ -28,6 +28,11 @@ value() { # value NAME KEY: of report.txt
     sed -n "s/^$2: \([^ ]*\).*/\1/p" "$out/$1/report.txt"
 }
 
+memory_of() { # memory_of NAME: planned, without the histories, which are as long in part of a body
+    awk -F ': ' '{ of[$1] = $2 + 0 } END { print of["planned memory bytes"] - 72 * of["receivers"] * (of["steps"] + of["steps beyond end_time"] + 2) }' \
+        "$out/$1/report.txt"
+}
+
 # judge TITLE NAME PART: histories agree to 1e-12, unknowns (and so the work of an evaluation) and memory of the
 # model's state are the part's (a few per cent more, for the ends)
 judge() {
@@ -47,7 +52,7 @@ judge() {
     fi
     part=$(awk -v a="$(value "$2-on" unknowns)" -v b="$(value "$2-off" unknowns)" 'BEGIN { printf "%.3f", a / b }')
     calls=$(awk -v a="$(value "$2-on" 'operator calls')" -v b="$(value "$2-off" 'operator calls')" 'BEGIN { print a - b }')
-    memory=$(awk -v a="$(value "$2-on" 'planned memory bytes')" -v b="$(value "$2-off" 'planned memory bytes')" 'BEGIN { printf "%.3f", a / b }')
+    memory=$(awk -v a="$(memory_of "$2-on")" -v b="$(memory_of "$2-off")" 'BEGIN { printf "%.3f", a / b }')
     if awk -v p="$memory" -v w="$3" 'BEGIN { exit !(p > 0 && p <= 1.3 * w + .01) }'; then
         echo "ok - $1: $memory of the memory"
     else

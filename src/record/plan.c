@@ -87,7 +87,7 @@ static double memory_of(const struct recorder *recorder)
     const struct stepper *stepper = recorder->stepper;
     const struct model *model = recorder->model;
     double vectors = 1.0;
-    for (size_t i = 0; i < stepper->scheme->vectors; i++)
+    for (size_t i = 0; stepper->work != NULL && i < stepper->scheme->vectors; i++)
         if (stepper->work[i] != NULL) vectors += 1.0; /* the state, and what the scheme works in */
     const double rows = (double)(stepper->steps + stepper->extra + 2);
     double bytes = (double)model->bytes +
