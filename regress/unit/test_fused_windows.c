@@ -146,6 +146,17 @@ static void test_quiet(void **unused)
     assert_true(skipped > points / 10);
 }
 
+static void same_in_the_end(struct stepped *one, struct stepped *other)
+{
+    const size_t n = one->model->unknowns;
+    settle(one);
+    settle(other);
+    assert_memory_equal(one->state.y, other->state.y, 2 * n * sizeof(double));
+    assert_memory_equal(one->state.a, other->state.a, n * sizeof(double));
+    end(one);
+    end(other);
+}
+
 /* What waves have reached is followed from step to step, or looked for in each, as after a restart, with any
  * number of threads: the same bits. */
 static void test_reached(void **unused)
@@ -163,19 +174,13 @@ static void test_reached(void **unused)
         struct stepped one = started(&plain, options, i % (SOURCES + 1));
         omp_set_num_threads(1 + i % 4);
         struct stepped other = started(&plain, options, i % (SOURCES + 1));
-        const size_t n = one.model->unknowns;
         for (int count = 0; count < 30; count++) {
             size_t bytes = 0;
             other.model->class->kept(other.model, &bytes);
             step(&one);
             step(&other);
         }
-        settle(&one);
-        settle(&other);
-        assert_memory_equal(one.state.y, other.state.y, 2 * n * sizeof(double));
-        assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
-        end(&one);
-        end(&other);
+        same_in_the_end(&one, &other);
     }
     omp_set_num_threads(1);
 }
@@ -202,7 +207,6 @@ static void test_late(void **unused)
         plain.load[0].history.delay = i < 3 ? .5 : 1.7;
         const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-5};
         struct stepped one = started(&plain, options, 0), other = started(&plain, options, 0);
-        const size_t n = one.model->unknowns;
         for (int count = 0; count < STEPS; count++) {
             size_t bytes = 0;
             other.model->class->kept(other.model, &bytes);
@@ -210,12 +214,7 @@ static void test_late(void **unused)
             step(&other);
         }
         assert_false(one.stepper->unwarp);
-        settle(&one);
-        settle(&other);
-        assert_memory_equal(one.state.y, other.state.y, 2 * n * sizeof(double));
-        assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
-        end(&one);
-        end(&other);
+        same_in_the_end(&one, &other);
     }
 }
 
