@@ -61,7 +61,7 @@ static double mean(const struct lamb_problem *problem, const struct lamb_signal 
 
 static void compare(double nu, const double velocity[2], const double position[2], int component)
 {
-    enum { INTERVALS = 6 };
+    enum { INTERVALS = 4 };
     const double begin = 1.6, step = .2, end = begin + INTERVALS * step, lambda = 2 * nu / (1 - 2 * nu);
     const struct moving_patch patch = {{{PATCH_RECTANGLE, {-1.5, 0}, {.5, .4}}, {0, 0, 1}, &gaussian},
                                        {velocity[0], velocity[1]}};
