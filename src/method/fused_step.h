@@ -6,6 +6,7 @@
  * The first runs ahead of (F1) by the planes that it reaches, the second follows it row by row, so that u and
  * w come from memory once and go there once. A thread has planes of its own; those that its neighbours read
  * too are brought on first, and all threads wait for that. */
+#include "base/machine.h"
 #include "method/fused.h"
 #include "method/passes.h"
 #include "method/pml_fast.h"
@@ -167,8 +168,11 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
 #pragma omp parallel num_threads(f->threads)
     for (int stage = bring ? 0 : 1; stage < 2; stage++) {
 #pragma omp for schedule(static, 1)
-        for (int thread = 0; thread < f->threads; thread++)
+        for (int thread = 0; thread < f->threads; thread++) {
+            const unsigned before = tiny_as_zero();
             pass_thread(c, drive, fields, bring, level, thread, stage);
+            tiny_as_before(before);
+        }
     }
 }
 
