@@ -162,7 +162,7 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
 double consistent_fastest(const struct consistent *c, int face);
 
 /* consistent_short.c: the model on a body whose axes of more cells than `longest` are cut to so many (but
- * see lost_cells()); free it with model_free(). */
+ * see cells_of()); free it with model_free(). */
 selas_status consistent_cut(const struct consistent *c, size_t longest, struct model **cut,
                             struct messages *messages);
 /* Bound on the part of the largest frequency that this one lacks. */

@@ -10,6 +10,7 @@
  * and likewise u.Mu. The last sum is of order (pi / cells)^2: by so much of itself the long body's frequency
  * may be above the short one's. */
 #include "method/consistent.h"
+#include "method/short_body.h"
 
 #include "base/memory.h"
 
@@ -17,15 +18,21 @@
  * of sweeps and the exact one. */
 static const size_t longest_axis[3] = {4096, 192, 40};
 static const double sweeps_deficit = 2.5, exact_deficit = 6;
-enum { WORTH = 2 }; /* times as many control values as the short body has are cut */
 
-/* Cells that an axis loses: none over depth where the ground varies, none between mapped ends, whose spacing
- * varies with the length. */
-static size_t lost_cells(const struct consistent *c, int axis, size_t longest)
+/* Cells that each axis has and loses: none between mapped ends, whose spacing varies with the length. */
+struct cells {
+    size_t all[3], lost[3];
+};
+
+static struct cells cells_of(const struct consistent *c, size_t longest)
 {
-    if (c->options.mapped || (c->slot[axis] == DEPTH && c->model.scene->body.layers > 0)) return 0;
-    const size_t cells = c->spline[axis]->cells;
-    return cells > longest ? cells - longest : 0;
+    struct cells cells = {{0}, {0}};
+    for (int axis = 0; axis < c->dimension; axis++) {
+        cells.all[axis] = c->spline[axis]->cells;
+        if (!c->options.mapped)
+            cells.lost[axis] = short_body_lost(c->model.scene, axis, cells.all[axis], longest);
+    }
+    return cells;
 }
 
 /* Layers are lattice like the body, held at their outer ends; the deck's own rules for them are not asked
@@ -42,16 +49,14 @@ static void cut_boundary(const struct consistent *c, int face, bool shorter, str
         boundary->kind = BOUNDARY_FIXED;
 }
 
-/* A scene like the model's on a body from which cells are taken; nothing drives it. */
-static void cut_scene(const struct consistent *c, size_t longest, struct scene *scene)
+/* Takes cells from the body of a scene like the model's. */
+static void cut_body(const struct consistent *c, size_t longest, struct scene *scene)
 {
     struct body *body = &scene->body;
-    *scene = *c->model.scene;
-    scene->loads = scene->receivers = scene->profiles = scene->snapshots = 0;
-    scene->initial.kind = INITIAL_REST;
+    const struct cells cells = cells_of(c, longest);
     for (int axis = 0; axis < c->dimension; axis++) {
         const struct spline *spline = c->spline[axis];
-        const size_t lost = lost_cells(c, axis, longest);
+        const size_t lost = cells.lost[axis];
         const double spacing = (spline->high - spline->low) / (double)spline->cells;
         for (int face = 2 * axis; face < 2 * axis + 2; face++)
             cut_boundary(c, face, lost > 0, &scene->boundary[face]);
@@ -63,12 +68,13 @@ selas_status consistent_cut(const struct consistent *c, size_t longest, struct m
                             struct messages *messages)
 {
     struct consistent_options options = c->options;
+    struct scene *scene = NULL;
     *cut = NULL;
-    struct scene *scene = array_new(1, sizeof *scene);
-    if (scene == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory to measure the largest frequency");
-    cut_scene(c, longest, scene);
+    selas_status status = short_body_scene(c->model.scene, &scene, messages);
+    if (status != SELAS_OK) return status;
+    cut_body(c, longest, scene);
     options.single = false;
-    const selas_status status = consistent_create_with(scene, &options, cut, messages);
+    status = consistent_create_with(scene, &options, cut, messages);
     if (status == SELAS_OK)
         consistent_of(*cut)->own_scene = scene;
     else
@@ -86,11 +92,9 @@ selas_status consistent_shorten(const struct model *model, struct model **shorte
 {
     const struct consistent *c = (const struct consistent *)model;
     const size_t longest = longest_axis[c->dimension - 1];
-    double left = 1;
+    const struct cells cells = cells_of(c, longest);
     *shorter = NULL;
     *deficit = consistent_deficit(c, longest);
-    for (int axis = 0; axis < c->dimension; axis++)
-        left *= 1 - (double)lost_cells(c, axis, longest) / (double)c->spline[axis]->cells;
-    if (left * WORTH > 1) return SELAS_OK;
+    if (!short_body_pays(c->dimension, cells.all, cells.lost)) return SELAS_OK;
     return consistent_cut(c, longest, shorter, messages);
 }
