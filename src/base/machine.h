@@ -1,5 +1,6 @@
-/* Functions made once for each kind of machine: the one that fits is taken at run time, so that one binary
- * serves all. Compilers that cannot do this make the plain one. */
+/* What depends on the machine. EACH_MACHINE: functions made once for each kind of it; the one that fits is
+ * taken at run time, so that one binary serves all. Compilers that cannot do this make the plain one.
+ * tiny_as_zero(): numbers below the smallest normal one. */
 #ifndef SELAS_MACHINE_H
 #define SELAS_MACHINE_H
 
