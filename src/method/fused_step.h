@@ -248,15 +248,31 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     fused_count(f);
 }
 
+/* y[i] = value[i], i < count, unless it is that already: what was never written to takes no memory. */
+static void put(size_t count, const double *value, double *y)
+{
+    if (memcmp(y, value, count * sizeof *y) != 0) memcpy(y, value, count * sizeof *y);
+}
+
 void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, double dt,
                         const struct NAME(step_fields) * step, double *y, double *a)
 {
+    enum { PAGE = 512 };
     const size_t n = c->model.unknowns;
+    const bool apart = (const void *)step->u != (const void *)y;
     accelerate(c, drive, step, step->work);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < n; i++) {
-        y[i] = step->u[i];
-        y[n + i] = step->w[i] - dt / 2 * step->work[i];
-        if (a != NULL) a[i] = step->work[i];
+    for (size_t from = 0; from < n; from += PAGE) {
+        const size_t count = n - from < PAGE ? n - from : PAGE;
+        double value[PAGE];
+        for (size_t i = 0; i < count; i++)
+            value[i] = step->w[from + i] - dt / 2 * step->work[from + i];
+        put(count, value, y + n + from);
+        for (size_t i = 0; i < count && apart; i++)
+            value[i] = step->u[from + i];
+        if (apart) put(count, value, y + from);
+        for (size_t i = 0; i < count && a != NULL; i++)
+            value[i] = step->work[from + i];
+        if (a != NULL) put(count, value, a + from);
     }
 }
