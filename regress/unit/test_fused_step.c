@@ -1,5 +1,6 @@
 /* Steps of leapfrog in one pass (method/fused_step.h) against drift, operator and kick one by one: whole
  * states and what is looked at after each step, threads, settling, checkpoints' kept part, planes at rest. */
+#include "few.h"
 #include "stepped.h"
 
 /* A box with faces drawn by chance that has steps in one pass, and a load that begins at t = 0. */
@@ -39,7 +40,8 @@ static void test_one_by_one(void **unused)
 {
     (void)unused;
     double worst = 0, worst_seen = 0, worst_watched = 0;
-    for (int i = 0; i < 12; i++) {
+    const int scenes = few_of(12, 4);
+    for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         random_scene(&plain);
         const struct consistent_options options = {
@@ -70,8 +72,8 @@ static void test_one_by_one(void **unused)
         end(&one);
         end(&other);
     }
-    print_message("# 12 scenes, 40 steps: states %.1e, receivers %.1e, settled %.1e\n", worst, worst_seen,
-                  worst_watched);
+    print_message("# %d scenes, 40 steps: states %.1e, receivers %.1e, settled %.1e\n", scenes, worst,
+                  worst_seen, worst_watched);
     assert_true(worst < 1e-12);
     assert_true(worst_seen < 1e-11);
     assert_true(worst_watched < 1e-11);
@@ -83,7 +85,8 @@ static void test_single(void **unused)
 {
     (void)unused;
     double worst[3] = {0, 0, 0}, worst_settled = 0;
-    for (int i = 0; i < 6; i++) {
+    const int scenes = few_of(6, 2);
+    for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         random_scene(&plain);
         struct consistent_options options = {.degree = 2, .sweeps = 1 + i % 3, .quiet = 1e-12};
@@ -111,7 +114,7 @@ static void test_single(void **unused)
         end(&s);
         end(&exact);
     }
-    print_message("# 6 scenes, 60 steps: u %.1e, v %.1e, a %.1e; settled %.1e\n", worst[0], worst[1],
+    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, a %.1e; settled %.1e\n", scenes, worst[0], worst[1],
                   worst[2], worst_settled);
     /* a step rounds each u by 3e-8 of its size and the sums of a by as much again, the fastest waves double
      * what they are given: 6e-7 rms after 60 steps, largest of 10^4 values four to five times that */

@@ -1,6 +1,7 @@
 /* Windows of the fused operator (method/fused_window.h): fields that are 0 but in some places against whole
  * planes, to the bit; steps in one pass with and without parts at rest, and with what waves have reached
  * followed or looked for anew in each step, for sources in a corner, in the middle and in two places. */
+#include "few.h"
 #include "stepped.h"
 
 enum { SOURCES = 2 };
@@ -64,7 +65,8 @@ static void test_same_bits(void **unused)
 {
     (void)unused;
     size_t skipped = 0, points = 0;
-    for (int i = 0; i < 18; i++) {
+    const int scenes = few_of(18, 3);
+    for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         wide_scene(&plain, false, i % 3);
         struct consistent_options options = {
@@ -91,7 +93,7 @@ static void test_same_bits(void **unused)
         array_free(a);
         array_free(b);
     }
-    print_message("# 18 scenes: %.0f %% of points skipped\n", 100 * (double)skipped / (double)points);
+    print_message("# %d scenes: %.0f %% of points skipped\n", scenes, 100 * (double)skipped / (double)points);
     assert_true(skipped > points / 4 && skipped < points);
 }
 
@@ -117,7 +119,8 @@ static void test_quiet(void **unused)
     (void)unused;
     double worst = 0;
     size_t skipped = 0, points = 0;
-    for (int i = 0; i < 8; i++) {
+    const int scenes = few_of(8, 2);
+    for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         one_pass_scene(&plain, i % 2 == 1, i % 3);
         struct consistent_options options = {
@@ -140,7 +143,7 @@ static void test_quiet(void **unused)
         end(&part);
         end(&whole);
     }
-    print_message("# 8 scenes, 30 steps: %.1e, %.0f %% of points skipped\n", worst,
+    print_message("# %d scenes, 30 steps: %.1e, %.0f %% of points skipped\n", scenes, worst,
                   100 * (double)skipped / (double)points);
     assert_true(worst < 1e-12);
     assert_true(skipped > points / 10);
@@ -162,7 +165,8 @@ static void same_in_the_end(struct stepped *one, struct stepped *other)
 static void test_reached(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < 8; i++) {
+    const int scenes = few_of(8, 2);
+    for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         one_pass_scene(&plain, i % 2 == 1, i % 3);
         const struct consistent_options options = {.degree = 2,
@@ -192,7 +196,8 @@ static void test_late(void **unused)
 {
     (void)unused;
     enum { STEPS = 45 };
-    for (int i = 0; i < 6; i++) {
+    const int scenes = few_of(6, 1);
+    for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         one_pass_scene(&plain, i % 2 == 1, i % 3);
         plain.scene.stepping.unwarp_given = true;
@@ -224,7 +229,8 @@ static void test_layers_reach(void **unused)
 {
     (void)unused;
     enum { STEPS = 45 };
-    for (int i = 0; i < 4; i++) {
+    const int scenes = few_of(4, 1);
+    for (int i = 0; i < scenes; i++) {
         const int along = i % 2, across = 1 - along;
         struct plain_scene plain;
         wide_scene(&plain, false, along);
