@@ -149,6 +149,17 @@ static void test_quiet(void **unused)
     assert_true(skipped > points / 10);
 }
 
+/* Steps of two models; the second looks anew for what waves have reached. */
+static void step_both(int steps, struct stepped *one, struct stepped *other)
+{
+    for (int count = 0; count < steps; count++) {
+        size_t bytes = 0;
+        other->model->class->kept(other->model, &bytes);
+        step(one);
+        step(other);
+    }
+}
+
 static void same_in_the_end(struct stepped *one, struct stepped *other)
 {
     const size_t n = one->model->unknowns;
@@ -178,12 +189,7 @@ static void test_reached(void **unused)
         struct stepped one = started(&plain, options, i % (SOURCES + 1));
         omp_set_num_threads(1 + i % 4);
         struct stepped other = started(&plain, options, i % (SOURCES + 1));
-        for (int count = 0; count < 30; count++) {
-            size_t bytes = 0;
-            other.model->class->kept(other.model, &bytes);
-            step(&one);
-            step(&other);
-        }
+        step_both(30, &one, &other);
         same_in_the_end(&one, &other);
     }
     omp_set_num_threads(1);
@@ -212,12 +218,7 @@ static void test_late(void **unused)
         plain.load[0].history.delay = i < 3 ? .5 : 1.7;
         const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-5};
         struct stepped one = started(&plain, options, 0), other = started(&plain, options, 0);
-        for (int count = 0; count < STEPS; count++) {
-            size_t bytes = 0;
-            other.model->class->kept(other.model, &bytes);
-            step(&one);
-            step(&other);
-        }
+        step_both(STEPS, &one, &other);
         assert_false(one.stepper->unwarp);
         same_in_the_end(&one, &other);
     }
@@ -245,12 +246,7 @@ static void test_layers_reach(void **unused)
         const struct consistent_options options = {
             .degree = 2, .sweeps = 3, .depth_exact = true, .quiet = 1e-5, .single = i >= 2};
         struct stepped one = started(&plain, options, 0), other = started(&plain, options, 0);
-        for (int count = 0; count < STEPS; count++) {
-            size_t bytes = 0;
-            other.model->class->kept(other.model, &bytes);
-            step(&one);
-            step(&other);
-        }
+        step_both(STEPS, &one, &other);
         same_in_the_end(&one, &other);
     }
 }
