@@ -158,7 +158,10 @@ double dampers_power(const struct consistent *c, const double *v);
 /* consistent.c: sets a component's prescribed control values in plane k to 0. */
 void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane);
 
-/* consistent.c: fastest wave of the ground that a face touches. */
+/* consistent_lay.c: axes, what faces do to control values, materials over depth. SELAS_NO_MEMORY,
+ * SELAS_BAD_SCENE. */
+selas_status consistent_lay(struct consistent *c, struct messages *messages);
+/* Fastest wave of the ground that a face touches. */
 double consistent_fastest(const struct consistent *c, int face);
 
 /* consistent_short.c: the model on a body whose axes of more cells than `longest` are cut to so many (but

@@ -11,7 +11,6 @@
 #include "method/cloud_method.h"
 #include "scene/initial.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -65,20 +64,6 @@ static void destroy(struct model *model)
     array_free(tl);
 }
 
-static void add_loads(struct tl_model *tl, const struct drive *drive)
-{
-    const size_t d = (size_t)tl->cloud->dimension;
-    if (drive->load == NULL) return;
-    for (size_t k = 0; k < tl->model.scene->loads; k++) {
-        const struct tl_load *load = &tl->load[k];
-        const double amplitude = drive->load[k];
-        if (amplitude == 0) continue;
-        for (size_t e = 0; e < load->count; e++)
-            for (size_t a = 0; a < d; a++)
-                tl->force[d * load->point[e] + a] += amplitude * load->force[d * e + a];
-    }
-}
-
 /* All forces but the dampers' into tl->force. */
 static void all_forces(struct tl_model *tl, const struct drive *drive, const double *u, const double *v)
 {
@@ -88,7 +73,7 @@ static void all_forces(struct tl_model *tl, const struct drive *drive, const dou
     tl_gradients(tl);
     tl_forces(tl);
     if (tl->site_v != NULL && v != NULL) tl_viscosity(tl);
-    add_loads(tl, drive);
+    tl_add_loads(tl, drive);
     tl->model.evaluations++;
 }
 
@@ -139,76 +124,6 @@ static void initialise(struct model *model, double *y)
     }
 }
 
-/* M v. */
-static void weigh(struct model *model, const double *v, double *product)
-{
-    const struct tl_model *tl = of(model);
-    const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t i = 0; i < model->points; i++)
-        for (size_t k = d * i; k < d * (i + 1); k++)
-            product[k] = tl->mass[i] * v[k];
-}
-
-static void energy(struct model *model, const double *y, struct energy *energy)
-{
-    struct tl_model *tl = of(model);
-    const size_t d = (size_t)tl->cloud->dimension;
-    tl_sites(tl, y, NULL, tl->displacement, NULL);
-    tl_gradients(tl);
-    energy->strain = tl_strain_energy(tl);
-    energy->kinetic = 0;
-    for (size_t i = 0; i < model->points; i++)
-        for (size_t c = 0; c < d; c++) {
-            const double v = y[model->unknowns + d * i + c];
-            energy->kinetic += 0.5 * tl->mass[i] * v * v;
-        }
-}
-
-/* Work done at moving faces: minus the force on each ghost, hourglass control's too, times its prescribed
- * velocity. */
-static double motion_power(struct tl_model *tl, const double *velocity)
-{
-    const size_t d = (size_t)tl->cloud->dimension;
-    double power = 0;
-    tl_ghost_hourglass(tl);
-    for (size_t g = 0; g < tl->ghosts; g++)
-        for (size_t c = 0; c < d; c++)
-            for (size_t f = 0; f < FACES; f++)
-                power -= tl->force[d * (tl->cloud->points + g) + c] * tl->ghost[g].motion[c][f] * velocity[f];
-    return power;
-}
-
-static void power(struct model *model, const struct drive *drive, const double *y, double *load,
-                  double *absorbed)
-{
-    struct tl_model *tl = of(model);
-    const size_t n = model->unknowns;
-    const size_t d = (size_t)tl->cloud->dimension;
-    const double *v = y + n;
-    *load = 0;
-    *absorbed = 0;
-    if (tl->moving && drive->velocity != NULL) {
-        tl_sites(tl, y, v, drive->displacement, drive->velocity);
-        tl_gradients(tl);
-        tl_forces(tl);
-        *load += motion_power(tl, drive->velocity);
-    }
-    if (tl->site_v != NULL) {
-        tl_sites(tl, y, v, drive->displacement, drive->velocity);
-        memset(tl->force, 0, n * sizeof *tl->force);
-        tl_viscosity(tl);
-        for (size_t k = 0; k < n; k++)
-            *absorbed -= tl->force[k] * v[k];
-    }
-    for (size_t k = 0; tl->damper != NULL && k < n; k++)
-        *absorbed += tl->damper[k] * v[k] * v[k];
-    memset(tl->force, 0, n * sizeof *tl->force);
-    add_loads(tl, drive);
-    for (size_t i = 0; i < model->points; i++)
-        for (size_t k = d * i; k < d * (i + 1); k++)
-            *load += tl->force[k] * v[k];
-}
-
 static void describe(const struct model *model,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -247,9 +162,9 @@ static const struct model_class linear_class = {
     .probe = tl_model_probe,
     .observe = tl_observe,
     .field = tl_field,
-    .energy = energy,
-    .weigh = weigh,
-    .power = power,
+    .energy = tl_energy,
+    .weigh = tl_weigh,
+    .power = tl_power,
     .describe = describe,
 };
 
@@ -266,9 +181,9 @@ const struct model_class cloud_class = {
     .probe = tl_model_probe,
     .observe = tl_observe,
     .field = tl_field,
-    .energy = energy,
-    .weigh = weigh,
-    .power = power,
+    .energy = tl_energy,
+    .weigh = tl_weigh,
+    .power = tl_power,
     .describe = describe,
 };
 
@@ -285,9 +200,9 @@ const struct model_class total_lagrangian_class = {
     .probe = tl_model_probe,
     .observe = tl_observe,
     .field = tl_field,
-    .energy = energy,
-    .weigh = weigh,
-    .power = power,
+    .energy = tl_energy,
+    .weigh = tl_weigh,
+    .power = tl_power,
     .describe = describe,
 };
 

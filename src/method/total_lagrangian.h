@@ -172,6 +172,13 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
+/* total_lagrangian_energy.c: adds what the loads of a drive pull at the points to tl->force; entries of the
+ * model's class. */
+void tl_add_loads(struct tl_model *tl, const struct drive *drive);
+void tl_weigh(struct model *model, const double *v, double *product);
+void tl_energy(struct model *model, const double *y, struct energy *energy);
+void tl_power(struct model *model, const struct drive *drive, const double *y, double *load,
+              double *absorbed);
 /* total_lagrangian_short.c: entry of the model's class. */
 selas_status tl_shorten(const struct model *model, struct model **shorter, double *deficit,
                         struct messages *messages);
