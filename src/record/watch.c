@@ -19,9 +19,8 @@ static const double growth_allowed = 10.0;
 /* Energy gained without being given, over what was given: a few per cent is usual at 15^3 (doc/results.md).
  */
 static const double growth_noted = 0.5;
-enum {
-    NOTED_STEPS = 8
-}; /* in fewer, the trapezoid of the work of a load that just begins is itself half wrong */
+/* In fewer steps the trapezoid of the work of a load that just begins is itself half wrong. */
+enum { NOTED_STEPS = 8 };
 /* Moved faces: times what they can give (faces_can_give). */
 static const double growth_of_faces = 100.0;
 /* Without work: a free body under a steady push gains energy as t^2, a hundredfold between a tenth of the run
