@@ -1,4 +1,4 @@
-/* Some scenes of many where each takes long: under valgrind, where vectors take two hundred times as long
+/* Some scenes of many where each takes long: under valgrind, where vectors take eighty times as long
  * (regress/valgrind sets SELAS_FEW_SCENES). */
 #ifndef FEW_H
 #define FEW_H
