@@ -7,6 +7,7 @@
 #include "record/diff.h"
 #include "record/kept.h"
 
+#include <math.h>
 #include <sys/stat.h>
 
 static const char deck[] = "&scene dimension = 1, end_time = 1.0 /\n"
@@ -85,6 +86,20 @@ static void rerun(const char *path)
     selas_close(&simulation);
 }
 
+/* Numbers that are not finite differ from themselves. */
+static bool all_finite(const char *path)
+{
+    struct messages messages = {0};
+    struct history_file history;
+    bool all = true;
+    const selas_status status = history_file_read(path, &history, &messages);
+    for (size_t i = 0; status == SELAS_OK && i < DIFF_CHANNELS * history.rows; i++)
+        all = all && isfinite(history.value[i]);
+    if (status == SELAS_OK) history_file_free(&history);
+    messages_free(&messages);
+    return all;
+}
+
 static void compare(const struct fuzz_bytes *bytes)
 {
     const uint8_t *cut = bytes->left > 0 ? memchr(bytes->at, 0, bytes->left) : NULL;
@@ -105,7 +120,8 @@ static void compare(const struct fuzz_bytes *bytes)
     struct messages messages = {0};
     struct diff_report report = {0};
     const selas_status status = diff_paths(folder[0], folder[1], NULL, &report, &messages);
-    fuzz_require(status != SELAS_OK || cut != NULL || report.differences == 0, "a history is like itself");
+    fuzz_require(status != SELAS_OK || cut != NULL || report.differences == 0 || !all_finite(path[0]),
+                 "a history is like itself");
     fuzz_told(status, &messages);
     for (int k = 0; k < 2; k++) {
         unlink(path[k]);

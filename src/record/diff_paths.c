@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -19,7 +20,10 @@ static void write_table_row(FILE *table, const char *receiver, const char *compo
     if (table == NULL) return;
     fprintf(table, "%-20s %-4s %10.3e %10.3e %11.3e %10.3e %10.3e %s", receiver, component, d->l2, d->linf,
             d->shift, d->envelope, d->phase, d->differs ? "differs" : "same");
-    if (d->excess > 1.0) fprintf(table, " (%.3g times what is allowed, t = %.6g)", d->excess, d->when);
+    if (isfinite(d->excess) && d->excess > 1.0)
+        fprintf(table, " (%.3g times what is allowed, t = %.6g)", d->excess, d->when);
+    if (!isfinite(d->excess))
+        fprintf(table, " (%s, t = %.6g)", isfinite(d->l2) ? "none is allowed" : "not finite", d->when);
     fputc('\n', table);
 }
 
