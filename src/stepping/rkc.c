@@ -121,7 +121,10 @@ long rkc_best_stages(const struct spectrum *spectrum, long max_stages, double *l
     double best_rate = 0;
     *limit_of_best = 0;
     for (long stages = 2; stages <= max_stages; stages++) {
-        const double longest = limit(spectrum, stages), rate = longest / (double)stages;
+        /* as long a step for each stage as the best one's: where that grows, its limit need not be found */
+        const bool no_better =
+            best > 0 && !stability_bounded(rkc_polynomial, stages, spectrum, best_rate * (double)stages);
+        const double longest = no_better ? 0 : limit(spectrum, stages), rate = longest / (double)stages;
         if (rate > best_rate) {
             best = stages;
             best_rate = rate;
