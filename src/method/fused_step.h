@@ -264,7 +264,7 @@ void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, d
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = 0; from < n; from += PAGE) {
         const size_t count = n - from < PAGE ? n - from : PAGE;
-        double value[PAGE];
+        double value[PAGE] = {0};
         for (size_t i = 0; i < count; i++)
             value[i] = step->w[from + i] - dt / 2 * step->work[from + i];
         put(count, value, y + n + from);
