@@ -218,7 +218,7 @@ $(BUILD)/replay/fuzz_%: regress/fuzz/fuzz_%.c regress/fuzz/replay.c $(BUILD)/lib
 check-sanitize: ## all unit tests and short scripts under AddressSanitizer, UBSan and LeakSanitizer (ten minutes)
 	+@regress/sanitize $(BUILD)/asan
 
-check-valgrind: ## the unit tests that valgrind does not take too long for (half an hour; installs valgrind)
+check-valgrind: ## the unit tests that valgrind does not take too long for (an hour; installs valgrind)
 	@sh regress/setup leaks
 	+@regress/valgrind $(BUILD)
 
