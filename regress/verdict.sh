@@ -5,7 +5,7 @@
 # dissipation, sph-published, symmetry, absorbing (the same code on larger scenes, for their figures), stability, faults,
 # nightly, fuzz (they build or run other things), hosts, leaks, namelist (they build with compilers of their own).
 verdict_scripts='wrong-decks hostile restart results needed moved-face program advice'
-verdict_good=0 verdict_bad=0 verdict_left=0
+verdict_good=0 verdict_bad=0
 mkdir -p "$verdict_folder"
 
 verdict_cpu() { # seconds of CPU that the children of this shell have had so far, in $verdict_clock
@@ -31,13 +31,8 @@ verdict() { # verdict NAME PATTERN COMMAND ...: a failure is a status other than
     fi
 }
 
-verdict_skip() { # verdict_skip NAME WHY
-    verdict_left=$((verdict_left + 1))
-    echo "ok - $1 # SKIP $2"
-}
-
 verdict_last() { # verdict_last WHAT: the counts; fails if anything did
     verdict_cpu
-    echo "$verdict_good passed, $verdict_bad failed, $verdict_left left out $1 ($verdict_clock s of CPU)"
+    echo "$verdict_good passed, $verdict_bad failed $1 ($verdict_clock s of CPU)"
     [ $verdict_bad -eq 0 ]
 }

@@ -132,7 +132,8 @@ static void same_bits(bool single)
     plain.scene.body.high[2] = 60 * .3;
     const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-12, .single = single};
     double *first = NULL;
-    for (int i = 0; i < 4; i++) {
+    const int runs = few_of(4, 2);
+    for (int i = 0; i < runs; i++) {
         omp_set_num_threads(1 + i);
         struct stepped s = begin(&plain, options, true, false);
         const struct fused *both = consistent_of(s.model)->fused, *fused = single ? both->single : both;

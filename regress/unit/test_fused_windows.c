@@ -11,9 +11,10 @@ static void wide_scene(struct plain_scene *plain, bool layers, int long_axis)
 {
     static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
                                                BOUNDARY_SYMMETRY, BOUNDARY_TRANSMITTING};
+    const size_t long_one = (size_t)few_of(60, 40), short_one = (size_t)few_of(12, 2);
     double size[3];
     for (int axis = 0; axis < 3; axis++)
-        size[axis] = .3 * (double)(14 + chance(8) + (axis == long_axis ? 60 : 12));
+        size[axis] = .3 * (double)(14 + chance(8) + (axis == long_axis ? long_one : short_one));
     plain_box(plain, 3, size, .3);
     for (int face = 0; face < 6; face++) {
         struct boundary *boundary = &plain->scene.boundary[face];
@@ -229,8 +230,7 @@ static void test_late(void **unused)
 static void test_layers_reach(void **unused)
 {
     (void)unused;
-    enum { STEPS = 45 };
-    const int scenes = few_of(4, 1);
+    const int scenes = few_of(4, 1), steps = few_of(45, 15);
     for (int i = 0; i < scenes; i++) {
         const int along = i % 2, across = 1 - along;
         struct plain_scene plain;
@@ -246,16 +246,73 @@ static void test_layers_reach(void **unused)
         const struct consistent_options options = {
             .degree = 2, .sweeps = 3, .depth_exact = true, .quiet = 1e-5, .single = i >= 2};
         struct stepped one = started(&plain, options, 0), other = started(&plain, options, 0);
-        step_both(STEPS, &one, &other);
+        step_both(steps, &one, &other);
         same_in_the_end(&one, &other);
     }
+}
+
+/* A jump in u or v that ends some numbers before a layer, behind the surface or at the depth: in the first
+ * steps velocities reach rows of the layer in which displacements still are 0. */
+static void test_layers_wake(void **unused)
+{
+    (void)unused;
+    enum { CELLS = 16, SIDE = 3 };
+    const size_t step_of_gap = (size_t)few_of(2, 4);
+    double worst = 0, least = 1;
+    for (size_t axis = 0; axis < 3; axis++)
+        for (size_t gap = 0; gap < 8; gap += step_of_gap) {
+            struct plain_scene plain;
+            plain_box(&plain, 3, (double[3]){CELLS, CELLS, CELLS}, 1);
+            for (int face = 1; face < 6; face += 2)
+                plain.scene.boundary[face] = (struct boundary){.kind = BOUNDARY_TRANSMITTING,
+                                                               .absorber = ABSORBER_PML,
+                                                               .layer_points = 5,
+                                                               .always = true};
+            const bool moves = gap / step_of_gap % 2 == 1;
+            struct stepped s[2];
+            double *end_of[2];
+            for (int whole = 0; whole < 2; whole++) {
+                const struct consistent_options options = {
+                    .degree = 2, .sweeps = 2, .quiet = whole == 1 ? 0 : 1e-14};
+                s[whole] = begin(&plain, options, true, false);
+                const struct consistent *c = consistent_of(s[whole].model);
+                double *field = s[whole].state.y + (moves ? s[whole].model->unknowns : 0);
+                for (size_t i = 0; i < 3 * SIDE * SIDE * SIDE; i++) {
+                    size_t at[3] = {6 + i % SIDE, 6 + i / SIDE % SIDE, 6 + i / SIDE / SIDE % SIDE};
+                    at[axis] += CELLS - 6 - SIDE - gap;
+                    field[i / SIDE / SIDE / SIDE * c->volume + at[2] * c->plane + at[1] * c->n[0] + at[0]] =
+                        1 + (double)(i % 7);
+                }
+                s[whole].stepper->scheme->start(s[whole].stepper, &s[whole].state);
+                for (int count = 0; count < 3; count++)
+                    step(&s[whole]);
+                settle(&s[whole]);
+                end_of[whole] = s[whole].state.y;
+                const size_t n = s[whole].model->unknowns, extra = s[whole].model->state_size - 2 * n;
+                assert_true(extra > 0);
+                if (whole == 0) continue;
+                const double *memory[2] = {end_of[0] + 2 * n, end_of[1] + 2 * n};
+                double largest = 0;
+                for (size_t i = 0; i < extra; i++)
+                    largest = fmax(largest, fabs(memory[1][i]));
+                least = fmin(least, largest);
+                worst = fmax(worst, difference(2 * n, end_of[0], end_of[1]));
+                worst = fmax(worst, difference(extra, memory[0], memory[1]));
+            }
+            end(&s[0]);
+            end(&s[1]);
+        }
+    print_message("# layers' memory of %.1e and more, differences %.1e\n", least, worst);
+    assert_true(least > 1e-8);
+    assert_true(worst < 1e-11);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_quiet),        cmocka_unit_test(test_reached),
-        cmocka_unit_test(test_late),      cmocka_unit_test(test_layers_reach),
+        cmocka_unit_test(test_same_bits),    cmocka_unit_test(test_quiet),
+        cmocka_unit_test(test_reached),      cmocka_unit_test(test_late),
+        cmocka_unit_test(test_layers_reach), cmocka_unit_test(test_layers_wake),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests_name("windows of the fused operator", tests, NULL, NULL);

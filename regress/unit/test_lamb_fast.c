@@ -8,6 +8,7 @@
 #include "exact/lamb_closed.h"
 #include "exact/lamb_moving.h"
 
+#include "few.h"
 #include "near.h"
 
 #include <gsl/gsl_integration.h>
@@ -107,12 +108,13 @@ static void faster_than_rayleigh(void **state)
 {
     (void)state;
     compare(.25, (const double[2]){.96, 0}, (const double[2]){.9, -.6}, 2);
-    compare(.25, (const double[2]){.9, -.1}, (const double[2]){1.2, .3}, 2);
+    if (few_of(1, 0)) compare(.25, (const double[2]){.9, -.1}, (const double[2]){1.2, .3}, 2);
 }
 
 static void faster_than_shear(void **state)
 {
     (void)state;
+    if (few_of(0, 1)) skip();
     compare(.25, (const double[2]){1.3, 0}, (const double[2]){1, -1.2}, 2);
 }
 
@@ -120,6 +122,7 @@ static void faster_than_shear(void **state)
 static void faster_than_pressure(void **state)
 {
     (void)state;
+    if (few_of(0, 1)) skip();
     compare(.3, (const double[2]){2, .4}, (const double[2]){1.4, 1.3}, 0);
 }
 

@@ -1,23 +1,28 @@
-/* Horizontal loads and kinked discs on the half-space's surface in closed form, for lamb_fft.c. A unit step
- * of traction along x on a patch; (r, theta) about the receiver, rho = r/(cs t): 2 pi mu u_x/(cs t) =
- * contour-int [(A_R + A_S)/2 - cos(2 theta) (B_R - B_S)/2] dtheta, 2 pi mu u_y/(cs t) = contour-int -sin(2
- * theta) (B_R - B_S)/2 dtheta                              (1) (n_x^2 -> (J0 - cos(2 theta) J2)/2, n_x n_y ->
- * -sin(2 theta) J2/2; A, B: integrals over rho of what J0 and J2 make). A step's compliance F(gamma)/(mu k),
- * gamma = s/(i k cs), is real in time as (2/pi) PV-int Re F(gamma)/gamma sin(gamma k cs t) dgamma, (2) F_R =
- * -gamma^2 q/[(2 - gamma^2)^2 - 4 p q],  p = sqrt(1 - a gamma^2), q = sqrt(1 - gamma^2),        (3) Re F_R =
- * 0 beyond cp/cs. int J0(k r) sin(k b) dk = H(b > r)/sqrt(b^2 - r^2) and, for J2, 2 b/r^2 (b < r) or -r^2/(w
- * (b + w)^2), w = sqrt(b^2 - r^2), integrated over r: A = (2/pi) PV-int Re F [1 - sqrt(1 - sin^2 alpha)]
- * dgamma,  sin alpha = min(1, rho/gamma)            (4) B = (2/pi) PV-int Re F [4 ln cos(alpha/2) + 2
- * sin^2(alpha/2) + 2 ln max(1, rho/gamma)] dgamma        (5) The pole at g = c_R/cs, kappa/(g^2 - gamma^2),
- * is taken out; alone it gives (by cosines) A = kappa/g^2 [rho - w], B = kappa/g^2 [rho - w + 2 g
- * arccos(g/rho)], w = sqrt(rho^2 - g^2), rho > g  (6) and rho without the rest before. SH waves: A_S =
- * min(rho, 1), B_S = rho, beyond 1: 1 + 2 ln rho.       (7) The point load's form of this is Chao's (1960, J.
- * Appl. Mech. 27, 559-567). u_z of Tx is -u_x of Tz: Pekeris (lamb_closed.c). Velocity under a triangle is a
- * sum of three step displacements. */
+/* Horizontal loads and kinked discs on the half-space's surface in closed form, for lamb_fft.c.
+ *
+ * A unit step of traction along x on a patch; (r, theta) about the receiver, rho = r/(cs t):
+ *   2 pi mu u_x/(cs t) = contour-int [(A_R + A_S)/2 - cos(2 theta) (B_R - B_S)/2] dtheta,
+ *   2 pi mu u_y/(cs t) = contour-int -sin(2 theta) (B_R - B_S)/2 dtheta                       (1)
+ * (n_x^2 -> (J0 - cos(2 theta) J2)/2, n_x n_y -> -sin(2 theta) J2/2; A, B: integrals over rho of what J0 and
+ * J2 make). A step's compliance F(gamma)/(mu k), gamma = s/(i k cs), is real in time as
+ *   (2/pi) PV-int Re F(gamma)/gamma sin(gamma k cs t) dgamma,                                 (2)
+ *   F_R = -gamma^2 q/[(2 - gamma^2)^2 - 4 p q],  p = sqrt(1 - a gamma^2), q = sqrt(1 - gamma^2), (3)
+ * Re F_R = 0 beyond cp/cs. int J0(k r) sin(k b) dk = H(b > r)/sqrt(b^2 - r^2) and, for J2, 2 b/r^2 (b < r) or
+ * -r^2/(w (b + w)^2), w = sqrt(b^2 - r^2), integrated over r:
+ *   A = (2/pi) PV-int Re F [1 - sqrt(1 - sin^2 alpha)] dgamma,  sin alpha = min(1, rho/gamma) (4)
+ *   B = (2/pi) PV-int Re F [4 ln cos(alpha/2) + 2 sin^2(alpha/2) + 2 ln max(1, rho/gamma)] dgamma (5)
+ * The pole at g = c_R/cs, kappa/(g^2 - gamma^2), is taken out; alone it gives (by cosines)
+ *   A = kappa/g^2 [rho - w],  B = kappa/g^2 [rho - w + 2 g arccos(g/rho)],
+ *   w = sqrt(rho^2 - g^2),  rho > g                                                           (6)
+ * and rho without the rest before. SH waves:
+ *   A_S = min(rho, 1),  B_S = rho, beyond 1: 1 + 2 ln rho.                                    (7)
+ * The point load's form of this is Chao's (1960, J. Appl. Mech. 27, 559-567). u_z of Tx is -u_x of Tz:
+ * Pekeris (lamb_closed.c). Velocity under a triangle is a sum of three step displacements. */
 #include "exact/gauss12.h"
 #include "exact/lamb_closed.h"
 #include "exact/lamb_fft.h"
 
+#include "few.h"
 #include "near.h"
 
 #include <stdlib.h>
@@ -233,14 +238,15 @@ static void compare(double nu, const struct patch *patch, double across, double 
     struct lamb_closed closed;
     struct messages messages = {0};
     struct lamb_signal signal[PLACES] = {0};
+    const size_t count = (size_t)few_of(PLACES, 1);
     half_space_set(&problem.ground, 1, lambda, 1);
     assert_int_equal(lamb_closed_set(&closed, 1, lambda, 1, &messages), SELAS_OK);
     const struct sheet sheet = sheet_of(&problem.ground);
-    for (int r = 0; r < PLACES; r++)
+    for (size_t r = 0; r < count; r++)
         for (int i = 0; i < 2; i++)
             signal[r].position[i] = places[r][i];
-    assert_int_equal(lamb_fft(&problem, end, PLACES, signal, &messages), SELAS_OK);
-    for (int r = 0; r < PLACES; r++) {
+    assert_int_equal(lamb_fft(&problem, end, count, signal, &messages), SELAS_OK);
+    for (size_t r = 0; r < count; r++) {
         double wrong[3] = {0}, size[3] = {0}, largest = 0;
         for (int i = 0; i < ROWS; i++) {
             const double t = end * (i + .5) / ROWS;
@@ -271,6 +277,7 @@ static void kinked_horizontal_loads(void **state)
 {
     (void)state;
     compare(.25, &rectangle, 1, 0, 2e-5);
+    if (few_of(0, 1)) return;
     compare(.25, &disc, 1, 0, 2e-5);
     compare(.4, &disc, 1, 0, 2e-5);
 }

@@ -228,7 +228,7 @@ static void test_quiet(void **state)
     }
     const size_t n = run[0].n;
     const struct pml_fast *fast = consistent_of(run[0].model)->pml->fast;
-    const int steps = few_of(300, 100);
+    const int steps = few_of(300, 60);
     for (int step = 0; step < steps; step++) {
         for (int i = 0; i < 2; i++) {
             double *v = run[i].y + n;

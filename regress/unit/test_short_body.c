@@ -1,6 +1,7 @@
 /* The largest frequency on a body whose long axes are cut: never below that of the whole body by more than
  * what is added for it, and not far above; bodies that are short themselves are measured as they are. */
 #include "consistent_run.h"
+#include "few.h"
 
 #include "stepping/stepping.h"
 
@@ -72,7 +73,7 @@ static void a_cut_body_bounds_the_whole_one(void **state)
     (void)state;
     for (size_t o = 0; o < sizeof options / sizeof *options; o++)
         for (int ends = FREE; ends < ENDS; ends++)
-            for (size_t m = 0; m < 2; m++) {
+            for (size_t m = (size_t)few_of(0, 1); m < 2; m++) {
                 struct plain_scene plain;
                 const double size[3] = {50, 45, 0};
                 if (ends == LAYERS && options[o].sweeps == 0) continue;
@@ -93,7 +94,7 @@ static void the_frequency_that_steps_are_chosen_by(void **state)
     static const struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
     static const int ends[3] = {HALF_MIRROR, LAYERS, FREE};
     (void)state;
-    for (int scene = 0; scene < 3; scene++) {
+    for (int scene = few_of(0, 2); scene < 3; scene++) {
         struct plain_scene plain;
         const double layers = ends[scene] == LAYERS ? 12 : 0, depth = scene == 2 ? 14 : 44;
         const double size[3] = {90 - layers, 48 - layers, depth};

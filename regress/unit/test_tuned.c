@@ -1,6 +1,7 @@
 /* Tuned splines (doc/consistent-method.md, section 14): symbols against theory, signs of the matrices with
  * all kinds of ends, fields that must stay as they are, symmetry planes, energy. */
 #include "consistent_run.h"
+#include "few.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -219,10 +220,11 @@ static void test_energy(void **state)
         struct consistent *c = consistent_of(run.model);
         double *v = run.y + run.n, *before = calloc(run.n, sizeof *before), first = 0, last = 0;
         const double dt = .008;
+        const int steps = few_of(300, 100);
         noise(run.n, run.y);
         run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
         memset(run.y, 0, run.n * sizeof *run.y);
-        for (int step = 0; step < 300; step++) {
+        for (int step = 0; step < steps; step++) {
             memcpy(before, run.y, run.n * sizeof *before);
             for (size_t i = 0; i < run.n; i++)
                 run.y[i] += dt * v[i];

@@ -5,6 +5,8 @@
 #include "method/consistent.h"
 #include "method/pml.h"
 
+#include "few.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -99,7 +101,7 @@ static void plant(const struct family *family, const char *where, size_t index, 
 static void plant_all(const struct family *family, const char *where, size_t index, const double place[2],
                       double off, const char *behind)
 {
-    for (enum fault fault = NOT_FINITE; fault <= GROWTH; fault++)
+    for (enum fault fault = (enum fault)few_of(NOT_FINITE, GROWTH); fault <= GROWTH; fault++)
         plant(family, where, index, place, off, behind, fault);
 }
 

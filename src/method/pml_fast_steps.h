@@ -50,17 +50,19 @@ static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL 
     }
 }
 
-/* Up to here displacements, slopes and accelerations move nothing. */
+/* Up to here displacements, velocities, slopes and accelerations move nothing. */
 struct level {
-    REAL displacement, slope, force;
+    REAL displacement, velocity, slope, force;
 };
 
-static struct level levels(const struct consistent *c, double displacement)
+/* (Displacements in the middle of a step are u + to_middle v, and v reaches farther than u.) */
+static struct level levels(const struct consistent *c, double displacement, double to_middle)
 {
     const double spacing = c->model.scene->body.spacing;
     const double stiffness = c->property[WEIGHT_P] / c->property[WEIGHT_DENSITY];
-    if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1};
-    return (struct level){(REAL)displacement, (REAL)(displacement / spacing),
+    if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1, -1};
+    return (struct level){(REAL)displacement, (REAL)(displacement / fabs(to_middle)),
+                          (REAL)(displacement / spacing),
                           (REAL)(displacement * stiffness / (spacing * spacing))};
 }
 
@@ -73,19 +75,29 @@ static bool memory_loud(const struct fast_slab *s, struct level level, size_t b,
            NAME(pml_loud)(3, inner, size, level.force, phi);
 }
 
-/* Is the row at rest: displacements that it reads, and memory? Then it forgets what is left of that. */
+/* Is any number larger than the level that row b reads of a field? */
+static bool field_loud(const struct consistent *c, const struct fast_slab *s, REAL level, size_t b,
+                       const REAL *field)
+{
+    const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
+    for (size_t i = 0; i < 3; i++) {
+        const REAL *from = field + i * c->volume + s->first + b * s->step[ROLE_B];
+        if (across ? NAME(pml_loud)(s->nf, s->step[ROLE_F], s->region, level, from)
+                   : NAME(pml_loud)(s->region, s->step[ROLE_S], s->nf, level, from))
+            return true;
+    }
+    return false;
+}
+
+/* Is the row at rest: displacements and velocities that it reads, and memory? Then it forgets what is left of
+ * that. */
 static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
-                  const REAL *u, REAL *extra)
+                  const REAL *u, const REAL *v, REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
-    const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
-    if (level.displacement < 0) return false;
-    for (size_t i = 0; i < 3; i++) {
-        const REAL *from = u + i * c->volume + s->first + b * s->step[ROLE_B];
-        if (across ? NAME(pml_loud)(s->nf, s->step[ROLE_F], s->region, level.displacement, from)
-                   : NAME(pml_loud)(s->region, s->step[ROLE_S], s->nf, level.displacement, from))
-            return false;
-    }
+    if (level.displacement < 0 || field_loud(c, s, level.displacement, b, u) ||
+        field_loud(c, s, level.velocity, b, v))
+        return false;
     if (memory_loud(s, level, b, extra)) return false;
     for (size_t i = 0; i < 3; i++) {
         memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
@@ -279,12 +291,12 @@ double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
 void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, double quiet,
                              const REAL *u, const REAL *v, REAL *extra)
 {
-    const struct level level = levels(c, quiet);
+    const struct level level = levels(c, quiet, to_middle);
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t b = 0; b < s->nb; b++) {
-            s->rests[b] = rests(c, s, level, b, u, extra);
+            s->rests[b] = rests(c, s, level, b, u, v, extra);
             if (!s->rests[b]) gradient_row(c, s, dt, to_middle, b, u, v, extra);
         }
     }
