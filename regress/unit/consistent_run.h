@@ -28,10 +28,10 @@ static inline struct model *make(const struct plain_scene *plain, struct consist
 
 static inline void noise(size_t n, double *x)
 {
-    uint64_t seed = 7;
+    uint64_t bits = 7;
     for (size_t i = 0; i < n; i++) {
-        seed = seed * 6364136223846793005u + 1442695040888963407u;
-        x[i] = (double)(seed >> 11) * 0x1p-52 - 1;
+        bits = bits * 6364136223846793005u + 1442695040888963407u;
+        x[i] = (double)(bits >> 11) * 0x1p-52 - 1;
     }
 }
 

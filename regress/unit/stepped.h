@@ -2,6 +2,7 @@
 #ifndef STEPPED_H
 #define STEPPED_H
 
+#include "chance.h"
 #include "consistent_run.h"
 
 #include "base/memory.h"
@@ -9,14 +10,6 @@
 #include "stepping/schemes.h"
 
 #include <omp.h>
-
-static uint64_t seed = 5;
-
-static inline size_t chance(size_t n)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (size_t)(seed >> 33) % n;
-}
 
 static const double places[][3] = {{.1, .2, .3}, {1.7, 2.2, .9}, {2.05, .4, 3.1}};
 enum { PLACES = sizeof places / sizeof places[0], VALUES = PLACES * 9 };

@@ -1,20 +1,13 @@
 /* The shared passes of absorbing layers (pml_fast.h) against the passes one by one, which test_pml holds
  * against large boxes: random scenes marched from noise, with layers of all thicknesses behind some faces and
  * other faces of all kinds, both masses over depth, threads. */
+#include "chance.h"
 #include "consistent_run.h"
 #include "few.h"
 
 #include "method/pml_fast.h"
 
 #include <omp.h>
-
-static uint64_t seed = 5;
-
-static size_t chance(size_t n)
-{
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (size_t)(seed >> 33) % n;
-}
 
 /* Box with faces drawn by chance, the one given with a layer. */
 static void random_scene(struct plain_scene *plain, int layered, double poisson)
@@ -279,5 +272,6 @@ int main(void)
                                        cmocka_unit_test(test_single), cmocka_unit_test(test_quiet),
                                        cmocka_unit_test(test_threads)};
     omp_set_num_threads(1);
+    seed_begin(5);
     return cmocka_run_group_tests_name("shared passes of absorbing layers", tests, NULL, NULL);
 }

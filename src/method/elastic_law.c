@@ -180,7 +180,7 @@ void elastic_observe(const struct elastic *elastic, const double *H, double stre
     const double dilatation = trace(d, E);
     elastic_stress(elastic, H, P);
     const double J = elastic->law == LAW_LINEAR ? 1 : invert(d, H, inverse);
-    double sigma[9];
+    double sigma[9] = {0};
     for (int a = 0; a < d; a++)
         for (int b = 0; b < d; b++) {
             double sum = P[a * d + b];
