@@ -218,11 +218,11 @@ $(BUILD)/replay/fuzz_%: regress/fuzz/fuzz_%.c regress/fuzz/replay.c $(BUILD)/lib
 check-sanitize: ## all unit tests and short scripts under AddressSanitizer, UBSan and LeakSanitizer (ten minutes)
 	+@regress/sanitize $(BUILD)/asan
 
-check-valgrind: ## the unit tests that valgrind does not take too long for (an hour; installs valgrind)
+check-valgrind: ## all unit tests under valgrind (more than an hour; installs valgrind)
 	@sh regress/setup leaks
 	+@regress/valgrind $(BUILD)
 
-check-threads: ## tests with threads under ThreadSanitizer (clang, libomp with Archer)
+check-threads: ## all unit tests under ThreadSanitizer (half an hour; clang, libomp with Archer)
 	+@regress/threads $(BUILD)/threads
 
 no-memory: $(BUILD)/test/test_no_memory ## each allocation of small scenes fails in turn, all of them (some minutes)
