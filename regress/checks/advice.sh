@@ -46,6 +46,8 @@ told "few points per wavelength" "3.08 points per wavelength .* 4 need body%spac
 told "a small step" "leave stepping%time_step" stepping%time_step=1e-3
 told "a receiver at an absorbing face" "receiver 'r' lies at the absorbing face x+ .*(0.5) inside" receiver%position=3.9,2
 told "a load on an absorbing face" "load 1 acts on the absorbing face y+" load%face=y+ load%centre=0,4
+# lambda = mu: (cR/cs)^2 = 2 - 2/sqrt 3
+told "a load faster than the Rayleigh wave" "load 1 moves at 0.95, faster than the Rayleigh wave (0.9194)" load%velocity=-.95,0 "boundary(2)%kind=free"
 told "a patch beside the lattice" "edges of load 1 along x lie between points; -0.5 to 0.5 would" method%variant=paper load%size=1.1 "boundary(2)%kind=free"
 told "half a patch that is no half" "symmetry plane x- cuts load 1 beside its middle: .*x = 0 would" load%centre=0.25,0
 told "a push across the symmetry plane" "pushes across the symmetry plane x-" load%direction=1,0

@@ -2,6 +2,8 @@
  * would be right (doc/results.md). */
 #include "record/advice.h"
 
+#include "exact/half_space.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -122,6 +124,30 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     }
 }
 
+/* On the Mach lines of the Rayleigh wave displacements have kinks and velocities poles (doc/sources.md, Eq
+ * 11). */
+static void look_at_speed(struct adviser *adviser, size_t k)
+{
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    const int down = scene->dimension - 1;
+    double centre[3], speed = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        speed = hypot(speed, load->velocity[axis]);
+    if (load->kind != LOAD_TRACTION || speed <= 0.0) return;
+    body_from_deck(&scene->body, load->centre, centre);
+    const double depth = fmax(0.0, centre[down] - scene->body.low[down]);
+    const struct material *material = scene_material_at(scene, depth);
+    struct half_space ground;
+    half_space_set(&ground, material->density, material->plane_lambda, material->mu);
+    if (speed > ground.rayleigh_speed)
+        advise(adviser,
+               "load %zu moves at %.4g, faster than the Rayleigh wave (%.4g): its Mach lines have velocities "
+               "that no spacing resolves; compare displacements, or velocities through a window of some "
+               "spacings, or move it slower",
+               k + 1, speed, ground.rayleigh_speed);
+}
+
 size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -135,6 +161,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_layers(&adviser, stepper);
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
+        look_at_speed(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, k);
     }
     return adviser.count;
