@@ -50,6 +50,15 @@ $(BUILD)/test/quiet: regress/quiet.c $(BUILD)/libselas.a
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
 
+.PHONY: relations
+relations: $(BUILD)/test/relations ## what every run keeps, on scenes drawn by chance (minutes): doc/robustness.md
+	@$(BUILD)/test/relations 1 100
+
+$(BUILD)/test/relations: regress/relations.c $(BUILD)/libselas.a
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  compile $<")
+	$(Q)$(CC) $(ALL_C) -MMD -MP $(LDFLAGS) -o $@ $< $(BUILD)/libselas.a $(LIBS)
+
 .PHONY: stops
 stops: $(BUILD)/test/stops ## restarts from random steps with two threads and one, all methods (minutes): doc/restart.md
 	@sh regress/stops $(BUILD)

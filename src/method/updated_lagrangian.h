@@ -53,8 +53,9 @@ struct updated {
     int stresses;   /* components of the stress */
     bool repulsive; /* artificial stress is on; off while the spectrum is measured */
     double alpha, beta;
-    bool pressed;                        /* some face has ghosts that carry a traction */
-    bool hourglass_of_velocity;          /* while the spectrum is measured */
+    bool pressed;             /* some face has ghosts that carry a traction */
+    bool velocities_displace; /* while waves are measured v stands for u: hourglass control takes it, dampers
+                                 rest */
     struct updated_hourglass *hourglass; /* NULL without hourglass control */
     bool both_sides; /* viscosity between receding pairs too: while the spectrum is measured */
     struct cloud *cloud;

@@ -129,7 +129,7 @@ static void traction_at(const struct updated *updated, const struct updated_ghos
     const int axis = face_axis((enum face)face);
     for (int a = 0; a < 3; a++)
         traction[a] = 0;
-    if (boundary->kind == BOUNDARY_TRANSMITTING)
+    if (boundary->kind == BOUNDARY_TRANSMITTING && !updated->velocities_displace)
         for (int a = 0; a < updated->dimension; a++)
             traction[a] -= updated->material->density * image->v[a] *
                            (a == axis ? boundary->normal_factor * updated->material->p_speed

@@ -79,9 +79,8 @@ static void pack_motion(const struct updated *updated, size_t place)
     double *packed = updated->hourglass->packed + 2 * dimension * place;
     for (size_t a = 0; a < dimension; a++) {
         packed[a] = from[step * a];
-        packed[dimension + a] = updated->hourglass_of_velocity
-                                    ? from[step * (updated->layout.velocity + a)]
-                                    : packed[a] - updated->reference[3 * place + a];
+        packed[dimension + a] = updated->velocities_displace ? from[step * (updated->layout.velocity + a)]
+                                                             : packed[a] - updated->reference[3 * place + a];
     }
 }
 

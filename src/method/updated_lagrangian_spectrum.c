@@ -3,7 +3,7 @@
  * linear there):
  *
  *   waves      v -> stress rate -> acceleration, viscosity and artificial stress off, and v -> acceleration
- *              by hourglass control: eigenvalues -omega^2
+ *              by hourglass control, dampers at rest: eigenvalues -omega^2
  *   viscosity  v -> acceleration of the viscous term alone, beta off, between all pairs: eigenvalue -radius
  *
  * Between all pairs: the viscosity acts on approaching pairs only, but at a compressive front all pairs
@@ -188,9 +188,9 @@ static void measure(struct updated *updated, struct iteration *work, struct spec
     updated->repulsive = false;
     updated->both_sides = true;
     updated->alpha = updated->beta = 0;
-    updated->hourglass_of_velocity = true;
+    updated->velocities_displace = true;
     spectrum->omega = sqrt(iterate(updated, work, wave_map));
-    updated->hourglass_of_velocity = false;
+    updated->velocities_displace = false;
     updated->alpha = alpha;
     if (alpha > 0) {
         spectrum->wave_damping = quotient(updated, work) / 2;
