@@ -52,7 +52,7 @@ $(BUILD)/test/quiet: regress/quiet.c $(BUILD)/libselas.a
 
 .PHONY: relations
 relations: $(BUILD)/test/relations ## what every run keeps, on scenes drawn by chance (minutes): doc/robustness.md
-	@$(BUILD)/test/relations 1 100
+	@regress/relations $(BUILD) 1 100
 
 $(BUILD)/test/relations: regress/relations.c $(BUILD)/libselas.a
 	@mkdir -p $(@D)
@@ -114,7 +114,7 @@ verification: ## write doc/verification.md anew from the cases and their recorde
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
 
-unit: all $(TESTS) ## run the tests without the set-up
+unit: all $(TESTS) $(BUILD)/test/relations ## run the tests without the set-up
 	@sh regress/run-tests $(BUILD)
 
 $(BUILD)/selas: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
@@ -231,7 +231,7 @@ check-valgrind: ## all unit tests under valgrind (more than an hour; installs va
 	@sh regress/setup leaks
 	+@regress/valgrind $(BUILD)
 
-check-threads: ## all unit tests under ThreadSanitizer (half an hour; clang, libomp with Archer)
+check-threads: ## all unit tests under ThreadSanitizer (ten minutes; clang, libomp with Archer)
 	+@regress/threads $(BUILD)/threads
 
 no-memory: $(BUILD)/test/test_no_memory ## each allocation of small scenes fails in turn, all of them (some minutes)

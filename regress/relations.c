@@ -498,7 +498,7 @@ static const struct relation relations[] = {
     {"linear", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 4, "", false}, 1, false, true, true},
 };
 
-/* Where a moved face meets a held one, ghosts of particles follow the first axis. */
+/* Where a moved face meets a held one, which contradict each other, ghosts follow the first axis. */
 static bool moved(const struct drawn *s)
 {
     for (int face = 0; face < 2 * s->dimension; face++)
@@ -512,7 +512,8 @@ static bool applies(const struct relation *relation, const struct drawn *s)
     if (strcmp(name, "fused") == 0) return s->consistent && !s->single;
     if (relation->variant.method[0] != '\0') return s->consistent;
     if (strcmp(name, "mirrored") == 0) return !s->jitter;
-    if (strcmp(name, "exchanged") == 0) return !s->jitter && s->dimension == 3 && !(s->particles && moved(s));
+    if (strcmp(name, "exchanged") == 0)
+        return !s->jitter && s->dimension == 3 && (s->consistent || !moved(s));
     if (strcmp(name, "linear") == 0) return s->linear;
     return true;
 }

@@ -324,6 +324,34 @@ static void spectrum_of_a_lattice(void **unused)
     drop(&f);
 }
 
+/* Waves a thousand times slower (stiffness 2^-20) have frequencies a thousand times lower and dampers as much
+ * less to do, beside transmitting faces too. */
+static void spectrum_beside_dampers(void **unused)
+{
+    (void)unused;
+    struct spectrum spectrum[2];
+    struct messages messages = {0};
+    for (int slow = 0; slow < 2; slow++) {
+        struct fixture f;
+        const double stiffness = slow ? 0x1p-20 : 1;
+        box(&f, 2, .1);
+        plain_material(&f.plain.material[0], 1.1, 2 * stiffness, stiffness);
+        f.options.alpha = 2;
+        f.plain.scene.boundary[FACE_X_HIGH].kind = f.plain.scene.boundary[FACE_Y_LOW].kind =
+            BOUNDARY_TRANSMITTING;
+        f.plain.scene.boundary[FACE_X_HIGH].absorber = f.plain.scene.boundary[FACE_Y_LOW].absorber =
+            ABSORBER_LYSMER;
+        for (int face = 0; face < 4; face++)
+            f.plain.scene.boundary[face].normal_factor = f.plain.scene.boundary[face].shear_factor = 1;
+        make(&f);
+        assert_int_equal(updated_spectrum(f.model, &spectrum[slow], &messages), SELAS_OK);
+        drop(&f);
+    }
+    assert_near(spectrum[1].omega / spectrum[0].omega * 1024, 1, 1e-9);
+    assert_near(spectrum[1].viscous / spectrum[0].viscous * 1024, 1, 1e-9);
+    assert_near(spectrum[1].wave_damping / spectrum[0].wave_damping * 1024, 1, 1e-6);
+}
+
 /* Threads do not change a bit, nor does it matter when the lists were made. */
 static void same_bits(void **unused)
 {
@@ -399,10 +427,15 @@ static void point_values(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gradient_and_jaumann),  cmocka_unit_test(tractions_balance),
-        cmocka_unit_test(divergence_inside),     cmocka_unit_test(walls),
-        cmocka_unit_test(viscosity_of_a_pair),   cmocka_unit_test(artificial_stress),
-        cmocka_unit_test(spectrum_of_a_lattice), cmocka_unit_test(same_bits),
+        cmocka_unit_test(gradient_and_jaumann),
+        cmocka_unit_test(tractions_balance),
+        cmocka_unit_test(divergence_inside),
+        cmocka_unit_test(walls),
+        cmocka_unit_test(viscosity_of_a_pair),
+        cmocka_unit_test(artificial_stress),
+        cmocka_unit_test(spectrum_of_a_lattice),
+        cmocka_unit_test(spectrum_beside_dampers),
+        cmocka_unit_test(same_bits),
         cmocka_unit_test(point_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
