@@ -51,7 +51,7 @@ struct source {
 struct drawn {
     int dimension;
     char method[300], scheme[100];
-    bool consistent, linear, single, particles, jitter;
+    bool consistent, linear, single, jitter;
     double density, lambda, mu, spacing, low[3], cells[3];
     const char *boundary[6];
     long points[6];
@@ -93,7 +93,6 @@ static void draw_method(struct drawn *s)
     const char *law = laws[chance(3)];
     s->consistent = which < 6;
     s->linear = s->consistent || which == 6 || which == 7;
-    s->particles = which == 9;
     snprintf(s->scheme, sizeof s->scheme, "%s", schemes[chance(sizeof schemes / sizeof *schemes)]);
     if (s->consistent) {
         const bool usual = chance(2) == 0;
@@ -169,6 +168,29 @@ static void draw_load(struct drawn *s, struct source *load)
     }
 }
 
+/* The same on both sides of the middle of an axis: the program then computes halves and quarters. */
+static void make_even(struct drawn *s, int axis)
+{
+    const double middle = s->low[axis] + .5 * s->cells[axis] * s->spacing;
+    s->boundary[2 * axis + 1] = s->boundary[2 * axis];
+    s->points[2 * axis + 1] = s->points[2 * axis];
+    s->motion[axis] = s->direction[axis] = 0;
+    s->centre[axis] = middle;
+    for (size_t k = 0; k < s->loads; k++) {
+        struct source *load = &s->load[k];
+        if (load->face / 2 == axis) { /* to another face */
+            const int across = s->dimension - 1;
+            load->face = 2 * across;
+            load->centre[across] = s->low[across];
+            load->velocity[across] = 0;
+        }
+        load->centre[axis] = middle;
+        load->direction[axis] = load->velocity[axis] = 0;
+        for (int other = 0; other < 3; other++)
+            if (other != axis) load->moment[axis][other] = load->moment[other][axis] = 0;
+    }
+}
+
 static struct drawn draw(void)
 {
     struct drawn s = {.dimension = 1 + (int)chance(3)};
@@ -195,6 +217,8 @@ static struct drawn draw(void)
     s.amplitude = 1e-3 * s.spacing * between(.1, 1);
     if (s.dimension > 1 && s.consistent && chance(4) == 0)
         s.top = s.spacing * floor(s.cells[s.dimension - 1] * between(.3, .6));
+    for (int axis = 0; axis < s.dimension - 1; axis++)
+        if (s.consistent && chance(3) == 0) make_even(&s, axis);
     for (int r = 0; r <= RECEIVERS; r++)
         inside(&s, .8, s.receiver[r]);
     return s;
@@ -521,7 +545,7 @@ static bool applies(const struct relation *relation, const struct drawn *s)
 static double allowed(const struct relation *relation, const struct drawn *s)
 {
     if (relation->same_bits) return 0;
-    return s->single ? 3e-5 : s->particles ? 1e-7 : 1e-9;
+    return s->single ? 3e-5 : s->consistent ? 1e-9 : 1e-7; /* (rules of quadrature over discs: 1e-8) */
 }
 
 static void show(const struct drawn *s)
