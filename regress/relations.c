@@ -509,7 +509,9 @@ struct relation {
     bool stopped, same_bits, same_points;
 };
 
+enum { UNITS };
 static const struct relation relations[] = {
+    {"units", {{0, 1, 2}, {1, 1, 1}, 8, 4, 64, 1, "", false}, 1, false, false, true},
     {"quiet", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", quiet = 0", false}, 1, false, false, true},
     {"symmetry", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", symmetry = .false.", false}, 1, false, false, true},
     {"fused", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", fused = .false.", false}, 1, false, false, true},
@@ -518,7 +520,6 @@ static const struct relation relations[] = {
     {"receiver", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", true}, 1, false, true, true},
     {"mirrored", {{0, 1, 2}, {-1, 1, 1}, 1, 1, 1, 1, "", false}, 1, false, false, false},
     {"exchanged", {{1, 0, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false}, 1, false, false, false},
-    {"units", {{0, 1, 2}, {1, 1, 1}, 8, 4, 64, 1, "", false}, 1, false, false, true},
     {"linear", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 4, "", false}, 1, false, true, true},
 };
 
@@ -563,7 +564,15 @@ static void show(const struct drawn *s)
 static int hold(unsigned long number, struct drawn *s, bool *good)
 {
     struct outcome base = run(s, &plainly, 1, 0);
-    if (base.status != SELAS_OK) return 1;
+    if (base.status != SELAS_OK || !(base.step > 0)) return 1;
+    const struct variant *units = &relations[UNITS].variant;
+    const double measured = run(s, units, 1, 0).step / time_unit(units);
+    double worst = fabs(measured / base.step - 1);
+    const char *worst_one = "time step in other units";
+    if (!(worst <= 1e-9)) {
+        *good = false;
+        printf("not ok - scene %lu: time step %.9g, %.9g in other units\n", number, base.step, measured);
+    }
     s->time_step = .6 * base.step;
     s->end_time = STEPS * s->time_step;
     base = run(s, &plainly, 1, 0);
@@ -572,8 +581,6 @@ static int hold(unsigned long number, struct drawn *s, bool *good)
         outcome_free(&base);
         return 1;
     }
-    double worst = 0;
-    const char *tried_last = "";
     for (size_t k = 0; k < sizeof relations / sizeof *relations; k++) {
         const struct relation *relation = &relations[k];
         if (!applies(relation, s)) continue;
@@ -591,14 +598,14 @@ static int hold(unsigned long number, struct drawn *s, bool *good)
             }
             if (error > worst) {
                 worst = error;
-                tried_last = relation->name;
+                worst_one = relation->name;
             }
         }
         outcome_free(&o);
     }
     if (*good)
         printf("ok - scene %lu: %d-D, %s, %s: %.1e %s\n", number, s->dimension, s->method, s->initial, worst,
-               tried_last);
+               worst_one);
     else
         show(s);
     outcome_free(&base);
