@@ -45,7 +45,8 @@ static void accelerate(struct stepper *stepper, struct state *state, double half
 }
 
 /* The scheme's v is (u(1) - u(-1)) / (2 dt) = u' + dt^2/6 u''', so a body that moves at t = 0 starts with
- * that; u''' = -M^-1 K v: loads and dampers begin at t = 0 and leave no trace before it. */
+ * that; u''' = -M^-1 K v, K about the body at rest (velocities are no displacements to a nonlinear law):
+ * loads and dampers begin at t = 0 and leave no trace before it. */
 static void start(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
@@ -53,7 +54,9 @@ static void start(struct stepper *stepper, struct state *state)
     const double sixth = stepper->dt * stepper->dt / 6.0;
     const struct drive none = {.time = 0.0};
     double *v = state->y + n, *third = stepper->work[0];
+    if (model->class->linearise != NULL) model->class->linearise(model, true);
     model->class->accelerate(model, &none, 0.0, v, NULL, third);
+    if (model->class->linearise != NULL) model->class->linearise(model, false);
     for (size_t i = 0; i < n; i++)
         v[i] += sixth * third[i];
     accelerate(stepper, state, 0.0);
