@@ -482,6 +482,7 @@ static struct outcome run(const struct drawn *s, const struct variant *v, int th
 static double apart(const struct outcome *base, const struct outcome *o, const struct variant *v, bool fields)
 {
     const double unit[2] = {v->amplitude * v->length, v->amplitude * v->length / time_unit(v)};
+    const double nothing = 1e-290; /* denormal numbers have no bits to lose */
     double worst = 0;
     if (o->rows != base->rows || o->points != base->points) return INFINITY;
     for (size_t row = 0; row < RECEIVERS * base->rows; row++)
@@ -491,13 +492,13 @@ static double apart(const struct outcome *base, const struct outcome *o, const s
                 const double now = o->history[6 * row + 3 * (size_t)which + (size_t)i];
                 const double error = fabs(now - unit[which] * v->sign[i] * before);
                 const double size = unit[which] * base->largest[which];
-                if (!(error <= worst * size) && error > 0) worst = error / size;
+                if (!(error <= worst * size) && !(error < nothing)) worst = error / size;
             }
     for (size_t i = 0; fields && i < 6 * base->points; i++) {
         const int which = i < 3 * base->points ? 0 : 1;
         const double error = fabs(o->field[i] - unit[which] * base->field[i]);
         const double size = unit[which] * base->largest[which];
-        if (!(error <= worst * size) && error > 0) worst = error / size;
+        if (!(error <= worst * size) && !(error < nothing)) worst = error / size;
     }
     return worst;
 }

@@ -121,7 +121,7 @@ static void add_product(const struct consistent *c, const struct workspace *w, i
 }
 
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
- */
+ * Slopes of degree 1 jump at the points: there the mean of both sides. */
 void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
                            double *line)
 {
@@ -130,11 +130,15 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
     const double small = 1e-9 * (spline->high - spline->low); /* no layer lies behind a symmetry plane */
     const bool cut = (boundary[0].kind == BOUNDARY_SYMMETRY && fabs(x - spline->low) < small) ||
                      (boundary[1].kind == BOUNDARY_SYMMETRY && fabs(x - spline->high) < small);
-    struct tuned_point at;
-    tuned_at(spline, odd, x, &at);
+    const int sides = slope && spline->degree == 1 ? 2 : 1;
     memset(line, 0, spline->count * sizeof *line);
-    for (size_t j = 0; j < at.count; j++)
-        line[at.index[j]] += (slope ? at.slope[j] : at.value[j]) * (half && cut ? .5 : 1);
+    for (int side = 0; side < sides; side++) {
+        const double beside = x + (sides == 2 ? (2 * side - 1) * small : 0);
+        struct tuned_point at;
+        tuned_at(spline, odd, sides == 2 ? fmin(fmax(beside, spline->low), spline->high) : x, &at);
+        for (size_t j = 0; j < at.count; j++)
+            line[at.index[j]] += (slope ? at.slope[j] : at.value[j]) * (half && cut ? .5 : 1) / sides;
+    }
 }
 
 static bool traction(struct consistent *c, const struct load *load, const double centre[3],
