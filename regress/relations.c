@@ -72,8 +72,9 @@ struct variant {
     double sign[3], length, stress, density, amplitude;
     const char *method;
     bool more;
+    double rotation[3]; /* degrees, of the body and all that lies in it */
 };
-static const struct variant plainly = {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false};
+static const struct variant plainly = {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false, {0, 0, 0}};
 
 static void draw_method(struct drawn *s)
 {
@@ -248,11 +249,44 @@ static void turn(const struct variant *v, double factor, const double old[3], do
         new[i] = factor * v->sign[i] * old[v->axis[i]];
 }
 
+/* x := Rz Ry Rx x */
+static void rotate(const struct drawn *s, const struct variant *v, double x[3])
+{
+    for (int about = 0; about < 3; about++) {
+        const int a = (about + 1) % 3, b = (about + 2) % 3;
+        const double angle = s->dimension == 3 || (s->dimension == 2 && about == 2) ? v->rotation[about] : 0;
+        const double sine = sin(angle * M_PI / 180), cosine = cos(angle * M_PI / 180), old = x[a];
+        x[a] = cosine * old - sine * x[b];
+        x[b] = sine * old + cosine * x[b];
+    }
+}
+
+static void rotate_about_middle(const struct drawn *s, const struct variant *v, double x[3])
+{
+    double middle[3];
+    for (int i = 0; i < 3; i++) {
+        middle[i] = s->low[i] + .5 * s->cells[i] * s->spacing;
+        x[i] -= middle[i];
+    }
+    rotate(s, v, x);
+    for (int i = 0; i < 3; i++)
+        x[i] += middle[i];
+}
+
+static bool rotated(const struct variant *v)
+{
+    return v->rotation[0] != 0 || v->rotation[1] != 0 || v->rotation[2] != 0;
+}
+
 static void add_vector(char *text, const struct drawn *s, const struct variant *v, const char *word,
                        double factor, const double old[3])
 {
     double new[3];
     turn(v, factor, old, new);
+    if (rotated(v) && (strcmp(word, "centre") == 0 || strcmp(word, "position") == 0))
+        rotate_about_middle(s, v, new);
+    else
+        rotate(s, v, new);
     add(text, ", %s = ", word);
     for (int i = 0; i < s->dimension; i++)
         add(text, "%s%.17g", i == 0 ? "" : ", ", new[i]);
@@ -313,12 +347,22 @@ static void add_load(char *text, const struct drawn *s, const struct variant *v,
         if (still > 0) add_vector(text, s, v, "velocity", v->length / time_unit(v), load->velocity);
     }
     if (tensor) {
-        add(text, ", moment = ");
-        for (int k = 0; k < 6; k++) {
-            const int a = row[k], b = column[k];
-            add(text, "%s%.17g", k == 0 ? "" : ", ",
-                v->sign[a] * v->sign[b] * load->moment[v->axis[a]][v->axis[b]]);
+        double moment[3][3], column_of[3];
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++)
+                moment[a][b] = v->sign[a] * v->sign[b] * load->moment[v->axis[a]][v->axis[b]];
+        for (int a = 0; a < 3; a++)
+            rotate(s, v, moment[a]);
+        for (int b = 0; b < 3; b++) {
+            for (int a = 0; a < 3; a++)
+                column_of[a] = moment[a][b];
+            rotate(s, v, column_of);
+            for (int a = 0; a < 3; a++)
+                moment[a][b] = column_of[a];
         }
+        add(text, ", moment = ");
+        for (int k = 0; k < 6; k++)
+            add(text, "%s%.17g", k == 0 ? "" : ", ", moment[row[k]][column[k]]);
     }
     add_history(text, v, load->history, load->duration);
     add(text, " /\n");
@@ -369,6 +413,9 @@ static void write_deck(const struct drawn *s, const struct variant *v, char *tex
     add(text, ", high = ");
     for (int i = 0; i < s->dimension; i++)
         add(text, "%s%.17g", i == 0 ? "" : ", ", high[i]);
+    if (rotated(v))
+        add(text, ", rotation = %.17g, %.17g, %.17g", s->dimension == 3 ? v->rotation[0] : 0,
+            s->dimension == 3 ? v->rotation[1] : 0, v->rotation[2]);
     add(text, " /\n");
     if (s->top > 0)
         add(text,
@@ -479,21 +526,24 @@ static struct outcome run(const struct drawn *s, const struct variant *v, int th
  */
 
 /* Largest difference from what the variant makes of the first one, over the largest number. */
-static double apart(const struct outcome *base, const struct outcome *o, const struct variant *v, bool fields)
+static double apart(const struct drawn *s, const struct outcome *base, const struct outcome *o,
+                    const struct variant *v, bool fields)
 {
     const double unit[2] = {v->amplitude * v->length, v->amplitude * v->length / time_unit(v)};
     const double nothing = 1e-290; /* denormal numbers have no bits to lose */
     double worst = 0;
     if (o->rows != base->rows || o->points != base->points) return INFINITY;
     for (size_t row = 0; row < RECEIVERS * base->rows; row++)
-        for (int which = 0; which < 2; which++)
-            for (int i = 0; i < 3; i++) {
-                const double before = base->history[6 * row + 3 * (size_t)which + (size_t)v->axis[i]];
-                const double now = o->history[6 * row + 3 * (size_t)which + (size_t)i];
-                const double error = fabs(now - unit[which] * v->sign[i] * before);
+        for (size_t which = 0; which < 2; which++) {
+            double expected[3];
+            turn(v, unit[which], base->history + 6 * row + 3 * which, expected);
+            rotate(s, v, expected);
+            for (size_t i = 0; i < 3; i++) {
+                const double error = fabs(o->history[6 * row + 3 * which + i] - expected[i]);
                 const double size = unit[which] * base->largest[which];
                 if (!(error <= worst * size) && !(error < nothing)) worst = error / size;
             }
+        }
     for (size_t i = 0; fields && i < 6 * base->points; i++) {
         const int which = i < 3 * base->points ? 0 : 1;
         const double error = fabs(o->field[i] - unit[which] * base->field[i]);
@@ -512,16 +562,27 @@ struct relation {
 
 enum { UNITS };
 static const struct relation relations[] = {
-    {"units", {{0, 1, 2}, {1, 1, 1}, 8, 4, 64, 1, "", false}, 1, false, false, true},
-    {"quiet", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", quiet = 0", false}, 1, false, false, true},
-    {"symmetry", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", symmetry = .false.", false}, 1, false, false, true},
-    {"fused", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", fused = .false.", false}, 1, false, false, true},
-    {"threads", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false}, 3, false, true, true},
-    {"restart", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false}, 2, true, true, true},
-    {"receiver", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", true}, 1, false, true, true},
-    {"mirrored", {{0, 1, 2}, {-1, 1, 1}, 1, 1, 1, 1, "", false}, 1, false, false, false},
-    {"exchanged", {{1, 0, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false}, 1, false, false, false},
-    {"linear", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 4, "", false}, 1, false, true, true},
+    {"units", {{0, 1, 2}, {1, 1, 1}, 8, 4, 64, 1, "", false, {0, 0, 0}}, 1, false, false, true},
+    {"quiet", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", quiet = 0", false, {0, 0, 0}}, 1, false, false, true},
+    {"symmetry",
+     {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", symmetry = .false.", false, {0, 0, 0}},
+     1,
+     false,
+     false,
+     true},
+    {"fused",
+     {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", fused = .false.", false, {0, 0, 0}},
+     1,
+     false,
+     false,
+     true},
+    {"threads", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false, {0, 0, 0}}, 3, false, true, true},
+    {"restart", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false, {0, 0, 0}}, 2, true, true, true},
+    {"receiver", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", true, {0, 0, 0}}, 1, false, true, true},
+    {"mirrored", {{0, 1, 2}, {-1, 1, 1}, 1, 1, 1, 1, "", false, {0, 0, 0}}, 1, false, false, false},
+    {"exchanged", {{1, 0, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false, {0, 0, 0}}, 1, false, false, false},
+    {"turned", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false, {35, -20, 50}}, 1, false, false, false},
+    {"linear", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 4, "", false, {0, 0, 0}}, 1, false, true, true},
 };
 
 /* Where a moved face meets a held one, which contradict each other, ghosts follow the first axis. */
@@ -540,6 +601,7 @@ static bool applies(const struct relation *relation, const struct drawn *s)
     if (strcmp(name, "mirrored") == 0) return !s->jitter;
     if (strcmp(name, "exchanged") == 0)
         return !s->jitter && s->dimension == 3 && (s->consistent || !moved(s));
+    if (strcmp(name, "turned") == 0) return s->dimension > 1;
     if (strcmp(name, "linear") == 0) return s->linear;
     return true;
 }
@@ -591,7 +653,7 @@ static int hold(unsigned long number, struct drawn *s, bool *good)
             *good = false;
             printf("not ok - scene %lu: %s: %s\n", number, relation->name, o.message);
         } else {
-            const double error = apart(&base, &o, &relation->variant, relation->same_points);
+            const double error = apart(s, &base, &o, &relation->variant, relation->same_points);
             if (!(error <= allowed(relation, s))) {
                 *good = false;
                 printf("not ok - scene %lu: %s: %.2g apart, allowed %.1g\n", number, relation->name, error,
