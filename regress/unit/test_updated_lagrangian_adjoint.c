@@ -85,7 +85,7 @@ static void symmetric(void **unused)
         f.options.hourglass = .3;
         make(&f);
         struct updated *updated = updated_of(f.model);
-        updated->hourglass_of_velocity = true;
+        updated->velocities_displace = true;
         const size_t unknowns = f.model->unknowns;
         double *first = calloc(unknowns, sizeof *first);
         for (size_t k = 0; k < unknowns; k++)
