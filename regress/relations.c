@@ -51,7 +51,7 @@ struct source {
 struct drawn {
     int dimension;
     char method[300], scheme[100];
-    bool consistent, linear, single, jitter;
+    bool consistent, linear, single, jitter, stress, slip;
     double density, lambda, mu, spacing, low[3], cells[3];
     const char *boundary[6];
     long points[6];
@@ -125,8 +125,8 @@ static void draw_method(struct drawn *s)
 static void draw_faces(struct drawn *s)
 {
     for (int face = 0; face < 2 * s->dimension; face++) {
-        static const char *const kinds[] = {"free",   "free",     "free", "free",   "fixed",
-                                            "roller", "symmetry", "pml",  "lysmer", "displacement"};
+        static const char *const kinds[] = {"free",     "free", "free",   "free",         "fixed",   "roller",
+                                            "symmetry", "pml",  "lysmer", "displacement", "velocity"};
         s->boundary[face] = kinds[chance(sizeof kinds / sizeof *kinds)];
         s->points[face] = 4 + (long)chance(5);
     }
@@ -204,6 +204,8 @@ static struct drawn draw(void)
         s.cells[axis] = (double)(8 + chance(s.dimension == 3 ? 12 : s.dimension == 2 ? 20 : 40));
         s.low[axis] = s.spacing * (double)chance(5) - 2 * s.spacing;
     }
+    s.stress = s.dimension < 3 && chance(3) == 0;
+    s.slip = chance(3) == 0;
     draw_method(&s);
     draw_faces(&s);
     s.loads = chance(LOADS + 1);
@@ -371,7 +373,8 @@ static void add_load(char *text, const struct drawn *s, const struct variant *v,
 static void add_face(char *text, const struct drawn *s, const struct variant *v, int face)
 {
     const char *kind = s->boundary[face];
-    const bool pml = strcmp(kind, "pml") == 0, moved = strcmp(kind, "displacement") == 0;
+    const bool pml = strcmp(kind, "pml") == 0, velocity = strcmp(kind, "velocity") == 0;
+    const bool moved = velocity || strcmp(kind, "displacement") == 0;
     char word[3];
     face_word(v, face, word);
     add(text, "&boundary face = '%s', kind = '%s'", word,
@@ -380,8 +383,10 @@ static void add_face(char *text, const struct drawn *s, const struct variant *v,
     if (strcmp(kind, "lysmer") == 0) add(text, ", layer = 'lysmer'");
     if (moved) {
         add_vector(text, s, v, "direction", 1, s->motion);
-        add(text, ", amplitude = %.17g", v->amplitude * v->length * s->amplitude);
-        add_history(text, v, "gaussian", 8 * s->spacing);
+        add(text, ", amplitude = %.17g",
+            v->amplitude * v->length * s->amplitude / (velocity ? time_unit(v) : 1));
+        if (velocity) add(text, ", slip = %s", s->slip ? ".true." : ".false.");
+        add_history(text, v, velocity ? "triangle" : "gaussian", 8 * s->spacing);
     }
     add(text, " /\n");
 }
@@ -399,8 +404,8 @@ static void write_deck(const struct drawn *s, const struct variant *v, char *tex
     }
     text[0] = '\0';
     const double unit = time_unit(v);
-    add(text, "&scene dimension = %d, end_time = %.17g /\n&method %s%s /\n", s->dimension, unit * s->end_time,
-        s->method, v->method);
+    add(text, "&scene dimension = %d%s, end_time = %.17g /\n&method %s%s /\n", s->dimension,
+        s->stress ? ", plane = 'stress'" : "", unit * s->end_time, s->method, v->method);
     add(text, "&stepping %s%s", s->scheme, s->scheme[0] == '\0' || s->time_step <= 0 ? "" : ", ");
     if (s->time_step > 0) add(text, "time_step = %.17g", unit * s->time_step);
     add(text, " /\n&material name = 'rock', density = %.17g, lambda = %.17g, mu = %.17g /\n",
@@ -585,12 +590,16 @@ static const struct relation relations[] = {
     {"linear", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 4, "", false, {0, 0, 0}}, 1, false, true, true},
 };
 
-/* Where a moved face meets a held one, which contradict each other, ghosts follow the first axis. */
-static bool moved(const struct drawn *s)
+/* Where a moved face meets one that is held or moved differently they contradict each other: ghosts follow
+ * the first axis, the consistent method the first face that moves. */
+static bool contradicts(const struct drawn *s)
 {
-    for (int face = 0; face < 2 * s->dimension; face++)
-        if (strcmp(s->boundary[face], "displacement") == 0) return true;
-    return false;
+    size_t moved = 0, others = 0;
+    for (int face = 0; face < 2 * s->dimension; face++) {
+        moved += strcmp(s->boundary[face], "displacement") == 0;
+        others += strcmp(s->boundary[face], "velocity") == 0;
+    }
+    return s->consistent ? moved > 0 && others > 0 : moved + others > 0;
 }
 
 static bool applies(const struct relation *relation, const struct drawn *s)
@@ -599,8 +608,7 @@ static bool applies(const struct relation *relation, const struct drawn *s)
     if (strcmp(name, "fused") == 0) return s->consistent && !s->single;
     if (relation->variant.method[0] != '\0') return s->consistent;
     if (strcmp(name, "mirrored") == 0) return !s->jitter;
-    if (strcmp(name, "exchanged") == 0)
-        return !s->jitter && s->dimension == 3 && (s->consistent || !moved(s));
+    if (strcmp(name, "exchanged") == 0) return !s->jitter && s->dimension == 3 && !contradicts(s);
     if (strcmp(name, "turned") == 0) return s->dimension > 1;
     if (strcmp(name, "linear") == 0) return s->linear;
     return true;

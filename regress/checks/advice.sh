@@ -71,6 +71,15 @@ deck=moved.nml
 sed '/^&load/d' good.nml | sed "s/'x+', 'y+', kind = 'transmitting'/'y+', kind = 'displacement', direction = 0, 1, amplitude = 0.1, history = 'gaussian', width = 1, delay = 5/" >moved.nml
 "$selas" --strict check moved.nml >said 2>&1 && echo "ok - a face that moves along a symmetry plane: nothing to warn of" || told "a face that moves along" "nothing"
 told "a face that moves across a symmetry plane" "face y+ moves across the symmetry plane x-" "boundary(1)%direction=1,0"
+deck=edge.nml
+sed "/^&load/d; /symmetry/d; s/kind = 'transmitting'/kind = 'velocity', direction = 1, 0, amplitude = 0.1, history = 'gaussian', width = 1, delay = 5/" good.nml >edge.nml
+"$selas" --strict check edge.nml >said 2>&1 && echo "ok - two faces that move together: nothing to warn of" || told "two faces that move together" "nothing"
+sed "s/'x+', 'y+'/'y+'/" edge.nml >held.nml
+echo "&boundary face = 'x-', kind = 'fixed' /" >>held.nml
+deck=held.nml
+told "a moved face that meets a fixed one" "faces x- and y+ meet, and prescribe different motions along x there"
+told "a moved face that meets a roller" "faces x- and y+ meet, and prescribe different motions along x there" "boundary(2)%kind=roller"
+"$selas" --strict check held.nml "boundary(2)%face=y-" >said 2>&1 && echo "ok - a fixed face opposite: nothing to warn of" || told "a fixed face opposite" "nothing"
 deck=space.nml
 cat >space.nml <<'END'
 &scene dimension = 3, end_time = 2.0 /

@@ -157,6 +157,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_step(&adviser, stepper);
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
     if (!is_box(&scene->body)) return adviser.count;
+    look_at_meetings(&adviser);
     look_at_receivers(&adviser);
     look_at_layers(&adviser, stepper);
     for (size_t k = 0; k < scene->loads; k++) {

@@ -1,5 +1,6 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), advice_points.c (patches on
- * points), advice_layers.c (absorbing layers), advice_mirrors.c (symmetry planes). */
+ * points), advice_layers.c (absorbing layers), advice_mirrors.c (symmetry planes), advice_edges.c (moved
+ * faces that meet others). */
 #ifndef SELAS_ADVICE_H
 #define SELAS_ADVICE_H
 
@@ -26,6 +27,8 @@ double plane_of(const struct body *body, enum face face);
 void look_at_points(struct adviser *adviser, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
+/* Edges in which faces prescribe different motions. */
+void look_at_meetings(struct adviser *adviser);
 /* Scenes that their own mirror images do not continue. */
 void look_at_mirrors(struct adviser *adviser);
 

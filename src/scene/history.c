@@ -9,6 +9,7 @@
 #include "scene/history_kinds.h"
 
 #include <math.h>
+#include <string.h>
 
 static double triangle_value(const struct history *history, double t, int derivative, bool right)
 {
@@ -271,4 +272,15 @@ size_t history_kinks(const struct history *history, double *times, size_t room)
         }
         next[first] = history_plain_kink_after(history, next[first]);
     }
+}
+
+bool history_same(const struct history *a, const struct history *b)
+{
+    if (a->kind != b->kind || a->duration != b->duration || a->frequency != b->frequency ||
+        a->delay != b->delay || a->width != b->width || a->cycles != b->cycles ||
+        a->smoothing != b->smoothing || a->rows != b->rows)
+        return false;
+    const size_t bytes = a->rows * sizeof(double);
+    return a->rows == 0 || (memcmp(a->table_time, b->table_time, bytes) == 0 &&
+                            memcmp(a->table_value, b->table_value, bytes) == 0);
 }

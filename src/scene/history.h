@@ -38,6 +38,9 @@ double complex history_laplace(const struct history *history, double complex s);
  * `room` are written, ascending; returns how many there are. */
 size_t history_kinks(const struct history *history, double *times, size_t room);
 
+/* The same function of time, number by number. */
+bool history_same(const struct history *a, const struct history *b);
+
 /* Time after which f stays constant (0, or the table's last value); INFINITY if never (not for kinds of
  * today). */
 double history_end(const struct history *history);

@@ -14,17 +14,6 @@ static bool same(double a, double b, double scale)
     return fabs(a - b) <= 1e-12 * scale;
 }
 
-static bool same_history(const struct history *a, const struct history *b)
-{
-    if (a->kind != b->kind || a->duration != b->duration || a->frequency != b->frequency ||
-        a->delay != b->delay || a->width != b->width || a->cycles != b->cycles ||
-        a->smoothing != b->smoothing || a->rows != b->rows)
-        return false;
-    const size_t bytes = a->rows * sizeof(double);
-    return a->rows == 0 || (memcmp(a->table_time, b->table_time, bytes) == 0 &&
-                            memcmp(a->table_value, b->table_value, bytes) == 0);
-}
-
 static bool same_vector(const double a[3], const double b[3], double scale)
 {
     return same(a[0], b[0], scale) && same(a[1], b[1], scale) && same(a[2], b[2], scale);
@@ -101,7 +90,7 @@ static bool same_load(const struct load *a, const struct load *b, double length)
         return false;
     return same_vector(a->velocity, b->velocity,
                        fabs(a->velocity[0]) + fabs(a->velocity[1]) + fabs(a->velocity[2])) &&
-           same_history(&a->history, &b->history);
+           history_same(&a->history, &b->history);
 }
 
 /* Each load's image must be among the loads as often as the load itself (two equal loads add). */
