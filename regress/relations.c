@@ -2,13 +2,17 @@
  * layers. Whatever is true of the equations and of their discrete form must be true of the program, in
  * whatever corner of it a scene ends (doc/robustness.md):
  *
- *   quiet     parts at rest left out or not; halves computed by symmetry or not: the same but for rounding
- *   threads   the same bits with more threads
- *   restart   the same bits when stopped and gone on with
- *   receiver  the same bits with another receiver and a snapshot
- *   mirrored  a reflected scene gives reflected histories; one with x and y exchanged, exchanged ones
- *   units     lengths, stresses and densities in other units (powers of two): the same histories in these
- *   linear    four times the amplitude gives four times the histories, bit by bit
+ *   quiet      parts at rest left out or not: the same but for rounding
+ *   symmetry   halves computed or the whole body: the same but for rounding
+ *   fused      passes fused or not: the same but for rounding
+ *   threads    the same bits with more threads
+ *   restart    the same bits when stopped and gone on with
+ *   receiver   the same bits with another receiver and a snapshot
+ *   mirrored   a reflected scene gives reflected histories
+ *   exchanged  one with x and y exchanged, exchanged ones
+ *   turned     a turned one, turned ones
+ *   units      lengths, stresses and densities in other units (powers of two): the same in these
+ *   linear     four times the amplitude gives four times the histories, bit by bit
  *
  * Arguments: first number, how many. Prints a TAP line a scene; exit status 1 if a relation is broken, whose
  * deck is printed as a comment. */
@@ -471,7 +475,7 @@ static void outcome_free(struct outcome *o)
     *o = (struct outcome){.status = SELAS_OK};
 }
 
-static selas_status collect(selas_simulation *run, const struct drawn *s, struct outcome *o)
+static selas_status collect(selas_simulation *run, struct outcome *o)
 {
     const double *time, *value;
     o->step = selas_time_step(run);
@@ -496,7 +500,6 @@ static selas_status collect(selas_simulation *run, const struct drawn *s, struct
             o->largest[which] = fmax(o->largest[which], fabs(value[i]));
         }
     }
-    (void)s;
     return SELAS_OK;
 }
 
@@ -520,7 +523,7 @@ static struct outcome run(const struct drawn *s, const struct variant *v, int th
         (void)remove(path);
     }
     if (o.status == SELAS_OK && s->time_step > 0) o.status = selas_finish(run);
-    if (o.status == SELAS_OK && s->time_step > 0) o.status = collect(run, s, &o);
+    if (o.status == SELAS_OK && s->time_step > 0) o.status = collect(run, &o);
     if (o.status == SELAS_OK) o.step = selas_time_step(run);
     snprintf(o.message, sizeof o.message, "%s", run != NULL ? selas_message(run) : "no handle");
     selas_close(&run);
