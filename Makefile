@@ -224,7 +224,7 @@ $(BUILD)/replay/fuzz_%: regress/fuzz/fuzz_%.c regress/fuzz/replay.c $(BUILD)/lib
 	$(if $(V),,@echo "  compile $<")
 	$(Q)$(CC) $(ALL_C) $(LDFLAGS) -o $@ $< regress/fuzz/replay.c $(BUILD)/libselas.a $(LIBS)
 
-check-sanitize: ## all unit tests and short scripts under AddressSanitizer, UBSan and LeakSanitizer (ten minutes)
+check-sanitize: ## all unit tests and short scripts under AddressSanitizer, UBSan and LeakSanitizer (half an hour)
 	+@regress/sanitize $(BUILD)/asan
 
 check-valgrind: ## all unit tests under valgrind (more than an hour; installs valgrind)
