@@ -2,9 +2,8 @@
 # names that the libraries show, and the declarations of the Fortran module are checked. Argument: the build folder.
 build=$(cd "${1:-build}" && pwd)
 root=$PWD
-work=$build/test/hosts
-rm -rf "$work"
-mkdir -p "$work"
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
 check() { # check NAME COMMAND...
     name=$1
