@@ -21,16 +21,15 @@ VERSION  = $(shell sed -n 's/^\#define SELAS_VERSION "\(.*\)"/\1/p' src/selas.h)
 SONAME   = libselas.so.$(firstword $(subst ., ,$(VERSION)))
 FFLAGS  ?= -O2 -g
 ALL_F    = -std=f2018 -fPIC -Wall -Wextra -Wno-compare-reals $(if $(WERROR),-Werror) $(FFLAGS)
-LIBDIR   = $(PREFIX)/lib
-INCLUDE  = $(PREFIX)/include
-SHARE    = $(PREFIX)/share
+AR      := $(if $(findstring -flto,$(CFLAGS)),gcc-ar,$(AR))
+AT       = $(DESTDIR)$(PREFIX)
 
 # All processors, unless -j says otherwise
 ifeq ($(MAKELEVEL)$(filter -j% --jobs%,$(MAKEFLAGS) $(shell printf '%s' "$$MAKEFLAGS")),0)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
 endif
 
-# Recipes of what is compiled and linked. What COMPILE and LINK get beside that: sources of a target that are not objects.
+# The recipes. EXTRA: further options of a target.
 define compile
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
@@ -74,7 +73,7 @@ $(BUILD)/selas: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
 
 $(BUILD)/libselas.a: $(OBJECTS)
 	@rm -f $@
-	$(Q)ar rcs $@ $^
+	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/obj/%.o: src/%.c
 	$(compile)
@@ -103,13 +102,12 @@ $(BUILD)/selas.map:
 
 $(BUILD)/whole/selas.o: $(OBJECTS)
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(if $(findstring -flto,$(CFLAGS)),$(WHOLE_LTO)) -r -nostdlib -Wl,-d -o $@ $^
+	$(Q)$(CC) $(CFLAGS) $(if $(findstring -flto,$(CFLAGS)),-flinker-output=nolto-rel) -r -nostdlib -Wl,-d -o $@ $^
 	$(Q)objcopy --wildcard --keep-global-symbol='selas_*' $@
-WHOLE_LTO = -flinker-output=nolto-rel
 
 $(BUILD)/whole/libselas.a: $(BUILD)/whole/selas.o
 	@rm -f $@
-	$(Q)ar rcs $@ $^
+	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/selas.o: src/selas.f90
 	$(compile_fortran)
@@ -119,10 +117,13 @@ $(BUILD)/selas77.o: src/selas77.f90 $(BUILD)/selas.o
 
 $(BUILD)/libselas_fortran.a: $(BUILD)/selas.o $(BUILD)/selas77.o
 	@rm -f $@
-	$(Q)ar rcs $@ $^
+	$(Q)$(AR) rcs $@ $^
 
-# pkg-config files: selas for C, selas-fortran for the module (which needs selas). A blank in a path is \ there.
+# pkg-config files: selas for C, selas-fortran for the module (which needs selas). A blank in a path is \ there. What static
+# libraries need comes last: of HDF5, whose own file does not say it, compression (zlib, szip) and the loading of filters. A static gfortran program that
+# has pthreads destroys locks by a name that it refers to only weakly: it has to be asked for.
 empty   :=
+STATIC   = $(foreach one,sz aec z dl,$(if $(findstring /,$(shell $(CC) -print-file-name=lib$(one).a)),-l$(one)))
 PC_PREFIX = $(subst $(empty) ,\ ,$(PREFIX))
 define selas_pc
 prefix=$(PC_PREFIX)
@@ -132,9 +133,8 @@ includedir=$${prefix}/include
 Name: selas
 Description: smoothed-point elastodynamics
 Version: $(VERSION)
-Requires.private: $(PKGS)
 Libs: -L$${libdir} -lselas
-Libs.private: -fopenmp -lm
+Libs.private: -fopenmp $(shell pkg-config --static --libs $(PKGS)) $(STATIC) -lm
 Cflags: -I$${includedir}
 endef
 define selas_fortran_pc
@@ -147,10 +147,10 @@ Description: smoothed-point elastodynamics, Fortran module
 Version: $(VERSION)
 Requires: selas
 Libs: -L$${libdir} -lselas_fortran
+Libs.private: -Wl,--undefined=pthread_mutex_destroy
 Cflags: -I$${includedir}/selas
 endef
 
-AT = $(DESTDIR)$(PREFIX)
 install: all ## install program, libraries, header, module, manual and decks below PREFIX (DESTDIR)
 	$(file >$(BUILD)/selas.pc,$(selas_pc))
 	$(file >$(BUILD)/selas-fortran.pc,$(selas_fortran_pc))
