@@ -4,8 +4,8 @@
 #include "../unit/plain_scene.h"
 #include "base/machine.h"
 #include "base/memory.h"
-#include "method/fused.h"
-#include "method/hform.h"
+#include "method/consistent/fused/fused.h"
+#include "method/consistent/galerkin/hform.h"
 #include "stepping/schemes.h"
 
 #include <math.h>

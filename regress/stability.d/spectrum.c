@@ -3,7 +3,7 @@
  * ...] prints `re im` per eigenvalue; SPEED is the velocity of that compression per length (0: at rest). The
  * Jacobian by central differences, its eigenvalues by GSL; for a few hundred unknowns. */
 #include "base/memory.h"
-#include "method/model.h"
+#include "model/model.h"
 
 #include <gsl/gsl_eigen.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include "near.h"
 
-#include "method/hform.h"
+#include "method/consistent/galerkin/hform.h"
 #include "plain_scene.h"
 
 #include <gsl/gsl_eigen.h>

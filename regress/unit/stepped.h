@@ -6,7 +6,7 @@
 #include "consistent_run.h"
 
 #include "base/memory.h"
-#include "method/fused.h"
+#include "method/consistent/fused/fused.h"
 #include "stepping/schemes.h"
 
 #include <omp.h>

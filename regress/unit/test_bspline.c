@@ -2,8 +2,8 @@
  * independent quadrature, folding at symmetry planes, band matrices. */
 #include "near.h"
 
-#include "method/bspline.h"
-#include "method/disc.h"
+#include "method/spline/bspline.h"
+#include "method/spline/disc.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * gradients, loads, receivers and the speed of surface waves. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_roots.h>

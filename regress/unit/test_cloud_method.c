@@ -2,7 +2,7 @@
  * under tractions, a real spectrum, what is refused. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/cloud_method.h"
+#include "method/cloud/cloud.h"
 
 #include <gsl/gsl_eigen.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "chance.h"
 #include "consistent_run.h"
 
-#include "method/fused.h"
+#include "method/consistent/fused/fused.h"
 
 #include <omp.h>
 

@@ -1,5 +1,6 @@
-/* Steps of leapfrog in one pass (method/fused_step.h) against drift, operator and kick one by one: whole
- * states and what is looked at after each step, threads, settling, checkpoints' kept part, planes at rest. */
+/* Steps of leapfrog in one pass (method/consistent/fused/fused_step.h) against drift, operator and kick one
+ * by one: whole states and what is looked at after each step, threads, settling, checkpoints' kept part,
+ * planes at rest. */
 #include "few.h"
 #include "stepped.h"
 

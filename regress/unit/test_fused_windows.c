@@ -1,6 +1,7 @@
-/* Windows of the fused operator (method/fused_window.h): fields that are 0 but in some places against whole
- * planes, to the bit; steps in one pass with and without parts at rest, and with what waves have reached
- * followed or looked for anew in each step, for sources in a corner, in the middle and in two places. */
+/* Windows of the fused operator (method/consistent/fused/active.h): fields that are 0 but in some places
+ * against whole planes, to the bit; steps in one pass with and without parts at rest, and with what waves
+ * have reached followed or looked for anew in each step, for sources in a corner, in the middle and in two
+ * places. */
 #include "few.h"
 #include "stepped.h"
 

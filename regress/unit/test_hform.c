@@ -1,7 +1,7 @@
 /* The H-form: against dense matrices, its sign, energy, faces, symmetry planes, dispersion, long runs. */
 #include "consistent_run.h"
 
-#include "method/hform.h"
+#include "method/consistent/galerkin/hform.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>

@@ -1,7 +1,7 @@
 /* Moving patches in the consistent method: at any time their forces are those of a patch at rest where the
  * moving one then is; stepping does not un-warp them. */
 #include "base/memory.h"
-#include "method/model.h"
+#include "model/model.h"
 #include "stepping/stepping.h"
 
 #include "from_deck.h"

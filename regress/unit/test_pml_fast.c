@@ -5,7 +5,7 @@
 #include "consistent_run.h"
 #include "few.h"
 
-#include "method/pml_fast.h"
+#include "method/consistent/absorbing/pml_fast.h"
 
 #include <omp.h>
 

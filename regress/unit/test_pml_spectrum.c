@@ -3,7 +3,7 @@
 #include "consistent_run.h"
 #include "few.h"
 
-#include "method/pml.h"
+#include "method/consistent/absorbing/pml.h"
 #include "stepping/stepping.h"
 
 #include <gsl/gsl_complex_math.h>

@@ -1,7 +1,7 @@
 /* The operator of total-Lagrangian SPH: patch tests, adjoint forces, spectrum, mirrors, loads, motions. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 #include "points/lattice.h"
 #include "points/least_squares.h"
 

@@ -2,7 +2,7 @@
  * dampers, viscosity, waves in a bar. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 #include "points/lattice.h"
 #include "stepping/stepping.h"
 

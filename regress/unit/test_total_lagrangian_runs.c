@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "box_scene.h"
 #include "few.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 #include "stepping/stepping.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "from_deck.h"
 
 #include "base/memory.h"
-#include "method/updated_lagrangian.h"
+#include "method/updated_lagrangian/updated_lagrangian.h"
 
 #include <math.h>
 #include <omp.h>

@@ -4,7 +4,7 @@
 
 #include "near.h"
 
-#include "method/updated_lagrangian.h"
+#include "method/updated_lagrangian/updated_lagrangian.h"
 #include "plain_scene.h"
 
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* The methods: a table of names. A new method is one new file and one line here. */
-#include "method/consistent.h"
+#include "method/consistent/galerkin/galerkin.h"
 #include "method/mirror.h"
-#include "method/paper.h"
-#include "method/total_lagrangian.h"
-#include "method/updated_lagrangian.h"
+#include "method/paper/paper.h"
+#include "method/total_lagrangian/total_lagrangian.h"
+#include "method/updated_lagrangian/updated_lagrangian.h"
 #include "scene/symmetry.h"
 
 #include <string.h>

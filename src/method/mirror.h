@@ -3,7 +3,7 @@
 #ifndef SELAS_MIRROR_H
 #define SELAS_MIRROR_H
 
-#include "method/model.h"
+#include "model/model.h"
 
 /* False if the deck says method%symmetry = .false. */
 bool mirrors_wanted(const struct scene *scene);

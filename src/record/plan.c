@@ -1,8 +1,8 @@
 /* The plan of a run: what `selas check` prints and report.txt begins with. */
 #include "record/parts.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
-#include "record/progress.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
 #include "record/parts.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <math.h>
 #include <sys/resource.h>

@@ -5,7 +5,7 @@
  * unfinished/snapshot_NNNN.h5: /snapshots/NNNN as in run.h5; unfinished/points.h5: /points. */
 #include "record/run_file.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <errno.h>
 #include <fcntl.h>

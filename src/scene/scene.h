@@ -57,7 +57,7 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
-    bool chosen;    /* half-space: low and high were chosen by the program (scene/half_space.c) ... */
+    bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
