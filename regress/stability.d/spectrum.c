@@ -2,6 +2,7 @@
  * compression, where a one-sided viscosity acts between all points: spectrum DECK SPEED [GROUP%NAME=VALUE
  * ...] prints `re im` per eigenvalue; SPEED is the velocity of that compression per length (0: at rest). The
  * Jacobian by central differences, its eigenvalues by GSL; for a few hundred unknowns. */
+#include "accuracy/accuracy.h"
 #include "base/memory.h"
 #include "model/model.h"
 
@@ -28,7 +29,7 @@ static struct model *open_model(int count, char **words, struct deck **deck, str
     struct model *model = NULL;
     selas_status status =
         deck_read_file(words[1], (size_t)count - 3, (const char *const *)words + 3, deck, &messages);
-    if (status == SELAS_OK) status = scene_build(*deck, scene, &messages);
+    if (status == SELAS_OK) status = accuracy_build(*deck, scene, &messages);
     if (status == SELAS_OK) status = model_create(*scene, &model, &messages);
     if (status != SELAS_OK) fputs(messages.text != NULL ? messages.text : "no memory\n", stderr);
     messages_free(&messages);

@@ -1,6 +1,9 @@
 /* scene%accuracy: which kind of scene it is, and what no kind can serve (doc/accuracy.md). */
 #include "accuracy/accuracy.h"
 
+#include "accuracy/kinds.h"
+#include "scene/build.h"
+
 #include <string.h>
 
 enum { KINDS = 4 };
@@ -43,7 +46,7 @@ const char *accuracy_gradient(const struct scene *scene)
     return deck_values(group, "gradient") > 0 ? deck_text(group, "gradient", 0) : "quadratic";
 }
 
-void check_accuracy(struct builder *builder)
+static void check(struct builder *builder)
 {
     const struct deck_group *group = deck_get(builder->deck, "scene", 0);
     const bool sound = builder->status == SELAS_OK && builder->scene->materials > 0;
@@ -65,8 +68,39 @@ void check_accuracy(struct builder *builder)
                  why);
 }
 
-selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
-                             struct messages *messages)
+static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
+                           struct messages *messages)
 {
     return kind_of(scene)->choose(scene, accuracy, choice, messages);
+}
+
+/* Builds a scene that asks for an accuracy: with a guess, then with the spacing that follows from it. */
+static selas_status build_accurate(const struct deck *deck, double accuracy, struct scene **scene,
+                                   struct messages *messages)
+{
+    struct scene_choice choice = {.check = check};
+    struct messages scratch = {0}; /* the second building says everything */
+    selas_status status = scene_build(deck, &choice, scene, &scratch);
+    messages_free(&scratch);
+    if (status != SELAS_OK) return scene_build(deck, &choice, scene, messages);
+    status = choose(*scene, accuracy, &choice, messages);
+    scene_free(scene);
+    if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
+    if (status == SELAS_OK && *scene != NULL && (*scene)->body.absorbing && choice.sweeps == 0 &&
+        choice.degree > 0) {
+        /* the box that fits this spacing has absorbing layers, which need sweeps: another law */
+        status = choose(*scene, accuracy, &choice, messages);
+        scene_free(scene);
+        if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
+    }
+    if (status == SELAS_OK && *scene != NULL)
+        memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
+    return status;
+}
+
+selas_status accuracy_build(const struct deck *deck, struct scene **scene, struct messages *messages)
+{
+    const struct deck_group *group = deck_get(deck, "scene", 0);
+    if (!deck_given(group, "accuracy")) return scene_build(deck, NULL, scene, messages);
+    return build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages);
 }

@@ -6,7 +6,7 @@
  *   |error of the frequency| = a (W / L)^q (1 + m nu'^4) / (n^p + b) + d (W / L) nu'^2 n^-r,              (1)
  * the last part that of the corners of the clamp, where the stress has no bound. */
 #include "exact/beam.h"
-#include "accuracy/accuracy.h"
+#include "accuracy/kinds.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -139,7 +139,7 @@ static double deflection(const struct scene *scene)
     return fabs(speed) / beam_timoshenko(&beam) / beam.length;
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
+static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
                            struct messages *messages)
 {
     static const double seen = .2;

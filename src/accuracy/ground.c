@@ -1,7 +1,7 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
  * 4): the largest one for which the error law of accuracy_surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
-#include "accuracy/accuracy.h"
+#include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
 #include "accuracy/surface.h"
 #include "base/fft_room.h"
@@ -200,7 +200,7 @@ static double possible_spacing(const struct scene *scene, const struct surface_g
 
 /* Fails only if no spacing will do. */
 static selas_status choose(const struct scene *scene, const struct surface_place *place, double accuracy,
-                           struct accuracy_choice *choice, struct messages *messages)
+                           struct scene_choice *choice, struct messages *messages)
 {
     enum { MOST = 800 };
     static const double finer = 1.01; /* 800 times: 1/2800 */
@@ -261,7 +261,7 @@ static selas_status find_places(const struct scene *scene, struct surface_place 
     return status;
 }
 
-static selas_status choose_for(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
+static selas_status choose_for(const struct scene *scene, double accuracy, struct scene_choice *choice,
                                struct messages *messages)
 {
     struct surface_place *place = NULL;

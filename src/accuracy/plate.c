@@ -4,7 +4,7 @@
  * (regress/accuracy.d/plates.sh), E the distance from the hole's centre to the plate's edge,
  *   error = a (spacing / E)^p,                                                                            (1)
  * within a factor of two: rings of points round a hole fit the straight edges by chance. */
-#include "accuracy/accuracy.h"
+#include "accuracy/kinds.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -90,7 +90,7 @@ static const char *refusal(const struct scene *scene)
     return NULL;
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
+static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
                            struct messages *messages)
 {
     const struct setting *setting = setting_of(scene);

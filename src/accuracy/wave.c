@@ -6,8 +6,8 @@
  * at the receiver, q its change with the speed of waves at the same impedance: travel time times rate of
  * change, arrival by arrival. e is bounded where (1) would make more of a wave than sqrt(2), what it errs
  * when it arrives at any time. */
-#include "accuracy/accuracy.h"
 #include "accuracy/arrivals.h"
+#include "accuracy/kinds.h"
 #include "base/memory.h"
 #include "scene/initial.h"
 
@@ -201,7 +201,7 @@ static double work_of(const struct lattice_wave *wave, double spacing)
 }
 
 static selas_status choose_setting(const struct scene *scene, struct arrivals *place, double accuracy,
-                                   double *work, struct accuracy_choice *choice, struct messages *messages)
+                                   double *work, struct scene_choice *choice, struct messages *messages)
 {
     double least = INFINITY;
     for (int s = 0; s < ACCURACY_SETTINGS; s++) {
@@ -259,7 +259,7 @@ static bool begins_smoothly(const struct scene *scene, double accuracy)
     return true;
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
+static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
                            struct messages *messages)
 {
     static const double seen = .1;

@@ -1,8 +1,9 @@
 /* What a scene may be wrong in without being refused: warnings in the plan and the report, each with what
  * would be right (doc/results.md). */
-#include "advice/advice.h"
+#include "advice/parts.h"
 
 #include "exact/half_space.h"
+#include "scene/resolution.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* Faces that meet in an edge and prescribe it differently: no body does both. Which of them has its way is
  * left to the method (doc/scene.md). */
-#include "advice/advice.h"
+#include "advice/parts.h"
 
 #include <math.h>
 

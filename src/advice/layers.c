@@ -5,8 +5,9 @@
  * n the points, lambda the P wavelength at the mean frequency: measured at the worst of three receivers of a
  * half-space, n 4 to 12, lambda/h 50 to 100, within a factor of two (doc/accuracy.md, section 3). */
 #include "accuracy/outlook.h"
-#include "advice/advice.h"
-#include "method/consistent/absorbing/pml.h"
+#include "advice/parts.h"
+#include "scene/absorbing_layers.h"
+#include "scene/resolution.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Symmetry planes: what lies on the body must go on in its mirror image, or the half is no half of anything.
  * A vector across the plane points the other way in the image. */
-#include "advice/advice.h"
+#include "advice/parts.h"
 
 #include <math.h>
 

@@ -119,3 +119,11 @@ selas_status make_folder(const char *path, struct messages *messages)
     if (error == 0 && access(path, W_OK | X_OK) != 0) error = errno;
     return error == 0 ? SELAS_OK : cannot(messages, "write into the folder", path, error);
 }
+
+void file_name_of(const char *name, const char *ending, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s", name, ending);
+    for (char *c = text; *c != '\0'; c++)
+        if (*c == '/' || (unsigned char)*c < ' ') *c = '_';
+    if (text[0] == '.') text[0] = '_';
+}

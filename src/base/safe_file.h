@@ -30,4 +30,9 @@ selas_status safe_file_commit(const char *temporary, const char *path, struct me
 /* Makes a folder and those above it; no error if it is there and can be written to. */
 selas_status make_folder(const char *path, struct messages *messages);
 
+/* Name of a file or data set from a name of the deck: '/' and control characters become '_'; FILE_NAME_SIZE
+ * is room for every name of a deck. */
+enum { FILE_NAME_SIZE = 80 };
+void file_name_of(const char *name, const char *ending, char *text, size_t size);
+
 #endif

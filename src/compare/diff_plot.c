@@ -2,7 +2,6 @@
  * difference on its own scale with the allowance that it exceeds. */
 #include "base/gnuplot.h"
 #include "compare/diff.h"
-#include "record/parts.h"
 
 #include "base/safe_file.h"
 
@@ -49,7 +48,7 @@ static void plot_name(const char *receiver, size_t channel, char *name, size_t s
 static void plot_channel(FILE *script, const char *folder, const char *receiver, const char *const label[2],
                          const struct history_pair *pair, size_t channel, const struct channel_difference *d)
 {
-    char name[NAME_SIZE + 16], title[512];
+    char name[FILE_NAME_SIZE], title[512];
     double traces[2], difference[2];
     plot_name(receiver, channel, name, sizeof name);
     snprintf(title, sizeof title, "%s %s: L2 %.3g, L∞ %.3g, envelope %.3g, phase %.3g, shift %.3g", receiver,
@@ -95,7 +94,7 @@ void diff_plots(const char *folder, const char *receiver, const char *const labe
         const bool good = gnuplot_run(&plot, "the differences", messages);
         for (size_t c = 0; c < DIFF_CHANNELS; c++) {
             if (!difference[c].differs) continue;
-            char name[NAME_SIZE + 16];
+            char name[FILE_NAME_SIZE];
             plot_name(receiver, c, name, sizeof name);
             gnuplot_keep(folder, name, good, messages);
         }

@@ -1,8 +1,6 @@
-/* How far a history lies from its reference, and names that several files of this room share. */
-#include "record/parts.h"
+#include "compare/misfit.h"
 
 #include <math.h>
-#include <string.h>
 
 struct misfit misfit_of(size_t rows, const double *time, const double *value, const double *reference,
                         size_t stride, size_t components)
@@ -48,21 +46,4 @@ void misfits_of(size_t rows, const double *time, const double *value, const doub
 bool misfit_is_small(const struct misfit *misfit, const struct misfit *largest)
 {
     return misfit->l2_of <= 1e-3 * largest->l2_of;
-}
-
-void file_name_of(const char *name, const char *ending, char *text, size_t size)
-{
-    snprintf(text, size, "%s%s", name, ending);
-    for (char *c = text; *c != '\0'; c++)
-        if (*c == '/' || (unsigned char)*c < ' ') *c = '_';
-    if (text[0] == '.') text[0] = '_';
-}
-
-const char *const *component_names(selas_field field)
-{
-    static const char *const vector[] = {"x", "y", "z"};
-    static const char *const tensor[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
-    static const char *const scalar[] = {""};
-    const int components = field_components(field);
-    return components == 6 ? tensor : components == 3 ? vector : scalar;
 }

@@ -1,5 +1,6 @@
 /* The library's door: a simulation goes one way, deck -> scene -> model -> stepping -> record, each made when
  * first needed. */
+#include "accuracy/accuracy.h"
 #include "selas.h"
 
 #include "base/clock.h"
@@ -72,7 +73,7 @@ static selas_status place_results(selas_simulation *simulation)
 /* The scene of the deck, with what the host drives put into it. */
 static selas_status build_scene(selas_simulation *simulation)
 {
-    selas_status status = scene_build(simulation->deck, &simulation->scene, &simulation->messages);
+    selas_status status = accuracy_build(simulation->deck, &simulation->scene, &simulation->messages);
     if (status == SELAS_OK) status = place_results(simulation);
     if (status == SELAS_OK) status = check_points(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);

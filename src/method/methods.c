@@ -1,5 +1,5 @@
 /* The methods: a table of names. A new method is one new file and one line here. */
-#include "method/consistent/galerkin/galerkin.h"
+#include "method/consistent/consistent.h"
 #include "method/mirror.h"
 #include "method/paper/paper.h"
 #include "method/total_lagrangian/total_lagrangian.h"

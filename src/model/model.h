@@ -184,5 +184,6 @@ void model_observe(struct model *model, const struct probe *probe, selas_field f
                    const double *a, double *value);
 int field_components(selas_field field); /* 3, 6 or 1 */
 const char *field_name(selas_field field);
+const char *const *component_names(selas_field field); /* "x", "y", ... or "xx", ... */
 
 #endif

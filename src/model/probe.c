@@ -213,3 +213,12 @@ void model_observe(struct model *model, const struct probe *probe, selas_field f
     else
         probe_observe(model, probe, field, y, a, value);
 }
+
+const char *const *component_names(selas_field field)
+{
+    static const char *const vector[] = {"x", "y", "z"};
+    static const char *const tensor[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    static const char *const scalar[] = {""};
+    const int components = field_components(field);
+    return components == 6 ? tensor : components == 3 ? vector : scalar;
+}

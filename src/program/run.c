@@ -6,6 +6,7 @@
 #include "program/run.h"
 
 #include "base/clock.h"
+#include "base/progress.h"
 #include "host/simulation.h"
 #include "program/signals.h"
 

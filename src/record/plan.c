@@ -1,8 +1,10 @@
 /* The plan of a run: what `selas check` prints and report.txt begins with. */
+#include "advice/advice.h"
 #include "record/parts.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "scene/resolution.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -23,38 +25,12 @@ __attribute__((format(printf, 3, 4))) static void say(const struct teller *telle
     teller->tell(teller->context, key, value);
 }
 
-/* Part of the largest amplitude in the spectrum that still counts for the resolution. */
-static const double counting = 0.05;
-
-static double largest_source_frequency(const struct scene *scene)
-{
-    double omega = 0.0;
-    for (size_t k = 0; k < scene->loads; k++)
-        omega = fmax(omega, history_cutoff(&scene->load[k].history, counting));
-    for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
-            omega = fmax(omega, history_cutoff(&scene->boundary[face].history, counting));
-    return omega;
-}
-
-double points_per_wavelength(const struct scene *scene)
-{
-    const double omega = largest_source_frequency(scene);
-    double slowest = INFINITY;
-    for (size_t m = 0; m < scene->materials; m++)
-        slowest =
-            fmin(slowest, scene->dimension == 1 ? scene->material[m].p_speed : scene->material[m].s_speed);
-    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return 0.0;
-    return 6.283185307179586477 * slowest / omega / scene->body.spacing;
-}
-
 static void say_resolution(const struct teller *teller, const struct scene *scene)
 {
     const double points = points_per_wavelength(scene);
     if (!(points > 0.0)) return;
     say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
-        largest_source_frequency(scene), 100.0 * counting);
+        source_cutoff(scene), 100.0 * SOURCE_COUNTS);
     say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)", points);
 }
 

@@ -1,4 +1,5 @@
 /* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
+#include "compare/misfit.h"
 #include "record/parts.h"
 
 #include "base/safe_file.h"

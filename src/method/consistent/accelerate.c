@@ -1,6 +1,7 @@
 /* The H-form (hform.c makes it): acceleration, M v and energies. */
 #include "base/sums.h"
 #include "method/consistent/absorbing/pml.h"
+#include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/hform.h"
 #include "method/consistent/galerkin/moving_load.h"

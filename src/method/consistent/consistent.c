@@ -4,11 +4,13 @@
  *   M a + C v + K u = F.
  *
  * Here: the model's making, its acceleration and energies. */
+#include "method/consistent/consistent.h"
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/moving_load.h"
 
 #include "base/memory.h"
+#include "scene/absorbing_layers.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -18,6 +20,7 @@ static void destroy(struct model *model)
 {
     struct consistent *c = consistent_of(model);
     pml_free(c);
+    fused_free(c->fused);
     hform_free(c);
     forces_free(c);
     mass_free(c);
@@ -43,23 +46,6 @@ static void destroy(struct model *model)
     array_free(c->face_buffer);
     array_free(c->own_scene);
     array_free(c);
-}
-
-/* Control values of a component on a held face: the mass solve leaves 0 there. */
-void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane)
-{
-    for (int face = 0; face < 2 * c->dimension; face++) {
-        if (!c->held[component][face]) continue;
-        const int slot = c->slot[face / 2];
-        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
-        if (slot == 0)
-            for (size_t j = 0; j < c->n[1]; j++)
-                plane[j * c->n[0] + at] = 0;
-        else if (slot == 1)
-            memset(plane + at * c->n[0], 0, c->n[0] * sizeof *plane);
-        else if (k == at)
-            memset(plane, 0, c->plane * sizeof *plane);
-    }
 }
 
 /* F - K u - C v - M_IB a_B in plane k. */
@@ -217,6 +203,8 @@ static selas_status build(struct consistent *c, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
+    if (status == SELAS_OK && c->hform != NULL && !c->options.unfused && !fused_create(c))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the fused operator");
     if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
     return status;
 }
@@ -255,7 +243,8 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
     c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
-                     forces_bytes(c) + hform_bytes(c) + (c->pml != NULL ? c->pml->bytes : 0);
+                     forces_bytes(c) + hform_bytes(c) + (c->fused != NULL ? c->fused->bytes : 0) +
+                     (c->pml != NULL ? c->pml->bytes : 0);
     *model = &c->model;
     return SELAS_OK;
 }

@@ -1,6 +1,7 @@
 /* What users see of the consistent method: point values are the spline's own (this is Ding et al.'s
  * de-convolution, Eq 38, done exactly), fields stand at the lattice points, initial states are interpolated
  * at the Greville points of the control values (manual, section 6). */
+#include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
 
 #include "base/memory.h"

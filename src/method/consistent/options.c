@@ -1,7 +1,8 @@
 /* Options of the consistent smoothed point method: what the deck says, what it leaves open, what cannot be
  * (manual, doc/consistent-method.md). */
-#include "method/consistent/absorbing/pml.h"
+#include "method/consistent/consistent.h"
 #include "method/consistent/galerkin/galerkin.h"
+#include "scene/absorbing_layers.h"
 
 #include <string.h>
 

@@ -9,7 +9,7 @@
  *
  * and likewise u.Mu. The last sum is of order (pi / cells)^2: by so much of itself the long body's frequency
  * may be above the short one's. */
-#include "method/consistent/galerkin/galerkin.h"
+#include "method/consistent/consistent.h"
 #include "model/short_body.h"
 
 #include "base/memory.h"

@@ -1,6 +1,8 @@
 /* One PNG per receiver: velocity computed over exact, and below each component the difference on its own
  * scale. */
 #include "base/gnuplot.h"
+#include "base/safe_file.h"
+#include "compare/misfit.h"
 #include "record/parts.h"
 
 #include <math.h>

@@ -14,7 +14,7 @@
 
 #include "method/consistent/galerkin/hform.h"
 
-enum { SLAB_BANDS = 48, LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40, LAYER_POWER = 2 };
+enum { SLAB_BANDS = 48, LAYER_POWER = 2 };
 
 /* A box of control values: first one and number of them by slot. */
 struct block {
@@ -50,19 +50,6 @@ struct pml {
     double *in, *out; /* ... fields of a region: [(2 * dimension + 3) * volume], [dimension * volume] */
     size_t bytes;
 };
-
-/* layer.c: points of the layer behind a face, 0 if it has none. */
-size_t layer_points(const struct scene *scene, int face);
-/* Has any face one? */
-bool layer_anywhere(const struct scene *scene);
-/* Reflection at normal incidence that the profile of a layer of so many points is made for, and the one to be
- * expected by measurement (doc/absorbing-faces.md, section 5). */
-double layer_profile_reflection(size_t points);
-double layer_expected_reflection(size_t points);
-/* True if no wave that the face sends back is seen by receivers and profiles within end_time; and if a layer
- * that the scene asks for is left out for that. */
-bool layer_unneeded(const struct scene *scene, int face);
-bool layer_left_out(const struct scene *scene, int face);
 
 /* Lines of the plan about layers, built and left out. */
 void layers_describe(const struct consistent *c,

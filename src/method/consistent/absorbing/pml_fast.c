@@ -2,7 +2,6 @@
  * (pml_terms.c), with their factors. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/absorbing/pml_terms.h"
-#include "method/consistent/fused/fused.h"
 
 #include "base/memory.h"
 

@@ -4,6 +4,7 @@
 #include "method/consistent/absorbing/pml_terms.h"
 
 #include "base/memory.h"
+#include "scene/absorbing_layers.h"
 
 #include <math.h>
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */

@@ -1,8 +1,9 @@
 /* The consistent smoothed point method (consistent.c): its axes, and what faces and grounds do to the control
  * values on them. */
-#include "method/consistent/absorbing/pml.h"
+#include "method/consistent/galerkin/galerkin.h"
 
 #include "base/memory.h"
+#include "scene/absorbing_layers.h"
 
 #include <math.h>
 #include <omp.h>
@@ -180,4 +181,21 @@ selas_status consistent_lay(struct consistent *c, struct messages *messages)
     lay_faces(c);
     if (lay_material(c) && lay_planes(c)) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
+}
+
+/* Control values of a component on a held face: the mass solve leaves 0 there. */
+void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane)
+{
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        if (!c->held[component][face]) continue;
+        const int slot = c->slot[face / 2];
+        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        if (slot == 0)
+            for (size_t j = 0; j < c->n[1]; j++)
+                plane[j * c->n[0] + at] = 0;
+        else if (slot == 1)
+            memset(plane + at * c->n[0], 0, c->n[0] * sizeof *plane);
+        else if (k == at)
+            memset(plane, 0, c->plane * sizeof *plane);
+    }
 }

@@ -91,17 +91,6 @@ struct consistent {
     struct band *collocation[3][2];    /* [axis][odd]: LU factors of the values at the Greville points */
 };
 
-/* What the deck says of the method's options; what it leaves open has the method's defaults. */
-struct consistent_options consistent_options_of(const struct scene *scene);
-
-/* Refuses options that cannot serve the scene: SELAS_BAD_SCENE, SELAS_UNSUPPORTED. */
-selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
-                              struct messages *messages);
-
-selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
-                                    struct model **model, struct messages *messages);
-extern const struct model_class consistent_class;
-
 /* Lines of control values along a slot: `lanes` neighbouring lines may be worked on at once. */
 struct line_set {
     size_t lines, lanes, length, stride;
@@ -155,7 +144,7 @@ bool dampers_allocate(struct consistent *c);
 void dampers_subtract(const struct consistent *c, int thread, size_t k, const double *v, double *const *out);
 double dampers_power(const struct consistent *c, const double *v);
 
-/* consistent.c: sets a component's prescribed control values in plane k to 0. */
+/* axes.c: sets a component's prescribed control values in plane k to 0. */
 void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane);
 
 /* consistent_lay.c: axes, what faces do to control values, materials over depth. SELAS_NO_MEMORY,
@@ -164,24 +153,4 @@ selas_status consistent_lay(struct consistent *c, struct messages *messages);
 /* Fastest wave of the ground that a face touches. */
 double consistent_fastest(const struct consistent *c, int face);
 
-/* consistent_short.c: the model on a body whose axes of more cells than `longest` are cut to so many (but
- * see cells_of()); free it with model_free(). */
-selas_status consistent_cut(const struct consistent *c, size_t longest, struct model **cut,
-                            struct messages *messages);
-/* Bound on the part of the largest frequency that this one lacks. */
-double consistent_deficit(const struct consistent *c, size_t longest);
-/* The model's shorten(). */
-selas_status consistent_shorten(const struct model *model, struct model **shorter, double *deficit,
-                                struct messages *messages);
-
-/* consistent_observe.c */
-bool observe_create(struct consistent *c);
-bool collocation_create(struct consistent *c);
-void consistent_initialise(struct model *model, double *y);
-selas_status consistent_probe(struct model *model, const double position[3], struct probe *probe,
-                              struct messages *messages);
-void consistent_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
-                        const double *a, double *value);
-void consistent_field(struct model *model, selas_field field, const double *y, const double *a,
-                      double *value);
 #endif

@@ -5,7 +5,6 @@
  * edges, A = N S,  C1 = N (G - mu / (lambda + mu) E),  C2 = N (G - lambda / (lambda + mu) E),  E = G + G^T.
  */
 #include "method/consistent/galerkin/hform.h"
-#include "method/consistent/fused/fused.h"
 
 #include "base/memory.h"
 
@@ -347,7 +346,7 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     h->face[0] = array_new(largest, sizeof(double));
     h->face[1] = array_new(largest, sizeof(double));
     if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) || !lay_plan(c) ||
-        !lay_forces(c) || !hform_dissipation_create(c) || (!c->options.unfused && !fused_create(c)))
+        !lay_forces(c) || !hform_dissipation_create(c))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     return SELAS_OK;
 }
@@ -357,14 +356,12 @@ size_t hform_bytes(const struct consistent *c)
     const struct hform *h = c->hform;
     if (h == NULL) return 0;
     return sizeof *h + c->model.unknowns * sizeof *h->work + tensor_plan_bytes(h->acceleration) +
-           (c->fused != NULL ? c->fused->bytes : 0) +
            (h->dissipation != NULL ? tensor_plan_bytes(h->dissipation) : 0);
 }
 
 void hform_free(struct consistent *c)
 {
     struct hform *h = c->hform;
-    fused_free(c->fused);
     if (h == NULL) return;
     for (int component = 0; component < 3; component++)
         array_free(h->upper[component]);

@@ -43,10 +43,6 @@ size_t hform_bytes(const struct consistent *c); /* fields and buffers; 0 without
 /* New van Cittert inverse of an axis's mass between functions that are even or odd at symmetry planes, 0
  * where the component is held. NULL: no memory. */
 struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd);
-void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
-                      const double *v, double *a);
-void hform_weigh(struct consistent *c, const double *v, double *product); /* M v */
-void hform_energy(struct consistent *c, const double *y, struct energy *energy);
 double hform_damper_power(struct consistent *c, const double *v);
 
 /* hform_edges.h: adds factor times what edges do in plane k. */
