@@ -4,6 +4,7 @@
  * Jacobian by central differences, its eigenvalues by GSL; for a few hundred unknowns. */
 #include "accuracy/accuracy.h"
 #include "base/memory.h"
+#include "method/methods.h"
 #include "model/model.h"
 
 #include <gsl/gsl_eigen.h>
@@ -15,12 +16,12 @@
 static void derivative(struct model *model, const struct drive *drive, const double *y, double *result)
 {
     const size_t n = model->unknowns;
-    if (model->class->rate != NULL) {
-        model->class->rate(model, drive, y, result);
+    if (model->spatial->rate != NULL) {
+        model->spatial->rate(model, drive, y, result);
         return;
     }
     memcpy(result, y + n, n * sizeof *y);
-    model->class->accelerate(model, drive, 0.0, y, y + n, result + n);
+    model->spatial->accelerate(model, drive, 0.0, y, y + n, result + n);
 }
 
 static struct model *open_model(int count, char **words, struct deck **deck, struct scene **scene)
@@ -75,7 +76,7 @@ int main(int count, char **words)
     gsl_vector_complex *value = gsl_vector_complex_alloc(n);
     gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(n);
     if (base == NULL) return 1;
-    if (model->class->initialise != NULL) model->class->initialise(model, base);
+    if (model->core->initialise != NULL) model->core->initialise(model, base);
     for (size_t i = 0; rate != 0.0 && i < model->points && i * dimension < model->unknowns; i++) {
         double place[3];
         model_position(model, i, place);

@@ -38,7 +38,7 @@ static void random_scene(struct plain_scene *plain, bool layers)
     for (bool served = false; !served;) {
         drawn_scene(plain, layers);
         struct model *model = make(plain, (struct consistent_options){.degree = 2, .sweeps = 3});
-        served = model->class->advance != NULL && (consistent_of(model)->pml != NULL) == layers;
+        served = model->one_pass != NULL && (consistent_of(model)->pml != NULL) == layers;
         model_free(&model);
     }
 }
@@ -196,8 +196,8 @@ static void goes_on(bool single, bool layers)
     for (int count = 0; count < 17; count++)
         step(&one);
     size_t bytes = 0, room = 0;
-    const void *from = one.model->class->kept(one.model, &bytes);
-    void *to = other.model->class->kept(other.model, &room);
+    const void *from = one.model->one_pass->kept(one.model, &bytes);
+    void *to = other.model->one_pass->kept(other.model, &room);
     assert_int_equal(bytes, room);
     memcpy(to, from, bytes);
     memcpy(other.state.y, one.state.y, one.model->state_size * sizeof(double));
@@ -235,7 +235,7 @@ static void test_refused(void **unused)
         options.dissipation = kind == 2 ? .01 : 0;
         options.unfused = kind == 3;
         struct model *model = make(&plain, options);
-        assert_null(model->class->advance);
+        assert_null(model->one_pass->advance);
         model_free(&model);
         struct messages messages = {0};
         options.single = true;

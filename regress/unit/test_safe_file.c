@@ -1,5 +1,5 @@
 /* Files that last: complete or not there, whatever goes wrong on the way. */
-#include "base/clock.h"
+#include "base/progress.h"
 #include "base/safe_file.h"
 
 #include <signal.h>

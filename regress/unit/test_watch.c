@@ -3,7 +3,7 @@
  * density and stress of particles), and the message says when, where and why. */
 #include "host/simulation.h"
 #include "method/consistent/absorbing/pml.h"
-#include "method/consistent/galerkin/galerkin.h"
+#include "method/consistent/consistent.h"
 
 #include "few.h"
 

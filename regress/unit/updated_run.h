@@ -33,7 +33,7 @@ static inline void drop(struct fixture *f)
 {
     free(f->y);
     free(f->rate);
-    f->model->class->destroy(f->model);
+    f->model->core->destroy(f->model);
 }
 
 #endif

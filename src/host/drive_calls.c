@@ -148,7 +148,7 @@ selas_status selas_load_mean(selas_simulation *simulation, const char *load, sel
     if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ACCELERATION)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "means are those of displacement, velocity or acceleration, and need room for a value");
-    if (model->class->power == NULL || model->state_size < 2 * model->unknowns ||
+    if (model->core->power == NULL || model->state_size < 2 * model->unknowns ||
         named->kind == LOAD_MOMENT_TENSOR || named->amplitude == 0.0)
         return fail(&simulation->messages, SELAS_UNSUPPORTED, "this load or method has no mean displacement");
     const struct state *state = &simulation->state;
@@ -169,9 +169,9 @@ selas_status selas_load_mean(selas_simulation *simulation, const char *load, sel
     state_settle(simulation->stepper, state, true);
     memcpy(y, state->y, model->state_size * sizeof *y);
     translate(model, named->direction, y + n);
-    model->class->power(model, &drive, y, &measure, &absorbed);
+    model->core->power(model, &drive, y, &measure, &absorbed);
     memcpy(y + n, part, n * sizeof *y);
-    model->class->power(model, &drive, y, &power, &absorbed);
+    model->core->power(model, &drive, y, &power, &absorbed);
     *value = power / measure;
     return SELAS_OK;
 }

@@ -1,6 +1,7 @@
 /* The library's door: a simulation goes one way, deck -> scene -> model -> stepping -> record, each made when
  * first needed. */
 #include "accuracy/accuracy.h"
+#include "method/methods.h"
 #include "selas.h"
 
 #include "base/clock.h"
@@ -222,7 +223,7 @@ static selas_status start(selas_simulation *simulation)
     selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
     const struct stopwatch watch = start_watch();
-    simulation->model->evaluations = 0;
+    model_computed(simulation->model)->evaluations = 0;
     status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
     if (status == SELAS_OK && simulation->recording)
         status = recorder_open(simulation->recorder, NULL, &simulation->messages);

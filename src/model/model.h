@@ -6,8 +6,9 @@
  * integrates (stress, density; none for linear methods). Component c of point i stands at y[c *
  * component_stride + i * point_stride] in u and likewise in v.
  *
- * Linear methods fill `accelerate`; methods with state of their own fill `rate`; a method may fill both.
- * Missing functions are NULL. Nothing here allocates memory after create(). */
+ * A model's functions come in groups; a group that a model does not have is NULL. Linear methods fill
+ * `accelerate`; methods with state of their own fill `rate`; a method may fill both. Nothing here allocates
+ * memory after create(). */
 #ifndef SELAS_MODEL_MODEL_H
 #define SELAS_MODEL_MODEL_H
 
@@ -63,30 +64,56 @@ struct unseen {
 
 struct model;
 
-struct model_class {
-    const char *method, *variant; /* as in the deck */
+/* An entry of the table of methods (method/methods.c): what a deck may ask for. */
+struct method {
+    const char *name, *variant; /* as in the deck */
     bool mirrors; /* exact on the half of a symmetric scene with symmetry on the middle plane: see
                      method/mirror.h */
+    bool single;  /* some scenes may keep the state in single precision */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
+};
+
+/* What every model has. */
+struct model_core {
     void (*destroy)(struct model *model);
+    /* Initial state from scene->initial; y is zero on entry. NULL: at rest. */
+    void (*initialise)(struct model *model, double *y);
+    /* Finds weights for a position (deck coordinates). */
+    selas_status (*probe)(struct model *model, const double position[3], struct probe *probe,
+                          struct messages *messages);
+    /* Value of a field at a probe in deck coordinates; `value` has room for 6. NULL: the linear standard in
+     * model/probe.c (from u, v, a, weights and Hooke's law). */
+    void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                    const double *a, double *value);
+    /* Field at all body points, value[components * i + c], deck coordinates. */
+    void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
+    void (*energy)(struct model *model, const double *y, struct energy *energy);
+    /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out).
+     */
+    void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
+                  double *absorbed);
+    /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
+     * their memory; density). Only called when a run has failed. NULL: there are no such places. */
+    void (*unseen)(struct model *model, const double *y, struct unseen *found);
+    /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). NULL:
+     * none. */
+    void (*describe)(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+};
+
+/* The spatial operator. */
+struct model_operator {
     /* Solves (M + half_step C) a = F(drive) - K u - C v for a. half_step = 0 is the plain acceleration;
      * leapfrog passes dt/2. Prescribed components get a from drive->motion. v may be NULL where the model has
      * no C. */
     void (*accelerate)(struct model *model, const struct drive *drive, double half_step, const double *u,
                        const double *v, double *a);
-    /* Steps of leapfrog in one pass over the fields (all four or none; the models of some scenes have them).
-     * The model keeps the velocity half a step ahead and perhaps u; from begin() on, which takes y as the
-     * state at the drive's time, y and a are right only where probes and the power of loads look, until
-     * settle() makes y whole, and a if it is not NULL. settle() changes nothing of what is kept. */
-    void (*begin)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
-    /* From one step to the next, whose drive it is. */
-    void (*advance)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
-    void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
-    /* What is kept beside y, for checkpoints. */
-    void *(*kept)(struct model *model, size_t *bytes);
     /* dy/dt for the Runge-Kutta family. */
     void (*rate)(struct model *model, const struct drive *drive, const double *y, double *dydt);
+    /* product := M v, in the inner product of energy() or a multiple of it; v is 0 where it is prescribed.
+     * NULL: Lanczos takes two calls of energy() in its place. */
+    void (*weigh)(struct model *model, const double *v, double *product);
     /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the
      * body at rest (for measuring its spectrum). NULL for linear models. */
     void (*linearise)(struct model *model, bool on);
@@ -101,40 +128,37 @@ struct model_class {
      * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
      * Called right after u has moved, before the acceleration there. NULL where there is no filter. */
     void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
-    /* Linear models with memory (absorbing layers): brings the extra part of y over a step dt. On entry u is
-     * that of the end of the step, v the mean velocity over it (leapfrog's half-step velocity), extra that of
-     * the start. Called before the acceleration at the end, which gets it in drive->extra. NULL: no memory.
-     */
+};
+
+/* Steps of leapfrog in one pass over the fields. The model keeps the velocity half a step ahead and perhaps
+ * u; from begin() on, which takes y as the state at the drive's time, y and a are right only where probes and
+ * the power of loads look, until settle() makes y whole, and a if it is not NULL. settle() changes nothing of
+ * what is kept. */
+struct model_one_pass {
+    void (*begin)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    /* From one step to the next, whose drive it is. */
+    void (*advance)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    /* What is kept beside y, for checkpoints. */
+    void *(*kept)(struct model *model, size_t *bytes);
+};
+
+/* Memory of linear models (absorbing layers). */
+struct model_memory {
+    /* Brings the extra part of y over a step dt. On entry u is that of the end of the step, v the mean
+     * velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
+     * acceleration at the end, which gets it in drive->extra. */
     void (*remember)(struct model *model, double dt, double *y);
-    /* Initial state from scene->initial; y is zero on entry. */
-    void (*initialise)(struct model *model, double *y);
-    /* Finds weights for a position (deck coordinates). */
-    selas_status (*probe)(struct model *model, const double position[3], struct probe *probe,
-                          struct messages *messages);
-    /* Value of a field at a probe in deck coordinates; `value` has room for 6. NULL: the linear standard in
-     * model/probe.c (from u, v, a, weights and Hooke's law). */
-    void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
-                    const double *a, double *value);
-    /* Field at all body points, value[components * i + c], deck coordinates. */
-    void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
-    void (*energy)(struct model *model, const double *y, struct energy *energy);
-    /* product := M v, in the inner product of energy() or a multiple of it; v is 0 where it is prescribed.
-     * NULL: Lanczos takes two calls of energy() in its place. */
-    void (*weigh)(struct model *model, const double *v, double *product);
-    /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out).
-     */
-    void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
-                  double *absorbed);
-    /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
-     * their memory; density). Only called when a run has failed. NULL: there are none. */
-    void (*unseen)(struct model *model, const double *y, struct unseen *found);
-    /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). */
-    void (*describe)(const struct model *model,
-                     void (*tell)(void *context, const char *key, const char *value), void *context);
 };
 
 struct model {
-    const struct model_class *class;
+    const struct method *method;
+    const struct model_core *core;
+    const struct model_operator *spatial;
+    const struct model_one_pass *one_pass; /* NULL: steps are made with the operator */
+    const struct model_memory *memory;     /* NULL: none */
+    struct model *part; /* method/mirror.c: the part below mirror planes, whose state and functions (but for
+                           the core) this model has: ask model_computed(); NULL: the whole body is computed */
     const struct scene *scene; /* borrowed */
     size_t points;             /* points of the body that users see */
     const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not
@@ -154,9 +178,13 @@ struct model {
     unsigned long evaluations; /* calls of accelerate or rate so far */
 };
 
-/* The methods: table of names in method/methods.c. */
-const struct model_class *model_find(const char *method, const char *variant);
-selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages);
+/* The model whose state, operator, passes and memory these are: what time stepping works on. */
+static inline struct model *model_computed(struct model *model)
+{
+    return model->part != NULL ? model->part : model;
+}
+
+/* Frees the model and sets the pointer to NULL. */
 void model_free(struct model **model);
 
 /* model/positions.c: deck coordinates of a point that users see. */

@@ -23,3 +23,10 @@ void model_position(const struct model *model, size_t point, double position[3])
     }
     if (body->rotated) body_to_deck(body, position, position);
 }
+
+void model_free(struct model **model)
+{
+    if (model == NULL || *model == NULL) return;
+    (*model)->core->destroy(*model);
+    *model = NULL;
+}

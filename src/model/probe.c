@@ -208,8 +208,8 @@ void probe_observe(struct model *model, const struct probe *probe, selas_field f
 void model_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                    const double *a, double *value)
 {
-    if (model->class->observe != NULL)
-        model->class->observe(model, probe, field, y, a, value);
+    if (model->core->observe != NULL)
+        model->core->observe(model, probe, field, y, a, value);
     else
         probe_observe(model, probe, field, y, a, value);
 }

@@ -105,14 +105,14 @@ void plan_tell(const struct recorder *recorder,
     if (scene->title[0] != '\0') say(&teller, "title", "%s", scene->title);
     if (scene->deck != NULL) say(&teller, "deck", "%s", deck_name(scene->deck));
     say(&teller, "dimension", "%d", scene->dimension);
-    say(&teller, "method", "%s", model->class->method);
-    say(&teller, "variant", "%s", model->class->variant);
+    say(&teller, "method", "%s", model->method->name);
+    say(&teller, "variant", "%s", model->method->variant);
     say(&teller, "points", "%zu", model->points);
     say(&teller, "unknowns", "%zu", model->unknowns);
     if (model->grid[0] > 0)
         say(&teller, "lattice", "%zu x %zu x %zu", model->grid[0], model->grid[1] > 0 ? model->grid[1] : 1,
             model->grid[2] > 0 ? model->grid[2] : 1);
-    if (model->class->describe != NULL) model->class->describe(model, tell, context);
+    if (model->core->describe != NULL) model->core->describe(model, tell, context);
     say_step(&teller, recorder->stepper);
     say_resolution(&teller, scene);
     say_parts(&teller, scene);
@@ -125,21 +125,21 @@ void plan_tell(const struct recorder *recorder,
 /* Seconds of one operator call on a state at rest, the best of a few; negative if there is no room. */
 static double time_operator(struct recorder *recorder)
 {
-    struct model *model = recorder->model;
+    struct model *model = recorder->stepper->model;
     enum { TRIES = 3 };
     double *y = array_new(model->state_size, sizeof *y);
     double *result = array_new(model->state_size, sizeof *result);
     double best = -1.0;
     const unsigned long evaluations = model->evaluations;
     if (y != NULL && result != NULL) {
-        if (model->class->initialise != NULL) model->class->initialise(model, y);
+        if (model->core->initialise != NULL) model->core->initialise(model, y);
         const struct drive drive = {0};
         for (int i = 0; i < TRIES; i++) {
             const double before = wall_seconds();
-            if (model->class->accelerate != NULL)
-                model->class->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
+            if (model->spatial->accelerate != NULL)
+                model->spatial->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
             else
-                model->class->rate(model, &drive, y, result);
+                model->spatial->rate(model, &drive, y, result);
             const double spent = wall_seconds() - before;
             if (i == 0 || spent < best) best = spent;
         }

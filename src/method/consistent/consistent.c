@@ -166,9 +166,9 @@ static void describe(const struct model *model,
                  FUSED_STRIP);
         tell(context, "operator", text);
         tell(context, "step",
-             model->single                   ? "leapfrog's is one pass with the operator, in single precision"
-             : model->class->advance != NULL ? "leapfrog's is one pass with the operator"
-                                             : "apart from the operator");
+             model->single             ? "leapfrog's is one pass with the operator, in single precision"
+             : model->one_pass != NULL ? "leapfrog's is one pass with the operator"
+                                       : "apart from the operator");
         snprintf(text, sizeof text, "what is below %g of the largest displacement moves nothing",
                  c->fused->quiet);
         tell(context, "quiet parts", c->fused->quiet > 0 ? text : "all are computed");
@@ -216,6 +216,24 @@ static void remember(struct model *model, double dt, double *y)
     pml_damp(consistent_of(model), dt, v);
 }
 
+static const struct model_core core = {
+    .destroy = destroy,
+    .initialise = consistent_initialise,
+    .probe = consistent_probe,
+    .observe = consistent_observe,
+    .field = consistent_field,
+    .energy = energy,
+    .power = power,
+    .unseen = layers_fastest,
+    .describe = describe,
+};
+static const struct model_operator spatial = {
+    .accelerate = accelerate,
+    .weigh = weigh,
+    .shorten = consistent_shorten,
+};
+static const struct model_memory memory = {remember};
+
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages)
 {
@@ -226,13 +244,13 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     if (c == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
     c->options = *options;
     c->dimension = scene->dimension;
-    c->own_class = consistent_class;
-    c->model.class = &c->own_class;
+    c->model.method = &method_consistent;
+    c->model.core = &core;
+    c->model.spatial = &spatial;
     c->model.scene = scene;
     c->model.self_adjoint = true;
     status = build(c, messages);
-    if (c->pml != NULL) c->own_class.remember = remember;
-    if (c->pml != NULL) c->own_class.unseen = layers_fastest;
+    if (c->pml != NULL) c->model.memory = &memory;
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
     if (status == SELAS_OK) status = fused_steps_create(c, messages);
     if (status != SELAS_OK) {
@@ -255,20 +273,10 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     return consistent_create_with(scene, &options, model, messages);
 }
 
-const struct model_class consistent_class = {
-    .method = "smoothed-point",
+const struct method method_consistent = {
+    .name = "smoothed-point",
     .variant = "consistent",
     .mirrors = true,
+    .single = true,
     .create = create,
-    .destroy = destroy,
-    .accelerate = accelerate,
-    .initialise = consistent_initialise,
-    .probe = consistent_probe,
-    .observe = consistent_observe,
-    .field = consistent_field,
-    .energy = energy,
-    .weigh = weigh,
-    .shorten = consistent_shorten,
-    .power = power,
-    .describe = describe,
 };

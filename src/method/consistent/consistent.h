@@ -13,7 +13,7 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
 
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages);
-extern const struct model_class consistent_class;
+extern const struct method method_consistent;
 
 /* shorter.c: the model on a body whose axes of more cells than `longest` are cut to so many (but
  * see cells_of()); free it with model_free(). */

@@ -264,6 +264,18 @@ static selas_status fill(struct paper *paper, struct messages *messages)
     return status;
 }
 
+static const struct model_core core = {
+    .destroy = destroy,
+    .initialise = paper_initialise,
+    .probe = paper_probe,
+    .field = paper_field,
+    .energy = paper_energy,
+    .power = paper_power,
+    .describe = paper_describe,
+};
+static const struct model_operator filtering = {.accelerate = accelerate, .after_step = filter};
+static const struct model_operator plain = {.accelerate = accelerate}; /* every time scheme may be had */
+
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
                           struct model **model, struct messages *messages)
 {
@@ -275,9 +287,9 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->options = *options;
     paper->dimension = scene->dimension;
     paper->material = &scene->material[scene->body.material];
-    paper->class = paper_class;
-    if (!(options->filter > 0)) paper->class.after_step = NULL; /* then every time scheme may be had */
-    paper->model.class = &paper->class;
+    paper->model.method = &method_paper;
+    paper->model.core = &core;
+    paper->model.spatial = options->filter > 0 ? &filtering : &plain;
     paper->model.scene = scene;
     status = fill(paper, messages);
     if (status != SELAS_OK) {
@@ -302,17 +314,4 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     return status != SELAS_OK ? status : paper_create(scene, &options, model, messages);
 }
 
-const struct model_class paper_class = {
-    .method = "smoothed-point",
-    .variant = "paper",
-    .create = create,
-    .destroy = destroy,
-    .accelerate = accelerate,
-    .after_step = filter,
-    .initialise = paper_initialise,
-    .probe = paper_probe,
-    .field = paper_field,
-    .energy = paper_energy,
-    .power = paper_power,
-    .describe = paper_describe,
-};
+const struct method method_paper = {.name = "smoothed-point", .variant = "paper", .create = create};

@@ -59,8 +59,7 @@ struct paper_load {
 };
 
 struct paper {
-    struct model model;       /* first, so that a model pointer is a paper pointer */
-    struct model_class class; /* the model's: without the filter of Eq 35 where none is asked for */
+    struct model model; /* first, so that a model pointer is a paper pointer */
     struct paper_options options;
     const struct material *material;
     int dimension;
@@ -89,14 +88,14 @@ struct paper {
     double *scratch; /* [unknowns] for the filter */
 };
 
-/* Builds the model with these options (class->create reads them from the deck). */
+/* Builds the model with these options (its method reads them from the deck). */
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
                           struct model **model, struct messages *messages);
 struct paper_options paper_options_default(void);
 /* Options from the names of &method (method/paper/options.c). */
 selas_status paper_options_read(const struct scene *scene, struct paper_options *options,
                                 struct messages *messages);
-extern const struct model_class paper_class;
+extern const struct method method_paper;
 
 /* The parts of create, in this order; each leaves what it took in `paper` for paper_destroy. */
 selas_status paper_make_elements(struct paper *paper, struct messages *messages);

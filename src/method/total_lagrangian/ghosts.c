@@ -34,7 +34,7 @@ static selas_status treatment_of(const struct tl_model *tl, int face, enum treat
     const struct scene *scene = tl->model.scene;
     const struct boundary *boundary = &scene->boundary[face];
     *treatment = LEAVE;
-    if (tl->options.cloud) return SELAS_OK; /* its points on the faces are held */
+    if (tl->options.form != NULL) return SELAS_OK; /* its points on the faces are held */
     if (face < BOX_FACES && face / 2 >= scene->dimension) return SELAS_OK;
     bool slips = boundary->kind == BOUNDARY_SYMMETRY || boundary->kind == BOUNDARY_ROLLER;
     if (boundary->kind == BOUNDARY_FIXED) *treatment = HOLD;

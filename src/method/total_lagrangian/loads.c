@@ -9,7 +9,6 @@
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include "base/memory.h"
-#include "method/cloud/cloud.h"
 #include "points/least_squares.h"
 
 #include <math.h>
@@ -42,7 +41,7 @@ selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t
             kernel[*count] =
                 kernel_value(tl->options.kernel, d, sqrt(square), radius / tl->options.kernel->support);
             kernel[*count] *= tl->cloud->volume[tl->found[k]];
-            if (tl->options.cloud) /* interpolates: a receiver at a point reads that point */
+            if (tl->options.form != NULL) /* interpolates: a receiver at a point reads that point */
                 kernel[*count] /= 1e-6 + square / (spacing * spacing);
             if (!(kernel[*count] > 0)) continue;
             index[(*count)++] = tl->found[k];
@@ -249,8 +248,8 @@ static selas_status collect_load(struct tl_model *tl, const struct load *load, s
                 gather->force[d * i + a] = tl->cloud->volume[i] * load->amplitude * direction[a];
         return SELAS_OK;
     }
-    if (tl->options.cloud && load->face != FACE_HOLE)
-        return cloud_traction(tl, load, centre, direction, gather->force, gather->messages);
+    if (tl->options.form != NULL && load->face != FACE_HOLE)
+        return tl->options.form->traction(tl, load, centre, direction, gather->force, gather->messages);
     if (load->face != FACE_HOLE && (scene->body.shape != BODY_POINTS || load->shape == LOAD_FACE))
         return traction_on_box(tl, load, centre, direction, gather);
     if (load->shape != LOAD_FACE)

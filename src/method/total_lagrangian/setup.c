@@ -3,7 +3,6 @@
 #include "method/total_lagrangian/setup.h"
 
 #include "base/memory.h"
-#include "method/cloud/cloud.h"
 #include "points/least_squares.h"
 
 #include <math.h>
@@ -310,8 +309,8 @@ static selas_status fill_rows(struct tl_model *tl, const struct neighbours *near
         room = tl->site_v != NULL && tl_rows_begin(&tl->viscous, dimension, n, 2);
     }
     if (!room) return tl_no_memory(tl, messages);
-    selas_status status =
-        tl->options.cloud ? cloud_gradients(tl, near, messages) : fill_gradient(tl, near, work, messages);
+    selas_status status = tl->options.form != NULL ? tl->options.form->gradients(tl, near, messages)
+                                                   : fill_gradient(tl, near, work, messages);
     if (status == SELAS_OK) status = transpose(tl, near, work, messages);
     if (status == SELAS_OK) status = return_rows(tl, messages);
     if (status == SELAS_OK && tl->options.hourglass > 0)
@@ -331,7 +330,7 @@ selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
         status =
             fail(messages, SELAS_UNSUPPORTED, "%zu points are more than this method can number", tl->sites);
     if (status == SELAS_OK)
-        status = tl->options.cloud
+        status = tl->options.form != NULL
                      ? neighbours_find(&near, d, tl->sites, tl->site_position, most, true, messages)
                      : neighbours_cells(&near, d, tl->sites, tl->site_position, usual, messages);
     if (status == SELAS_OK) status = fill_rows(tl, &near, &work, messages);

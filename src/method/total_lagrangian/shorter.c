@@ -21,7 +21,7 @@ selas_status tl_shorten(const struct model *model, struct model **shorter, doubl
     size_t lost[3];
     *shorter = NULL;
     *deficit = missing / (double)(longest * longest);
-    if (cells[0] == 0) return SELAS_OK;
+    if (cells[0] == 0 || tl->options.form != NULL) return SELAS_OK;
     for (int axis = 0; axis < tl->cloud->dimension; axis++)
         lost[axis] = short_body_lost(model->scene, axis, cells[axis], longest);
     if (!short_body_pays(tl->cloud->dimension, cells, lost)) return SELAS_OK;

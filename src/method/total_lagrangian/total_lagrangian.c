@@ -8,7 +8,6 @@
 #include "method/total_lagrangian/run_loops.h"
 
 #include "base/memory.h"
-#include "method/cloud/cloud.h"
 #include "scene/initial.h"
 
 #include <stdio.h>
@@ -130,7 +129,7 @@ static void describe(const struct model *model,
     const struct tl_model *tl = (const struct tl_model *)model;
     char text[64];
     tell(context, "gradient",
-         tl->options.cloud         ? "summation by parts"
+         tl->options.form != NULL  ? tl->options.form->gradient
          : tl->options.central     ? "central"
          : tl->options.degree == 2 ? "quadratic"
                                    : "linear");
@@ -147,63 +146,29 @@ static void describe(const struct model *model,
     tell(context, "viscosity alpha, beta", text);
 }
 
-static selas_status create(const struct scene *scene, struct model **model, struct messages *messages);
-
+static const struct model_core core = {
+    .destroy = destroy,
+    .initialise = initialise,
+    .probe = tl_model_probe,
+    .observe = tl_observe,
+    .field = tl_field,
+    .energy = tl_energy,
+    .power = tl_power,
+    .describe = describe,
+};
 /* Hooke's law makes the model linear as a whole (without viscosity). */
-static const struct model_class linear_class = {
-    .method = "sph",
-    .variant = "total-lagrangian",
-    .create = create,
-    .destroy = destroy,
+static const struct model_operator linear_operator = {
     .accelerate = accelerate,
     .rate = rate,
-    .shorten = tl_shorten,
-    .initialise = initialise,
-    .probe = tl_model_probe,
-    .observe = tl_observe,
-    .field = tl_field,
-    .energy = tl_energy,
     .weigh = tl_weigh,
-    .power = tl_power,
-    .describe = describe,
-};
-
-static selas_status create_cloud(const struct scene *scene, struct model **model, struct messages *messages);
-
-const struct model_class cloud_class = {
-    .method = "smoothed-point",
-    .variant = "cloud",
-    .create = create_cloud,
-    .destroy = destroy,
-    .accelerate = accelerate,
-    .rate = rate,
-    .initialise = initialise,
-    .probe = tl_model_probe,
-    .observe = tl_observe,
-    .field = tl_field,
-    .energy = tl_energy,
-    .weigh = tl_weigh,
-    .power = tl_power,
-    .describe = describe,
-};
-
-const struct model_class total_lagrangian_class = {
-    .method = "sph",
-    .variant = "total-lagrangian",
-    .create = create,
-    .destroy = destroy,
-    .accelerate = accelerate,
-    .rate = rate,
     .shorten = tl_shorten,
+};
+static const struct model_operator nonlinear_operator = {
+    .accelerate = accelerate,
+    .rate = rate,
+    .weigh = tl_weigh,
     .linearise = linearise,
-    .initialise = initialise,
-    .probe = tl_model_probe,
-    .observe = tl_observe,
-    .field = tl_field,
-    .energy = tl_energy,
-    .weigh = tl_weigh,
-    .power = tl_power,
-    .describe = describe,
+    .shorten = tl_shorten,
 };
 
 static selas_status fill_points(struct tl_model *tl, struct messages *messages)
@@ -230,7 +195,7 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
         if (i > 0 && volume[0] == volume[-1])
             tl->spacing[i] = tl->spacing[i - 1];
         else
-            tl->spacing[i] = tl->options.cloud ? tl->cloud->spacing : pow(*volume, 1.0 / (double)d);
+            tl->spacing[i] = tl->options.form != NULL ? tl->cloud->spacing : pow(*volume, 1.0 / (double)d);
         body_to_deck(&scene->body, x, tl->deck_position + 3 * i);
     }
     return neighbours_cells(&tl->near, scene->dimension, n, tl->cloud->position, tl_search_radius(tl),
@@ -243,8 +208,7 @@ static void fill_model(struct tl_model *tl)
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t n = tl->cloud->points;
     const bool viscous = tl->site_v != NULL;
-    model->class = tl->options.law == LAW_LINEAR && !viscous ? &linear_class : &total_lagrangian_class;
-    if (tl->options.cloud) model->class = &cloud_class;
+    model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     model->points = n;
     model->position = tl->deck_position;
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
@@ -290,10 +254,12 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     struct tl_model *tl = array_new(1, sizeof *tl);
     if (tl == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
     tl->model.scene = scene;
-    tl->model.class = &total_lagrangian_class;
+    tl->model.method = options->form != NULL ? options->form->method : &method_total_lagrangian;
+    tl->model.core = &core;
     tl->options = *options;
-    selas_status status = options->cloud ? cloud_method_points(scene, &tl->cloud, messages)
-                                         : cloud_create(scene, &tl->cloud, messages);
+    const struct tl_form *form = options->form;
+    selas_status status =
+        form != NULL ? form->points(scene, &tl->cloud, messages) : cloud_create(scene, &tl->cloud, messages);
     if (status == SELAS_OK && options->central && tl->cloud->grid[0] == 0)
         status =
             fail(messages, SELAS_UNSUPPORTED,
@@ -301,7 +267,7 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
                  "'linear'");
     if (status == SELAS_OK) status = fill_points(tl, messages);
     if (status == SELAS_OK) status = tl_make_rows(tl, messages);
-    if (status == SELAS_OK && options->cloud) status = cloud_hold(tl, messages);
+    if (status == SELAS_OK && form != NULL) status = form->hold(tl, messages);
     if (status == SELAS_OK) status = allocate_numbers(tl, messages);
     if (status == SELAS_OK) status = tl_make_loads(tl, messages);
     if (status == SELAS_OK) status = tl_make_dampers(tl, messages);
@@ -338,16 +304,8 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     return total_lagrangian_create(scene, &options, model, messages);
 }
 
-/* Smoothed points on clouds: the same forces with gradients that sum by parts (cloud_method.h). */
-static selas_status create_cloud(const struct scene *scene, struct model **model, struct messages *messages)
-{
-    struct tl_options options = tl_default_options();
-    const struct deck_group *group = scene->method.group;
-    options.cloud = true;
-    options.law = LAW_LINEAR;
-    options.hourglass = 1; /* doc/cloud-method.md, section 4 */
-    if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
-    read_real(group, "smoothing_length", &options.smoothing_length);
-    read_real(group, "hourglass", &options.hourglass);
-    return total_lagrangian_create(scene, &options, model, messages);
-}
+const struct method method_total_lagrangian = {
+    .name = "sph",
+    .variant = "total-lagrangian",
+    .create = create,
+};

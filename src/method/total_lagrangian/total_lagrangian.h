@@ -13,9 +13,12 @@
 
 #include <stdint.h>
 
+struct tl_model;
+struct tl_form;
+
 struct tl_options {
     int degree;                  /* 1: linear (TL1), 2: quadratic (TL2) gradients */
-    bool cloud;                  /* the cloud method (cloud_method.h): points on the faces too */
+    const struct tl_form *form;  /* other points and gradients (the cloud method); NULL: those of SPH */
     bool central;                /* degree 1 by differences along the axes of a lattice */
     const struct kernel *kernel; /* shape of the weights */
     double smoothing_length;     /* in spacings; 0: the degree's default */
@@ -24,7 +27,23 @@ struct tl_options {
     enum elastic_law law;
 };
 
-extern const struct model_class total_lagrangian_class, cloud_class;
+extern const struct method method_total_lagrangian;
+
+/* What a method does in its own way that carries this model with points on the faces too: they are held, not
+ * mirrored by ghosts, and values are interpolated. */
+struct tl_form {
+    const struct method *method;
+    const char *gradient; /* what the plan says of them */
+    selas_status (*points)(const struct scene *scene, struct cloud **cloud, struct messages *messages);
+    /* Fills tl->gradient. */
+    selas_status (*gradients)(struct tl_model *tl, const struct neighbours *near, struct messages *messages);
+    /* Fills tl->held. */
+    selas_status (*hold)(struct tl_model *tl, struct messages *messages);
+    /* Adds a traction on a face of the box to force[dimension * points]. */
+    selas_status (*traction)(struct tl_model *tl, const struct load *load, const double centre[3],
+                             const double direction[3], double *force, struct messages *messages);
+};
+
 struct tl_options tl_default_options(void);
 selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
                                      struct model **model, struct messages *messages);

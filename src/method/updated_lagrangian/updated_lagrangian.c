@@ -242,6 +242,19 @@ static selas_status build(struct updated *updated, struct messages *messages)
     return status;
 }
 
+static const struct model_core core = {
+    .destroy = destroy,
+    .initialise = updated_initialise,
+    .probe = updated_probe,
+    .observe = updated_observe,
+    .field = updated_field,
+    .energy = updated_energy,
+    .power = updated_power,
+    .unseen = updated_unseen,
+    .describe = updated_describe,
+};
+static const struct model_operator spatial = {.rate = updated_rate, .spectrum = updated_spectrum};
+
 selas_status updated_lagrangian_new(const struct scene *scene, const struct updated_options *options,
                                     struct cloud *cloud, struct model **model, struct messages *messages)
 {
@@ -251,7 +264,9 @@ selas_status updated_lagrangian_new(const struct scene *scene, const struct upda
         cloud_free(&cloud);
         return fail(messages, SELAS_NO_MEMORY, "no memory for the method");
     }
-    updated->model.class = &model_updated_lagrangian;
+    updated->model.method = &method_updated_lagrangian;
+    updated->model.core = &core;
+    updated->model.spatial = &spatial;
     updated->model.scene = scene;
     updated->options = *options;
     updated->dimension = scene->dimension;
@@ -311,19 +326,8 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     return updated_lagrangian_new(scene, &options, cloud, model, messages);
 }
 
-const struct model_class model_updated_lagrangian = {
-    .method = "sph",
+const struct method method_updated_lagrangian = {
+    .name = "sph",
     .variant = "updated-lagrangian",
     .create = create,
-    .destroy = destroy,
-    .rate = updated_rate,
-    .spectrum = updated_spectrum,
-    .initialise = updated_initialise,
-    .probe = updated_probe,
-    .observe = updated_observe,
-    .field = updated_field,
-    .energy = updated_energy,
-    .unseen = updated_unseen,
-    .power = updated_power,
-    .describe = updated_describe,
 };

@@ -112,7 +112,7 @@ static inline struct updated *updated_of(struct model *model)
 static const int updated_component[4][3][3] = {
     {{0}}, {{0}}, {{0, 2, 0}, {2, 1, 0}, {0}}, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
 
-extern const struct model_class model_updated_lagrangian;
+extern const struct method method_updated_lagrangian;
 
 /* The switches as published: cubic spline, h = 1.5 spacings, alpha = beta = 2.5, epsilon = .3, all
  * corrections. */

@@ -145,7 +145,8 @@ static void pass_all(struct walk *walk, struct recorder *recorder, struct state 
     pass_real(walk, "a", 0, "", state->a, recorder->model->unknowns);
     if (recorder->stepper->one_pass) {
         size_t bytes = 0;
-        void *kept = recorder->model->class->kept(recorder->model, &bytes);
+        struct model *model = recorder->stepper->model;
+        void *kept = model->one_pass->kept(model, &bytes);
         pass(walk, "kept", H5T_NATIVE_UCHAR, kept, bytes);
     }
     pass_watch(walk, "watch", &recorder->watch);
@@ -257,7 +258,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
                                [TIME_STEP] = recorder->stepper->dt,
                                [ENTRIES] = (double)recorder->entries,
                                [RECORDED] = recorder->file != NULL ? 1.0 : 0.0,
-                               [EVALUATIONS] = (double)recorder->model->evaluations,
+                               [EVALUATIONS] = (double)model_computed(recorder->model)->evaluations,
                                [WALL_SECONDS] = spent->wall_seconds,
                                [CPU_SECONDS] = spent->cpu_seconds,
                                [FILES_LOW] = (double)(files & UINT32_MAX),
@@ -354,7 +355,7 @@ static const char *read_all(hid_t file, struct recorder *recorder, struct state 
     recorder->last_time = figures[LAST_TIME];
     recorder->before_time = figures[BEFORE_TIME];
     recorder->entries = (size_t)figures[ENTRIES];
-    recorder->model->evaluations = (unsigned long)figures[EVALUATIONS];
+    model_computed(recorder->model)->evaluations = (unsigned long)figures[EVALUATIONS];
     recorder->started = true;
     for (size_t k = 0; recorder->file != NULL && k < recorder->entries; k++)
         if (!snapshot_file_there(recorder, k, recorder->entry[k].time))

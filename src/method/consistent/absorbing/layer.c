@@ -105,7 +105,7 @@ void layers_fastest(struct model *model, const double *y, struct unseen *found)
     const struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
     *found = (struct unseen){.speed = -1};
-    for (size_t s = 0; s < c->pml->slabs; s++) {
+    for (size_t s = 0; c->pml != NULL && s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
         struct unseen one;
         double inside[3] = {0}, position[3];

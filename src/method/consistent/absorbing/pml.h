@@ -55,7 +55,7 @@ struct pml {
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context);
 
-/* model_class's `unseen`: the fastest control value of the layers, or the middle of those that are spoiled.
+/* model_core's `unseen`: the fastest control value of the layers, or the middle of those that are spoiled.
  */
 void layers_fastest(struct model *model, const double *y, struct unseen *found);
 

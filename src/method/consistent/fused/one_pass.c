@@ -28,7 +28,7 @@ static void sort_watched(struct fused_watch *watch)
 
 bool fused_watch(struct consistent *c, size_t count, const size_t *place)
 {
-    if (c->own_class.advance == NULL) return true;
+    if (c->model.one_pass == NULL) return true;
     struct fused_watch *watch = &c->fused->watch;
     if (watch->room < watch->count + 3 * count) {
         sort_watched(watch);
@@ -133,6 +133,8 @@ static void *kept(struct model *model, size_t *bytes)
     return fused->kept;
 }
 
+static const struct model_one_pass one_pass = {begin, advance, settle, kept};
+
 /* Why steps of leapfrog cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)
 {
@@ -158,11 +160,7 @@ selas_status fused_steps_create(struct consistent *c, struct messages *messages)
     if (missing != NULL && c->options.single)
         return fail(messages, SELAS_UNSUPPORTED, "method%%precision = 'single' needs %s", missing);
     if (missing != NULL) return SELAS_OK;
-    struct model_class *class = &c->own_class;
-    class->begin = begin;
-    class->advance = advance;
-    class->settle = settle;
-    class->kept = kept;
+    c->model.one_pass = &one_pass;
     c->model.single = c->options.single;
     c->fused->kept_bytes =
         c->options.single ? c->model.state_size * sizeof(float) : c->model.unknowns * sizeof(double);

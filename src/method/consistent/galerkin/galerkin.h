@@ -76,10 +76,9 @@ struct consistent {
     struct moving_load *moving_load;                      /* moving_load.c */
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
     struct mass_factors factors[FACTOR_SETS];
-    struct band *scratch[3];      /* [axis]: matrix to be factorised */
-    size_t layer[BOX_FACES];      /* points of the absorbing layer behind the face; 0: none */
-    struct pml *pml;              /* NULL: no layers */
-    struct model_class own_class; /* consistent_class and what only some scenes have */
+    struct band *scratch[3]; /* [axis]: matrix to be factorised */
+    size_t layer[BOX_FACES]; /* points of the absorbing layer behind the face; 0: none */
+    struct pml *pml;         /* NULL: no layers */
     struct scene *own_scene; /* of a body that was cut (consistent_short.c); NULL: the scene is borrowed */
     double *lane_buffer;     /* [threads * n[0] * LANES] */
     double *line_buffer;     /* [threads * (n[0] + n[1])] */
