@@ -4,7 +4,7 @@
  * For each axis c the pairs a_ij = -a_ji minimise sum (a_ij - a0_ij)^2 / w_ij under
  *     sum_j a_ij = -B_i / 2,   sum_j a_ij (x_j - x_i) = V_i e_c        (B_i = n_c A_i on faces, else 0);
  * a = a0 + w C^T l with (C w C^T) l = b - C a0, a sparse symmetric system, not negative and consistent, which
- * cloud_solver.c solves. */
+ * solver.c solves. */
 #include "method/cloud/cloud.h"
 #include "method/cloud/pairs.h"
 

@@ -22,7 +22,7 @@ struct cloud_pairs {
     double *value;          /* [d * pairs]: a_ij of each axis */
 };
 
-/* cloud_solver.c: (C w C^T) x = r by conjugate gradients. The system is not negative, its null space are the
+/* solver.c: (C w C^T) x = r by conjugate gradients. The system is not negative, its null space are the
  * quadratic functions (x = (f, grad f / 2)); r must be orthogonal to them. */
 struct cloud_solver;
 selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_solver **solver,

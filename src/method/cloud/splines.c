@@ -1,5 +1,5 @@
 /* Galerkin's matrix of the pair correction on functions f = sum c_s b_s of cubic B-splines with knots a few
- * spacings apart: P takes c to x = (f, grad f / 2), and the matrix is P^T (C w C^T) P (cloud_solver.c says
+ * spacings apart: P takes c to x = (f, grad f / 2), and the matrix is P^T (C w C^T) P (solver.c says
  * why). It takes every STRIDE-th pair, times STRIDE. Splines are numbered row by row, so that the matrix
  * and its Cholesky factor have a band: of each row what stands from its first number to the diagonal is kept.
  * (GSL has band matrices too, but its BLAS does not work in vectors.) */

@@ -8,7 +8,7 @@
  * part of a pair's stretch that the gradients do not see; it vanishes for quadratic fields where the
  * gradients are exact for them. Momentum: the f_i add up to 0 because E depends on differences only; angular
  * momentum: E does not change when x = X + u turns. Each row is a gather, so the result does not depend on
- * the number of threads. The loops over neighbours are in total_lagrangian_kernels.c. */
+ * the number of threads. The loops over neighbours are in run_loops.c. */
 #include "method/total_lagrangian/run_loops.h"
 
 #include <math.h>

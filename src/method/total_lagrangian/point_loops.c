@@ -1,4 +1,4 @@
-/* Inner loops of total-Lagrangian SPH over points that stand in no run (equations: total_lagrangian_force.c).
+/* Inner loops of total-Lagrangian SPH over points that stand in no run (equations: force.c).
  *
  * One point at a time, its neighbours two at a time (rows have an even number of entries). In the plane one
  * vector holds the numbers of two neighbours as they stand in memory, (x, y, x', y'), so that they take one

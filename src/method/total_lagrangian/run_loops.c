@@ -1,5 +1,5 @@
 /* Inner loops of total-Lagrangian SPH over runs, and the stresses of all points (equations:
- * total_lagrangian_force.c).
+ * force.c).
  *
  * The tensors H and A stand in planes: column b of all points, H_ab of point i at plane b, place d i + a. So
  * the numbers of a point stand beside each other as those of the displacements do, and every sum over
@@ -8,7 +8,7 @@
  * Runs (points in sequence that share a row of weights, as those of a lattice do) are summed eight points at
  * a time: their d vectors of eight numbers are loaded from the neighbours' place, and the weights are read
  * once. The last eight points of a run are summed again where they overlap those before; nothing is read that
- * is written here. The other points: total_lagrangian_points.c. */
+ * is written here. The other points: point_loops.c. */
 #include "method/total_lagrangian/run_loops.h"
 
 enum { MOST = 3 };

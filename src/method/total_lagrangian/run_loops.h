@@ -12,7 +12,7 @@ void tl_gradient_block(struct tl_model *tl, const struct tl_block *block);
 void tl_stress_block(struct tl_model *tl, const struct tl_block *block);
 void tl_force_block(struct tl_model *tl, const struct tl_block *block);
 
-/* total_lagrangian_points.c: the same for blocks that are no runs; the second adds hourglass control to A. */
+/* point_loops.c: the same for blocks that are no runs; the second adds hourglass control to A. */
 void tl_gradient_points(struct tl_model *tl, const struct tl_block *block);
 void tl_control_points(struct tl_model *tl, const struct tl_block *block);
 void tl_force_points(struct tl_model *tl, const struct tl_block *block);

@@ -1,6 +1,6 @@
 /* Rates of eight particles from their sums, one particle in each lane of a vector: L^-1, the velocity
  * gradient, the accelerations, and the stress rate of Hooke's law with the Jaumann terms (equations in
- * updated_lagrangian_rate.c). Inlined into the instances of updated_lagrangian_rate.c. */
+ * rate.c). Inlined into the instances of rate.c. */
 #ifndef SELAS_METHOD_UPDATED_LAGRANGIAN_CONTRACT_H
 #define SELAS_METHOD_UPDATED_LAGRANGIAN_CONTRACT_H
 

@@ -1,5 +1,5 @@
 /* Sums over the neighbours of eight particles in sequence. Inlined into the instances of
- * updated_lagrangian_rate.c.
+ * rate.c.
  *
  * Where particles are numbered in some order (lattices, rings) the neighbours of one stand at much the same
  * distances in memory as those of the next. So the lists of eight particles are merged into one of distances

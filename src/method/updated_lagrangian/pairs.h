@@ -1,6 +1,6 @@
 /* Sums over pairs of particles, eight pairs at a time, one in each lane of a vector: what eight particles in
- * sequence and single particles (updated_lagrangian_gather.h) have in common. Inlined into the instances of
- * updated_lagrangian_rate.c.
+ * sequence and single particles (gather.h) have in common. Inlined into the instances of
+ * rate.c.
  *
  * Pairs come in chunks, and each chunk is gone over in short loops: distances and differences; roots; kernel
  * and viscosity; L and grad v; stresses. One loop would need 42 sums in space and as many other numbers at

@@ -9,8 +9,8 @@
  * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
  * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
  * threads. Particles in some order (lattices, rings) are summed eight at a time, others one by one
- * (updated_lagrangian_gather.h, _pairs.h); what the sums say is worked out for eight at a time
- * (updated_lagrangian_contract.h). */
+ * (gather.h, pairs.h); what the sums say is worked out for eight at a time
+ * (contract.h). */
 #include "method/updated_lagrangian/gather.h"
 
 #include <string.h>
