@@ -1,6 +1,6 @@
 /* What depends on the machine. EACH_MACHINE: functions made once for each kind of it; the one that fits is
  * taken at run time, so that one binary serves all. Compilers that cannot do this make the plain one, and
- * so does -DSELAS_ONE_MACHINE (regress/valgrind).
+ * so does -DSELAS_ONE_MACHINE (regress/hardening/valgrind).
  * tiny_as_zero(): numbers below the smallest normal one. */
 #ifndef SELAS_MACHINE_H
 #define SELAS_MACHINE_H
