@@ -11,7 +11,7 @@
  * tau/sqrt(tau^2-g^2) H(tau > g), (5) W = -(2/pi) int Im G asin(min(1, q rho)) dq over [sqrt a, 1] + (C_R/g)
  * asin(min(1, g rho)),                (6) Im G = -2 A B (1-2q^2)/[(1-2q^2)^4 + 16 q^4 A^2 B^2], A^2 = q^2 -
  * a, B^2 = 1 - q^2, g = cs/c_R.               (7) */
-#include "exact/lamb_closed.h"
+#include "lamb_closed.h"
 
 #include "base/gsl_errors.h"
 #include "base/memory.h"
