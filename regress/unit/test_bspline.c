@@ -262,7 +262,7 @@ static void test_band(void **state)
     struct band *g = spline_matrix(s, false, 0, false, 1, NULL);
     struct band *product = band_product(m, g), *sum = band_sum(m, -2, g);
     const size_t n = s->count;
-    double x[64], y[64], z[64], lanes[64 * 4], factor[64 * 5];
+    double x[64] = {0}, y[64], z[64], lanes[64 * 4], factor[64 * 5];
     for (size_t i = 0; i < n; i++)
         x[i] = cos(2. * (double)i);
     apply(g, x, y);
