@@ -14,7 +14,7 @@ ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-
            $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
 
-SOURCES  = $(filter-out src/program/%,$(wildcard src/*.c src/*/*.c))
+SOURCES := $(filter-out src/program/%,$(shell find src -name '*.c' | sort))
 OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
 PROGRAM  = $(wildcard src/program/*.c)
 VERSION  = $(shell sed -n 's/^\#define SELAS_VERSION "\(.*\)"/\1/p' src/selas.h)
@@ -87,8 +87,8 @@ $(BUILD)/obj/record/provenance.o: $(BUILD)/commit
 $(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
 
 # Multiplication and addition of the lattice and SPH operators in one instruction where the machine has it
-$(BUILD)/obj/method/fused_%.o $(BUILD)/obj/method/pml_fast_%.o $(BUILD)/obj/method/passes.o: ALL_C += -ffp-contract=fast
-$(BUILD)/obj/method/total_lagrangian_kernels.o $(BUILD)/obj/method/total_lagrangian_points.o $(BUILD)/obj/method/updated_lagrangian_rate.o: ALL_C += -ffp-contract=fast
+$(BUILD)/obj/method/consistent/fused/fused_%.o $(BUILD)/obj/method/consistent/absorbing/pml_fast_%.o $(BUILD)/obj/method/spline/passes.o: ALL_C += -ffp-contract=fast
+$(BUILD)/obj/method/total_lagrangian/run_loops.o $(BUILD)/obj/method/total_lagrangian/point_loops.o $(BUILD)/obj/method/updated_lagrangian/rate.o: ALL_C += -ffp-contract=fast
 
 # What hosts link. Only names that begin with selas_ are seen outside.
 $(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/selas.map

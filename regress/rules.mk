@@ -23,6 +23,9 @@ $(BUILD)/replay/%: %.c regress/hardening/fuzz/replay.c $(BUILD)/libselas.a
 $(TESTS): private EXTRA_LIBS = -lcmocka
 $(BUILD)/test/bench: private EXTRA = -ffp-contract=fast
 $(FUZZED:%=$(BUILD)/fuzz/%): private EXTRA = -fsanitize=fuzzer
+# The closed form of the half-space shares nothing with the library's
+$(patsubst %,$(BUILD)/test/%,test_lamb test_lamb_fast test_lamb_horizontal lamb_grid): regress/unit/lamb_closed.c \
+    regress/unit/lamb_closed_history.c
 # The library's ways to memory go through regress/unit/allocation.c, where they can fail
 WRAPPED  = malloc calloc realloc free aligned_alloc strdup strndup open_memstream fftw_malloc fftw_alloc_real \
            fftw_alloc_complex fftw_free

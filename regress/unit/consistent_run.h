@@ -4,7 +4,7 @@
 
 #include "near.h"
 
-#include "method/hform.h"
+#include "method/consistent/consistent.h"
 #include "plain_scene.h"
 
 #include <gsl/gsl_eigen.h>
@@ -137,8 +137,8 @@ static inline void velocity_at(const struct run *run, const double place[3], dou
 {
     struct probe probe = {0};
     struct messages messages = {0};
-    assert_int_equal(run->model->class->probe(run->model, place, &probe, &messages), SELAS_OK);
-    run->model->class->observe(run->model, &probe, SELAS_VELOCITY, run->y, run->a, value);
+    assert_int_equal(run->model->core->probe(run->model, place, &probe, &messages), SELAS_OK);
+    run->model->core->observe(run->model, &probe, SELAS_VELOCITY, run->y, run->a, value);
     probe_free(&probe);
 }
 
@@ -146,7 +146,7 @@ static inline void velocity_at(const struct run *run, const double place[3], dou
 static inline void leap(struct run *run, const struct drive *drive, double dt)
 {
     double *v = run->y + run->n;
-    run->model->class->accelerate(run->model, drive, dt / 2, run->y, v, run->a);
+    run->model->spatial->accelerate(run->model, drive, dt / 2, run->y, v, run->a);
     for (size_t i = 0; i < run->n; i++) {
         v[i] += dt * run->a[i];
         run->y[i] += dt * v[i];

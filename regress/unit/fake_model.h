@@ -90,8 +90,10 @@ static void fake_energy(struct model *model, const double *y, struct energy *ene
         energy->kinetic += 0.5 * y[model->unknowns + i] * y[model->unknowns + i];
 }
 
-static const struct model_class fake_class = {
-    .method = "fake", .variant = "known", .probe = fake_probe, .field = fake_field, .energy = fake_energy};
+static const struct method fake_method = {.name = "fake", .variant = "known"};
+static const struct model_core fake_core = {.probe = fake_probe, .field = fake_field, .energy = fake_energy};
+
+static const struct model_operator fake_operator = {0};
 
 static const struct scheme_class fake_scheme = {.name = "none", .order = 4, .evaluations = 1.0, .vectors = 1};
 
@@ -161,7 +163,9 @@ static void fake_build(struct fake *fake, int dimension, const size_t n[3], doub
     scene->load = &fake->load;
     scene->body.spacing = spacing;
     scene->output.directory = fake->folder;
-    fake->model = (struct model){.class = &fake_class,
+    fake->model = (struct model){.method = &fake_method,
+                                 .core = &fake_core,
+                                 .spatial = &fake_operator,
                                  .scene = scene,
                                  .points = points,
                                  .position = fake->position,

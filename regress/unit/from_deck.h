@@ -2,6 +2,7 @@
 #ifndef FROM_DECK_H
 #define FROM_DECK_H
 
+#include "accuracy/accuracy.h"
 #include "scene/scene.h"
 
 #include "near.h"
@@ -22,7 +23,8 @@ static inline struct from_deck from_text(const char *text, size_t count, const c
     struct from_deck result = {0};
     result.status =
         deck_read_text("t.nml", text, strlen(text), count, overrides, &result.deck, &result.messages);
-    if (result.status == SELAS_OK) result.status = scene_build(result.deck, &result.scene, &result.messages);
+    if (result.status == SELAS_OK)
+        result.status = accuracy_build(result.deck, &result.scene, &result.messages);
     return result;
 }
 

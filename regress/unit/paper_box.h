@@ -3,7 +3,7 @@
 #define PAPER_BOX_H
 
 #include "box_scene.h"
-#include "method/paper.h"
+#include "method/paper/paper.h"
 
 static struct paper *create(struct box_scene *box, const struct paper_options *options)
 {
@@ -17,7 +17,7 @@ static struct paper *create(struct box_scene *box, const struct paper_options *o
 
 static void destroy(struct paper *paper)
 {
-    paper->model.class->destroy(&paper->model);
+    paper->model.core->destroy(&paper->model);
 }
 
 #endif

@@ -6,7 +6,7 @@
 #include "consistent_run.h"
 
 #include "base/memory.h"
-#include "method/fused.h"
+#include "method/consistent/fused/fused.h"
 #include "stepping/schemes.h"
 
 #include <omp.h>
@@ -28,10 +28,10 @@ static inline struct stepped begin(const struct plain_scene *plain, struct consi
     struct stepped s = {.model = make(plain, options)};
     struct messages messages = {0};
     struct consistent *c = consistent_of(s.model);
-    assert_non_null(c->own_class.advance);
+    assert_non_null(c->model.one_pass);
     for (size_t i = 0; i < PLACES; i++)
-        assert_int_equal(s.model->class->probe(s.model, places[i], &s.probe[i], &messages), SELAS_OK);
-    if (!one_pass) c->own_class.advance = NULL;
+        assert_int_equal(s.model->core->probe(s.model, places[i], &s.probe[i], &messages), SELAS_OK);
+    if (!one_pass) c->model.one_pass = NULL;
     assert_int_equal(stepper_create(s.model, &s.stepper, &messages), SELAS_OK);
     assert_int_equal(state_create(s.stepper, &s.state, &messages), SELAS_OK);
     const size_t n = s.model->unknowns;

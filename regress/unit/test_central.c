@@ -2,7 +2,7 @@
  * gradients, loads, receivers and the speed of surface waves. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_roots.h>
@@ -87,7 +87,7 @@ static void tractions_balance(void **state)
         stretch_box(&box, model->position, model->points, y);
         const double amplitude[2] = {1, 1};
         const struct drive drive = {.load = amplitude};
-        model->class->accelerate(model, &drive, 0, y, NULL, a);
+        model->spatial->accelerate(model, &drive, 0, y, NULL, a);
         for (size_t k = 0; k < model->unknowns; k++)
             assert_near(a[k], 0, 1e-12);
         array_free(y);
@@ -134,7 +134,7 @@ static double slowest(struct model *model, double k)
             const double phase = k * model->position[3 * point];
             u[2 * point + q % 2] = q % 2 == 0 ? sin(phase) : cos(phase);
         }
-        model->class->accelerate(model, &quiet, 0, u, NULL, a);
+        model->spatial->accelerate(model, &quiet, 0, u, NULL, a);
         for (size_t p = 0; p < 2 * layers; p++) { /* every column says the same */
             const size_t point = columns * (p / 2);
             const double phase = k * model->position[3 * point];
@@ -198,8 +198,8 @@ static void receivers(void **state)
         struct messages messages = {0};
         struct probe probe = {0};
         double value[6];
-        assert_int_equal(model->class->probe(model, place[k], &probe, &messages), SELAS_OK);
-        model->class->observe(model, &probe, SELAS_DISPLACEMENT, y, NULL, value);
+        assert_int_equal(model->core->probe(model, place[k], &probe, &messages), SELAS_OK);
+        model->core->observe(model, &probe, SELAS_DISPLACEMENT, y, NULL, value);
         const double *x = place[k];
         assert_near(value[0], x[0] * (2 - x[1]), 1e-13);
         assert_near(value[1], 3 + x[1] - .5 * (1 + x[1]) * x[0] * x[0], 1e-13);

@@ -2,7 +2,7 @@
  * under tractions, a real spectrum, what is refused. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/cloud_method.h"
+#include "method/cloud/cloud.h"
 
 #include <gsl/gsl_eigen.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static void make(struct box_scene *box, int d, double spacing)
 static struct model *create(const struct scene *scene)
 {
     struct tl_options options = tl_default_options();
-    options.cloud = true;
+    options.form = &cloud_form;
     options.law = LAW_LINEAR;
     struct messages messages = {0};
     struct model *model = NULL;
@@ -101,7 +101,7 @@ static void uniform_stress(void **state)
         stretch_box(&box, model->position, model->points, y);
         const double amplitude[2] = {1, 1};
         const struct drive drive = {.load = amplitude};
-        model->class->accelerate(model, &drive, 0, y, NULL, a);
+        model->spatial->accelerate(model, &drive, 0, y, NULL, a);
         for (size_t k = 0; k < model->unknowns; k++)
             assert_near(a[k], 0, 1e-8);
         array_free(y);
@@ -154,7 +154,7 @@ static void spectrum_is_real(void **state)
     const struct drive quiet = {0};
     for (size_t k = 0; k < n; k++) {
         y[k] = 1;
-        model->class->accelerate(model, &quiet, 0, y, NULL, a);
+        model->spatial->accelerate(model, &quiet, 0, y, NULL, a);
         y[k] = 0;
         for (size_t l = 0; l < n; l++)
             gsl_matrix_set(matrix, l, k, -a[l]);
@@ -195,7 +195,7 @@ static void held_points_rest(void **state)
     for (size_t k = 0; k < model->unknowns; k++)
         u[k] = sin(7. * (double)k);
     const struct drive quiet = {0};
-    model->class->accelerate(model, &quiet, 0, u, NULL, a);
+    model->spatial->accelerate(model, &quiet, 0, u, NULL, a);
     for (size_t i = 0; i < model->points; i++) {
         const double *x = model->position + 3 * i;
         assert_true((a[2 * i] == 0) == (x[0] == 0));
@@ -213,7 +213,7 @@ static void moving_faces_are_refused(void **state)
     make(&box, 2, .125);
     box.scene.boundary[FACE_X_LOW].kind = BOUNDARY_VELOCITY;
     struct tl_options options = tl_default_options();
-    options.cloud = true;
+    options.form = &cloud_form;
     struct messages messages = {0};
     struct model *model = NULL;
     assert_int_equal(total_lagrangian_create(&box.scene, &options, &model, &messages), SELAS_UNSUPPORTED);

@@ -87,21 +87,21 @@ static void test_patch(void **state)
             }
             const double ones[PLAIN_LOADS] = {1, 1, 1, 1, 1, 1};
             const struct drive drive = {.load = ones};
-            model->class->accelerate(model, &drive, 0, y, NULL, a);
+            model->spatial->accelerate(model, &drive, 0, y, NULL, a);
             for (size_t i = 0; i < model->unknowns; i++)
                 assert_near(a[i], 0, 2e-9); /* K is of order 1/dx, its inverse mass of order 1/dx^3 */
             struct probe probe = {0};
             struct messages messages = {0};
-            assert_int_equal(model->class->probe(model, (double[]){.31, .77, 1.03}, &probe, &messages),
+            assert_int_equal(model->core->probe(model, (double[]){.31, .77, 1.03}, &probe, &messages),
                              SELAS_OK);
             double stress[6];
-            model->class->observe(model, &probe, SELAS_STRESS, y, a, stress);
+            model->core->observe(model, &probe, SELAS_STRESS, y, a, stress);
             assert_near(stress[0], 2 * m->mu * strain[0][0] + m->lambda * trace, 1e-12);
             if (dimension == 3) assert_near(stress[4], m->mu * (strain[1][2] + strain[2][1]), 1e-12);
             probe_free(&probe);
             for (size_t i = 0; i < model->unknowns; i++)
                 y[i] = i / c->volume == 0 ? 1 : -2;
-            model->class->accelerate(model, &(struct drive){0}, 0, y, NULL, a);
+            model->spatial->accelerate(model, &(struct drive){0}, 0, y, NULL, a);
             for (size_t i = 0; i < model->unknowns; i++)
                 assert_near(a[i], 0, 1e-8);
             free(y);
@@ -129,7 +129,7 @@ static void test_largest_frequency(void **state)
         double *y = calloc(2 * n, sizeof *y), *a = calloc(n, sizeof *a), omega = 0;
         noise(n, y);
         for (int iteration = 0; iteration < 3000; iteration++) {
-            model->class->accelerate(model, &(struct drive){0}, 0, y, NULL, a);
+            model->spatial->accelerate(model, &(struct drive){0}, 0, y, NULL, a);
             omega = sqrt(sqrt(dot(n, a, a) / dot(n, y, y)));
             for (size_t j = 0; j < n; j++)
                 y[j] = -a[j] / (omega * omega);
@@ -178,7 +178,7 @@ static void test_energy(void **state)
     double *v = y + n, first = 0;
     const double dt = .01;
     noise(n, y);
-    model->class->accelerate(model, &(struct drive){0}, 0, y, NULL, v); /* admissible: 0 where held */
+    model->spatial->accelerate(model, &(struct drive){0}, 0, y, NULL, v); /* admissible: 0 where held */
     memset(y, 0, n * sizeof *y);
     for (int step = 0; step < 400; step++) {
         memcpy(before, y, n * sizeof *y);
@@ -187,7 +187,7 @@ static void test_energy(void **state)
         const double total = (tensor_form(c->mass, v, v) + tensor_form(c->stiffness, before, y)) / 2;
         if (step == 0) first = total;
         assert_near(total / first, 1, 1e-11);
-        model->class->accelerate(model, &(struct drive){0}, dt / 2, y, v, a);
+        model->spatial->accelerate(model, &(struct drive){0}, dt / 2, y, v, a);
         for (size_t i = 0; i < n; i++)
             v[i] += dt * a[i];
     }
@@ -251,11 +251,11 @@ static void test_transmits(void **state)
             .kind = INITIAL_GAUSSIAN, .amplitude = 1, .direction = {1, 0, 0}, .centre = {5}, .width = .5};
         struct run run = run_new(&plain, plain_options(3, false));
         struct energy start, end;
-        run.model->class->initialise(run.model, run.y);
-        run.model->class->energy(run.model, run.y, &start);
+        run.model->core->initialise(run.model, run.y);
+        run.model->core->energy(run.model, run.y, &start);
         for (int step = 0; step < 1500; step++) /* 30 % of the limit; 9 wavelengths long beyond the ends */
             leap(&run, &(struct drive){0}, .005);
-        run.model->class->energy(run.model, run.y, &end);
+        run.model->core->energy(run.model, run.y, &end);
         assert_true(end.kinetic + end.strain < 1e-4 * start.strain);
         run_free(&run);
     }
@@ -278,7 +278,7 @@ static void test_prescribed(void **state)
         const double motion[FACES] = {0, 1.9, 0};
         double *force = calloc(run.n, sizeof *force), *inertia = calloc(run.n, sizeof *inertia);
         noise(run.n, run.y);
-        run.model->class->accelerate(run.model, &(struct drive){.motion = motion}, 0, run.y, NULL, run.a);
+        run.model->spatial->accelerate(run.model, &(struct drive){.motion = motion}, 0, run.y, NULL, run.a);
         apply(c, c->stiffness, run.y, force);
         apply(c, c->mass, run.a, inertia);
         for (size_t i = 0; i < run.n; i++) {
@@ -400,11 +400,11 @@ static void test_symmetry_planes(void **state)
             for (int i = 0; i < 2; i++) {
                 struct probe probe = {0};
                 struct messages messages = {0};
-                run[i].model->class->probe(run[i].model, places[place], &probe, &messages);
-                run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
-                                             value[i]);
-                run[i].model->class->observe(run[i].model, &probe, SELAS_STRESS, run[i].y, run[i].a,
-                                             stress[i]);
+                run[i].model->core->probe(run[i].model, places[place], &probe, &messages);
+                run[i].model->core->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
+                                            value[i]);
+                run[i].model->core->observe(run[i].model, &probe, SELAS_STRESS, run[i].y, run[i].a,
+                                            stress[i]);
                 probe_free(&probe);
             }
             if (place < 2) assert_true(fabs(value[0][2]) > .05);
@@ -455,8 +455,8 @@ static void test_rotation(void **state)
         struct probe probe = {0};
         struct messages messages = {0};
         if (i == 1) body_to_deck(&plain[1].scene.body, place, place);
-        run[i].model->class->probe(run[i].model, place, &probe, &messages);
-        run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a, value[i]);
+        run[i].model->core->probe(run[i].model, place, &probe, &messages);
+        run[i].model->core->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a, value[i]);
         probe_free(&probe);
     }
     body_direction_to_deck(&plain[1].scene.body, value[0], expected);
@@ -503,16 +503,16 @@ static double gaussian_error(int p, double spacing)
         .kind = INITIAL_GAUSSIAN, .amplitude = 1, .direction = {0, 0, 1}, .centre = {2, 2, 2}, .width = .5};
     struct run run = run_new(&plain, plain_options(p, false));
     const struct material *m = &plain.material[0];
-    run.model->class->initialise(run.model, run.y);
-    run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
+    run.model->core->initialise(run.model, run.y);
+    run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
     double worst = 0;
     for (int i = 0; i < 27; i++) {
         const double place[3] = {1.6 + .4 * (i % 3), 1.6 + .4 * (i / 3 % 3), 1.6 + .4 * (i / 9)};
         double value[3], r[3], square = 0;
         struct probe probe = {0};
         struct messages messages = {0};
-        run.model->class->probe(run.model, place, &probe, &messages);
-        run.model->class->observe(run.model, &probe, SELAS_ACCELERATION, run.y, run.a, value);
+        run.model->core->probe(run.model, place, &probe, &messages);
+        run.model->core->observe(run.model, &probe, SELAS_ACCELERATION, run.y, run.a, value);
         probe_free(&probe);
         for (int axis = 0; axis < 3; axis++) {
             r[axis] = (place[axis] - 2) / .25; /* over the square of the width */

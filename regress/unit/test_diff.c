@@ -1,6 +1,6 @@
 /* Comparing histories: norms, shift, envelope and phase misfit of signals whose misfits are known. */
 #include "base/memory.h"
-#include "record/diff.h"
+#include "compare/diff.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -13,7 +13,7 @@ static struct consistent_options dissipative(int degree, double dissipation)
 /* -rate P v of the velocities in run->y. */
 static void damp(struct run *run)
 {
-    run->model->class->accelerate(run->model, &(struct drive){0}, 0, run->y, run->y + run->n, run->a);
+    run->model->spatial->accelerate(run->model, &(struct drive){0}, 0, run->y, run->y + run->n, run->a);
 }
 
 /* Cubic motions feel nothing, also at faces, where noise does. */
@@ -102,7 +102,7 @@ static double taken(struct run *run, const double *v)
     double load, absorbed;
     double *y = calloc(2 * run->n, sizeof *y);
     memcpy(y + run->n, v, run->n * sizeof *y);
-    run->model->class->power(run->model, &(struct drive){0}, y, &load, &absorbed);
+    run->model->core->power(run->model, &(struct drive){0}, y, &load, &absorbed);
     free(y);
     return absorbed;
 }
@@ -130,10 +130,10 @@ static void test_sign(void **state)
         const double of_v = taken(&run, v), of_w = taken(&run, w);
         assert_true(of_v > 0 && of_w > 0);
         struct energy parts;
-        run.model->class->energy(run.model, run.y, &parts);
+        run.model->core->energy(run.model, run.y, &parts);
         const double kinetic_v = parts.kinetic;
         memcpy(v, w, run.n * sizeof *v);
-        run.model->class->energy(run.model, run.y, &parts);
+        run.model->core->energy(run.model, run.y, &parts);
         const double kinetic_w = parts.kinetic; /* (rate P v).M (rate P v) / 2 */
         damp(&run);
         memcpy(v, run.a, run.n * sizeof *v); /* (rate P)^2 v0, v0 = the first v */
@@ -143,7 +143,7 @@ static void test_sign(void **state)
         assert_true(kinetic_v > 0);
         /* Cauchy-Schwarz for the form, and P being its own adjoint: w.MP(Pw) = Pw.M(Pw) */
         assert_true(cross * cross <= taken(&run, w) * taken(&run, v) * (1 + 1e-9));
-        run.model->class->energy(run.model, run.y, &parts);
+        run.model->core->energy(run.model, run.y, &parts);
         assert_near(-cross / (2 * parts.kinetic), 1, 1e-9);
         assert_true(kinetic_w > 0);
         free(mixed);
@@ -168,7 +168,7 @@ static void test_energy(void **state)
         leap(&run, &(struct drive){0}, dt);
         if (step % 20 != 0) continue;
         struct energy parts;
-        run.model->class->energy(run.model, run.y, &parts);
+        run.model->core->energy(run.model, run.y, &parts);
         if (step == 0) first = parts.kinetic + parts.strain;
         last = parts.kinetic + parts.strain;
         assert_true(last <= first * 1.001);

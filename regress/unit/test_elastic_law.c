@@ -1,7 +1,7 @@
 /* Elastic laws: stress is the derivative of the energy, small strains obey Hooke's law, rotations cost
  * nothing, thin bodies have no stress across. */
 #include "box_scene.h"
-#include "method/elastic_law.h"
+#include "method/total_lagrangian/elastic_law.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "chance.h"
 #include "consistent_run.h"
 
-#include "method/fused.h"
+#include "method/consistent/fused/fused.h"
 
 #include <omp.h>
 
@@ -39,8 +39,8 @@ static double difference(const struct plain_scene *plain, struct consistent_opti
     noise(n, u);
     for (size_t i = 0; i < n; i++)
         v[i] = u[n - 1 - i];
-    fused->class->accelerate(fused, &(struct drive){0}, .01, u, v, a);
-    plainly->class->accelerate(plainly, &(struct drive){0}, .01, u, v, b);
+    fused->spatial->accelerate(fused, &(struct drive){0}, .01, u, v, a);
+    plainly->spatial->accelerate(plainly, &(struct drive){0}, .01, u, v, b);
     double error = 0, largest = 0;
     for (size_t i = 0; i < n; i++) {
         error = fmax(error, fabs(a[i] - b[i]));
@@ -123,7 +123,7 @@ static void test_threads(void **state)
         if (u == NULL) u = calloc(n, sizeof *u);
         noise(n, u);
         result[i] = calloc(n, sizeof *u);
-        model->class->accelerate(model, &(struct drive){0}, 0, u, NULL, result[i]);
+        model->spatial->accelerate(model, &(struct drive){0}, 0, u, NULL, result[i]);
         model_free(&model);
     }
     omp_set_num_threads(1);

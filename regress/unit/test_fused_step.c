@@ -1,5 +1,6 @@
-/* Steps of leapfrog in one pass (method/fused_step.h) against drift, operator and kick one by one: whole
- * states and what is looked at after each step, threads, settling, checkpoints' kept part, planes at rest. */
+/* Steps of leapfrog in one pass (method/consistent/fused/fused_step.h) against drift, operator and kick one
+ * by one: whole states and what is looked at after each step, threads, settling, checkpoints' kept part,
+ * planes at rest. */
 #include "few.h"
 #include "stepped.h"
 
@@ -37,7 +38,7 @@ static void random_scene(struct plain_scene *plain, bool layers)
     for (bool served = false; !served;) {
         drawn_scene(plain, layers);
         struct model *model = make(plain, (struct consistent_options){.degree = 2, .sweeps = 3});
-        served = model->class->advance != NULL && (consistent_of(model)->pml != NULL) == layers;
+        served = model->one_pass != NULL && (consistent_of(model)->pml != NULL) == layers;
         model_free(&model);
     }
 }
@@ -195,8 +196,8 @@ static void goes_on(bool single, bool layers)
     for (int count = 0; count < 17; count++)
         step(&one);
     size_t bytes = 0, room = 0;
-    const void *from = one.model->class->kept(one.model, &bytes);
-    void *to = other.model->class->kept(other.model, &room);
+    const void *from = one.model->one_pass->kept(one.model, &bytes);
+    void *to = other.model->one_pass->kept(other.model, &room);
     assert_int_equal(bytes, room);
     memcpy(to, from, bytes);
     memcpy(other.state.y, one.state.y, one.model->state_size * sizeof(double));
@@ -234,7 +235,7 @@ static void test_refused(void **unused)
         options.dissipation = kind == 2 ? .01 : 0;
         options.unfused = kind == 3;
         struct model *model = make(&plain, options);
-        assert_null(model->class->advance);
+        assert_null(model->one_pass);
         model_free(&model);
         struct messages messages = {0};
         options.single = true;

@@ -1,6 +1,7 @@
-/* Windows of the fused operator (method/fused_window.h): fields that are 0 but in some places against whole
- * planes, to the bit; steps in one pass with and without parts at rest, and with what waves have reached
- * followed or looked for anew in each step, for sources in a corner, in the middle and in two places. */
+/* Windows of the fused operator (method/consistent/fused/active.h): fields that are 0 but in some places
+ * against whole planes, to the bit; steps in one pass with and without parts at rest, and with what waves
+ * have reached followed or looked for anew in each step, for sources in a corner, in the middle and in two
+ * places. */
 #include "few.h"
 #include "stepped.h"
 
@@ -37,7 +38,7 @@ static void one_pass_scene(struct plain_scene *plain, bool layers, int long_axis
     for (bool served = false; !served;) {
         wide_scene(plain, layers, long_axis);
         struct model *model = make(plain, (struct consistent_options){.degree = 2, .sweeps = 3});
-        served = model->class->advance != NULL;
+        served = model->one_pass != NULL;
         model_free(&model);
     }
 }
@@ -79,8 +80,8 @@ static void test_same_bits(void **unused)
         double *u = array_new(n, sizeof *u), *a = array_new(n, sizeof *a), *b = array_new(n, sizeof *b);
         blocks_of_noise(consistent_of(part), 1 + (size_t)i % SOURCES, u);
         noise(n, a); /* all of it is to be set */
-        part->class->accelerate(part, &(struct drive){0}, 0, u, NULL, a);
-        whole->class->accelerate(whole, &(struct drive){0}, 0, u, NULL, b);
+        part->spatial->accelerate(part, &(struct drive){0}, 0, u, NULL, a);
+        whole->spatial->accelerate(whole, &(struct drive){0}, 0, u, NULL, b);
         size_t different = 0;
         for (size_t k = 0; k < n; k++)
             different += a[k] != b[k];
@@ -155,7 +156,7 @@ static void step_both(int steps, struct stepped *one, struct stepped *other)
 {
     for (int count = 0; count < steps; count++) {
         size_t bytes = 0;
-        other->model->class->kept(other->model, &bytes);
+        other->model->one_pass->kept(other->model, &bytes);
         step(one);
         step(other);
     }

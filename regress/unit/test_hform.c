@@ -1,7 +1,7 @@
 /* The H-form: against dense matrices, its sign, energy, faces, symmetry planes, dispersion, long runs. */
 #include "consistent_run.h"
 
-#include "method/hform.h"
+#include "method/consistent/galerkin/hform.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
@@ -113,7 +113,7 @@ static void test_against_dense(void **state)
                     for (size_t i = 0; i < c->volume; i++)
                         if (c->slot[0] == DEPTH ? i / c->plane == 0 : i % c->n[0] == 0) run.y[i] = 0;
                 if (!c->spline[0]->centred[0]) dense_acceleration(c, run.y, expected);
-                run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
+                run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
                 for (size_t i = 0; i < run.n && !c->spline[0]->centred[0]; i++) {
                     largest = fmax(largest, fabs(expected[i]));
                     off = fmax(off, fabs(expected[i] - run.a[i]));
@@ -167,10 +167,10 @@ static double cross_energy(struct model *model, const double *u, const double *w
     struct energy plus, minus;
     for (size_t i = 0; i < n; i++)
         y[i] = u[i] + w[i];
-    model->class->energy(model, y, &plus);
+    model->core->energy(model, y, &plus);
     for (size_t i = 0; i < n; i++)
         y[i] = u[i] - w[i];
-    model->class->energy(model, y, &minus);
+    model->core->energy(model, y, &minus);
     free(y);
     return (plus.strain - minus.strain) / 4;
 }
@@ -191,18 +191,18 @@ static void test_energy(void **state)
         double *before = calloc(2 * run.n, sizeof *before), *v = run.y + run.n, energy = 0;
         const double dt = .02;
         noise(run.n, run.y);
-        run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
+        run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
         memset(run.y, 0, run.n * sizeof *run.y);
         for (int step = 0; step < 60; step++) {
             memcpy(before, run.y, 2 * run.n * sizeof *before);
             leap(&run, &(struct drive){0}, dt);
             struct energy parts;
-            run.model->class->energy(run.model, run.y, &parts);
+            run.model->core->energy(run.model, run.y, &parts);
             const double now = parts.kinetic + cross_energy(run.model, before, run.y);
             for (size_t i = 0; i < run.n; i++)
                 before[run.n + i] = (before[run.n + i] + v[i]) / 2;
             double input, loss;
-            run.model->class->power(run.model, &(struct drive){0}, before, &input, &loss);
+            run.model->core->power(run.model, &(struct drive){0}, before, &input, &loss);
             assert_true(kind > 1 ? loss > 0 : loss == 0);
             if (step > 0) assert_near((energy - now - dt * loss) / energy, 0, 2e-12);
             energy = now;
@@ -239,7 +239,7 @@ static void test_patch(void **state)
                     run.y[(size_t)i * c->volume + q] += strain[i][j] * c->spline[j]->greville[at[j]];
         }
         const double ones[PLAIN_LOADS] = {1, 1, 1, 1, 1, 1};
-        run.model->class->accelerate(run.model, &(struct drive){.load = ones}, 0, run.y, NULL, run.a);
+        run.model->spatial->accelerate(run.model, &(struct drive){.load = ones}, 0, run.y, NULL, run.a);
         for (size_t i = 0; i < run.n; i++)
             assert_near(run.a[i], 0, 1e-11);
         run_free(&run);
@@ -260,13 +260,13 @@ static void test_long_runs(void **state)
         double omega = 0;
         noise(run.n, run.y);
         for (int iteration = 0; iteration < 400; iteration++) {
-            run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
+            run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
             omega = sqrt(sqrt(dot(run.n, run.a, run.a) / dot(run.n, run.y, run.y)));
             for (size_t i = 0; i < run.n; i++)
                 run.y[i] = -run.a[i] / (omega * omega);
         }
         noise(run.n, run.y);
-        run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.y + run.n);
+        run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.y + run.n);
         memset(run.y, 0, run.n * sizeof *run.y);
         const double dt = 1.8 / omega, first = dot(run.n, run.y + run.n, run.y + run.n);
         for (int step = 0; step < 3000; step++)
@@ -315,9 +315,9 @@ static void test_symmetry_planes(void **state)
             for (int i = 0; i < 2; i++) {
                 struct probe probe = {0};
                 struct messages messages = {0};
-                run[i].model->class->probe(run[i].model, places[place], &probe, &messages);
-                run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
-                                             value[i]);
+                run[i].model->core->probe(run[i].model, places[place], &probe, &messages);
+                run[i].model->core->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
+                                            value[i]);
                 probe_free(&probe);
             }
             if (place == 0) assert_true(fabs(value[0][2]) > .04);
@@ -348,8 +348,8 @@ static double moved_end_error(int sweeps, double spacing)
         double value[3];
         struct probe probe = {0};
         struct messages messages = {0};
-        run.model->class->probe(run.model, (double[]){x, 0, 0}, &probe, &messages);
-        run.model->class->observe(run.model, &probe, SELAS_DISPLACEMENT, run.y, run.a, value);
+        run.model->core->probe(run.model, (double[]){x, 0, 0}, &probe, &messages);
+        run.model->core->observe(run.model, &probe, SELAS_DISPLACEMENT, run.y, run.a, value);
         probe_free(&probe);
         worst = fmax(worst, fabs(value[0] - exp(-s * s / 2)));
     }

@@ -47,7 +47,8 @@ static void test_kink(void **state)
                         z < top ? stretch[0] * (z - top) : stretch[1] * (z - top);
                 }
                 const double ones[PLAIN_LOADS] = {1, 1};
-                run.model->class->accelerate(run.model, &(struct drive){.load = ones}, 0, run.y, NULL, run.a);
+                run.model->spatial->accelerate(run.model, &(struct drive){.load = ones}, 0, run.y, NULL,
+                                               run.a);
                 for (size_t i = 0; i < run.n; i++)
                     assert_near(run.a[i], 0, 1e-9);
                 run_free(&run);
@@ -61,10 +62,10 @@ static double cross_energy(struct model *model, const double *u, const double *w
     struct energy plus, minus;
     for (size_t i = 0; i < n; i++)
         y[i] = u[i] + w[i];
-    model->class->energy(model, y, &plus);
+    model->core->energy(model, y, &plus);
     for (size_t i = 0; i < n; i++)
         y[i] = u[i] - w[i];
-    model->class->energy(model, y, &minus);
+    model->core->energy(model, y, &minus);
     free(y);
     return (plus.strain - minus.strain) / 4;
 }
@@ -85,18 +86,18 @@ static void test_energy(void **state)
         double *before = calloc(2 * run.n, sizeof *before), *v = run.y + run.n, energy = 0;
         const double dt = .01;
         noise(run.n, run.y);
-        run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
+        run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
         memset(run.y, 0, run.n * sizeof *run.y);
         for (int step = 0; step < 60; step++) {
             memcpy(before, run.y, 2 * run.n * sizeof *before);
             leap(&run, &(struct drive){0}, dt);
             struct energy parts;
-            run.model->class->energy(run.model, run.y, &parts);
+            run.model->core->energy(run.model, run.y, &parts);
             const double now = parts.kinetic + cross_energy(run.model, before, run.y);
             for (size_t i = 0; i < run.n; i++)
                 before[run.n + i] = (before[run.n + i] + v[i]) / 2;
             double input, loss;
-            run.model->class->power(run.model, &(struct drive){0}, before, &input, &loss);
+            run.model->core->power(run.model, &(struct drive){0}, before, &input, &loss);
             assert_true(face < 6 ? loss > 0 : loss == 0);
             if (step > 0) assert_near((energy - now - dt * loss) / energy, 0, 5e-12);
             energy = now;
@@ -146,8 +147,8 @@ static double bar_error(int degree, int sweeps, double spacing)
         double value[3];
         struct probe probe = {0};
         struct messages messages = {0};
-        run.model->class->probe(run.model, (double[]){x, 0, 0}, &probe, &messages);
-        run.model->class->observe(run.model, &probe, SELAS_VELOCITY, run.y, run.a, value);
+        run.model->core->probe(run.model, (double[]){x, 0, 0}, &probe, &messages);
+        run.model->core->observe(run.model, &probe, SELAS_VELOCITY, run.y, run.a, value);
         probe_free(&probe);
         worst = fmax(worst, fabs(value[0] - expected) * z[0]);
     }

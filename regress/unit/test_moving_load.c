@@ -1,7 +1,8 @@
 /* Moving patches in the consistent method: at any time their forces are those of a patch at rest where the
  * moving one then is; stepping does not un-warp them. */
 #include "base/memory.h"
-#include "method/model.h"
+#include "method/methods.h"
+#include "model/model.h"
 #include "stepping/stepping.h"
 
 #include "from_deck.h"
@@ -52,8 +53,8 @@ static double *forces(struct run *run, double time, double power[2])
     drive_at(run->stepper, time, &drive);
     for (size_t i = 0; i < model->unknowns; i++)
         y[model->unknowns + i] = sin(.37 * (double)i);
-    model->class->power(run->model, &drive, y, &power[0], &power[1]);
-    model->class->accelerate(run->model, &drive, 0, y, NULL, a);
+    model->core->power(run->model, &drive, y, &power[0], &power[1]);
+    model->spatial->accelerate(run->model, &drive, 0, y, NULL, a);
     array_free(y);
     return a;
 }

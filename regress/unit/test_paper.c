@@ -10,7 +10,7 @@
 static void accelerate(struct paper *paper, const double *u, double *a)
 {
     const struct drive quiet = {0};
-    paper->model.class->accelerate(&paper->model, &quiet, 0, u, NULL, a);
+    paper->model.spatial->accelerate(&paper->model, &quiet, 0, u, NULL, a);
 }
 
 static size_t point_at(const struct paper *paper, size_t i, size_t j, size_t k)
@@ -297,8 +297,8 @@ static void test_rotation(void **state)
         body_direction_to_deck(&turned.scene.body, work + 3 * i, turned_u + 3 * i);
     const double history = 1.7;
     const struct drive drive = {.load = &history};
-    straight->model.class->accelerate(&straight->model, &drive, .05, u, v, a);
-    rotated->model.class->accelerate(&rotated->model, &drive, .05, turned_u, turned_v, turned_a);
+    straight->model.spatial->accelerate(&straight->model, &drive, .05, u, v, a);
+    rotated->model.spatial->accelerate(&rotated->model, &drive, .05, turned_u, turned_v, turned_a);
     double largest = 0;
     for (size_t k = 0; k < n; k++)
         largest = fmax(largest, fabs(a[k]));
@@ -331,10 +331,10 @@ static void test_threads(void **state)
     struct energy energy[2];
     omp_set_num_threads(1);
     accelerate(paper, y, one);
-    paper->model.class->energy(&paper->model, y, &energy[0]);
+    paper->model.core->energy(&paper->model, y, &energy[0]);
     omp_set_num_threads(5);
     accelerate(paper, y, many);
-    paper->model.class->energy(&paper->model, y, &energy[1]);
+    paper->model.core->energy(&paper->model, y, &energy[1]);
     assert_memory_equal(one, many, n * sizeof *one);
     assert_memory_equal(&energy[0], &energy[1], sizeof energy[0]);
     array_free(y);

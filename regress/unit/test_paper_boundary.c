@@ -75,7 +75,7 @@ static void test_load_sums(void **state)
         const double history = 1.3;
         const struct drive drive = {.load = &history};
         double *u = array_new(2 * paper->model.unknowns, sizeof *u), *a = u + paper->model.unknowns;
-        paper->model.class->accelerate(&paper->model, &drive, 0, u, NULL, a);
+        paper->model.spatial->accelerate(&paper->model, &drive, 0, u, NULL, a);
         const size_t top = 3 + 7 * 3, below = top + 49, deep = below + 49;
         const double area = .25 * 7 / (10 * plane), density = box.material.density;
         /* the whole face carries exactly 9: shares are 9 over the sum of the statistical areas */
@@ -101,7 +101,7 @@ static void damped_acceleration(struct paper *paper, const double v[3], double h
     double *u = array_new(3 * n, sizeof *u);
     for (size_t k = 0; k < n; k++)
         u[n + k] = v[k % 3];
-    paper->model.class->accelerate(&paper->model, &quiet, half_step, u, u + n, u + 2 * n);
+    paper->model.spatial->accelerate(&paper->model, &quiet, half_step, u, u + n, u + 2 * n);
     memcpy(acceleration, u + 2 * n + 3 * point, 3 * sizeof *acceleration);
     array_free(u);
 }
@@ -174,7 +174,7 @@ static void test_held_faces(void **state)
     double motion[FACES] = {0};
     motion[FACE_Z_HIGH] = .5;
     const struct drive drive = {.motion = motion};
-    paper->model.class->accelerate(&paper->model, &drive, 0, u, NULL, a);
+    paper->model.spatial->accelerate(&paper->model, &drive, 0, u, NULL, a);
     for (size_t i = 0; i < paper->set.points; i++) {
         double own[3];
         body_direction_from_deck(&box.scene.body, a + 3 * i, own);
@@ -194,7 +194,7 @@ static void test_held_faces(void **state)
     }
     /* the filter leaves held components alone and moves the others */
     memcpy(a, u, n * sizeof *a);
-    paper->model.class->after_step(&paper->model, .1, before, u, before + 0);
+    paper->model.spatial->after_step(&paper->model, .1, before, u, before + 0);
     size_t changed = 0;
     for (size_t i = 0; i < paper->set.points; i++) {
         double change[3], own[3];
@@ -229,7 +229,7 @@ static void test_filter(void **state)
             u[3 * i + 1] = 2;
             u[3 * i + 2] = before[3 * i + 2] = u[3 * i]; /* no increment */
         }
-        paper->model.class->after_step(&paper->model, .1, before, u, v);
+        paper->model.spatial->after_step(&paper->model, .1, before, u, v);
         const double w1 = .25, w2 = pow(2 - sqrt(2), 3) / 4, w3 = pow(2 - sqrt(3), 3) / 4;
         const double mean = (-6 * w1 + 12 * w2 - 8 * w3) / (6 * w1 + 12 * w2 + 8 * w3);
         const double filtered = -1 + .3 * (-mean + 1); /* the centre's parity is odd */
@@ -273,7 +273,7 @@ static void test_sources(void **state)
         double *u = array_new(2 * n, sizeof *u), *a = u + n;
         const double history = .7;
         const struct drive drive = {.load = &history};
-        paper->model.class->accelerate(&paper->model, &drive, 0, u, NULL, a);
+        paper->model.spatial->accelerate(&paper->model, &drive, 0, u, NULL, a);
         double force[3] = {0}, first[3][3] = {{0}};
         for (size_t i = 0; i < paper->set.points; i++)
             for (size_t c = 0; c < 3; c++) {
@@ -322,13 +322,13 @@ static void test_bar(void **state)
             u[i] = exp(-x * x / .32);
             v[i] = speed * x / .16 * u[i];
         }
-        paper->model.class->accelerate(&paper->model, &quiet, 0, u, NULL, a);
+        paper->model.spatial->accelerate(&paper->model, &quiet, 0, u, NULL, a);
         for (int step = 0; step < 200; step++) {
             for (size_t i = 0; i < n; i++) {
                 v[i] += dt / 2 * a[i];
                 u[i] += dt * v[i];
             }
-            paper->model.class->accelerate(&paper->model, &quiet, 0, u, NULL, a);
+            paper->model.spatial->accelerate(&paper->model, &quiet, 0, u, NULL, a);
             for (size_t i = 0; i < n; i++)
                 v[i] += dt / 2 * a[i];
         }

@@ -3,7 +3,8 @@
 #include "consistent_run.h"
 #include "few.h"
 
-#include "method/pml.h"
+#include "method/consistent/absorbing/pml.h"
+#include "scene/absorbing_layers.h"
 #include "stepping/stepping.h"
 
 #include <omp.h>
@@ -29,16 +30,16 @@ static struct run start(const struct plain_scene *plain)
 /* Steps of leapfrog; v is that of the half step before on entry and at the end. */
 static void march(struct run *run, double dt, int steps)
 {
-    const struct model_class *class = run->model->class;
+    const struct model *model = run->model;
     double *v = run->y + run->n;
     for (int step = 0; step < steps; step++) {
-        const struct drive drive = {.extra = class->remember != NULL ? v + run->n : NULL};
-        class->accelerate(run->model, &drive, dt / 2, run->y, v, run->a);
+        const struct drive drive = {.extra = model->memory != NULL ? v + run->n : NULL};
+        model->spatial->accelerate(run->model, &drive, dt / 2, run->y, v, run->a);
         for (size_t i = 0; i < run->n; i++) {
             v[i] += dt * run->a[i];
             run->y[i] += dt * v[i];
         }
-        if (class->remember != NULL) class->remember(run->model, dt, run->y);
+        if (model->memory != NULL) model->memory->remember(run->model, dt, run->y);
     }
 }
 
@@ -84,7 +85,7 @@ static void compare(int dimension, double nu, unsigned layered, long points, dou
             scene->initial.direction[axis] = axis == 0 ? .6 : .8;
         }
         run[i] = start(&plain[i]);
-        run[i].model->class->initialise(run[i].model, run[i].y);
+        run[i].model->core->initialise(run[i].model, run[i].y);
     }
     const double dt = fmin(safe_step(&run[0]), safe_step(&run[1]));
     *off = *norm = 0;
@@ -95,9 +96,9 @@ static void compare(int dimension, double nu, unsigned layered, long points, dou
                 struct probe probe = {0};
                 struct messages messages = {0};
                 if (place == 0) march(&run[i], dt, 2);
-                run[i].model->class->probe(run[i].model, places[place], &probe, &messages);
-                run[i].model->class->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
-                                             value[i]);
+                run[i].model->core->probe(run[i].model, places[place], &probe, &messages);
+                run[i].model->core->observe(run[i].model, &probe, SELAS_VELOCITY, run[i].y, run[i].a,
+                                            value[i]);
                 probe_free(&probe);
             }
             for (int c = 0; c < dimension; c++) {
@@ -153,7 +154,7 @@ static void test_quiet(void **state)
             double *v = run.y + run.n, first = 0, before = 0;
             const double dt = safe_step(&run);
             noise(run.n, run.y);
-            run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
+            run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
             memset(run.y, 0, run.n * sizeof *run.y);
             first = dot(run.n, v, v);
             for (int round = 0; round < 8; round++) {
@@ -194,7 +195,7 @@ static void test_symmetry_planes(void **state)
                                           .direction = {0, 0, 1}};
         omp_set_num_threads(i == 2 ? 3 : 1);
         run[i] = start(&plain[i]);
-        run[i].model->class->initialise(run[i].model, run[i].y);
+        run[i].model->core->initialise(run[i].model, run[i].y);
         march(&run[i], .05, 60);
     }
     omp_set_num_threads(most);
@@ -223,7 +224,7 @@ static void test_what_is_kept(void **state)
     with.scene.material = with.material;
     set_layer(&with, FACE_X_HIGH, 5);
     struct run bare = start(&plain), layered = start(&with);
-    assert_null(bare.model->class->remember);
+    assert_null(bare.model->memory);
     assert_null(consistent_of(bare.model)->pml);
     assert_int_equal(bare.model->state_size, 2 * bare.model->unknowns);
     assert_int_equal(layered.model->points, bare.model->points);
@@ -260,7 +261,7 @@ static void test_fastest_place(void **state)
     for (int bad = 0; bad < 2; bad++) {
         v[at] = bad == 1 ? NAN : 3;
         v[c->volume + at] = 4;
-        run.model->class->unseen(run.model, run.y, &found);
+        run.model->core->unseen(run.model, run.y, &found);
         assert_true(bad == 1 ? isinf(found.speed) : fabs(found.speed - 5) < 1e-12);
         assert_true(found.spoiled == (size_t)bad);
         assert_int_equal(

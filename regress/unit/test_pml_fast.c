@@ -5,7 +5,7 @@
 #include "consistent_run.h"
 #include "few.h"
 
-#include "method/pml_fast.h"
+#include "method/consistent/absorbing/pml_fast.h"
 
 #include <omp.h>
 
@@ -37,7 +37,7 @@ static void random_scene(struct plain_scene *plain, int layered, double poisson)
 static struct run marched(const struct plain_scene *plain, struct consistent_options options, int steps)
 {
     struct run run = {.model = make(plain, options)};
-    const struct model_class *class = run.model->class;
+    const struct model *model = run.model;
     const double dt = .25 * .3 / plain->material[0].p_speed;
     run.n = run.model->unknowns;
     run.y = calloc(run.model->state_size, sizeof *run.y);
@@ -49,12 +49,12 @@ static struct run marched(const struct plain_scene *plain, struct consistent_opt
             consistent_clear_held(c, component, k, run.y + (size_t)component * c->volume + k * c->plane);
     double *v = run.y + run.n;
     for (int step = 0; step < steps; step++) {
-        class->accelerate(run.model, &(struct drive){.extra = v + run.n}, dt / 2, run.y, v, run.a);
+        model->spatial->accelerate(run.model, &(struct drive){.extra = v + run.n}, dt / 2, run.y, v, run.a);
         for (size_t i = 0; i < run.n; i++) {
             v[i] += dt * run.a[i];
             run.y[i] += dt * v[i];
         }
-        class->remember(run.model, dt, run.y);
+        model->memory->remember(run.model, dt, run.y);
     }
     return run;
 }
@@ -226,7 +226,7 @@ static void test_quiet(void **state)
         for (int i = 0; i < 2; i++) {
             double *v = run[i].y + n;
             leap(&run[i], &(struct drive){.extra = v + n}, .2);
-            run[i].model->class->remember(run[i].model, .2, run[i].y);
+            run[i].model->memory->remember(run[i].model, .2, run[i].y);
         }
         if (step == 20) early = fast->skipped;
         if (step == 20) all = fast->groups;

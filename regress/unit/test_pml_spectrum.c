@@ -3,7 +3,8 @@
 #include "consistent_run.h"
 #include "few.h"
 
-#include "method/pml.h"
+#include "method/consistent/absorbing/pml.h"
+#include "scene/absorbing_layers.h"
 #include "stepping/stepping.h"
 
 #include <gsl/gsl_complex_math.h>
@@ -13,12 +14,12 @@ static void step(struct model *model, double dt, double *y, double *a)
 {
     const size_t n = model->unknowns;
     const struct drive drive = {.extra = y + 2 * n};
-    model->class->accelerate(model, &drive, dt / 2, y, y + n, a);
+    model->spatial->accelerate(model, &drive, dt / 2, y, y + n, a);
     for (size_t i = 0; i < n; i++) {
         y[n + i] += dt * a[i];
         y[i] += dt * y[n + i];
     }
-    model->class->remember(model, dt, y);
+    model->memory->remember(model, dt, y);
 }
 
 static bool held(const struct consistent *c, size_t i)

@@ -290,14 +290,14 @@ static void known_power(struct model *model, const struct drive *drive, const do
 static selas_status worked_run(double factor, struct recorder **recorder, struct fake *fake,
                                struct messages *messages)
 {
-    static struct model_class class;
-    class = fake_class;
-    class.energy = known_energy;
-    class.power = known_power;
-    class.unseen = unseen;
+    static struct model_core core;
+    core = fake_core;
+    core.energy = known_energy;
+    core.power = known_power;
+    core.unseen = unseen;
     energy_factor = factor;
     fake_build(fake, 3, line, 0.25, 0.01, 20.0);
-    fake->model.class = &class;
+    fake->model.core = &core;
     assert_int_equal(recorder_create(&fake->scene, &fake->model, &fake->stepper, recorder, messages),
                      SELAS_OK);
     selas_status status = SELAS_OK;
@@ -364,12 +364,12 @@ static void own_observe(struct model *model, const struct probe *probe, selas_fi
 static void own_observe_is_asked(void **state)
 {
     (void)state;
-    static struct model_class class;
-    class = fake_class;
-    class.observe = own_observe;
+    static struct model_core core;
+    core = fake_core;
+    core.observe = own_observe;
     struct fake fake;
     fake_build(&fake, 3, line, 0.25, 0.1, 1.0);
-    fake.model.class = &class;
+    fake.model.core = &core;
     fake.scene.receivers = 1;
     struct messages messages = {0};
     struct recorder *recorder = NULL;

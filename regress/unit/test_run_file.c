@@ -1,6 +1,6 @@
 /* What a run leaves on the disk: histories, run.h5, run.xdmf, report, plots. */
+#include "base/gnuplot.h"
 #include "fake_model.h"
-#include "record/gnuplot.h"
 #include "record/parts.h"
 
 #include <hdf5.h>

@@ -34,15 +34,15 @@ static void pendulum_acceleration(struct model *model, const struct drive *drive
 }
 
 static const struct scene empty;
-static const struct model_class pendulum_class = {.rate = pendulum};
-static const struct model_class decay_class = {.rate = decay};
-static const struct model_class acceleration_class = {.accelerate = pendulum_acceleration};
+static const struct model_operator pendulum_operator = {.rate = pendulum};
+static const struct model_operator decay_operator = {.rate = decay};
+static const struct model_operator acceleration_operator = {.accelerate = pendulum_acceleration};
 
 /* Runs `steps` steps from y; returns the number of calls. */
-static unsigned long run(const struct model_class *class, const char *scheme, long stages, double dt,
+static unsigned long run(const struct model_operator *spatial, const char *scheme, long stages, double dt,
                          long steps, double y[2])
 {
-    struct model model = {.class = class, .scene = &empty, .unknowns = 1, .state_size = 2};
+    struct model model = {.spatial = spatial, .scene = &empty, .unknowns = 1, .state_size = 2};
     double work[5][2], *vectors[5] = {work[0], work[1], work[2], work[3], work[4]}, load[1],
                        motion[3 * FACES], a[1];
     struct stepper stepper = {.scheme = scheme_find(scheme),
@@ -61,18 +61,19 @@ static unsigned long run(const struct model_class *class, const char *scheme, lo
     return model.evaluations;
 }
 
-static double pendulum_error(const struct model_class *class, const char *scheme, long stages, long steps)
+static double pendulum_error(const struct model_operator *spatial, const char *scheme, long stages,
+                             long steps)
 {
     double fine[2] = {1, .5}, y[2] = {1, .5};
-    run(&pendulum_class, "rk4", 0, 2.0 / 20000, 20000, fine);
-    run(class, scheme, stages, 2.0 / (double)steps, steps, y);
+    run(&pendulum_operator, "rk4", 0, 2.0 / 20000, 20000, fine);
+    run(spatial, scheme, stages, 2.0 / (double)steps, steps, y);
     return hypot(y[0] - fine[0], y[1] - fine[1]);
 }
 
 static void check_order(const char *scheme, long stages, long steps, double order)
 {
-    const double coarse = pendulum_error(&pendulum_class, scheme, stages, steps);
-    const double fine = pendulum_error(&pendulum_class, scheme, stages, 2 * steps);
+    const double coarse = pendulum_error(&pendulum_operator, scheme, stages, steps);
+    const double fine = pendulum_error(&pendulum_operator, scheme, stages, 2 * steps);
     const double observed = log2(coarse / fine);
     if (fabs(observed - order) > .12) fail_msg("%s(%ld): order %.3f", scheme, stages, observed);
 }
@@ -95,8 +96,8 @@ static void acceleration_form_is_the_same(void **unused)
     const char *const schemes[] = {"euler", "pc2", "rk4", "lsrk54", "rkc"};
     for (size_t i = 0; i < 5; i++) {
         double first[2] = {1, .5}, second[2] = {1, .5};
-        run(&pendulum_class, schemes[i], 4, .05, 20, first);
-        run(&acceleration_class, schemes[i], 4, .05, 20, second);
+        run(&pendulum_operator, schemes[i], 4, .05, 20, first);
+        run(&acceleration_operator, schemes[i], 4, .05, 20, second);
         assert_true(first[0] == second[0] && first[1] == second[1]);
     }
 }
@@ -106,11 +107,11 @@ static void calls_a_step(void **unused)
 {
     (void)unused;
     double y[2] = {1, 0};
-    assert_int_equal(run(&pendulum_class, "euler", 0, .01, 10, y), 11);
-    assert_int_equal(run(&pendulum_class, "pc2", 0, .01, 10, y), 21);
-    assert_int_equal(run(&pendulum_class, "rk4", 0, .01, 10, y), 41);
-    assert_int_equal(run(&pendulum_class, "lsrk54", 0, .01, 10, y), 51);
-    assert_int_equal(run(&pendulum_class, "rkc", 7, .01, 10, y), 71);
+    assert_int_equal(run(&pendulum_operator, "euler", 0, .01, 10, y), 11);
+    assert_int_equal(run(&pendulum_operator, "pc2", 0, .01, 10, y), 21);
+    assert_int_equal(run(&pendulum_operator, "rk4", 0, .01, 10, y), 41);
+    assert_int_equal(run(&pendulum_operator, "lsrk54", 0, .01, 10, y), 51);
+    assert_int_equal(run(&pendulum_operator, "rkc", 7, .01, 10, y), 71);
 }
 
 /* A step of y' = z y multiplies y by R(z); for RKC this holds all coefficients against the closed form. */
@@ -121,7 +122,7 @@ static void step_follows_polynomial(void **unused)
         for (double z = -.6 * (double)(stages * stages - 1); z < .5; z += .07 * (double)(stages * stages)) {
             double y[2] = {1, 0};
             decay_rate = z;
-            run(&decay_class, "rkc", stages, 1, 1, y);
+            run(&decay_operator, "rkc", stages, 1, 1, y);
             assert_near(y[0], creal(rkc_polynomial(z, stages)), 1e-11 * (double)stages);
         }
 }
@@ -144,11 +145,11 @@ static void rkc_internal_stability(void **unused)
     (void)unused;
     double y[2] = {1, 0};
     decay_rate = -.653 * (150.0 * 150 - 1);
-    run(&decay_class, "rkc", 150, 1, 2000, y);
+    run(&decay_operator, "rkc", 150, 1, 2000, y);
     assert_true(fabs(y[0]) < 1e-12);
     double slow[2] = {1, 0};
     decay_rate = -1e-3;
-    run(&decay_class, "rkc", 150, 1, 1000, slow);
+    run(&decay_operator, "rkc", 150, 1, 1000, slow);
     assert_near(slow[0], exp(-1), 2e-7);
 }
 

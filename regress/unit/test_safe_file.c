@@ -1,6 +1,6 @@
 /* Files that last: complete or not there, whatever goes wrong on the way. */
-#include "record/progress.h"
-#include "record/safe_file.h"
+#include "base/progress.h"
+#include "base/safe_file.h"
 
 #include <signal.h>
 #include <stdlib.h>

@@ -58,13 +58,10 @@ static void chain_initialise(struct model *model, double *y)
     y[0] = 1.0;
 }
 
-static const struct model_class chain_class = {
-    .method = "chain", .variant = "test", .accelerate = chain_accelerate, .energy = chain_energy};
-static const struct model_class plucked_class = {.method = "chain",
-                                                 .variant = "plucked",
-                                                 .accelerate = chain_accelerate,
-                                                 .energy = chain_energy,
-                                                 .initialise = chain_initialise};
+static const struct method chain_method = {.name = "chain", .variant = "test"};
+static const struct model_core chain_core = {.energy = chain_energy};
+static const struct model_core plucked_core = {.energy = chain_energy, .initialise = chain_initialise};
+static const struct model_operator chain_operator = {.accelerate = chain_accelerate};
 
 struct fixture {
     struct scene scene;
@@ -84,7 +81,9 @@ static void set_up(struct fixture *f, size_t n, double stiffness, double damper,
     f->scene.end_time = 10.0;
     f->scene.stepping.safety = 0.9;
     strcpy(f->scene.stepping.scheme, scheme);
-    f->chain = (struct chain){.model = {.class = &chain_class,
+    f->chain = (struct chain){.model = {.method = &chain_method,
+                                        .core = &chain_core,
+                                        .spatial = &chain_operator,
                                         .scene = &f->scene,
                                         .unknowns = n,
                                         .state_size = 2 * n,
@@ -123,7 +122,7 @@ static double free_vibration_error(const char *scheme, double dt, double *growth
 {
     struct fixture f;
     set_up(&f, 1, 0.5, 0.0, scheme); /* 2 springs of 0.5: omega = 1 */
-    f.chain.model.class = &plucked_class;
+    f.chain.model.core = &plucked_core;
     f.scene.initial.kind = INITIAL_GAUSSIAN; /* not at rest: no unwarping */
     f.scene.stepping.time_step = dt;
     struct stepper *stepper = NULL;
@@ -164,7 +163,7 @@ static void limits_are_sharp(void **state)
         for (int above = 0; above < 2; above++) {
             struct fixture f;
             set_up(&f, CHAIN, 1.0, 0.0, names[i]);
-            f.chain.model.class = &plucked_class;
+            f.chain.model.core = &plucked_core;
             f.scene.initial.kind = INITIAL_GAUSSIAN;
             const double omega = 2.0 * sin(CHAIN * PI / (2.0 * (CHAIN + 1)));
             f.scene.stepping.time_step =
@@ -208,7 +207,7 @@ static void the_damper_takes_what_the_energy_loses(void **state)
     (void)state;
     struct fixture f;
     set_up(&f, CHAIN, 1.0, 0.7, "leapfrog");
-    f.chain.model.class = &plucked_class;
+    f.chain.model.core = &plucked_core;
     f.scene.initial.kind = INITIAL_GAUSSIAN;
     f.scene.stepping.time_step = 0.8;
     struct stepper *stepper = NULL;

@@ -1,7 +1,7 @@
 /* The operator of total-Lagrangian SPH: patch tests, adjoint forces, spectrum, mirrors, loads, motions. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 #include "points/lattice.h"
 #include "points/least_squares.h"
 
@@ -105,11 +105,11 @@ static void probes_extrapolate(void **state)
         struct probe probe = {0};
         double value[6];
         double u[3];
-        assert_int_equal(model->class->probe(model, place[k], &probe, &messages), SELAS_OK);
+        assert_int_equal(model->core->probe(model, place[k], &probe, &messages), SELAS_OK);
         polynomial(2, 2, place[k], u, gradient);
-        model->class->observe(model, &probe, SELAS_DISPLACEMENT, y, NULL, value);
+        model->core->observe(model, &probe, SELAS_DISPLACEMENT, y, NULL, value);
         assert_near(value[0], u[0], 1e-12);
-        model->class->observe(model, &probe, SELAS_STRAIN, y, NULL, value);
+        model->core->observe(model, &probe, SELAS_STRAIN, y, NULL, value);
         assert_near(value[0], gradient[0], 1e-11);
         assert_near(value[3], .5 * (gradient[1] + gradient[2]), 1e-11);
         probe_free(&probe);
@@ -142,7 +142,7 @@ static void nearly_dependent_fits_are_refused(void **state)
 static double energy_at(struct model *model, const double *y)
 {
     struct energy energy;
-    model->class->energy(model, y, &energy);
+    model->core->energy(model, y, &energy);
     return energy.strain;
 }
 
@@ -165,7 +165,7 @@ static void forces_are_the_energys_derivative(void **state)
             for (size_t k = 0; k < model->unknowns; k++)
                 y[k] = .01 * scatter(k);
             const struct drive quiet = {0};
-            model->class->accelerate(model, &quiet, 0, y, NULL, a);
+            model->spatial->accelerate(model, &quiet, 0, y, NULL, a);
             for (size_t k = 0; k < model->unknowns; k += 5) {
                 const double here = y[k];
                 const double step = 1e-5;
@@ -204,7 +204,7 @@ static void spectrum_is_imaginary(void **state)
             const struct drive quiet = {0};
             for (size_t k = 0; k < n; k++) {
                 y[k] = 1;
-                model->class->accelerate(model, &quiet, 0, y, NULL, a);
+                model->spatial->accelerate(model, &quiet, 0, y, NULL, a);
                 y[k] = 0;
                 for (size_t l = 0; l < n; l++)
                     gsl_matrix_set(matrix, l, k, a[l]);
@@ -250,7 +250,7 @@ static void turns_make_no_force(void **state)
             y[2 * i + 1] = sin(2.5) * x[0] + cos(2.5) * x[1] - x[1] - 1;
         }
         const struct drive quiet = {0};
-        model->class->accelerate(model, &quiet, 0, y, NULL, a);
+        model->spatial->accelerate(model, &quiet, 0, y, NULL, a);
         for (size_t k = 0; k < model->unknowns; k++)
             assert_near(a[k], 0, 1e-9);
         array_free(y);
@@ -285,8 +285,8 @@ static void quarters_are_wholes(void **state)
             yp[2 * source + 1] = .02 * scatter(2 * source + 1);
         }
     const struct drive quiet = {0};
-    all->class->accelerate(all, &quiet, 0, ya, NULL, aa);
-    part->class->accelerate(part, &quiet, 0, yp, NULL, ap);
+    all->spatial->accelerate(all, &quiet, 0, ya, NULL, aa);
+    part->spatial->accelerate(part, &quiet, 0, yp, NULL, ap);
     for (size_t j = 0; j < 5; j++)
         for (size_t i = 0; i < 5; i++)
             for (size_t c = 0; c < 2; c++)
@@ -323,7 +323,7 @@ static void tractions_balance_uniform_stress(void **state)
             stretch_box(&box, model->position, model->points, y);
             const double amplitude[2] = {1, 1};
             const struct drive drive = {.load = amplitude};
-            model->class->accelerate(model, &drive, 0, y, NULL, a);
+            model->spatial->accelerate(model, &drive, 0, y, NULL, a);
             for (size_t k = 0; k < model->unknowns; k++)
                 assert_near(a[k], 0, 1e-12);
             array_free(y);
@@ -395,7 +395,7 @@ static void motions_are_followed(void **state)
         }
         const double amplitude[FACES] = {2, 2};
         const struct drive drive = {.displacement = amplitude};
-        model->class->accelerate(model, &drive, 0, y, NULL, a);
+        model->spatial->accelerate(model, &drive, 0, y, NULL, a);
         for (size_t k = 0; k < model->unknowns; k++)
             assert_near(a[k], 0, 1e-12);
         array_free(y);

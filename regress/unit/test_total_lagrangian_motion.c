@@ -2,7 +2,7 @@
  * dampers, viscosity, waves in a bar. */
 #include "base/memory.h"
 #include "box_scene.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 #include "points/lattice.h"
 #include "stepping/stepping.h"
 
@@ -64,7 +64,7 @@ static void finish(struct run *run)
 static double energy_of(const struct run *run)
 {
     struct energy energy;
-    run->model->class->energy(run->model, run->state.y, &energy);
+    run->model->core->energy(run->model, run->state.y, &energy);
     return energy.kinetic + energy.strain;
 }
 
@@ -224,9 +224,9 @@ static void viscosity_takes_energy(void **state)
     for (int k = 0; k < 400; k++) {
         double power[2][2];
         const struct drive quiet = {0};
-        run.model->class->power(run.model, &quiet, run.state.y, &power[0][0], &power[0][1]);
+        run.model->core->power(run.model, &quiet, run.state.y, &power[0][0], &power[0][1]);
         step(&run, 1);
-        run.model->class->power(run.model, &quiet, run.state.y, &power[1][0], &power[1][1]);
+        run.model->core->power(run.model, &quiet, run.state.y, &power[1][0], &power[1][1]);
         assert_true(power[1][1] >= 0);
         absorbed += .5 * run.stepper->dt * (power[0][1] + power[1][1]);
     }

@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "box_scene.h"
 #include "few.h"
-#include "method/total_lagrangian.h"
+#include "method/total_lagrangian/total_lagrangian.h"
 #include "stepping/stepping.h"
 
 #include <math.h>
@@ -47,7 +47,7 @@ static double *acceleration(struct tl_model *tl)
     const struct drive none = {0};
     assert_true(y != NULL && a != NULL);
     displace(tl, y);
-    tl->model.class->accelerate(&tl->model, &none, 0, y, y + tl->model.unknowns, a);
+    tl->model.spatial->accelerate(&tl->model, &none, 0, y, y + tl->model.unknowns, a);
     array_free(y);
     return a;
 }
@@ -191,14 +191,14 @@ static void rows_do_not_grow(void **state)
 /* The largest frequency and the bound on its error, of the model or, with `whole`, without shortening. */
 static double fastest(struct tl_model *tl, bool whole, double *error)
 {
-    const struct model_class *class = tl->model.class;
-    struct model_class without = *class;
+    const struct model_operator *spatial = tl->model.spatial;
+    struct model_operator without = *spatial;
     struct messages messages = {0};
     double omega = 0;
     without.shorten = NULL;
-    if (whole) tl->model.class = &without;
+    if (whole) tl->model.spatial = &without;
     const selas_status status = largest_frequency(&tl->model, &omega, error, &messages);
-    tl->model.class = class;
+    tl->model.spatial = spatial;
     if (status != SELAS_OK) fail_msg("%s", messages.text);
     messages_free(&messages);
     return omega;

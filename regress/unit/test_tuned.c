@@ -186,12 +186,12 @@ static void test_patch(void **state)
                 run.y[(size_t)i * c->volume + p] += strain[i][j] * c->spline[j]->greville[at[c->slot[j]]];
     }
     const double ones[PLAIN_LOADS] = {1, 1, 1, 1, 1, 1};
-    run.model->class->accelerate(run.model, &(struct drive){.load = ones}, 0, run.y, NULL, run.a);
+    run.model->spatial->accelerate(run.model, &(struct drive){.load = ones}, 0, run.y, NULL, run.a);
     for (size_t i = 0; i < run.n; i++)
         assert_near(run.a[i], 0, 1e-8);
     noise(run.n, run.y);
-    run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
-    other.model->class->accelerate(other.model, &(struct drive){0}, 0, run.y, NULL, other.a);
+    run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, run.a);
+    other.model->spatial->accelerate(other.model, &(struct drive){0}, 0, run.y, NULL, other.a);
     double difference = 0;
     for (size_t i = 0; i < run.n; i++)
         difference += (run.a[i] - other.a[i]) * (run.a[i] - other.a[i]);
@@ -222,7 +222,7 @@ static void test_energy(void **state)
         const double dt = .008;
         const int steps = few_of(300, 100);
         noise(run.n, run.y);
-        run.model->class->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
+        run.model->spatial->accelerate(run.model, &(struct drive){0}, 0, run.y, NULL, v);
         memset(run.y, 0, run.n * sizeof *run.y);
         for (int step = 0; step < steps; step++) {
             memcpy(before, run.y, run.n * sizeof *before);
@@ -231,7 +231,7 @@ static void test_energy(void **state)
             last = (tensor_form(c->mass, v, v) + tensor_form(c->stiffness, before, run.y)) / 2;
             if (step == 0) first = last;
             if (!damped) assert_near(last / first, 1, 1e-11);
-            run.model->class->accelerate(run.model, &(struct drive){0}, dt / 2, run.y, v, run.a);
+            run.model->spatial->accelerate(run.model, &(struct drive){0}, dt / 2, run.y, v, run.a);
             for (size_t i = 0; i < run.n; i++)
                 v[i] += dt * run.a[i];
         }

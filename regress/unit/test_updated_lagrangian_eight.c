@@ -1,9 +1,10 @@
 /* Updated-Lagrangian sums of eight particles at a time: the rates are those of particles one by one, for
  * every dimension, arrangement, wall and switch, and no number of threads changes a bit. */
 #include "from_deck.h"
+#include "method/methods.h"
 
 #include "base/memory.h"
-#include "method/updated_lagrangian.h"
+#include "method/updated_lagrangian/updated_lagrangian.h"
 
 #include <math.h>
 #include <omp.h>
@@ -82,7 +83,7 @@ static double *rates(struct fixture *f)
     const double load[1] = {1}, none[FACES] = {0};
     const struct drive drive = {.load = load, .motion = none, .displacement = none, .velocity = none};
     double *rate = array_new(f->model->state_size, sizeof *rate);
-    f->model->class->rate(f->model, &drive, f->y, rate);
+    f->model->spatial->rate(f->model, &drive, f->y, rate);
     return rate;
 }
 

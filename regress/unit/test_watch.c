@@ -2,8 +2,8 @@
  * place are found within a hundred steps wherever they are put (body, border, absorbing layer and its memory,
  * density and stress of particles), and the message says when, where and why. */
 #include "host/simulation.h"
-#include "method/consistent.h"
-#include "method/pml.h"
+#include "method/consistent/absorbing/pml.h"
+#include "method/consistent/consistent.h"
 
 #include "few.h"
 

@@ -4,7 +4,7 @@
 
 #include "near.h"
 
-#include "method/updated_lagrangian.h"
+#include "method/updated_lagrangian/updated_lagrangian.h"
 #include "plain_scene.h"
 
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static inline void drop(struct fixture *f)
 {
     free(f->y);
     free(f->rate);
-    f->model->class->destroy(f->model);
+    f->model->core->destroy(f->model);
 }
 
 #endif

@@ -1,10 +1,10 @@
 /* Reference 'file' (see the header): NAME.dat of each receiver in a folder, or one history for the only
  * receiver; rows t ux uy uz vx vy vz. Between its rows a history is a cubic by four values
- * (record/diff_pair.c). */
+ * (compare/diff_pair.c). */
 #include "exact/recorded.h"
 
 #include "base/memory.h"
-#include "record/diff.h"
+#include "compare/diff.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * deck in run.h5. */
 #include "host/simulation.h"
 
-#include "record/kept.h"
+#include "record/checkpoint/kept.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,9 +79,9 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
     if (stepper->host != NULL) drive_changed(stepper, 0);
     simulation->dirty = false;
     /* the Runge-Kutta family keeps the rate at the start of a step; leapfrog's acceleration is in the file */
-    const unsigned long evaluations = simulation->model->evaluations;
+    const unsigned long evaluations = model_computed(simulation->model)->evaluations;
     if (!stepper->scheme->needs_acceleration) stepper->scheme->start(stepper, &simulation->state);
-    simulation->model->evaluations = evaluations;
+    model_computed(simulation->model)->evaluations = evaluations;
     if (stepper->one_pass) { /* what settles the state */
         struct drive drive;
         drive_at_step(stepper, simulation->state.step, false, &drive);

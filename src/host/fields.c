@@ -33,7 +33,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
     if (width == 0 || count == NULL || components == NULL || value == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no such field, or no room for it");
     struct model *model = simulation->model;
-    if (model->class->field == NULL)
+    if (model->core->field == NULL)
         return fail(&simulation->messages, SELAS_UNSUPPORTED, "this method has no whole fields");
     if (simulation->values_room < width * model->points) {
         array_free(simulation->values);
@@ -46,7 +46,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
         }
     }
     state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
-    model->class->field(model, field, simulation->state.y, simulation->state.a, simulation->values);
+    model->core->field(model, field, simulation->state.y, simulation->state.a, simulation->values);
     *count = model->points;
     *components = width;
     *value = simulation->values;
@@ -60,11 +60,11 @@ selas_status selas_energy(selas_simulation *simulation, double *kinetic, double 
     if (kinetic == NULL || strain == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no room for the energies");
     struct model *model = simulation->model;
-    if (model->class->energy == NULL)
+    if (model->core->energy == NULL)
         return fail(&simulation->messages, SELAS_UNSUPPORTED, "this method knows no energy");
     struct energy energy = {0};
     state_settle(simulation->stepper, &simulation->state, false);
-    model->class->energy(model, simulation->state.y, &energy);
+    model->core->energy(model, simulation->state.y, &energy);
     *kinetic = energy.kinetic;
     *strain = energy.strain;
     return SELAS_OK;

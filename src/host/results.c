@@ -2,7 +2,7 @@
  * solution, the plan. */
 #include "host/simulation.h"
 
-#include "record/progress.h"
+#include "base/clock.h"
 
 #include <string.h>
 

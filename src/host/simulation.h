@@ -1,4 +1,4 @@
-/* Inside of a simulation: what selas.c and the rooms behind the library's door share. */
+/* Inside of a simulation: what host/simulation.c and the rooms behind the library's door share. */
 #ifndef SELAS_SIMULATION_H
 #define SELAS_SIMULATION_H
 
@@ -90,7 +90,7 @@ char *simulation_checkpoint_path(selas_simulation *simulation);
 /* Saves the state there, if it is sound. */
 selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint_keep keep);
 
-/* host/drive.c */
+/* host/driven_loads.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */
 selas_status host_prepare_scene(selas_simulation *simulation);
 /* Puts the host in the histories' place: after the stepper is made. */

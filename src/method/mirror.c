@@ -13,8 +13,6 @@
 
 struct mirror {
     struct model model;
-    struct model_class class; /* mirror_class, with the functions that only some parts have */
-    struct model *part;
     struct scene part_scene;
     unsigned axes;
 };
@@ -22,11 +20,6 @@ struct mirror {
 bool mirrors_wanted(const struct scene *scene)
 {
     return scene->method.group == NULL || deck_logical(scene->method.group, "symmetry", 0);
-}
-
-static struct model *part_of(struct model *model)
-{
-    return ((struct mirror *)model)->part;
 }
 
 /* --- Reflection
@@ -99,50 +92,15 @@ static void reflect(double h[3][3], selas_field field, double *value)
 /* --- The model's functions: those of the part
  * -------------------------------------------------------------------- */
 
-static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,
-                       const double *v, double *a)
-{
-    struct model *part = part_of(model);
-    part->class->accelerate(part, drive, half_step, u, v, a);
-    model->evaluations++;
-}
-
-static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
-{
-    part_of(model)->class->begin(part_of(model), drive, dt, y, a);
-    model->evaluations++;
-}
-
-static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
-{
-    part_of(model)->class->advance(part_of(model), drive, dt, y, a);
-    model->evaluations++;
-}
-
-static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
-{
-    part_of(model)->class->settle(part_of(model), drive, dt, y, a);
-}
-
-static void *kept(struct model *model, size_t *bytes)
-{
-    return part_of(model)->class->kept(part_of(model), bytes);
-}
-
-static void remember(struct model *model, double dt, double *y)
-{
-    part_of(model)->class->remember(part_of(model), dt, y);
-}
-
 static void unseen(struct model *model, const double *y, struct unseen *found)
 {
-    part_of(model)->class->unseen(part_of(model), y, found);
+    if (model->part->core->unseen != NULL) model->part->core->unseen(model->part, y, found);
 }
 
 static void initialise(struct model *model, double *y)
 {
-    struct model *part = part_of(model);
-    if (part->class->initialise != NULL) part->class->initialise(part, y);
+    struct model *part = model->part;
+    if (part->core->initialise != NULL) part->core->initialise(part, y);
 }
 
 static selas_status find_probe(struct model *model, const double position[3], struct probe *probe,
@@ -151,7 +109,7 @@ static selas_status find_probe(struct model *model, const double position[3], st
     struct mirror *mirror = (struct mirror *)model;
     double folded[3];
     const unsigned above = fold(mirror, position, folded);
-    const selas_status status = mirror->part->class->probe(mirror->part, folded, probe, messages);
+    const selas_status status = mirror->model.part->core->probe(mirror->model.part, folded, probe, messages);
     probe->mirrored = above;
     for (int c = 0; c < 3; c++)
         probe->position[c] = position[c];
@@ -164,7 +122,7 @@ static void observe(struct model *model, const struct probe *probe, selas_field 
     struct mirror *mirror = (struct mirror *)model;
     struct probe inside = *probe; /* methods may go by the position, which must lie in the part */
     fold(mirror, probe->position, inside.position);
-    model_observe(mirror->part, &inside, field, y, a, value);
+    model_observe(mirror->model.part, &inside, field, y, a, value);
     double h[3][3];
     if (probe->mirrored == 0) return;
     reflection(mirror, probe->mirrored, h);
@@ -174,7 +132,7 @@ static void observe(struct model *model, const struct probe *probe, selas_field 
 /* Index along one axis in the part of index i in the whole, and whether it lies above the plane. */
 static size_t folded_index(const struct mirror *mirror, int axis, size_t i, unsigned *planes)
 {
-    const size_t last = mirror->part->grid[axis] - 1;
+    const size_t last = mirror->model.part->grid[axis] - 1;
     if ((mirror->axes & 1u << axis) == 0 || i <= last) return i;
     *planes |= 1u << axis;
     return 2 * last - i;
@@ -186,7 +144,7 @@ static void unfold(const struct mirror *mirror, selas_field field, double *value
 {
     const size_t components = (size_t)field_components(field);
     const size_t *whole = mirror->model.grid;
-    const size_t *part = mirror->part->grid;
+    const size_t *part = mirror->model.part->grid;
     for (size_t k = whole[2]; k-- > 0;)
         for (size_t j = whole[1]; j-- > 0;)
             for (size_t i = whole[0]; i-- > 0;) {
@@ -209,7 +167,7 @@ static void whole_field(struct model *model, selas_field field, const double *y,
                         double *value)
 {
     struct mirror *mirror = (struct mirror *)model;
-    mirror->part->class->field(mirror->part, field, y, a, value);
+    mirror->model.part->core->field(mirror->model.part, field, y, a, value);
     unfold(mirror, field, value);
 }
 
@@ -223,21 +181,15 @@ static double copies(const struct model *model)
 
 static void whole_energy(struct model *model, const double *y, struct energy *energy)
 {
-    part_of(model)->class->energy(part_of(model), y, energy);
+    model->part->core->energy(model->part, y, energy);
     energy->kinetic *= copies(model);
     energy->strain *= copies(model);
-}
-
-/* That of the part: Lanczos needs no more than an inner product. */
-static void weigh(struct model *model, const double *v, double *product)
-{
-    part_of(model)->class->weigh(part_of(model), v, product);
 }
 
 static void whole_power(struct model *model, const struct drive *drive, const double *y, double *load,
                         double *absorbed)
 {
-    part_of(model)->class->power(part_of(model), drive, y, load, absorbed);
+    model->part->core->power(model->part, drive, y, load, absorbed);
     *load *= copies(model);
     *absorbed *= copies(model);
 }
@@ -251,59 +203,47 @@ static void describe(const struct model *model,
              (mirror->axes & 1u) != 0 ? " x" : "", (mirror->axes & 2u) != 0 ? " y" : "",
              (mirror->axes & 4u) != 0 ? " z" : "", copies(model));
     tell(context, "symmetry", text);
-    if (mirror->part->class->describe != NULL) mirror->part->class->describe(mirror->part, tell, context);
+    if (mirror->model.part->core->describe != NULL)
+        mirror->model.part->core->describe(mirror->model.part, tell, context);
 }
 
 static void destroy(struct model *model)
 {
     struct mirror *mirror = (struct mirror *)model;
-    model_free(&mirror->part);
+    model_free(&mirror->model.part);
     free(mirror);
 }
 
 /* --- Building
  * ---------------------------------------------------------------------------------------------------- */
 
-static const struct model_class mirror_class = {
-    .method = "smoothed-point",
-    .variant = "consistent",
+static const struct model_core mirror_core = {
     .destroy = destroy,
-    .accelerate = accelerate,
     .initialise = initialise,
     .probe = find_probe,
     .observe = observe,
     .field = whole_field,
     .energy = whole_energy,
     .power = whole_power,
+    .unseen = unseen,
     .describe = describe,
 };
 
-/* What the whole shows of the part: numbers of the state are the part's, points the whole's: a lattice
- * that fills the whole body, whose positions nobody stores. */
-static void fill(struct mirror *mirror)
+/* What the whole shows of the part: state, operator, passes and memory are the part's, points the whole's: a
+ * lattice that fills the whole body, whose positions nobody stores. */
+static void fill(struct mirror *mirror, struct model *part, const struct scene *scene)
 {
-    const struct model *part = mirror->part;
     struct model *model = &mirror->model;
-    const struct scene *scene = model->scene;
     *model = *part;
-    mirror->class = mirror_class;
-    if (part->class->remember != NULL) mirror->class.remember = remember;
-    if (part->class->advance != NULL) {
-        mirror->class.begin = begin;
-        mirror->class.advance = advance;
-        mirror->class.settle = settle;
-        mirror->class.kept = kept;
-    }
-    if (part->class->weigh != NULL) mirror->class.weigh = weigh;
-    if (part->class->unseen != NULL) mirror->class.unseen = unseen;
-    model->class = &mirror->class;
+    model->part = part;
+    model->core = &mirror_core;
     model->scene = scene;
     for (int axis = 0; axis < 3; axis++)
         if ((mirror->axes & 1u << axis) != 0) model->grid[axis] = 2 * part->grid[axis] - 1;
     model->points = model->grid[0] * model->grid[1] * model->grid[2];
 }
 
-selas_status mirror_create(const struct model_class *class, const struct scene *scene, unsigned axes,
+selas_status mirror_create(const struct method *method, const struct scene *scene, unsigned axes,
                            struct model **created, struct messages *messages)
 {
     *created = NULL;
@@ -311,13 +251,13 @@ selas_status mirror_create(const struct model_class *class, const struct scene *
     if (mirror == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
     mirror->axes = axes;
     mirror->part_scene = scene_below_mirrors(scene, axes);
-    selas_status status = class->create(&mirror->part_scene, &mirror->part, messages);
-    mirror->model = (struct model){.class = &mirror_class, .scene = scene};
-    if (status == SELAS_OK) {
-        fill(mirror);
-        *created = &mirror->model;
-    } else {
-        destroy(&mirror->model);
+    struct model *part = NULL;
+    const selas_status status = method->create(&mirror->part_scene, &part, messages);
+    if (status != SELAS_OK) {
+        free(mirror);
+        return status;
     }
-    return status;
+    fill(mirror, part, scene);
+    *created = &mirror->model;
+    return SELAS_OK;
 }

@@ -3,7 +3,7 @@
 #ifndef SELAS_MIRROR_H
 #define SELAS_MIRROR_H
 
-#include "method/model.h"
+#include "model/model.h"
 
 /* False if the deck says method%symmetry = .false. */
 bool mirrors_wanted(const struct scene *scene);
@@ -11,7 +11,7 @@ bool mirrors_wanted(const struct scene *scene);
 /* Model of the whole scene that computes the part below its mirror planes (mask `axes`, not 0) by the class
  * given and answers for the images too: positions, probes, fields and energies are those of the whole body.
  */
-selas_status mirror_create(const struct model_class *class, const struct scene *scene, unsigned axes,
+selas_status mirror_create(const struct method *method, const struct scene *scene, unsigned axes,
                            struct model **model, struct messages *messages);
 
 #endif

@@ -3,7 +3,7 @@
  * read, 2: wrong usage. */
 #include "program/commands.h"
 
-#include "record/diff.h"
+#include "compare/diff.h"
 
 #include <argp.h>
 #include <math.h>

@@ -2,6 +2,7 @@
  * the run or the comparison failed, 2 bad deck or usage. */
 #include "selas.h"
 
+#include "advice/advice.h"
 #include "host/simulation.h"
 #include "program/commands.h"
 #include "program/run.h"

@@ -5,9 +5,10 @@
  * cannot be written. One that cannot be written is told once and the run goes on with the one before. */
 #include "program/run.h"
 
+#include "base/clock.h"
+#include "base/progress.h"
 #include "host/simulation.h"
 #include "program/signals.h"
-#include "record/progress.h"
 
 #include <inttypes.h>
 #include <stdio.h>

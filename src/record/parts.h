@@ -165,9 +165,6 @@ void histories_note(FILE *out, const struct recorder *recorder);
 void plan_tell(const struct recorder *recorder,
                void (*tell)(void *context, const char *key, const char *value), void *context);
 
-/* Of the slowest wave at the loads' cutoff; 0 if nothing tells. */
-double points_per_wavelength(const struct scene *scene);
-
 /* report.c: report.txt */
 selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                           struct messages *messages);
@@ -176,29 +173,11 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
 void plot_histories(struct recorder *recorder, struct messages *messages);
 void plot_snapshots(struct recorder *recorder, struct messages *messages);
 
-/* misfit.c: error of one component over the whole history (trapezoid in time, equal rows) */
-struct misfit {
-    double l2, linf;       /* norms of the difference */
-    double l2_of, linf_of; /* norms of the reference */
-};
-struct misfit misfit_of(size_t rows, const double *time, const double *value, const double *reference,
-                        size_t stride, size_t components);
-/* The three components of displacement or velocity (stride 6); the norms of the largest reference. */
-void misfits_of(size_t rows, const double *time, const double *value, const double *reference,
-                struct misfit misfit[3], struct misfit *largest);
-/* A component whose reference is below 1e-3 of the largest one is as good as zero: its own norm says nothing,
- * the error is then told relative to the largest component. */
-bool misfit_is_small(const struct misfit *misfit, const struct misfit *largest);
-
 /* provenance.c: compiler that built the library, its flags, and the commit of the source ("unknown") */
 const char *compiler_name(void);
 const char *build_flags(void);
 const char *build_commit(void);
 /* Version, commit, compiler, flags, libraries, host, and date. */
 void provenance_tell(void (*tell)(void *context, const char *key, const char *value), void *context);
-
-/* names of files and data sets from names of the deck: '/' and control characters become '_' */
-void file_name_of(const char *name, const char *ending, char *text, size_t size);
-const char *const *component_names(selas_field field);
 
 #endif

@@ -1,8 +1,10 @@
 /* The plan of a run: what `selas check` prints and report.txt begins with. */
+#include "advice/advice.h"
 #include "record/parts.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
-#include "record/progress.h"
+#include "scene/resolution.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -23,38 +25,12 @@ __attribute__((format(printf, 3, 4))) static void say(const struct teller *telle
     teller->tell(teller->context, key, value);
 }
 
-/* Part of the largest amplitude in the spectrum that still counts for the resolution. */
-static const double counting = 0.05;
-
-static double largest_source_frequency(const struct scene *scene)
-{
-    double omega = 0.0;
-    for (size_t k = 0; k < scene->loads; k++)
-        omega = fmax(omega, history_cutoff(&scene->load[k].history, counting));
-    for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
-            omega = fmax(omega, history_cutoff(&scene->boundary[face].history, counting));
-    return omega;
-}
-
-double points_per_wavelength(const struct scene *scene)
-{
-    const double omega = largest_source_frequency(scene);
-    double slowest = INFINITY;
-    for (size_t m = 0; m < scene->materials; m++)
-        slowest =
-            fmin(slowest, scene->dimension == 1 ? scene->material[m].p_speed : scene->material[m].s_speed);
-    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return 0.0;
-    return 6.283185307179586477 * slowest / omega / scene->body.spacing;
-}
-
 static void say_resolution(const struct teller *teller, const struct scene *scene)
 {
     const double points = points_per_wavelength(scene);
     if (!(points > 0.0)) return;
     say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
-        largest_source_frequency(scene), 100.0 * counting);
+        source_cutoff(scene), 100.0 * SOURCE_COUNTS);
     say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)", points);
 }
 
@@ -129,14 +105,14 @@ void plan_tell(const struct recorder *recorder,
     if (scene->title[0] != '\0') say(&teller, "title", "%s", scene->title);
     if (scene->deck != NULL) say(&teller, "deck", "%s", deck_name(scene->deck));
     say(&teller, "dimension", "%d", scene->dimension);
-    say(&teller, "method", "%s", model->class->method);
-    say(&teller, "variant", "%s", model->class->variant);
+    say(&teller, "method", "%s", model->method->name);
+    say(&teller, "variant", "%s", model->method->variant);
     say(&teller, "points", "%zu", model->points);
     say(&teller, "unknowns", "%zu", model->unknowns);
     if (model->grid[0] > 0)
         say(&teller, "lattice", "%zu x %zu x %zu", model->grid[0], model->grid[1] > 0 ? model->grid[1] : 1,
             model->grid[2] > 0 ? model->grid[2] : 1);
-    if (model->class->describe != NULL) model->class->describe(model, tell, context);
+    if (model->core->describe != NULL) model->core->describe(model, tell, context);
     say_step(&teller, recorder->stepper);
     say_resolution(&teller, scene);
     say_parts(&teller, scene);
@@ -149,21 +125,21 @@ void plan_tell(const struct recorder *recorder,
 /* Seconds of one operator call on a state at rest, the best of a few; negative if there is no room. */
 static double time_operator(struct recorder *recorder)
 {
-    struct model *model = recorder->model;
+    struct model *model = recorder->stepper->model;
     enum { TRIES = 3 };
     double *y = array_new(model->state_size, sizeof *y);
     double *result = array_new(model->state_size, sizeof *result);
     double best = -1.0;
     const unsigned long evaluations = model->evaluations;
     if (y != NULL && result != NULL) {
-        if (model->class->initialise != NULL) model->class->initialise(model, y);
+        if (model->core->initialise != NULL) model->core->initialise(model, y);
         const struct drive drive = {0};
         for (int i = 0; i < TRIES; i++) {
             const double before = wall_seconds();
-            if (model->class->accelerate != NULL)
-                model->class->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
+            if (model->spatial->accelerate != NULL)
+                model->spatial->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
             else
-                model->class->rate(model, &drive, y, result);
+                model->spatial->rate(model, &drive, y, result);
             const double spent = wall_seconds() - before;
             if (i == 0 || spent < best) best = spent;
         }

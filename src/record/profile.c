@@ -5,7 +5,7 @@
 #include "record/parts.h"
 
 #include "base/memory.h"
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,7 +62,7 @@ static selas_status create_one(struct recorder *recorder, const struct profile *
         double position[3];
         for (int axis = 0; axis < 3; axis++)
             position[axis] = (1.0 - s) * profile->from[axis] + s * profile->to[axis];
-        status = recorder->model->class->probe(recorder->model, position, &record->probe[i], messages);
+        status = recorder->model->core->probe(recorder->model, position, &record->probe[i], messages);
     }
     if (status == SELAS_OK) choose_steps(recorder, record);
     return status;

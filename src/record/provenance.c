@@ -136,8 +136,8 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
     return context.good && hdf_numbers(place, "threads", 1, &threads) &&
            hdf_text(place, "scheme", stepper->scheme->name) &&
            hdf_numbers(place, "time_step", 1, &stepper->dt) && hdf_numbers(place, "steps", 1, &steps) &&
-           hdf_text(place, "method", recorder->model->class->method) &&
-           hdf_text(place, "variant", recorder->model->class->variant);
+           hdf_text(place, "method", recorder->model->method->name) &&
+           hdf_text(place, "variant", recorder->model->method->variant);
 }
 
 static bool write_deck_texts(const struct deck *deck, hid_t place, struct messages *messages)

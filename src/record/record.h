@@ -57,9 +57,6 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
  * operator calls are timed), which parts are on, model's describe. */
 void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
                    void *context);
-/* advice.c: tells what may be wrong in the scene (key "warning"), and how often; tell may be NULL. */
-size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
-                   void (*tell)(void *context, const char *key, const char *value), void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
 /* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it

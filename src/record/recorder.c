@@ -2,7 +2,7 @@
 #include "record/parts.h"
 
 #include "base/memory.h"
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,8 @@
 /* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
+#include "compare/misfit.h"
 #include "record/parts.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <math.h>
 #include <sys/resource.h>
@@ -25,13 +26,12 @@ static double peak_memory(void)
 static void write_energy(FILE *out, const struct recorder *recorder)
 {
     const struct watch *watch = &recorder->watch;
-    if (recorder->model->class->energy == NULL) return;
+    if (recorder->model->core->energy == NULL) return;
     fprintf(out, "energy at time: %.9g\n", watch->last_time);
     fprintf(out, "energy kinetic: %.6e\nenergy strain: %.6e\n", watch->last.kinetic, watch->last.strain);
     fprintf(out, "energy at start: %.6e\nenergy largest: %.6e\n", watch->initial, watch->largest);
     if (!watch->by_work) return;
-    if (recorder->model->class->remember !=
-        NULL) { /* what layers take is not measured: there is no balance */
+    if (recorder->model->memory != NULL) { /* what layers take is not measured: there is no balance */
         fprintf(out, "work of loads: %.6e\n", watch->work);
         return;
     }
@@ -50,7 +50,7 @@ static void write_cost(FILE *out, const struct recorder *recorder, const struct 
         if (recorder->exact != NULL) fprintf(out, "exact CPU seconds: %.4g\n", figures->exact_cpu_seconds);
         fprintf(out, "stepping wall seconds: %.4g\n", figures->wall_seconds);
     }
-    fprintf(out, "operator calls: %lu\n", model->evaluations);
+    fprintf(out, "operator calls: %lu\n", recorder->stepper->model->evaluations);
     const double memory = peak_memory();
     fprintf(out, "peak memory bytes: %.0f\nbytes per point: %.1f\n", memory,
             per(memory, (double)model->points));

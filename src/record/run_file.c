@@ -6,7 +6,7 @@
  * snapshots come from the files of their own in which they were kept so far (snapshot_file.c). */
 #include "record/run_file.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

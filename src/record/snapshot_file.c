@@ -5,7 +5,7 @@
  * unfinished/snapshot_NNNN.h5: /snapshots/NNNN as in run.h5; unfinished/points.h5: /points. */
 #include "record/run_file.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -73,7 +73,7 @@ static bool write_field(struct recorder *recorder, const struct snapshot_record 
     const size_t components = (size_t)field_components(field);
     double *value = record->buffer;
     state_settle(recorder->stepper, state, field == SELAS_ACCELERATION);
-    model->class->field(model, field, state->y, state->a, value);
+    model->core->field(model, field, state->y, state->a, value);
     for (size_t i = 0; record->index != NULL && i < record->points; i++) /* indices ascend: in place */
         memmove(value + components * i, value + components * record->index[i], components * sizeof *value);
     return hdf_table(group, field_name(field), H5T_IEEE_F32LE, record->points, components, value);

@@ -2,7 +2,7 @@
  * ends with the process that holds it, however that ends. */
 #include "record/unfinished.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 #include <dirent.h>
 #include <errno.h>

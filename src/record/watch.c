@@ -79,10 +79,10 @@ void watch_start(struct recorder *recorder)
     const struct scene *scene = recorder->scene;
     struct watch *watch = &recorder->watch;
     *watch = (struct watch){0};
-    watch->by_work = recorder->model->class->power != NULL && recorder->model->class->energy != NULL &&
+    watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL &&
                      !moved_by_faces(scene);
     watch->with_faces =
-        moved_by_faces(scene) && recorder->stepper->host == NULL && recorder->model->class->power != NULL;
+        moved_by_faces(scene) && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
     if (watch->with_faces) faces_can_give(recorder);
     watch->reference_until = 0.1 * scene->end_time;
     for (size_t k = 0; k < scene->loads; k++)
@@ -99,7 +99,7 @@ static void add_work(struct recorder *recorder, const struct state *state)
     struct watch *watch = &recorder->watch;
     const struct drive drive = drive_last(recorder->stepper, state->time);
     double load = 0.0, absorbed = 0.0;
-    recorder->model->class->power(recorder->model, &drive, state->y, &load, &absorbed);
+    recorder->model->core->power(recorder->model, &drive, state->y, &load, &absorbed);
     if (recorder->started) {
         const double half = 0.5 * (state->time - recorder->last_time);
         watch->work += half * (watch->power + load);
@@ -207,8 +207,8 @@ static selas_status judge(struct recorder *recorder, const struct state *state, 
 {
     char what[200];
     struct energy energy = {0};
-    if (recorder->model->class->energy == NULL) return SELAS_OK;
-    recorder->model->class->energy(recorder->model, state->y, &energy);
+    if (recorder->model->core->energy == NULL) return SELAS_OK;
+    recorder->model->core->energy(recorder->model, state->y, &energy);
     const double total = energy.kinetic + energy.strain;
     if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
     if (keep) keep_energy(recorder, state, &energy, messages);

@@ -75,7 +75,7 @@ static bool look(const struct recorder *recorder, const struct state *state, str
     *found = (struct found){.speed = -1.0};
     const bool room = value != NULL && spoiled != NULL;
     for (size_t f = 0; room && f < sizeof all / sizeof *all; f++) {
-        model->class->field(model, all[f], state->y, state->a, value);
+        model->core->field(model, all[f], state->y, state->a, value);
         mark_spoiled(model, all[f], value, spoiled);
     }
     size_t first = model->points;
@@ -99,16 +99,16 @@ static void name_place(const struct recorder *recorder, const struct state *stat
     const struct model *model = recorder->model;
     struct found found;
     text[0] = '\0';
-    if (model->class->field == NULL || !look(recorder, state, &found)) return;
+    if (model->core->field == NULL || !look(recorder, state, &found)) return;
     if (found.spoiled > 0)
         snprintf(text, size, "; it began about (%.6g, %.6g, %.6g), by now at %zu of %zu points",
                  found.position[0], found.position[1], found.position[2], found.spoiled, model->points);
     else
         snprintf(text, size, "; fastest at (%.6g, %.6g, %.6g), speed %.3g", found.position[0],
                  found.position[1], found.position[2], found.speed);
-    if (model->class->unseen == NULL) return;
+    if (model->core->unseen == NULL) return;
     struct unseen unseen = {0};
-    model->class->unseen(recorder->model, state->y, &unseen);
+    model->core->unseen(recorder->model, state->y, &unseen);
     if ((double)unseen.spoiled * (double)model->points > (double)found.spoiled * (double)unseen.places)
         snprintf(text, size, "; it began %s, by now at %zu points there", unseen.place, unseen.spoiled);
     else if (found.spoiled == 0 && unseen.speed > found.speed)
@@ -159,7 +159,7 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
     else if (stiff->poisson > nearly_incompressible)
         snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
                  stiff->name, stiff->poisson);
-    else if (stepper->spectrum.viscous > 0.0 || recorder->model->class->linearise != NULL)
+    else if (stepper->spectrum.viscous > 0.0 || recorder->model->spatial->linearise != NULL)
         snprintf(text, size,
                  "the body moves so fast or so far that the stability limit %.3g, measured at rest, does not "
                  "hold (the step is %.3g)%s; try a smaller stepping%%safety",

@@ -5,7 +5,7 @@
  * Polyvertex. XDMF counts the slowest axis first. */
 #include "record/parts.h"
 
-#include "record/safe_file.h"
+#include "base/safe_file.h"
 
 static void write_escaped(FILE *out, const char *text)
 {

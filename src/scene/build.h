@@ -69,22 +69,7 @@ bool take_spacing(const struct builder *builder, const struct deck_group *group,
  * quarter of it does. */
 double dividing_spacing(const struct body *body, int dimension, double at_most);
 
-/* accuracy.c: refuses what scene%accuracy cannot serve or leaves no choice in (called when all else is
- * built). */
-void check_accuracy(struct builder *builder);
-struct accuracy_choice {
-    double spacing;
-    long layer_points;  /* of absorbing layers, where there are any */
-    int degree, sweeps; /* of the consistent method; degree 0: as without scene%accuracy */
-    const char *scheme; /* NULL: as without scene%accuracy */
-    double courant;     /* 0: the default step */
-    char text[200];     /* for the plan */
-};
-/* What is to lead to the deck's scene%accuracy, from a scene built with any spacing. */
-selas_status accuracy_choose(const struct scene *scene, double accuracy, struct accuracy_choice *choice,
-                             struct messages *messages);
-
-/* half_space.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */
+/* fitted_box.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */
 bool choose_half_space(struct builder *builder, const struct deck_group *group);
 
 /* frame.c: sets body->frame, pivot and rotated from rotation, low and high. */

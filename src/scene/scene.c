@@ -124,8 +124,8 @@ static void build_reference(struct builder *builder)
     }
 }
 
-static selas_status build(const struct deck *deck, const struct accuracy_choice *choice, struct scene **scene,
-                          struct messages *messages)
+selas_status scene_build(const struct deck *deck, const struct scene_choice *choice, struct scene **scene,
+                         struct messages *messages)
 {
     *scene = array_new(1, sizeof **scene);
     if (*scene == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the scene");
@@ -151,7 +151,7 @@ static selas_status build(const struct deck *deck, const struct accuracy_choice 
     build_profiles(&builder);
     build_snapshots(&builder);
     if (choice != NULL) {
-        check_accuracy(&builder);
+        choice->check(&builder);
         (*scene)->method.degree = choice->degree;
         (*scene)->method.sweeps = choice->sweeps;
         if (choice->scheme != NULL)
@@ -163,37 +163,6 @@ static selas_status build(const struct deck *deck, const struct accuracy_choice 
     }
     if (builder.status != SELAS_OK) scene_free(scene);
     return builder.status;
-}
-
-/* Builds a scene that asks for an accuracy: with a guess, then with the spacing that follows from it. */
-static selas_status build_accurate(const struct deck *deck, double accuracy, struct scene **scene,
-                                   struct messages *messages)
-{
-    struct accuracy_choice choice = {0};
-    struct messages scratch = {0}; /* the second building says everything */
-    selas_status status = build(deck, &choice, scene, &scratch);
-    messages_free(&scratch);
-    if (status != SELAS_OK) return build(deck, &choice, scene, messages);
-    status = accuracy_choose(*scene, accuracy, &choice, messages);
-    scene_free(scene);
-    if (status == SELAS_OK) status = build(deck, &choice, scene, messages);
-    if (status == SELAS_OK && *scene != NULL && (*scene)->body.absorbing && choice.sweeps == 0 &&
-        choice.degree > 0) {
-        /* the box that fits this spacing has absorbing layers, which need sweeps: another law */
-        status = accuracy_choose(*scene, accuracy, &choice, messages);
-        scene_free(scene);
-        if (status == SELAS_OK) status = build(deck, &choice, scene, messages);
-    }
-    if (status == SELAS_OK && *scene != NULL)
-        memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
-    return status;
-}
-
-selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages)
-{
-    const struct deck_group *group = deck_get(deck, "scene", 0);
-    if (!deck_given(group, "accuracy")) return build(deck, NULL, scene, messages);
-    return build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages);
 }
 
 void scene_free(struct scene **scene)

@@ -57,7 +57,7 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
-    bool chosen;    /* half-space: low and high were chosen by the program (scene/half_space.c) ... */
+    bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
@@ -207,9 +207,23 @@ struct scene {
     struct reference reference;
 };
 
-/* Builds the scene of a deck; all errors in one pass. The deck stays the caller's. On failure *scene is NULL.
- */
-selas_status scene_build(const struct deck *deck, struct scene **scene, struct messages *messages);
+/* What the program chooses in place of the deck (scene%accuracy). */
+struct builder;
+struct scene_choice {
+    double spacing;     /* 0: a first guess */
+    long layer_points;  /* of absorbing layers, where there are any; 0: the default */
+    int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
+    const char *scheme; /* NULL: as without */
+    double courant;     /* 0: the default step */
+    char text[200];     /* for the plan */
+    /* Refuses what cannot be served or leaves no choice (complain()); called when all else is built. */
+    void (*check)(struct builder *builder);
+};
+
+/* Builds the scene of a deck; all errors in one pass. choice NULL: all as the deck says. The deck stays the
+ * caller's. On failure *scene is NULL. */
+selas_status scene_build(const struct deck *deck, const struct scene_choice *choice, struct scene **scene,
+                         struct messages *messages);
 void scene_free(struct scene **scene);
 
 /* Position and direction between the deck's coordinates and the body's own frame. */

@@ -28,13 +28,13 @@ static void start(struct stepper *stepper, struct state *state)
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
     /* a host may change its loads at the time reached, and then wants that acceleration anew */
-    stepper->one_pass = model->class->advance != NULL && stepper->host == NULL;
+    stepper->one_pass = model->one_pass != NULL && stepper->host == NULL;
     if (stepper->one_pass) {
-        model->class->begin(model, &drive, stepper->dt, state->y, state->a);
+        model->one_pass->begin(model, &drive, stepper->dt, state->y, state->a);
         return;
     }
-    if (model->class->remember != NULL) drive.extra = state->y + 2 * model->unknowns;
-    model->class->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
+    if (model->memory != NULL) drive.extra = state->y + 2 * model->unknowns;
+    model->spatial->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 
 /* The second half of a step: from w(n+1/2) to v(n+1), memory being at its end. */
@@ -45,8 +45,8 @@ static void close_step(struct stepper *stepper, struct state *state)
     double *v = state->y + model->unknowns;
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
-    if (model->class->remember != NULL) drive.extra = v + model->unknowns;
-    model->class->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
+    if (model->memory != NULL) drive.extra = v + model->unknowns;
+    model->spatial->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
     leapfrog_kick(stepper, state);
 }
 
@@ -55,7 +55,7 @@ static void step(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     if (!stepper->one_pass) {
         leapfrog_drift(stepper, state);
-        if (model->class->remember != NULL) model->class->remember(model, stepper->dt, state->y);
+        if (model->memory != NULL) model->memory->remember(model, stepper->dt, state->y);
         close_step(stepper, state);
         return;
     }
@@ -63,7 +63,7 @@ static void step(struct stepper *stepper, struct state *state)
     state->step++;
     state->time = (double)state->step * stepper->dt;
     drive_at_step(stepper, state->step, false, &drive);
-    model->class->advance(model, &drive, stepper->dt, state->y, state->a);
+    model->one_pass->advance(model, &drive, stepper->dt, state->y, state->a);
 }
 
 static void again(struct stepper *stepper, struct state *state)

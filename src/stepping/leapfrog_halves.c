@@ -14,14 +14,14 @@ void leapfrog_drift(struct stepper *stepper, struct state *state)
     double *restrict u = state->y;
     double *restrict v = state->y + n;
     const double *restrict a = state->a;
-    const bool filters = model->class->after_step != NULL;
+    const bool filters = model->spatial->after_step != NULL;
     if (filters) memcpy(stepper->work[0], u, n * sizeof *u);
 #pragma omp parallel for simd schedule(static) if (n > SERIAL)
     for (size_t i = 0; i < n; i++) {
         v[i] += 0.5 * dt * a[i];
         u[i] += dt * v[i];
     }
-    if (filters) model->class->after_step(model, dt, stepper->work[0], u, v);
+    if (filters) model->spatial->after_step(model, dt, stepper->work[0], u, v);
     state->step++;
     state->time = (double)state->step * dt;
 }

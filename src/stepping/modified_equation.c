@@ -36,12 +36,12 @@ static void accelerate(struct stepper *stepper, struct state *state, double half
     double *restrict lifted = stepper->work[0];
     struct drive drive;
     drive_at_step(stepper, state->step, false, &drive);
-    model->class->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
+    model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
         lifted[i] = u[i] + twelfth * a[i];
     drive_at_step(stepper, state->step, true, &drive);
-    model->class->accelerate(model, &drive, half_step, lifted, state->y + n, a);
+    model->spatial->accelerate(model, &drive, half_step, lifted, state->y + n, a);
 }
 
 /* The scheme's v is (u(1) - u(-1)) / (2 dt) = u' + dt^2/6 u''', so a body that moves at t = 0 starts with
@@ -54,9 +54,9 @@ static void start(struct stepper *stepper, struct state *state)
     const double sixth = stepper->dt * stepper->dt / 6.0;
     const struct drive none = {.time = 0.0};
     double *v = state->y + n, *third = stepper->work[0];
-    if (model->class->linearise != NULL) model->class->linearise(model, true);
-    model->class->accelerate(model, &none, 0.0, v, NULL, third);
-    if (model->class->linearise != NULL) model->class->linearise(model, false);
+    if (model->spatial->linearise != NULL) model->spatial->linearise(model, true);
+    model->spatial->accelerate(model, &none, 0.0, v, NULL, third);
+    if (model->spatial->linearise != NULL) model->spatial->linearise(model, false);
     for (size_t i = 0; i < n; i++)
         v[i] += sixth * third[i];
     accelerate(stepper, state, 0.0);

@@ -9,13 +9,13 @@ void runge_kutta_rate(struct stepper *stepper, double time, const double *y, dou
     struct model *model = stepper->model;
     struct drive drive;
     drive_at(stepper, time, &drive);
-    if (model->class->rate != NULL) {
-        model->class->rate(model, &drive, y, dydt);
+    if (model->spatial->rate != NULL) {
+        model->spatial->rate(model, &drive, y, dydt);
         return;
     }
     const size_t n = model->unknowns;
     memcpy(dydt, y + n, n * sizeof *y);
-    model->class->accelerate(model, &drive, 0, y, y + n, dydt + n);
+    model->spatial->accelerate(model, &drive, 0, y, y + n, dydt + n);
 }
 
 void runge_kutta_start(struct stepper *stepper, struct state *state)

@@ -31,7 +31,7 @@ static void first_vector(struct model *model, double *y, double *a)
     uint64_t seed = 20061;
     for (size_t i = 0; i < model->unknowns; i++)
         y[i] = noise(&seed);
-    model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+    model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
 }
 
 struct tridiagonal {
@@ -79,13 +79,13 @@ static double mass_norm(struct model *model, double *y, const double *r)
     const size_t n = model->unknowns;
     struct energy energy;
     double *v = y + n;
-    if (model->class->weigh != NULL) {
-        model->class->weigh(model, r, v);
+    if (model->spatial->weigh != NULL) {
+        model->spatial->weigh(model, r, v);
         return sqrt(fmax(0.0, dot(n, r, v)));
     }
     for (size_t i = 0; i < n; i++)
         v[i] = r[i];
-    model->class->energy(model, y, &energy);
+    model->core->energy(model, y, &energy);
     return sqrt(2.0 * energy.kinetic);
 }
 
@@ -95,9 +95,9 @@ static double rayleigh(struct model *model, double *y, double norm, double *a)
 {
     const struct drive quiet = {.time = 0.0};
     struct energy energy = {0};
-    if (model->class->weigh == NULL) model->class->energy(model, y, &energy);
-    model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
-    if (model->class->weigh == NULL) return 2.0 * energy.strain;
+    if (model->spatial->weigh == NULL) model->core->energy(model, y, &energy);
+    model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
+    if (model->spatial->weigh == NULL) return 2.0 * energy.strain;
     return -dot(model->unknowns, a, y + model->unknowns) / norm;
 }
 
@@ -154,7 +154,7 @@ static double power_iteration(struct model *model, double *y, double *a)
         if (!(norm > 0.0)) return 0.0;
         for (size_t i = 0; i < n; i++)
             y[i] = a[i] / norm;
-        model->class->accelerate(model, &quiet, 0.0, y, NULL, a);
+        model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
         if (j >= POWER_STEPS - POWER_TAIL) theta = fmax(theta, euclidean_norm(a, n));
     }
     return theta;
@@ -167,12 +167,12 @@ static selas_status measure(struct model *model, double *omega, double *error, s
     double *a = array_new(model->unknowns, sizeof *a);
     double *before = self_adjoint ? array_new(model->unknowns, sizeof *before) : NULL;
     bool room = y != NULL && a != NULL && (before != NULL || !self_adjoint);
-    if (model->class->linearise != NULL) model->class->linearise(model, true);
+    if (model->spatial->linearise != NULL) model->spatial->linearise(model, true);
     double theta = 0.0;
     double bound = 0.0;
     if (room && self_adjoint) room = lanczos(model, y, a, before, &theta, &bound);
     if (room && !self_adjoint) theta = power_iteration(model, y, a);
-    if (model->class->linearise != NULL) model->class->linearise(model, false);
+    if (model->spatial->linearise != NULL) model->spatial->linearise(model, false);
     array_free(y);
     array_free(a);
     array_free(before);
@@ -186,8 +186,8 @@ selas_status largest_frequency(struct model *model, double *omega, double *error
 {
     struct model *shorter = NULL;
     double deficit = 0.0;
-    if (model->class->shorten != NULL) {
-        const selas_status status = model->class->shorten(model, &shorter, &deficit, messages);
+    if (model->spatial->shorten != NULL) {
+        const selas_status status = model->spatial->shorten(model, &shorter, &deficit, messages);
         if (status != SELAS_OK) return status;
     }
     const selas_status status = measure(shorter != NULL ? shorter : model, omega, error, messages);
@@ -215,7 +215,7 @@ selas_status largest_damping(struct model *model, double speed, double *rate, st
             if (j > POWER_STEPS - POWER_TAIL) *rate = fmax(*rate, norm / scale);
             for (size_t i = 0; i < n; i++)
                 v[i] = norm > 0.0 ? scale * a[i] / norm : 0.0;
-            model->class->accelerate(model, &quiet, 0.0, u, v, a);
+            model->spatial->accelerate(model, &quiet, 0.0, u, v, a);
         }
     }
     array_free(u);

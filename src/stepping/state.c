@@ -13,7 +13,7 @@ selas_status state_create(struct stepper *stepper, struct state *state, struct m
         state_free(state);
         return fail(messages, SELAS_NO_MEMORY, "no memory for a state of %zu numbers", model->state_size);
     }
-    if (model->class->initialise != NULL) model->class->initialise(model, state->y);
+    if (model->core->initialise != NULL) model->core->initialise(model, state->y);
     if (stepper->scheme->start != NULL) stepper->scheme->start(stepper, state);
     return SELAS_OK;
 }
@@ -23,7 +23,7 @@ void state_settle(const struct stepper *stepper, const struct state *state, bool
     struct model *model = stepper->model;
     if (!stepper->one_pass) return;
     const struct drive drive = drive_last(stepper, state->time);
-    model->class->settle(model, &drive, stepper->dt, state->y, acceleration ? state->a : NULL);
+    model->one_pass->settle(model, &drive, stepper->dt, state->y, acceleration ? state->a : NULL);
 }
 
 void state_free(struct state *state)

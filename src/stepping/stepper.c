@@ -21,13 +21,13 @@ static double fastest_speed(const struct scene *scene)
 static selas_status measure_spectrum(struct stepper *stepper, struct messages *messages)
 {
     struct model *model = stepper->model;
-    const struct model_class *class = model->class;
+    const struct model_operator *spatial = model->spatial;
     struct spectrum *spectrum = &stepper->spectrum;
-    if (class->spectrum != NULL) return class->spectrum(model, spectrum, messages);
+    if (spatial->spectrum != NULL) return spatial->spectrum(model, spectrum, messages);
     selas_status status = largest_frequency(model, &spectrum->omega, &stepper->frequency_error, messages);
     spectrum->omega *= 1.0 + stepper->frequency_error;
     spectrum->dampers = model->damped;
-    const bool explicit_damping = !stepper->scheme->needs_acceleration || class->linearise != NULL;
+    const bool explicit_damping = !stepper->scheme->needs_acceleration || spatial->linearise != NULL;
     if (status == SELAS_OK && model->damped && explicit_damping)
         status = largest_damping(model, fastest_speed(model->scene), &spectrum->viscous, messages);
     spectrum->viscous += model->dissipation;
@@ -109,7 +109,7 @@ static selas_status take_memory(struct stepper *stepper, struct messages *messag
     bool room = stepper->load != NULL && stepper->motion != NULL && stepper->work != NULL;
     /* leapfrog keeps the displacements before a step only for models that filter */
     const bool idle = stepper->scheme->evaluations == 1.0 && stepper->scheme->needs_acceleration &&
-                      model->class->after_step == NULL;
+                      model->spatial->after_step == NULL;
     for (size_t i = 0; room && !idle && i < vectors; i++) {
         stepper->work[i] = array_new(model->state_size, sizeof **stepper->work);
         room = stepper->work[i] != NULL;
@@ -167,8 +167,8 @@ static bool loads_move(const struct scene *scene)
 static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
-    return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->class->linearise == NULL &&
-           model->class->after_step == NULL && model->scene->initial.kind == INITIAL_REST &&
+    return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->spatial->linearise == NULL &&
+           model->spatial->after_step == NULL && model->scene->initial.kind == INITIAL_REST &&
            !loads_move(model->scene);
 }
 
@@ -197,29 +197,30 @@ static selas_status check_steps(const struct stepper *stepper, struct messages *
 static selas_status prepare(struct stepper *stepper, struct messages *messages)
 {
     const struct scene *scene = stepper->model->scene;
-    const struct model_class *class = stepper->model->class;
+    const struct method *method = stepper->model->method;
+    const struct model_operator *spatial = stepper->model->spatial;
     const char *name = scene->stepping.scheme;
     if (name[0] == '\0') /* the defaults */
-        name = class->accelerate != NULL ? "leapfrog" : stepper->model->damped ? "rkc" : "rk4";
+        name = spatial->accelerate != NULL ? "leapfrog" : stepper->model->damped ? "rkc" : "rk4";
     stepper->scheme = scheme_find(name);
     if (stepper->scheme == NULL) return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", name);
-    if (stepper->scheme->needs_acceleration && class->accelerate == NULL)
+    if (stepper->scheme->needs_acceleration && spatial->accelerate == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
-                    stepper->scheme->name, class->method, class->variant);
+                    stepper->scheme->name, method->name, method->variant);
     if (stepper->scheme->order == 4 && stepper->scheme->needs_acceleration && loads_move(scene))
         return fail(messages, SELAS_UNSUPPORTED,
                     "scheme '%s' knows how loads vary in time, not how they move; take scheme 'leapfrog'",
                     name);
-    if (class->after_step != NULL && !stepper->scheme->needs_acceleration)
+    if (spatial->after_step != NULL && !stepper->scheme->needs_acceleration)
         return fail(
             messages, SELAS_UNSUPPORTED,
             "the filter of method '%s', variant '%s', acts on leapfrog's half-step velocity and cannot "
             "be had with scheme '%s'; take scheme 'leapfrog' or method%%filter = 0",
-            class->method, class->variant, name);
+            method->name, method->variant, name);
     if (stepper->model->single && stepper->scheme != &scheme_leapfrog)
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%precision = 'single' needs scheme 'leapfrog', not '%s'", name);
-    if (class->remember != NULL && stepper->scheme != &scheme_leapfrog)
+    if (stepper->model->memory != NULL && stepper->scheme != &scheme_leapfrog)
         return fail(messages, SELAS_UNSUPPORTED,
                     "absorbing layers (boundary%%layer = 'pml') need scheme 'leapfrog', not '%s'", name);
     selas_status status = choose_step(stepper, messages);
@@ -239,7 +240,7 @@ selas_status stepper_create(struct model *model, struct stepper **created, struc
     *created = NULL;
     struct stepper *stepper = calloc(1, sizeof *stepper);
     if (stepper == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the time stepping");
-    stepper->model = model;
+    stepper->model = model_computed(model);
     const selas_status status = prepare(stepper, messages);
     if (status != SELAS_OK) {
         stepper_free(&stepper);

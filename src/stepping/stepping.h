@@ -3,7 +3,7 @@
 #ifndef SELAS_STEPPING_H
 #define SELAS_STEPPING_H
 
-#include "method/model.h"
+#include "model/model.h"
 
 struct state {
     double time;

@@ -1,5 +1,6 @@
 /* Decks: text to words to scene, as far as no points are made. A deck that is right has an echo that is
  * right too, says the same, and makes a scene or refuses it the same way. */
+#include "accuracy/accuracy.h"
 #include "fuzz.h"
 
 #include "scene/scene.h"
@@ -23,7 +24,7 @@ static selas_status build(const struct deck *deck)
 {
     struct messages messages = {0};
     struct scene *scene = NULL;
-    const selas_status status = scene_build(deck, &scene, &messages);
+    const selas_status status = accuracy_build(deck, &scene, &messages);
     fuzz_require((status == SELAS_OK) == (scene != NULL), "a scene only where there is no error");
     fuzz_told(status, &messages);
     scene_free(&scene);

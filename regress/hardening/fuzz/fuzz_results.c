@@ -3,9 +3,9 @@
  * attributes are changed as the bytes say; else they are two folders' histories, divided at a byte 0. */
 #include "fuzz_hdf5.h"
 
+#include "compare/diff.h"
 #include "host/simulation.h"
-#include "record/diff.h"
-#include "record/kept.h"
+#include "record/checkpoint/kept.h"
 
 #include <math.h>
 #include <sys/stat.h>

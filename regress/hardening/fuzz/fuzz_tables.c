@@ -1,7 +1,7 @@
 /* Tables of a load's history, and histories of receivers as `selas diff` and &reference file read them. */
 #include "fuzz.h"
 
-#include "record/diff.h"
+#include "compare/diff.h"
 #include "scene/history.h"
 
 #include <math.h>

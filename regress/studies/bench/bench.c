@@ -4,8 +4,8 @@
 #include "../unit/plain_scene.h"
 #include "base/machine.h"
 #include "base/memory.h"
-#include "method/fused.h"
-#include "method/hform.h"
+#include "method/consistent/fused/fused.h"
+#include "method/consistent/galerkin/hform.h"
 #include "stepping/schemes.h"
 
 #include <math.h>
@@ -121,7 +121,7 @@ static struct timing measure(const size_t n[3], bool exact, bool unfused, bool s
     const int repeats = points > 1000000 ? 3 : 3 + (int)(3000000 / points);
     for (int repeat = 0; repeat < repeats; repeat++) {
         double start = now();
-        model->class->accelerate(model, &(struct drive){0}, 0, state.y, NULL, state.a);
+        model->spatial->accelerate(model, &(struct drive){0}, 0, state.y, NULL, state.a);
         timing.call = fmin(timing.call, now() - start);
         for (int way = 0; way < 2; way++) {
             double *least = way == 0 ? &timing.apart : &timing.step;

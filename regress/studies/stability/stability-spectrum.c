@@ -2,8 +2,10 @@
  * compression, where a one-sided viscosity acts between all points: spectrum DECK SPEED [GROUP%NAME=VALUE
  * ...] prints `re im` per eigenvalue; SPEED is the velocity of that compression per length (0: at rest). The
  * Jacobian by central differences, its eigenvalues by GSL; for a few hundred unknowns. */
+#include "accuracy/accuracy.h"
 #include "base/memory.h"
-#include "method/model.h"
+#include "method/methods.h"
+#include "model/model.h"
 
 #include <gsl/gsl_eigen.h>
 #include <math.h>
@@ -14,12 +16,12 @@
 static void derivative(struct model *model, const struct drive *drive, const double *y, double *result)
 {
     const size_t n = model->unknowns;
-    if (model->class->rate != NULL) {
-        model->class->rate(model, drive, y, result);
+    if (model->spatial->rate != NULL) {
+        model->spatial->rate(model, drive, y, result);
         return;
     }
     memcpy(result, y + n, n * sizeof *y);
-    model->class->accelerate(model, drive, 0.0, y, y + n, result + n);
+    model->spatial->accelerate(model, drive, 0.0, y, y + n, result + n);
 }
 
 static struct model *open_model(int count, char **words, struct deck **deck, struct scene **scene)
@@ -28,7 +30,7 @@ static struct model *open_model(int count, char **words, struct deck **deck, str
     struct model *model = NULL;
     selas_status status =
         deck_read_file(words[1], (size_t)count - 3, (const char *const *)words + 3, deck, &messages);
-    if (status == SELAS_OK) status = scene_build(*deck, scene, &messages);
+    if (status == SELAS_OK) status = accuracy_build(*deck, scene, &messages);
     if (status == SELAS_OK) status = model_create(*scene, &model, &messages);
     if (status != SELAS_OK) fputs(messages.text != NULL ? messages.text : "no memory\n", stderr);
     messages_free(&messages);
@@ -74,7 +76,7 @@ int main(int count, char **words)
     gsl_vector_complex *value = gsl_vector_complex_alloc(n);
     gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(n);
     if (base == NULL) return 1;
-    if (model->class->initialise != NULL) model->class->initialise(model, base);
+    if (model->core->initialise != NULL) model->core->initialise(model, base);
     for (size_t i = 0; rate != 0.0 && i < model->points && i * dimension < model->unknowns; i++) {
         double place[3];
         model_position(model, i, place);

@@ -1,0 +1,106 @@
+/* scene%accuracy: which kind of scene it is, and what no kind can serve (doc/accuracy.md). */
+#include "accuracy/accuracy.h"
+
+#include "accuracy/kinds.h"
+#include "scene/build.h"
+
+#include <string.h>
+
+enum { KINDS = 4 };
+static const struct accuracy_kind *const kinds[KINDS] = {&accuracy_beam, &accuracy_plate, &accuracy_wave,
+                                                         &accuracy_ground};
+
+static const struct accuracy_kind *kind_of(const struct scene *scene)
+{
+    for (int k = 0; k < KINDS; k++)
+        if (kinds[k]->looks_like(scene)) return kinds[k];
+    return NULL;
+}
+
+/* What the deck chooses itself leaves the program no choice. */
+static void refuse_choices(struct builder *builder, const struct accuracy_kind *kind)
+{
+    static const char *const method[] = {"degree",           "ends",        "mass",      "tuned",
+                                         "depth_mass",       "dissipation", "hourglass", "kernel",
+                                         "smoothing_length", NULL};
+    static const char *const particles[] = {"gradient", "viscosity_alpha", "viscosity_beta", NULL};
+    static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
+    static const char *const body_words[] = {"spacing", NULL};
+    static const char *const layer[] = {"layer_points", "layer_reflection", NULL};
+    static const char *const output[] = {"low_pass", NULL};
+    const char *purpose = "a deck with scene%accuracy, which makes that choice";
+    refuse(builder, deck_get(builder->deck, "method", 0), method, purpose);
+    if (kind != NULL && !kind->particles)
+        refuse(builder, deck_get(builder->deck, "method", 0), particles, purpose);
+    refuse(builder, deck_get(builder->deck, "stepping", 0), step, purpose);
+    refuse(builder, deck_get(builder->deck, "output", 0), output, purpose);
+    for (size_t k = 0; k < deck_count(builder->deck, "boundary"); k++)
+        refuse(builder, deck_get(builder->deck, "boundary", k), layer, purpose);
+    if (deck_count(builder->deck, "body") > 0)
+        refuse(builder, deck_get(builder->deck, "body", 0), body_words, purpose);
+}
+
+const char *accuracy_gradient(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    return deck_values(group, "gradient") > 0 ? deck_text(group, "gradient", 0) : "quadratic";
+}
+
+static void check(struct builder *builder)
+{
+    const struct deck_group *group = deck_get(builder->deck, "scene", 0);
+    const bool sound = builder->status == SELAS_OK && builder->scene->materials > 0;
+    const struct accuracy_kind *kind = sound ? kind_of(builder->scene) : NULL;
+    refuse_choices(builder, kind);
+    if (!sound) return; /* complained of elsewhere: a body may have no material that is known */
+    if (kind == NULL) {
+        complain(builder, group, "accuracy",
+                 "there is no table of errors for this scene, only for patches that press on half-spaces and "
+                 "boxes of ground, for plane pulses, loads and motions of whole faces of a box, for swinging "
+                 "beams and for plates with a hole; give body%%spacing in place of accuracy");
+        return;
+    }
+    const char *why = kind->refusal(builder->scene);
+    if (why != NULL)
+        complain(builder, group, "accuracy",
+                 "there is no table of errors for this scene, only for %s; give body%%spacing in place of "
+                 "accuracy",
+                 why);
+}
+
+static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
+                           struct messages *messages)
+{
+    return kind_of(scene)->choose(scene, accuracy, choice, messages);
+}
+
+/* Builds a scene that asks for an accuracy: with a guess, then with the spacing that follows from it. */
+static selas_status build_accurate(const struct deck *deck, double accuracy, struct scene **scene,
+                                   struct messages *messages)
+{
+    struct scene_choice choice = {.check = check};
+    struct messages scratch = {0}; /* the second building says everything */
+    selas_status status = scene_build(deck, &choice, scene, &scratch);
+    messages_free(&scratch);
+    if (status != SELAS_OK) return scene_build(deck, &choice, scene, messages);
+    status = choose(*scene, accuracy, &choice, messages);
+    scene_free(scene);
+    if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
+    if (status == SELAS_OK && *scene != NULL && (*scene)->body.absorbing && choice.sweeps == 0 &&
+        choice.degree > 0) {
+        /* the box that fits this spacing has absorbing layers, which need sweeps: another law */
+        status = choose(*scene, accuracy, &choice, messages);
+        scene_free(scene);
+        if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
+    }
+    if (status == SELAS_OK && *scene != NULL)
+        memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
+    return status;
+}
+
+selas_status accuracy_build(const struct deck *deck, struct scene **scene, struct messages *messages)
+{
+    const struct deck_group *group = deck_get(deck, "scene", 0);
+    if (!deck_given(group, "accuracy")) return scene_build(deck, NULL, scene, messages);
+    return build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages);
+}

@@ -1,0 +1,10 @@
+/* scene%accuracy: spacing, method and step from a wanted error (doc/accuracy.md). */
+#ifndef SELAS_ACCURACY_ACCURACY_H
+#define SELAS_ACCURACY_ACCURACY_H
+
+#include "scene/scene.h"
+
+/* Builds the scene of a deck, which may ask for an accuracy in place of a spacing; else as scene_build(). */
+selas_status accuracy_build(const struct deck *deck, struct scene **scene, struct messages *messages);
+
+#endif

@@ -1,0 +1,11 @@
+/* What may be wrong in a scene without being refused (doc/results.md). */
+#ifndef SELAS_ADVICE_ADVICE_H
+#define SELAS_ADVICE_ADVICE_H
+
+#include "stepping/stepping.h"
+
+/* Tells each thing (key "warning") and what would be right, and how many there are; tell may be NULL. */
+size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
+                   void (*tell)(void *context, const char *key, const char *value), void *context);
+
+#endif

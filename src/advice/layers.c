@@ -1,0 +1,58 @@
+/* Absorbing layers that are too thin for the spacing: what they send back then hides what the points reach.
+ *
+ * Layers alone make the error
+ *   e = .0011 exp(-.78 n) (lambda/h)^1.7,                                                               (1)
+ * n the points, lambda the P wavelength at the mean frequency: measured at the worst of three receivers of a
+ * half-space, n 4 to 12, lambda/h 50 to 100, within a factor of two (doc/accuracy.md, section 3). */
+#include "accuracy/outlook.h"
+#include "advice/parts.h"
+#include "scene/absorbing_layers.h"
+#include "scene/resolution.h"
+
+#include <math.h>
+#include <string.h>
+
+static double layers_error(size_t points, double cells_per_wavelength)
+{
+    return 0.0011 * layer_profile_reflection(points) * pow(cells_per_wavelength, 1.7);
+}
+
+/* The law of errors is that of degree 2 with three sweeps, and of a scheme that adds little in time. */
+static bool lawful(const struct scene *scene, const struct stepper *stepper)
+{
+    const struct deck_group *group = scene->method.group;
+    if (strcmp(scene->method.variant, "consistent") != 0 || scene->output.low_pass > 0.0) return false;
+    if (deck_given(group, "degree") && deck_integer(group, "degree", 0) != 2) return false;
+    if (deck_given(group, "mass") && strcmp(deck_text(group, "mass", 0), "vc3") != 0) return false;
+    if (deck_given(group, "ends") && strcmp(deck_text(group, "ends", 0), "open") != 0) return false;
+    return stepper->unwarp || stepper->scheme->order >= 4;
+}
+
+static size_t fewest_layer_points(const struct scene *scene)
+{
+    size_t fewest = 0;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const size_t points = layer_points(scene, face);
+        if (points > 0 && (fewest == 0 || points < fewest)) fewest = points;
+    }
+    return fewest;
+}
+
+void look_at_layers(struct adviser *adviser, const struct stepper *stepper)
+{
+    const struct scene *scene = adviser->scene;
+    const size_t points = fewest_layer_points(scene);
+    struct ground_outlook outlook;
+    if (points == 0 || scene->body.accuracy[0] != '\0' || !lawful(scene, stepper)) return;
+    /* Too thin, the P wavelength at the mean frequency would be 13 S wavelengths at the cutoff: this saves
+     * the exact solution. */
+    if ((double)points > 2.0 * points_per_wavelength(scene)) return;
+    if (!ground_outlook(scene, &outlook) || outlook.layer_points <= (long)points) return;
+    const double cells = outlook.wavelength / scene->body.spacing, error = layers_error(points, cells);
+    if ((double)points >= LAYER_THICKNESS * cells || error <= outlook.error) return;
+    advise(
+        adviser,
+        "absorbing layers of %zu points are only %.2g P wavelengths thick at the mean frequency and leave an "
+        "error of about %.1g, the spacing only %.1g; layer = 'pml', layer_points = %ld would be right",
+        points, (double)points / cells, error, outlook.error, outlook.layer_points);
+}

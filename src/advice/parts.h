@@ -1,0 +1,35 @@
+/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), points.c (patches on
+ * points), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved
+ * faces that meet others). */
+#ifndef SELAS_ADVICE_PARTS_H
+#define SELAS_ADVICE_PARTS_H
+
+#include "advice/advice.h"
+
+struct adviser {
+    const struct scene *scene;
+    void (*tell)(void *context, const char *key, const char *value);
+    void *context;
+    size_t count;
+};
+
+/* One warning: what may be wrong, and what would be right. */
+void advise(struct adviser *adviser, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A traction on a square or a disc. */
+bool has_patch(const struct load *load);
+/* Half its extent along an axis; 0 across its face. */
+double half_size(const struct load *load, int axis);
+/* Coordinate of a box face in the body's frame. */
+double plane_of(const struct body *body, enum face face);
+
+/* A patch on points that cannot show it. */
+void look_at_points(struct adviser *adviser, size_t load);
+/* Absorbing layers thinner than the spacing deserves. */
+void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
+/* Edges in which faces prescribe different motions. */
+void look_at_meetings(struct adviser *adviser);
+/* Scenes that their own mirror images do not continue. */
+void look_at_mirrors(struct adviser *adviser);
+
+#endif

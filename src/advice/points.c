@@ -1,0 +1,121 @@
+/* Patches on points: as published the smoothed point method and updated-Lagrangian SPH press points one by
+ * one and see a patch only as wide as the points in it; least-squares gradients hardly see the short surface
+ * waves that a narrow patch makes (doc/sph-total-lagrangian.md, section 11). */
+#include "advice/parts.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool is_variant(const struct scene *scene, const char *name)
+{
+    return strcmp(scene->method.variant, name) == 0;
+}
+
+/* A square whose edges lie on lattice planes is seen as it is. */
+static void look_at_edges(struct adviser *adviser, size_t k, const char *why)
+{
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    const struct body *body = &scene->body;
+    double centre[3];
+    body_from_deck(body, load->centre, centre);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double half = half_size(load, axis);
+        const double low = round((centre[axis] - half - body->low[axis]) / body->spacing);
+        const double high = round((centre[axis] + half - body->low[axis]) / body->spacing);
+        const double from = body->low[axis] + body->spacing * low,
+                     to = body->low[axis] + body->spacing * high;
+        const double off = fmax(fabs(centre[axis] - half - from), fabs(centre[axis] + half - to));
+        if (half <= 0.0 || off < 1e-6 * body->spacing) continue;
+        advise(adviser, "the edges of load %zu along %c lie between %s; %.6g to %.6g would lie on them",
+               k + 1, "xyz"[axis], why, from, to);
+    }
+}
+
+/* Share of the part of a patch that lies on the body: its particles' area over its own, both counted on the
+ * face. */
+static double pressed_share(const struct scene *scene, const struct load *load)
+{
+    enum { FINE = 50 };
+    const struct body *body = &scene->body;
+    double centre[3], counted[2] = {0};
+    long cells[2] = {1, 1};
+    int axis[2] = {0}, axes = 0;
+    body_from_deck(body, load->centre, centre);
+    for (int a = 0; a < scene->dimension && axes < 2; a++)
+        if (a != face_axis(load->face)) axis[axes++] = a;
+    for (int fine = 0; fine < 2; fine++) { /* particles, and small pieces between them */
+        const double step = body->spacing / (fine ? FINE : 1);
+        double first[2] = {0};
+        for (int k = 0; k < axes && k < 2; k++) {
+            const double low = fmax(body->low[axis[k]], centre[axis[k]] - half_size(load, axis[k]));
+            const double high = fmin(body->high[axis[k]], centre[axis[k]] + half_size(load, axis[k]));
+            first[k] = floor((low - body->low[axis[k]]) / step);
+            cells[k] = (long)fmin(4096.0, ceil((high - body->low[axis[k]]) / step) - first[k]);
+        }
+        for (long i = 0; i < cells[0]; i++)
+            for (long j = 0; j < cells[1]; j++) {
+                const long cell[2] = {i, j};
+                double square = 0.0;
+                bool within = true;
+                for (int k = 0; k < axes && k < 2; k++) {
+                    const double x = body->low[axis[k]] + (first[k] + (double)cell[k] + 0.5) * step;
+                    square += (x - centre[axis[k]]) * (x - centre[axis[k]]);
+                    within = within && fabs(x - centre[axis[k]]) <= half_size(load, axis[k]);
+                }
+                if (within && (load->shape != LOAD_DISC || square <= 0.25 * load->size[0] * load->size[0]))
+                    counted[fine] += pow(step, axes);
+            }
+    }
+    return counted[1] > 0.0 ? counted[0] / counted[1] : 1.0;
+}
+
+static void look_at_particles(struct adviser *adviser, size_t k)
+{
+    static const double noticed = 0.02;
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    const double share = pressed_share(scene, load);
+    if (fabs(share - 1.0) < noticed || scene->body.jitter > 0.0) return;
+    if (load->shape == LOAD_SQUARE)
+        look_at_edges(adviser, k, "the particles' cells, which are pressed whole or not at all");
+    else
+        advise(adviser,
+               "the particles in load %zu have %.3g of its area, so the force is that much of what is meant; "
+               "amplitude = %.6g would be right, or a finer spacing",
+               k + 1, share, share > 0.0 ? load->amplitude / share : load->amplitude);
+}
+
+/* Least-squares gradients under a patch of few points. */
+static void look_at_ringing(struct adviser *adviser, size_t k)
+{
+    enum { FEW = 10 };
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    const bool central = deck_values(scene->method.group, "gradient") > 0 &&
+                         strcmp(deck_text(scene->method.group, "gradient", 0), "central") == 0;
+    double width = INFINITY;
+    bool whole = true;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        if (axis == face_axis(load->face)) continue;
+        const double size = 2.0 * half_size(load, axis);
+        width = fmin(width, size);
+        whole = whole && size >= 0.999 * (scene->body.high[axis] - scene->body.low[axis]);
+    }
+    if (central || whole || scene->dimension < 3 || width > FEW * scene->body.spacing) return;
+    advise(
+        adviser,
+        "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "
+        "%s, or method%%name = 'smoothed-point', would be right",
+        k + 1, width / scene->body.spacing,
+        scene->body.jitter > 0.0 ? "method%variant = 'cloud'" : "method%gradient = 'central'");
+}
+
+void look_at_points(struct adviser *adviser, size_t k)
+{
+    const struct scene *scene = adviser->scene;
+    if (is_variant(scene, "paper") && scene->load[k].shape == LOAD_SQUARE)
+        look_at_edges(adviser, k, "points");
+    if (is_variant(scene, "updated-lagrangian")) look_at_particles(adviser, k);
+    if (is_variant(scene, "total-lagrangian")) look_at_ringing(adviser, k);
+}

@@ -1,0 +1,171 @@
+/* Comparing two files or two run folders, with a table and plots. */
+#include "compare/diff.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool is_folder(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
+}
+
+static void write_table_row(FILE *table, const char *receiver, const char *component,
+                            const struct channel_difference *d)
+{
+    if (table == NULL) return;
+    fprintf(table, "%-20s %-4s %10.3e %10.3e %11.3e %10.3e %10.3e %s", receiver, component, d->l2, d->linf,
+            d->shift, d->envelope, d->phase, d->differs ? "differs" : "same");
+    if (isfinite(d->excess) && d->excess > 1.0)
+        fprintf(table, " (%.3g times what is allowed, t = %.6g)", d->excess, d->when);
+    if (!isfinite(d->excess))
+        fprintf(table, " (%s, t = %.6g)", isfinite(d->l2) ? "none is allowed" : "not finite", d->when);
+    fputc('\n', table);
+}
+
+/* What the two are compared with and where the outcome goes. */
+struct comparison {
+    const char *a, *b; /* as named by the user */
+    const struct tolerance *tolerance;
+    struct diff_report *report;
+    size_t compared;
+    struct messages *messages;
+};
+
+static void tell_times(FILE *table, const char *receiver, const struct history_file *a,
+                       const struct history_file *b)
+{
+    if (table == NULL || same_span(a, b)) return;
+    fprintf(table, "%-20s      times %.6g to %.6g against %.6g to %.6g\n", receiver, a->time[0],
+            a->time[a->rows - 1], b->time[0], b->time[b->rows - 1]);
+}
+
+static selas_status diff_files(struct comparison *c, const char *a, const char *b, const char *receiver)
+{
+    struct history_file first = {0}, second = {0};
+    struct channel_difference difference[DIFF_CHANNELS];
+    struct diff_report *report = c->report;
+    selas_status status = history_file_read(a, &first, c->messages);
+    if (status == SELAS_OK) status = history_file_read(b, &second, c->messages);
+    if (status == SELAS_OK) status = diff_histories(&first, &second, c->tolerance, difference, c->messages);
+    size_t differences = 0;
+    for (size_t k = 0; k < DIFF_CHANNELS && status == SELAS_OK; k++) {
+        write_table_row(report->table, receiver, diff_channel[k], &difference[k]);
+        if (difference[k].differs) differences++;
+    }
+    if (status == SELAS_OK) {
+        const char *const label[2] = {c->a, c->b};
+        tell_times(report->table, receiver, &first, &second);
+        if (report->plots != NULL && differences > 0)
+            diff_plots(report->plots, receiver, label, &first, &second, difference, c->messages);
+        report->differences += differences;
+    }
+    history_file_free(&first);
+    history_file_free(&second);
+    return status;
+}
+
+/* A history begins with the header that histories have; profiles and others do not. */
+static bool is_history(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    if (file == NULL) return false;
+    char line[1024];
+    bool found = false;
+    while (!found && fgets(line, sizeof line, file) != NULL && line[0] == '#')
+        found = strncmp(line, "# t ux uy uz vx vy vz", 21) == 0;
+    fclose(file);
+    return found;
+}
+
+static char *path_in(const char *folder, const char *name)
+{
+    const size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path != NULL) snprintf(path, size, "%s/%s", folder, name);
+    return path;
+}
+
+static bool has_ending(const char *name, const char *ending)
+{
+    const size_t length = strlen(name), tail = strlen(ending);
+    return length > tail && strcmp(name + length - tail, ending) == 0;
+}
+
+/* What folder `a` has is compared with its namesake in `b`, or (with `only_missing`) just looked for. */
+static selas_status diff_one(struct comparison *c, const char *a, const char *b, const char *name,
+                             bool only_missing)
+{
+    if (!has_ending(name, ".dat") || has_ending(name, ".exact.dat")) return SELAS_OK;
+    char *here = path_in(a, name), *there = path_in(b, name);
+    selas_status status = SELAS_OK;
+    if (here == NULL || there == NULL) {
+        status = fail(c->messages, SELAS_NO_MEMORY, "no memory for the name of a file");
+    } else if (is_history(here)) {
+        const int length = (int)strlen(name) - (int)strlen(".dat");
+        struct stat about;
+        c->compared++;
+        if (stat(there, &about) != 0) {
+            c->report->differences++;
+            if (c->report->table != NULL)
+                fprintf(c->report->table, "%-20.*s is not in %s\n", length, name, b);
+        } else if (!only_missing) {
+            char receiver[128];
+            snprintf(receiver, sizeof receiver, "%.*s", length, name);
+            status = diff_files(c, here, there, receiver);
+        }
+    }
+    free(here);
+    free(there);
+    return status;
+}
+
+static selas_status diff_folder(struct comparison *c, const char *a, const char *b, bool only_missing)
+{
+    struct dirent **entry = NULL;
+    const int count = scandir(a, &entry, NULL, alphasort);
+    if (count < 0)
+        return fail(c->messages, SELAS_FILE_ERROR, "cannot read the folder '%s': %s", a, strerror(errno));
+    selas_status status = SELAS_OK;
+    for (int i = 0; i < count; i++) {
+        if (status == SELAS_OK) status = diff_one(c, a, b, entry[i]->d_name, only_missing);
+        free(entry[i]);
+    }
+    free(entry);
+    return status;
+}
+
+/* Name of a file without its folder and ".dat". */
+static void receiver_of(const char *path, char *receiver, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(receiver, size, "%s", slash != NULL ? slash + 1 : path);
+    if (has_ending(receiver, ".dat")) receiver[strlen(receiver) - strlen(".dat")] = '\0';
+}
+
+selas_status diff_paths(const char *a, const char *b, const struct tolerance *tolerance,
+                        struct diff_report *report, struct messages *messages)
+{
+    report->differences = 0;
+    const bool folder = is_folder(a);
+    if (folder != is_folder(b))
+        return fail(messages, SELAS_BAD_ARGUMENT, "'%s' and '%s' are not both folders or both files", a, b);
+    if (report->table != NULL)
+        fprintf(report->table, "%-20s %-4s %10s %10s %11s %10s %10s\n", "receiver", "", "L2", "Linf", "shift",
+                "envelope", "phase");
+    struct comparison c = {a, b, tolerance != NULL ? tolerance : &tolerance_default, report, 0, messages};
+    if (!folder) {
+        char receiver[128];
+        receiver_of(a, receiver, sizeof receiver);
+        return diff_files(&c, a, b, receiver);
+    }
+    selas_status status = diff_folder(&c, a, b, false);
+    if (status == SELAS_OK) status = diff_folder(&c, b, a, true);
+    if (status == SELAS_OK && c.compared == 0)
+        return fail(messages, SELAS_FILE_ERROR, "there are no histories in '%s'", a);
+    return status;
+}

@@ -1,0 +1,177 @@
+/* What a host calls to drive loads and faces: by a function, or at a value that it holds; and the mean motion
+ * under a load. How they are driven: drive.c. */
+#include "host/simulation.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Index of a load by its name, or its number from 1 where it has none. */
+static selas_status find_load(selas_simulation *simulation, const char *name, size_t *index)
+{
+    const struct scene *scene = simulation->scene;
+    const size_t own = deck_count(simulation->deck, "load");
+    for (size_t i = 0; name != NULL && i < own; i++) {
+        char number[32];
+        snprintf(number, sizeof number, "%zu", i + 1);
+        if (strcmp(scene->load[i].name[0] != '\0' ? scene->load[i].name : number, name) != 0) continue;
+        *index = i;
+        return SELAS_OK;
+    }
+    return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                "there is no load '%.60s'; expected the name of a &load, or its number if it has none",
+                name != NULL ? name : "(NULL)");
+}
+
+static struct driven_load *driven_of(struct host *host, size_t load)
+{
+    for (size_t i = 0; i < host->loads; i++)
+        if (host->load[i].load == load) return &host->load[i];
+    return NULL;
+}
+
+static selas_status drive_new_load(selas_simulation *simulation, const struct driven_load *wanted)
+{
+    struct host *host = &simulation->host;
+    const selas_status status = simulation_change(simulation);
+    if (status != SELAS_OK) return status;
+    struct driven_load *driven = driven_of(host, wanted->load);
+    if (driven == NULL) {
+        if (host->loads == host->room) {
+            const size_t room = 2 * host->room + 4;
+            struct driven_load *grown = realloc(host->load, room * sizeof *grown);
+            if (grown == NULL)
+                return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the host's loads");
+            host->load = grown;
+            host->room = room;
+        }
+        driven = &host->load[host->loads++];
+    }
+    *driven = *wanted;
+    return SELAS_OK;
+}
+
+static selas_status set_function(selas_simulation *simulation, const char *load, enum load_kind kind,
+                                 selas_vector_function function, void *context)
+{
+    struct driven_load wanted = {.function = function, .context = context};
+    selas_status status = simulation_scene(simulation);
+    if (status == SELAS_OK && function == NULL)
+        status = fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the function is NULL");
+    if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
+    if (status != SELAS_OK) return status;
+    const struct load *named = &simulation->scene->load[wanted.load];
+    if (named->kind != kind)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "load '%s' is no %s", load,
+                    kind == LOAD_TRACTION ? "traction" : "body force");
+    status = host_can_drive(simulation->scene, named, &simulation->messages);
+    return status == SELAS_OK ? drive_new_load(simulation, &wanted) : status;
+}
+
+selas_status selas_set_traction(selas_simulation *simulation, const char *load,
+                                selas_vector_function traction, void *context)
+{
+    return set_function(simulation, load, LOAD_TRACTION, traction, context);
+}
+
+selas_status selas_set_body_force(selas_simulation *simulation, const char *load, selas_vector_function force,
+                                  void *context)
+{
+    return set_function(simulation, load, LOAD_BODY_FORCE, force, context);
+}
+
+selas_status selas_set_motion(selas_simulation *simulation, const char *face,
+                              selas_vector_function displacement, void *context)
+{
+    selas_status status = simulation_scene(simulation);
+    if (status != SELAS_OK) return status;
+    if (displacement == NULL) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the function is NULL");
+    size_t index = FACES;
+    for (size_t i = 0; face != NULL && i < FACES; i++)
+        if (strcmp(face_name((enum face)i), face) == 0) index = i;
+    if (index == FACES)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "there is no face '%.60s'; expected x-, x+, ... z+", face != NULL ? face : "(NULL)");
+    const enum boundary_kind kind = simulation->scene->boundary[index].kind;
+    if (kind != BOUNDARY_DISPLACEMENT && kind != BOUNDARY_VELOCITY)
+        return fail(
+            &simulation->messages, SELAS_BAD_ARGUMENT,
+            "face '%s' has no &boundary of kind 'displacement' (its direction says which way it moves)",
+            face);
+    status = simulation_change(simulation);
+    if (status == SELAS_OK) simulation->host.face[index] = (struct driven_face){displacement, context};
+    return status;
+}
+
+selas_status selas_set_load(selas_simulation *simulation, const char *load, double value)
+{
+    struct driven_load wanted = {.held = true, .value = value};
+    selas_status status = simulation_scene(simulation);
+    if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
+    if (status != SELAS_OK) return status;
+    if (!isfinite(value))
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "the value of load '%s' is not a finite number", load);
+    struct driven_load *driven = driven_of(&simulation->host, wanted.load);
+    if (driven != NULL && !driven->held)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "load '%s' is given by a function of the host",
+                    load);
+    if (driven == NULL) return drive_new_load(simulation, &wanted);
+    driven->value = value;
+    simulation->dirty = simulation->state.y != NULL;
+    return SELAS_OK;
+}
+
+/* The velocities of a body that moves as one in the direction given (deck coordinates): their power is the
+ * load's resultant. */
+static void translate(const struct model *model, const double direction[3], double *velocity)
+{
+    const size_t d = (size_t)model->scene->dimension;
+    double own[3] = {direction[0], direction[1], direction[2]};
+    if (model->frame != NULL) body_direction_from_deck(&model->scene->body, direction, own);
+    for (size_t i = 0; i < model->unknowns / d; i++)
+        for (size_t c = 0; c < 3 && c < d; c++)
+            velocity[c * model->component_stride + i * model->point_stride] = own[c];
+}
+
+selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
+{
+    selas_status status = simulation_begin(simulation);
+    size_t index = 0;
+    if (status == SELAS_OK) status = find_load(simulation, load, &index);
+    if (status != SELAS_OK) return status;
+    struct model *model = simulation->model;
+    const struct load *named = &simulation->scene->load[index];
+    if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ACCELERATION)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "means are those of displacement, velocity or acceleration, and need room for a value");
+    if (model->core->power == NULL || model->state_size < 2 * model->unknowns ||
+        named->kind == LOAD_MOMENT_TENSOR || named->amplitude == 0.0)
+        return fail(&simulation->messages, SELAS_UNSUPPORTED, "this load or method has no mean displacement");
+    const struct state *state = &simulation->state;
+    const size_t n = model->unknowns, loads = simulation->scene->loads;
+    if (simulation->scratch == NULL)
+        simulation->scratch = array_new(model->state_size + 2 * loads, sizeof(double));
+    if (simulation->scratch == NULL)
+        return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a mean");
+    /* the power of a unit load is the integral of what it does work on */
+    double *y = simulation->scratch, *unit = y + model->state_size;
+    const double *part = field == SELAS_DISPLACEMENT ? state->y
+                         : field == SELAS_VELOCITY   ? state->y + n
+                                                     : state->a;
+    for (size_t k = 0; k < loads; k++)
+        unit[k] = k == index ? 1.0 / named->amplitude : 0.0;
+    const struct drive drive = {.time = state->time, .load = unit};
+    double measure = 0.0, power = 0.0, absorbed = 0.0;
+    state_settle(simulation->stepper, state, true);
+    memcpy(y, state->y, model->state_size * sizeof *y);
+    translate(model, named->direction, y + n);
+    model->core->power(model, &drive, y, &measure, &absorbed);
+    memcpy(y + n, part, n * sizeof *y);
+    model->core->power(model, &drive, y, &power, &absorbed);
+    *value = power / measure;
+    return SELAS_OK;
+}

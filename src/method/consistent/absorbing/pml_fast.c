@@ -1,0 +1,313 @@
+/* Tables of the shared passes of absorbing layers (pml_fast.h): the matrices are those of the terms
+ * (pml_terms.c), with their factors. */
+#include "method/consistent/absorbing/pml_fast.h"
+#include "method/consistent/absorbing/pml_terms.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+static size_t rounded(size_t n, size_t unit)
+{
+    return (n + unit - 1) / unit * unit;
+}
+
+static void *numbers(size_t n, bool single)
+{
+    return array_new(n, single ? sizeof(float) : sizeof(double));
+}
+
+static void put(void *table, size_t place, double value, bool single)
+{
+    if (single)
+        ((float *)table)[place] = (float)value;
+    else
+        ((double *)table)[place] = value;
+}
+
+/* The terms of a slab. */
+struct slab_terms {
+    struct terms gradient, outer, pull;
+};
+
+/* The one term from an input to a component. */
+static const struct tensor_term *term_of(const struct terms *terms, int out, int in)
+{
+    for (size_t i = 0; i < terms->count; i++)
+        if (terms->term[i].out == out && terms->term[i].in == in) return &terms->term[i];
+    return NULL;
+}
+
+/* Weights of one group of rows, from the columns that are not 0 alone. */
+static bool lay_group(struct row_group *group, const struct band *band, double factor, size_t row,
+                      size_t column, size_t columns, bool single)
+{
+    size_t end = 0;
+    group->from = columns;
+    for (size_t j = 0; j < columns; j++)
+        for (size_t r = 0; r < group->rows; r++) {
+            if (band_get(band, row + group->to + r, column + j) == 0) continue;
+            group->from = j < group->from ? j : group->from;
+            end = j + 1;
+        }
+    group->from = end == 0 ? 0 : group->from;
+    group->inputs = end - group->from;
+    group->weight = numbers(group->inputs * group->rows, single);
+    for (size_t t = 0; group->weight != NULL && t < group->inputs; t++)
+        for (size_t r = 0; r < group->rows; r++)
+            put(group->weight, t * group->rows + r,
+                factor * band_get(band, row + group->to + r, column + group->from + t), single);
+    return group->weight != NULL;
+}
+
+/* Rows or columns of a matrix. */
+struct span {
+    size_t from, n;
+};
+
+/* factor * the part of a matrix with these rows and columns, in groups of about the same size. */
+static bool lay_table(struct row_table *table, const struct band *band, double factor, struct span to,
+                      struct span from, size_t most, bool single)
+{
+    const size_t rows = to.n;
+    const size_t groups = (rows + most - 1) / most;
+    table->group = array_new(groups, sizeof *table->group);
+    if (table->group == NULL) return false;
+    table->groups = groups;
+    for (size_t g = 0; g < groups; g++) {
+        struct row_group *group = &table->group[g];
+        group->to = rows * g / groups;
+        group->rows = rows * (g + 1) / groups - group->to;
+        if (!lay_group(group, band, factor, to.from, from.from, from.n, single)) return false;
+    }
+    return true;
+}
+
+static void free_table(struct row_table *table)
+{
+    for (size_t g = 0; g < table->groups; g++)
+        array_free(table->group[g].weight);
+    array_free(table->group);
+}
+
+/* Matrix of the rows b. */
+static bool lay_over_b(const struct fast_slab *fast, struct row_table *table, const struct tensor_term *term,
+                       double factor, bool single)
+{
+    const struct span all = {0, fast->nb};
+    return lay_table(table, term->matrix[fast->axis[ROLE_B]], factor, all, all, FAST_GROUP, single);
+}
+
+/* By diagonals: [taps_f * width]. */
+static void *lay_along_f(const struct fast_slab *fast, const struct tensor_term *term, double factor,
+                         bool single)
+{
+    const struct band *band = term->matrix[fast->axis[ROLE_F]];
+    void *table = numbers(fast->taps_f * fast->width, single);
+    for (size_t i = 0; table != NULL && i < fast->nf; i++)
+        for (size_t t = 0; t < fast->taps_f; t++)
+            if (i + t >= fast->taps_f / 2 && i + t - fast->taps_f / 2 < fast->nf)
+                put(table, t * fast->width + i, factor * band_get(band, i, i + t - fast->taps_f / 2), single);
+    return table;
+}
+
+/* Matrix across the face, with the term's factor. */
+static bool lay_across(const struct fast_slab *fast, struct row_table *table, const struct tensor_term *term,
+                       struct span to, struct span from, bool single)
+{
+    return lay_table(table, term->matrix[fast->axis[ROLE_S]], term->factor, to, from, FAST_ROWS, single);
+}
+
+static bool lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool single)
+{
+    const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
+    const size_t skipped = fast->start - fast->slab->region.at[j];
+    const struct span region = {skipped, fast->region}, inside = {skipped + fast->offset, fast->ns};
+    const struct terms *outer = &terms->outer, *pull = &terms->pull;
+    bool good = true;
+    for (int i = 0; good && i < 3; i++) {
+        const struct tensor_term *second = term_of(outer, i, i);
+        good =
+            lay_across(fast, &fast->gradient[i], term_of(&terms->gradient, i, i), inside, region, single) &&
+            lay_across(fast, &fast->second[i], second, inside, region, single) &&
+            lay_across(fast, &fast->slope[i], term_of(outer, i, 3 + i), inside, inside, single) &&
+            lay_across(fast, &fast->pull[i], term_of(pull, i, i), region, inside, single) &&
+            (j == DEPTH || second->matrix[DEPTH] == NULL ||
+             lay_over_b(fast, &fast->bare[i], second, 1, single));
+    }
+    const struct tensor_term *along = term_of(outer, j, f), *over = term_of(outer, j, b);
+    const struct tensor_term *pull_b = term_of(pull, b, j), *pull_f = term_of(pull, f, j);
+    good = good && lay_across(fast, &fast->change[ROLE_F], along, inside, region, single) &&
+           lay_across(fast, &fast->change[ROLE_B], over, inside, region, single) &&
+           lay_across(fast, &fast->divergence, term_of(outer, j, 6 + f), inside, region, single) &&
+           lay_over_b(fast, &fast->over_b, over, 1, single) &&
+           lay_over_b(fast, &fast->pull_b, pull_b, pull_b->factor, single);
+    fast->along_f = lay_along_f(fast, along, 1, single);
+    fast->pull_f = lay_along_f(fast, pull_f, pull_f->factor, single);
+    return good && fast->along_f != NULL && fast->pull_f != NULL;
+}
+
+/* B is the same in all terms of a component, and the two slopes of others are taken alike. */
+static bool shares_passes(const struct fast_slab *fast, const struct slab_terms *terms)
+{
+    const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
+    const struct terms *outer = &terms->outer, *pull = &terms->pull;
+    if (term_of(outer, j, 6 + f)->matrix[j] != term_of(outer, j, 6 + b)->matrix[j]) return false;
+    if (term_of(outer, j, 6 + f)->factor != term_of(outer, j, 6 + b)->factor) return false;
+    if (j == DEPTH) return true;
+    for (int i = 0; i < 3; i++) {
+        const struct band *bare = term_of(outer, i, i)->matrix[DEPTH];
+        if (term_of(outer, i, 3 + i)->matrix[DEPTH] != bare || term_of(pull, i, i)->matrix[DEPTH] != bare)
+            return false;
+    }
+    const struct band *bare = term_of(outer, j, j)->matrix[DEPTH];
+    return term_of(outer, j, f)->matrix[DEPTH] == bare && term_of(outer, j, 6 + f)->matrix[DEPTH] == bare &&
+           term_of(pull, f, j)->matrix[DEPTH] == bare;
+}
+
+/* Sizes and places. */
+static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
+{
+    const struct slab *slab = fast->slab;
+    const size_t step[3] = {1, c->n[0], c->plane};
+    const int j = slab->axis;
+    fast->axis[ROLE_S] = j;
+    fast->axis[ROLE_F] = j == 0 ? 1 : 0;
+    fast->axis[ROLE_B] = 3 - j - fast->axis[ROLE_F];
+    for (int role = 0; role < 3; role++)
+        fast->step[role] = step[fast->axis[role]];
+    /* Nothing moves at the outer end, which is held: it is left out. */
+    const size_t out = slab->end == 0 ? 1 : 0;
+    fast->inside = slab->inside;
+    fast->inside.n[j]--;
+    fast->inside.at[j] += out;
+    fast->damping = slab->damping + out;
+    fast->ns = fast->inside.n[j];
+    fast->nb = c->n[fast->axis[ROLE_B]];
+    fast->nf = c->n[fast->axis[ROLE_F]];
+    fast->width = rounded(fast->nf, c->options.single ? 2 * FAST_LANES : FAST_LANES);
+    fast->start = slab->region.at[j] + out;
+    fast->region = slab->region.n[j] - 1;
+    fast->offset = fast->inside.at[j] - fast->start;
+    fast->first = fast->start * fast->step[ROLE_S];
+}
+
+static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct slab_terms *terms)
+{
+    const int along = fast->axis[ROLE_F], across = fast->axis[ROLE_S];
+    const size_t one = term_of(&terms->outer, across, along)->matrix[along]->half;
+    const size_t other = term_of(&terms->pull, along, across)->matrix[along]->half;
+    const size_t n = fast->nb * fast->ns * fast->width;
+    fast->taps_f = 2 * (one > other ? one : other) + 1;
+    fast->change_b = numbers(n, f->single);
+    fast->middle = numbers(n, f->single);
+    fast->rests = array_new(fast->nb, sizeof *fast->rests);
+    bool good = fast->change_b != NULL && fast->middle != NULL && fast->rests != NULL;
+    for (int i = 0; i < 3; i++) {
+        fast->wait[i] = numbers(n, f->single);
+        good = good && fast->wait[i] != NULL;
+    }
+    f->bytes += 5 * n * (f->single ? sizeof(float) : sizeof(double));
+    return good && lay_tables(fast, terms, f->single);
+}
+
+/* Room for a thread: rows of the region of three components and of the slab, groups of rows. */
+static bool lay_buffers(const struct consistent *c, struct pml_fast *f)
+{
+    size_t rows = 0;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const size_t own = (f->slab[s].region + 1) * (f->slab[s].width + FAST_PAD);
+        rows = own > rows ? own : rows;
+    }
+    f->buffer = array_new((size_t)c->threads, sizeof *f->buffer);
+    if (f->buffer == NULL) return false;
+    for (int t = 0; t < c->threads; t++) {
+        f->buffer[t] = numbers(FAST_BLOCKS * rows, f->single);
+        if (f->buffer[t] == NULL) return false;
+    }
+    f->bytes += (size_t)c->threads * FAST_BLOCKS * rows * (f->single ? sizeof(float) : sizeof(double));
+    return true;
+}
+
+/* Terms of the slabs; false if one of them cannot share its passes. */
+static bool take_terms(struct consistent *c, struct slab_terms *terms, bool *good)
+{
+    for (size_t s = 0; *good && s < c->pml->slabs; s++) {
+        struct slab *slab = &c->pml->slab[s];
+        struct fast_slab fast = {.slab = slab};
+        if (!far_end_out(c, slab)) return false;
+        lay_sizes(c, &fast);
+        terms[s] = (struct slab_terms){terms_gradient(c, slab), terms_outer(c, slab), terms_pull(c, slab)};
+        *good = terms[s].gradient.good && terms[s].outer.good && terms[s].pull.good;
+        if (*good && !shares_passes(&fast, &terms[s])) return false;
+    }
+    return *good;
+}
+
+static void free_passes(const struct consistent *c, struct pml_fast *f)
+{
+    if (f == NULL) return;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        struct fast_slab *fast = &f->slab[s];
+        for (int i = 0; i < 3; i++) {
+            free_table(&fast->gradient[i]);
+            free_table(&fast->second[i]);
+            free_table(&fast->slope[i]);
+            free_table(&fast->change[i]);
+            free_table(&fast->pull[i]);
+            free_table(&fast->bare[i]);
+            array_free(fast->wait[i]);
+        }
+        free_table(&fast->divergence);
+        free_table(&fast->over_b);
+        free_table(&fast->pull_b);
+        array_free(fast->along_f);
+        array_free(fast->pull_f);
+        array_free(fast->change_b);
+        array_free(fast->middle);
+        array_free(fast->rests);
+    }
+    for (int t = 0; f->buffer != NULL && t < c->threads; t++)
+        array_free(f->buffer[t]);
+    array_free(f->buffer);
+    array_free(f);
+}
+
+static struct pml_fast *lay_passes(struct consistent *c, const struct slab_terms *terms, bool single)
+{
+    struct pml_fast *f = array_new(1, sizeof *f);
+    bool good = f != NULL;
+    for (size_t s = 0; good && s < c->pml->slabs; s++) {
+        struct fast_slab *fast = &f->slab[s];
+        f->single = single;
+        fast->slab = &c->pml->slab[s];
+        lay_sizes(c, fast);
+        c->pml->slab[s].inner = fast->nb * fast->ns * fast->width;
+        good = lay_slab(f, fast, &terms[s]);
+    }
+    if (good && lay_buffers(c, f)) return f;
+    free_passes(c, f);
+    return NULL;
+}
+
+bool pml_fast_create(struct consistent *c)
+{
+    if (c->fused == NULL) return true;
+    struct slab_terms *terms = array_new(BOX_FACES, sizeof *terms);
+    bool good = terms != NULL;
+    if (good && take_terms(c, terms, &good)) {
+        c->pml->fast = lay_passes(c, terms, false);
+        if (c->options.single) c->pml->single = lay_passes(c, terms, true);
+        good = c->pml->fast != NULL && (!c->options.single || c->pml->single != NULL);
+    }
+    if (good && c->pml->fast != NULL) c->pml->bytes += c->pml->fast->bytes;
+    if (good && c->pml->single != NULL) c->pml->bytes += c->pml->single->bytes;
+    array_free(terms);
+    return good;
+}
+
+void pml_fast_free(struct consistent *c)
+{
+    free_passes(c, c->pml->fast);
+    free_passes(c, c->pml->single);
+}

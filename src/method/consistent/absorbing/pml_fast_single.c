@@ -1,0 +1,6 @@
+/* The shared passes of absorbing layers in single precision. */
+#define REAL float
+#define NAME(name) name##_single
+#define FAST(c) ((c)->pml->single)
+#include "method/consistent/absorbing/pml_fast_kernel.h"
+#include "method/consistent/absorbing/pml_fast_steps.h"

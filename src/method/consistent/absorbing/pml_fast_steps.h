@@ -1,0 +1,370 @@
+/* The order of the layers' shared passes (pml_fast.h, L1 to L4) for numbers of type REAL; included by
+ * pml_fast_double.c and pml_fast_single.c. Threads share rows or groups of rows along b; none writes what
+ * another one reads. */
+#include "method/consistent/absorbing/pml_fast.h"
+#include "method/spline/passes.h"
+
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+static void apply_group(const struct row_group *group, const REAL *in, size_t in_step, size_t width, bool add,
+                        REAL *out, size_t out_step)
+{
+    (add ? add_kernel : set_kernel)[group->rows]((const REAL *)group->weight, group->inputs,
+                                                 in + group->from * in_step, in_step, width, out, out_step);
+}
+
+static void apply(const struct row_table *table, const REAL *in, size_t width, size_t step, bool add,
+                  REAL *out)
+{
+    for (size_t g = 0; g < table->groups; g++)
+        apply_group(&table->group[g], in, step, width, add, out + table->group[g].to * step, step);
+}
+
+/* out += matrix along f of the rows of the slab, by way of `padded`, whose rows have zeros between them. */
+static void apply_along(const struct fast_slab *s, const void *matrix, const REAL *in, REAL *padded,
+                        REAL *out)
+{
+    const size_t step = s->width + FAST_PAD;
+    for (size_t r = 0; r < s->ns; r++) {
+        memcpy(padded + r * step + FAST_PAD, in + r * s->width, s->width * sizeof *in);
+        memset(padded + r * step, 0, FAST_PAD * sizeof *in);
+    }
+    memset(padded + s->ns * step, 0, FAST_PAD * sizeof *in);
+    for (size_t r = 0; r < s->ns; r += FAST_ROWS) {
+        const size_t rows = s->ns - r < FAST_ROWS ? s->ns - r : FAST_ROWS;
+        along_kernels[rows]((const REAL *)matrix, s->taps_f, padded + r * step + FAST_PAD, step, s->width,
+                            out + r * s->width);
+    }
+}
+
+/* Moves a memory variable on in row b of a slab. */
+static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL *memory, REAL *middle)
+{
+    for (size_t r = 0; r < s->ns; r++) {
+        const double q = s->damping[r] * dt / 2, kept = 1 / (1 + q + s->slab->relaxation * dt / 2);
+        const size_t at = r * s->width;
+        NAME(pml_move)
+        (s->width, (REAL)q, (REAL)kept, g + at, memory + at, middle == NULL ? NULL : middle + at);
+    }
+}
+
+/* Up to here displacements, velocities, slopes and accelerations move nothing. */
+struct level {
+    REAL displacement, velocity, slope, force;
+};
+
+/* (Displacements in the middle of a step are u + to_middle v, and v reaches farther than u.) */
+static struct level levels(const struct consistent *c, double displacement, double to_middle)
+{
+    const double spacing = c->model.scene->body.spacing;
+    const double stiffness = c->property[WEIGHT_P] / c->property[WEIGHT_DENSITY];
+    if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1, -1};
+    return (struct level){(REAL)displacement, (REAL)(displacement / fabs(to_middle)),
+                          (REAL)(displacement / spacing),
+                          (REAL)(displacement * stiffness / (spacing * spacing))};
+}
+
+/* Memory of row b: is any of it larger than the level? */
+static bool memory_loud(const struct fast_slab *s, struct level level, size_t b, const REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const REAL *psi = extra + s->slab->psi + b * size, *phi = extra + s->slab->phi + b * size;
+    return NAME(pml_loud)(3, inner, size, level.slope, psi) ||
+           NAME(pml_loud)(3, inner, size, level.force, phi);
+}
+
+/* Is any number larger than the level that row b reads of a field? */
+static bool field_loud(const struct consistent *c, const struct fast_slab *s, REAL level, size_t b,
+                       const REAL *field)
+{
+    const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
+    for (size_t i = 0; i < 3; i++) {
+        const REAL *from = field + i * c->volume + s->first + b * s->step[ROLE_B];
+        if (across ? NAME(pml_loud)(s->nf, s->step[ROLE_F], s->region, level, from)
+                   : NAME(pml_loud)(s->region, s->step[ROLE_S], s->nf, level, from))
+            return true;
+    }
+    return false;
+}
+
+/* Is the row at rest: displacements and velocities that it reads, and memory? Then it forgets what is left of
+ * that. */
+static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
+                  const REAL *u, const REAL *v, REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    if (level.displacement < 0 || field_loud(c, s, level.displacement, b, u) ||
+        field_loud(c, s, level.velocity, b, v))
+        return false;
+    if (memory_loud(s, level, b, extra)) return false;
+    for (size_t i = 0; i < 3; i++) {
+        memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
+        memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
+        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
+    }
+    memset((REAL *)s->change_b + b * size, 0, size * sizeof *extra);
+    memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
+    return true;
+}
+
+/* Do all rows rest that a group of rows is made from? */
+static bool group_rests(const struct fast_slab *s, size_t g)
+{
+    const struct row_group *group = &s->over_b.group[g];
+    const size_t reach = s->taps_f / 2, end = group->to + group->rows + reach;
+    for (size_t b = group->to < reach ? 0 : group->to - reach; b < end && b < s->nb; b++)
+        if (!s->rests[b]) return false;
+    return true;
+}
+
+/* L1 and L2 in row b. */
+static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, double to_middle,
+                         size_t b, const REAL *u, const REAL *v, REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const int j = s->axis[ROLE_S];
+    REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *wait_j = (REAL *)s->wait[j] + b * size;
+    REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
+    for (int k = 0; k < 3; k++) {
+        const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
+        const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
+        REAL *middle = i == j ? (REAL *)s->middle + b * size : m, *wait = (REAL *)s->wait[i] + b * size;
+        NAME(pml_load)
+        (u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
+         region);
+        apply(&s->gradient[i], region, s->width, s->width, false, g);
+        move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
+        apply(&s->second[i], region, s->width, s->width, false, wait);
+        apply(&s->slope[i], middle, s->width, s->width, true, wait);
+        if (i == s->axis[ROLE_B])
+            apply(&s->change[ROLE_B], region, s->width, s->width, false, (REAL *)s->change_b + b * size);
+        if (i != s->axis[ROLE_F]) continue;
+        apply(&s->change[ROLE_F], region, s->width, s->width, false, g);
+        apply_along(s, s->along_f, g, padded, wait_j);
+    }
+}
+
+/* The part of a range of numbers n from `at` on that a block has along an axis. */
+static struct range {
+    size_t from, end;
+} overlap(const struct block *block, int axis, size_t at, size_t n)
+{
+    const size_t end = block->at[axis] + block->n[axis];
+    struct range range = {block->at[axis] > at ? block->at[axis] : at, end < at + n ? end : at + n};
+    if (range.end < range.from) range.end = range.from;
+    return range;
+}
+
+/* Where rows of a slab meet another one. */
+struct meeting {
+    size_t first, width; /* numbers along f, in whole vectors */
+};
+
+/* Takes m_kk of another slab in row b into rows of the region; false: they do not meet. */
+static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other, size_t b, REAL *rows,
+                        struct meeting *meeting)
+{
+    const struct block *inside = &other->inside;
+    const struct range across = overlap(inside, s->axis[ROLE_S], s->start, s->region);
+    const struct range row = overlap(inside, s->axis[ROLE_B], b, 1);
+    const struct range along = overlap(inside, s->axis[ROLE_F], 0, s->nf);
+    size_t step[3]; /* in the other's memory, by axis */
+    if (across.from == across.end || row.from == row.end || along.from == along.end) return false;
+    step[other->axis[ROLE_S]] = other->width;
+    step[other->axis[ROLE_B]] = other->ns * other->width;
+    step[other->axis[ROLE_F]] = 1;
+    const size_t first = along.from / LANE_COUNT * LANE_COUNT;
+    const size_t width = (along.end - first + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
+    const size_t step_s = step[s->axis[ROLE_S]], step_f = step[s->axis[ROLE_F]];
+    const REAL *from = (const REAL *)other->middle + (across.from - inside->at[s->axis[ROLE_S]]) * step_s +
+                       (b - inside->at[s->axis[ROLE_B]]) * step[s->axis[ROLE_B]] +
+                       (along.from - inside->at[s->axis[ROLE_F]]) * step_f;
+    memset(rows, 0, s->region * width * sizeof *rows);
+    for (size_t r = 0; r < across.end - across.from; r++)
+        for (size_t i = 0; i < along.end - along.from; i++)
+            rows[(across.from - s->start + r) * width + along.from - first + i] =
+                from[r * step_s + i * step_f];
+    *meeting = (struct meeting){first, width};
+    return true;
+}
+
+/* Adds C2_j m_kk in row b to T_j, k the axis of the role given: slabs across it that meet this one's region.
+ * Nothing above the level: nothing is added, and false; sum NULL: it is only looked whether something is. */
+static bool add_divergence(const struct consistent *c, const struct fast_slab *s, enum role role, REAL level,
+                           size_t b, REAL *rows, REAL *sum)
+{
+    bool added = false;
+    struct meeting meeting;
+    for (size_t o = 0; o < c->pml->slabs; o++) {
+        const struct fast_slab *other = &FAST(c)->slab[o];
+        if (other->axis[ROLE_S] != s->axis[role] || !take_slopes(s, other, b, rows, &meeting)) continue;
+        if (!NAME(pml_loud)(1, 0, s->region * meeting.width, level, rows)) continue;
+        added = true;
+        for (size_t g = 0; sum != NULL && g < s->divergence.groups; g++) {
+            const struct row_group *group = &s->divergence.group[g];
+            apply_group(group, rows, meeting.width, meeting.width, true,
+                        sum + group->to * s->width + meeting.first, s->width);
+        }
+    }
+    return added;
+}
+
+/* Product over b with all of the slab's rows, a group of the result; no table: the rows as they are. */
+static const REAL *over_rows(const struct fast_slab *s, const struct row_table *table, size_t g,
+                             const REAL *in, REAL *out)
+{
+    const size_t size = s->ns * s->width;
+    if (table->groups == 0) return in + s->over_b.group[g].to * size;
+    apply_group(&table->group[g], in, size, size, false, out, size);
+    return out;
+}
+
+/* Is there nothing that moves phi in a group of rows? */
+static bool nothing_moves(const struct consistent *c, const struct fast_slab *s, struct level level, size_t g)
+{
+    const struct row_group *group = &s->over_b.group[g];
+    REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
+    if (!group_rests(s, g)) return false;
+    for (size_t b = group->to; b < group->to + group->rows; b++)
+        if (add_divergence(c, s, ROLE_B, level.slope, b, rows, NULL)) return false;
+    return true;
+}
+
+/* L3 in a group of rows. */
+static void force_rows(const struct consistent *c, const struct fast_slab *s, double dt, size_t g,
+                       REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const struct row_group *group = &s->over_b.group[g];
+    REAL *sum = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *rows = sum + FAST_GROUP * size;
+    const int j = s->axis[ROLE_S];
+    for (int i = 0; i < 3; i++) {
+        const REAL *force = over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
+        if (i == j) {
+            if (force != sum) memcpy(sum, force, group->rows * size * sizeof *sum);
+            apply_group(group, (const REAL *)s->change_b, size, size, true, sum, size);
+            force = sum;
+        }
+        for (size_t r = 0; r < group->rows; r++) {
+            const size_t b = group->to + r;
+            if (i == j) add_divergence(c, s, ROLE_B, -1, b, rows, sum + r * size);
+            move_rows(s, dt, force + r * size, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
+        }
+    }
+}
+
+/* L3. */
+static void move_forces(const struct consistent *c, const struct fast_slab *s, struct level level, double dt,
+                        REAL *extra)
+{
+    const size_t size = s->ns * s->width;
+    unsigned long skipped = 0;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t b = 0; b < s->nb; b++) {
+        REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
+        REAL *sum = (REAL *)s->wait[s->axis[ROLE_S]] + b * size;
+        if (add_divergence(c, s, ROLE_F, s->rests[b] ? level.slope : -1, b, rows, sum)) s->rests[b] = false;
+    }
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
+    for (size_t g = 0; g < s->over_b.groups; g++)
+        if (nothing_moves(c, s, level, g))
+            skipped++;
+        else
+            force_rows(c, s, dt, g, extra);
+    FAST(c)->groups += s->over_b.groups;
+    FAST(c)->skipped += skipped;
+}
+
+double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
+{
+    double largest = 0;
+    if (!(c->options.quiet > 0)) return 0;
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        for (size_t i = 0; i < 3; i++)
+            largest = fmax(largest, (double)NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
+    return c->options.quiet * largest;
+}
+
+void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, double quiet,
+                             const REAL *u, const REAL *v, REAL *extra)
+{
+    const struct level level = levels(c, quiet, to_middle);
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &FAST(c)->slab[i];
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t b = 0; b < s->nb; b++) {
+            s->rests[b] = rests(c, s, level, b, u, v, extra);
+            if (!s->rests[b]) gradient_row(c, s, dt, to_middle, b, u, v, extra);
+        }
+    }
+    for (size_t i = 0; i < c->pml->slabs; i++)
+        move_forces(c, &FAST(c)->slab[i], level, dt, extra);
+}
+
+/* L4 in a group of rows. */
+static void pull_rows(const struct consistent *c, const struct fast_slab *s, double factor, size_t g,
+                      const REAL *extra, REAL *a)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const struct row_group *group = &s->over_b.group[g];
+    const REAL *psi = extra + s->slab->psi, *phi = extra + s->slab->phi, *psi_b[3];
+    const int j = s->axis[ROLE_S];
+    REAL *buffer = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
+    REAL *over = buffer + 3 * FAST_GROUP * size, *out = over + FAST_GROUP * size;
+    REAL *inside = out + s->offset * s->width, *padded = out + s->region * s->width;
+    for (int i = 0; i < 3; i++)
+        psi_b[i] =
+            over_rows(s, &s->bare[i], g, psi + (size_t)i * inner, buffer + (size_t)i * FAST_GROUP * size);
+    over_rows(s, &s->pull_b, g, psi + (size_t)j * inner, over);
+    for (size_t r = 0; r < group->rows; r++)
+        for (int i = 0; i < 3; i++) {
+            const size_t b = group->to + r;
+            apply(&s->pull[i], psi_b[i] + r * size, s->width, s->width, false, out);
+            NAME(pml_sum)(size, phi + (size_t)i * inner + b * size, inside);
+            if (i == s->axis[ROLE_B]) NAME(pml_sum)(size, over + r * size, inside);
+            if (i == s->axis[ROLE_F]) apply_along(s, s->pull_f, psi_b[j] + r * size, padded, inside);
+            NAME(pml_store)
+            (out, (REAL)factor, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
+             a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B]);
+        }
+}
+
+void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const REAL *extra, REAL *a)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &FAST(c)->slab[i];
+#pragma omp parallel num_threads(c->threads)
+        {
+#pragma omp for schedule(static)
+            for (size_t b = 0; b < s->nb; b++)
+                s->rests[b] = c->options.quiet > 0 && !memory_loud(s, (struct level){0}, b, extra);
+#pragma omp for schedule(static)
+            for (size_t g = 0; g < s->over_b.groups; g++)
+                if (!group_rests(s, g)) pull_rows(c, s, factor, g, extra, a);
+        }
+    }
+}
+
+void NAME(pml_fast_reached)(const struct consistent *c, struct window *reached)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &FAST(c)->slab[i];
+        const int across = s->axis[ROLE_S];
+        struct window window = {.end = {c->n[0], c->n[1]}};
+        if (across != DEPTH) window.from[across] = s->start;
+        if (across != DEPTH) window.end[across] = s->start + s->region;
+        for (size_t g = 0; g < s->over_b.groups; g++) {
+            if (group_rests(s, g)) continue;
+            const size_t from = s->over_b.group[g].to, end = from + s->over_b.group[g].rows;
+            if (across == DEPTH) window.from[1] = from;
+            if (across == DEPTH) window.end[1] = end;
+            const size_t first = across == DEPTH ? s->start : from;
+            const size_t last = across == DEPTH ? s->start + s->region : end;
+            for (size_t k = first; k < last; k++)
+                reached[k] = window_join(&reached[k], &window);
+        }
+    }
+}

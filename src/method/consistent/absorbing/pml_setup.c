@@ -1,0 +1,166 @@
+/* Building the absorbing layers: slabs, damping profiles, matrices (doc/absorbing-faces.md, sections 2 and
+ * 3). The matrices of the axis across the face are cut to the slab's region; nothing outside is touched. */
+#include "method/consistent/absorbing/pml_fast.h"
+#include "method/consistent/absorbing/pml_terms.h"
+
+#include "base/memory.h"
+#include "scene/absorbing_layers.h"
+
+#include <math.h>
+/* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
+static const double layer_relaxation = .1;
+
+/* Waves along a layered face whose phase and group velocities are opposite would grow in the layer: plates,
+ * that is an axis along which neither end lets waves out (between two symmetry planes or rollers all waves
+ * are plane ones), and ground that varies over depth. There velocities are damped at the rate share * d(x) *
+ * (d(x) / largest d)^2 (Eq 11; shares by measurement). */
+static double drag_share(const struct consistent *c)
+{
+    static const double plate = .3, ground = .1;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        int mirrors = 0, ways_out = 0;
+        for (int end = 0; end < 2; end++) {
+            const enum boundary_kind kind = c->model.scene->boundary[2 * axis + end].kind;
+            mirrors += kind == BOUNDARY_SYMMETRY || kind == BOUNDARY_ROLLER;
+            ways_out += kind == BOUNDARY_TRANSMITTING;
+        }
+        if (ways_out == 0 && mirrors < 2) return plate;
+    }
+    return c->weighted[WEIGHT_DENSITY] != NULL ? ground : 0;
+}
+
+static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count, double most)
+{
+    const double share = c->pml->drag = drag_share(c);
+    if (share == 0) return true;
+    slab->drag = array_new(count, sizeof *slab->drag);
+    slab->kept = array_new(count, sizeof *slab->kept);
+    if (slab->drag == NULL || slab->kept == NULL) return false;
+    for (size_t i = 0; i < count; i++)
+        slab->drag[i] = share * slab->damping[i] * pow(slab->damping[i] / most, 2);
+    return true;
+}
+
+/* d(x) = (p + 1) c_p ln(1/R) / (2 L) * (distance / L)^p: then the integral of d over the layer's thickness L,
+ * there and back, takes the amplitude down to R at normal incidence (Eq 10). */
+static bool lay_damping(struct consistent *c, struct slab *slab)
+{
+    const struct body *body = &c->model.scene->body;
+    const struct spline *spline = c->spline[slab->axis];
+    const int slot = c->slot[slab->axis], face = 2 * slab->axis + slab->end;
+    const double edge = slab->end == 0 ? body->low[slab->axis] : body->high[slab->axis];
+    const double thickness = slab->end == 0 ? edge - spline->low : spline->high - edge;
+    const double reflection = layer_profile_reflection(c->layer[face]);
+    const double fastest = consistent_fastest(c, face);
+    const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness);
+    slab->relaxation = layer_relaxation * fastest / thickness;
+    size_t count = 0, first = 0;
+    for (size_t i = 0; i < spline->count; i++) {
+        const double beyond = slab->end == 0 ? edge - spline->greville[i] : spline->greville[i] - edge;
+        if (beyond <= 1e-9 * thickness) continue;
+        if (count++ == 0) first = i;
+    }
+    slab->damping = array_new(count, sizeof *slab->damping);
+    if (slab->damping == NULL) return false;
+    for (size_t i = 0; i < count; i++)
+        slab->damping[i] = most * pow(fabs(spline->greville[first + i] - edge) / thickness, LAYER_POWER);
+    slab->inside = (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
+    slab->inside.at[slot] = first;
+    slab->inside.n[slot] = count;
+    return lay_drag(c, slab, count, most);
+}
+
+/* The region: the slab and as much before it as the widest matrix reaches. */
+static void lay_region(const struct consistent *c, struct slab *slab)
+{
+    const int slot = c->slot[slab->axis];
+    const size_t reach = c->hform->inverse[slab->axis][slab->axis]->half + (size_t)c->options.degree;
+    const size_t room = c->n[slot] - slab->inside.n[slot], wider = reach < room ? reach : room;
+    slab->region = slab->inside;
+    slab->region.n[slot] += wider;
+    if (slab->end == 1) slab->region.at[slot] -= wider;
+    slab->inner = slab->inside.n[0] * slab->inside.n[1] * slab->inside.n[2];
+    slab->volume = slab->region.n[0] * slab->region.n[1] * slab->region.n[2];
+}
+
+static struct tensor_plan *plan(struct terms t)
+{
+    if (!t.good) return NULL;
+    struct tensor_plan *made =
+        tensor_plan_new(t.slab->region.n, t.c->dimension, t.term, t.count, t.c->threads);
+    if (made != NULL) t.c->pml->bytes += tensor_plan_bytes(made);
+    return made;
+}
+
+/* Memory and plans of a slab whose passes are not shared. */
+static bool lay_plans(struct consistent *c, struct slab *slab)
+{
+    const size_t dimension = (size_t)c->dimension;
+    slab->middle = array_new(dimension * slab->inner, sizeof *slab->middle);
+    c->pml->bytes += dimension * slab->inner * sizeof *slab->middle;
+    slab->gradient = plan(terms_gradient(c, slab));
+    slab->outer = plan(terms_outer(c, slab));
+    slab->pull = plan(terms_pull(c, slab));
+    return slab->middle != NULL && slab->gradient != NULL && slab->outer != NULL && slab->pull != NULL;
+}
+
+/* Slabs whose passes are worked on one by one, region after region. */
+static bool lay_regions(struct consistent *c)
+{
+    const size_t dimension = (size_t)c->dimension;
+    size_t largest = 0;
+    bool good = true;
+    for (size_t s = 0; good && s < c->pml->slabs; s++) {
+        good = lay_plans(c, &c->pml->slab[s]);
+        largest = c->pml->slab[s].volume > largest ? c->pml->slab[s].volume : largest;
+    }
+    c->pml->in = array_new(3 * dimension * largest, sizeof(double));
+    c->pml->out = array_new(dimension * largest, sizeof(double));
+    c->pml->bytes += 4 * dimension * largest * sizeof(double);
+    return good && c->pml->in != NULL && c->pml->out != NULL;
+}
+
+selas_status pml_create(struct consistent *c, struct messages *messages)
+{
+    bool good = true;
+    c->pml = array_new(1, sizeof *c->pml);
+    if (c->pml == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
+    for (int face = 0; good && face < 2 * c->dimension; face++) {
+        if (c->layer[face] == 0) continue;
+        struct slab *slab = &c->pml->slab[c->pml->slabs++];
+        slab->axis = face / 2;
+        slab->end = face % 2;
+        good = lay_damping(c, slab);
+        if (good) lay_region(c, slab);
+    }
+    good = good && pml_fast_create(c) && (c->pml->fast != NULL || lay_regions(c));
+    if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        struct slab *slab = &c->pml->slab[s];
+        slab->psi = c->pml->extra;
+        slab->phi = slab->psi + (size_t)c->dimension * slab->inner;
+        c->pml->extra += 2 * (size_t)c->dimension * slab->inner;
+    }
+    return SELAS_OK;
+}
+
+void pml_free(struct consistent *c)
+{
+    if (c->pml == NULL) return;
+    pml_fast_free(c);
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        struct slab *slab = &c->pml->slab[s];
+        tensor_plan_free(slab->gradient);
+        tensor_plan_free(slab->outer);
+        tensor_plan_free(slab->pull);
+        for (size_t i = 0; i < slab->bands; i++)
+            band_free(slab->band[i]);
+        array_free(slab->damping);
+        array_free(slab->drag);
+        array_free(slab->kept);
+        array_free(slab->middle);
+    }
+    array_free(c->pml->in);
+    array_free(c->pml->out);
+    array_free(c->pml);
+}

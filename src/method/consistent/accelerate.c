@@ -1,0 +1,107 @@
+/* The H-form (hform.c makes it): acceleration, M v and energies. */
+#include "base/sums.h"
+#include "method/consistent/absorbing/pml.h"
+#include "method/consistent/consistent.h"
+#include "method/consistent/fused/fused.h"
+#include "method/consistent/galerkin/hform.h"
+#include "method/consistent/galerkin/moving_load.h"
+
+#include <omp.h>
+#include <string.h>
+
+/* Planes that are made together. */
+static size_t block_of(const struct consistent *c)
+{
+    return c->fused != NULL ? FUSED_PLANES : 1;
+}
+
+/* The operator alone, without edges, in a block of planes. */
+static void operator_block(const struct consistent *c, int thread, size_t k, const double *u, double *a)
+{
+    double *out[3] = {NULL, NULL, NULL};
+    if (c->fused != NULL) {
+        const struct fused_fields fields = {.u = u, .a = a};
+        fused_planes_double(c->fused, thread, k, &fields);
+        return;
+    }
+    for (int component = 0; component < c->dimension; component++) {
+        out[component] = a + (size_t)component * c->volume + k * c->plane;
+        memset(out[component], 0, c->plane * sizeof *a);
+    }
+    tensor_plane(c->hform->acceleration, thread, k, 1, u, out);
+}
+
+/* What is added to the operator in plane k. */
+static void rest_of_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
+                          const double *u, const double *v, double *a)
+{
+    const struct hform *h = c->hform;
+    double *out[3] = {NULL, NULL, NULL};
+    for (int component = 0; component < c->dimension; component++)
+        out[component] = a + (size_t)component * c->volume + k * c->plane;
+    hform_edges_double(c, k, 1, u, out);
+    if (h->dissipation != NULL && v != NULL) tensor_plane(h->dissipation, thread, k, 1, v, out);
+    for (int component = 0; component < c->dimension; component++) {
+        add_forces(c, drive, h->load, h->pulled, component, k, out[component]);
+        moving_loads_add(c, drive, component, k, out[component]);
+        consistent_clear_held(c, component, k, out[component]);
+    }
+}
+
+void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
+                      const double *v, double *a)
+{
+    const size_t block = block_of(c);
+    if (c->fused != NULL) fused_look_double(c->fused, u);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t from = 0; from < c->n[DEPTH]; from += block) {
+        const int thread = omp_get_thread_num();
+        operator_block(c, thread, from, u, a);
+        for (size_t k = from; k < from + block && k < c->n[DEPTH]; k++)
+            rest_of_plane(c, drive, thread, k, u, v, a);
+    }
+    if (drive->extra != NULL) {
+        pml_accelerate(c, 1, drive->extra, a);
+        for (int component = 0; component < c->dimension; component++)
+            for (size_t k = 0; k < c->n[DEPTH]; k++)
+                consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
+    }
+    if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
+}
+
+static bool all_zero(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (x[i] != 0) return false;
+    return true;
+}
+
+/* M v, M = rho H (x) H (x) H: mass_solve() with the factors of N gives H (x) H (x) H over the density. */
+void hform_weigh(struct consistent *c, const double *v, double *product)
+{
+    const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    const size_t n = c->model.unknowns;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < n; i++)
+        product[i] = density * density * v[i];
+    mass_solve(c, &c->hform->factors, product);
+}
+
+/* v.Mv / 2, and u.Ku / 2 = -u.M(-M^-1 K u) / 2. */
+void hform_energy(struct consistent *c, const double *y, struct energy *energy)
+{
+    const size_t n = c->model.unknowns;
+    const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    const double scale = density * density;
+    double *work = c->hform->work;
+    *energy = (struct energy){0};
+    if (!all_zero(n, y + n)) {
+        hform_weigh(c, y + n, work);
+        energy->kinetic = sum_of_products(n, work, y + n, c->threads) / 2;
+    }
+    if (!all_zero(n, y)) {
+        hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
+        mass_solve(c, &c->hform->factors, work);
+        energy->strain = -scale * sum_of_products(n, work, y, c->threads) / 2;
+    }
+}

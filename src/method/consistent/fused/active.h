@@ -1,0 +1,162 @@
+/* Which part of its planes the fused operator works on (fused.h), for numbers of type REAL; included by
+ * fused_double.c and fused_single.c.
+ *
+ * Where displacements are below a level they move nothing. The largest of each column and of each strip of
+ * rows of a plane are taken while it is in the cache; the window of a block of planes is the smallest that
+ * holds all columns and strips above the level, of these planes and those within reach, and what they reach
+ * along x and y. */
+#include "method/consistent/fused/fused.h"
+
+#include <math.h>
+#include <string.h>
+
+static REAL *columns_of(const struct fused *f, size_t k)
+{
+    return (REAL *)f->column + k * f->n[0];
+}
+
+static REAL *strips_of(const struct fused *f, size_t k)
+{
+    return (REAL *)f->strip + k * f->strips;
+}
+
+static void forget_sizes(const struct fused *f, size_t k)
+{
+    f->size[k] = 0;
+    memset(columns_of(f, k), 0, f->n[0] * sizeof(REAL));
+    memset(strips_of(f, k), 0, f->strips * sizeof(REAL));
+}
+
+/* Numbers of plane k of a field or, with `w`, of u += dt w: a window of it. */
+static void take_sizes(const struct fused *f, size_t k, const struct window *window, REAL dt, const REAL *w,
+                       REAL *u)
+{
+    const size_t n = window->end[0] - window->from[0];
+    REAL *column = columns_of(f, k) + window->from[0], *strip = strips_of(f, k);
+    if (window_points(window) == 0) return;
+    for (size_t j = window->from[1]; j < window->end[1];) {
+        const size_t s = j / FUSED_STRIP, end = (s + 1) * FUSED_STRIP;
+        const size_t rows = (end < window->end[1] ? end : window->end[1]) - j;
+        for (size_t component = 0; component < 3; component++) {
+            const size_t at = component * f->volume + k * f->plane + j * f->n[0] + window->from[0];
+            const REAL size = w == NULL ? NAME(fused_measure)(n, rows, f->n[0], u + at, column)
+                                        : NAME(fused_drift)(n, rows, f->n[0], dt, w + at, u + at, column);
+            if (size > strip[s]) strip[s] = size;
+        }
+        if (strip[s] > f->size[k]) f->size[k] = strip[s];
+        j += rows;
+    }
+}
+
+/* u += dt w in a window of plane k, as far as waves have reached. */
+static void bring_on(const struct fused *f, const struct fused_fields *fields, size_t k,
+                     const struct window *window)
+{
+    const struct window both = window_meet(window, &f->reached[k]);
+    take_sizes(f, k, &both, (REAL)fields->dt, fields->a, fields->moved);
+}
+
+static void bring_planes(const struct fused *f, const struct fused_fields *fields, size_t from, size_t end)
+{
+    const struct window whole = fused_whole(f);
+    for (size_t k = from; k < end; k++)
+        bring_on(f, fields, k, &whole);
+}
+
+/* from .. end grow to hold all numbers above the level. */
+static void widen(size_t n, const REAL *size, REAL level, size_t *from, size_t *end)
+{
+    size_t first = 0, last = n;
+    while (first < *from && !(size[first] > level))
+        first++;
+    while (last > *end && !(size[last - 1] > level))
+        last--;
+    *from = first;
+    *end = last;
+}
+
+/* Columns and strips above the level in planes from .. end - 1. */
+struct loud {
+    size_t column[2], strip[2];
+};
+
+static void widen_loud(const struct fused *f, double level, size_t from, size_t end, struct loud *loud)
+{
+    for (size_t k = from; k < end && k < f->n[2]; k++) {
+        if (!(f->size[k] > level)) continue;
+        widen(f->n[0], columns_of(f, k), (REAL)level, &loud->column[0], &loud->column[1]);
+        widen(f->strips, strips_of(f, k), (REAL)level, &loud->strip[0], &loud->strip[1]);
+    }
+}
+
+static struct loud nothing_loud(const struct fused *f)
+{
+    return (struct loud){{f->n[0], 0}, {f->strips, 0}};
+}
+
+static size_t less(size_t a, size_t b)
+{
+    return a > b ? a - b : 0;
+}
+
+/* What is reached from there, in whole vectors and strips. */
+static struct window window_of(const struct fused *f, const struct loud *loud)
+{
+    const size_t reach = (size_t)f->deep / 2;
+    struct window w = {{0, 0}, {0, 0}};
+    if (f->quiet <= 0) return fused_whole(f);
+    if (loud->column[0] >= loud->column[1] || loud->strip[0] >= loud->strip[1]) return w;
+    const size_t end[2] = {loud->column[1] + reach, loud->strip[1] * FUSED_STRIP + reach};
+    w.from[0] = less(loud->column[0], reach) / LANE_COUNT * LANE_COUNT;
+    w.from[1] = less(loud->strip[0] * FUSED_STRIP, reach) / FUSED_STRIP * FUSED_STRIP;
+    w.end[0] = (end[0] + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
+    w.end[1] = (end[1] + FUSED_STRIP - 1) / FUSED_STRIP * FUSED_STRIP;
+    for (int axis = 0; axis < 2; axis++)
+        if (w.end[axis] > f->n[axis]) w.end[axis] = f->n[axis];
+    return w;
+}
+
+/* The largest displacement, those of all planes being taken (0 where quiet is 0). */
+static double all_sizes(const struct fused *f, const REAL *u)
+{
+    const struct window whole = fused_whole(f);
+    double largest = 0;
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < f->n[2]; k++) {
+        forget_sizes(f, k);
+        if (f->quiet > 0) take_sizes(f, k, &whole, 0, NULL, (REAL *)u);
+    }
+    for (size_t k = 0; k < f->n[2]; k++)
+        largest = fmax(largest, f->size[k]);
+    return largest;
+}
+
+void NAME(fused_look)(struct fused *f, const REAL *u)
+{
+    const double level = f->quiet * all_sizes(f, u);
+    const size_t reach = (size_t)f->deep / 2;
+    for (size_t first = 0; first < f->n[2]; first += FUSED_PLANES) {
+        struct loud loud = nothing_loud(f);
+        widen_loud(f, level, less(first, reach), first + FUSED_PLANES + reach, &loud);
+        f->computed[first / FUSED_PLANES] = window_of(f, &loud);
+    }
+    fused_count(f);
+}
+
+/* Where u or w is not 0 in each plane. */
+static void find_reached(struct fused *f, const REAL *u, const REAL *w)
+{
+    const struct window whole = fused_whole(f);
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < f->n[2]; k++) {
+        struct loud loud = nothing_loud(f);
+        forget_sizes(f, k);
+        take_sizes(f, k, &whole, 0, NULL, (REAL *)u);
+        take_sizes(f, k, &whole, 0, NULL, (REAL *)w);
+        widen_loud(f, 0, k, k + 1, &loud);
+        f->reached[k] = (struct window){{loud.column[0], loud.strip[0] * FUSED_STRIP},
+                                        {loud.column[1], loud.strip[1] * FUSED_STRIP}};
+        if (f->reached[k].end[1] > f->n[1]) f->reached[k].end[1] = f->n[1];
+    }
+    f->known = true;
+}

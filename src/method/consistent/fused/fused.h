@@ -1,0 +1,153 @@
+/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/performance.md).
+ *
+ * With b = B_z u (N M over depth, or the identity), each line one pass over rows that stay in the cache,
+ *
+ *   a_x = A_z u_x + N_x [p S_x b_x + q G_x (N_y G_y b_y + C_z u_z)] + N_y m S_y b_x
+ *   a_y = A_z u_y + N_y [p S_y b_y + q G_y (N_x G_x b_x + C_z u_z)] + N_x m S_x b_y (F1) a_z = A_z u_z + N_x
+ * [m S_x b_z + G_x q C_z u_x] + N_y [m S_y b_z + G_y q C_z u_y]
+ *
+ * p = -(lambda + 2 mu) / rho, m = -mu / rho, q = (lambda + mu) / rho, G with its share of the boundary terms
+ * (Eq 17 of the manual). Edges, loads, dampers and layers are added by others. */
+#ifndef SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
+#define SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
+
+#include "method/consistent/galerkin/galerkin.h"
+#include "method/consistent/galerkin/window.h"
+
+/* Planes that are made together; rows that passes over y take together; rows of a strip, not less than passes
+ * over y reach; bytes of a vector; room for taps and the planes or rows made together. */
+enum { FUSED_PLANES = 4, FUSED_ROWS = 4, FUSED_STRIP = 8, FUSED_VECTOR = 64, FUSED_MOST_TAPS = 24 };
+
+/* Rows in the ring of a plane: inputs along the plane, what is summed, and what waits for its pass over y. */
+enum fused_row {
+    ROW_BX,
+    ROW_BY,
+    ROW_BZ,
+    ROW_CX,
+    ROW_CY,
+    ROW_CZ,
+    ROW_AX,
+    ROW_AY,
+    ROW_AZ,
+    ROW_G,
+    ROW_T1,
+    ROW_T2,
+    ROW_T3,
+    ROW_T4,
+    FUSED_FIELDS
+};
+
+/* Matrices along x and y, and over depth by the component they are applied to. */
+enum fused_side {
+    SIDE_N_EVEN,
+    SIDE_N_ODD,
+    SIDE_S_EVEN,
+    SIDE_S_ODD,
+    SIDE_G_FIRST,
+    SIDE_G_SECOND,
+    SIDE_MATRICES
+};
+enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_MATRICES };
+
+/* Entries of u that someone looks at after every step, in all components. */
+struct fused_watch {
+    size_t count, room, *entry;
+    bool sorted;
+    double *before;
+};
+
+struct fused {
+    size_t n[3], plane, volume;
+    size_t width, stride;                               /* numbers in a row, from row to row */
+    size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
+    int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
+    bool bare;                                          /* B is the identity */
+    size_t late[2];         /* rows that narrow and wide passes over y lag behind */
+    void *x[SIDE_MATRICES]; /* [width / vector][taps][vector] */
+    void *y[SIDE_MATRICES]; /* [rows * taps] */
+    bool *plain;            /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
+    void *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
+    double quiet;   /* where displacements are all below this times the largest they do not move others */
+    double *size;   /* [n[2]] largest displacement in each plane, ... */
+    void *column;   /* ... [n[2] * n[0]] in each of its columns, ... */
+    void *strip;    /* ... [n[2] * strips] in each strip of its rows */
+    size_t strips;  /* of a plane */
+    double largest; /* of them after the last step in one pass ... */
+    size_t loudest; /* ... and its plane */
+    struct window *computed;   /* [blocks of planes] in this call */
+    struct window *reached;    /* [n[2]] outside of it u and w are 0 in steps in one pass, if `known`, ... */
+    struct window *will_reach; /* ... after this step ... */
+    struct window *loaded;     /* ... [n[2]] where loads act */
+    bool known;
+    size_t *bound;            /* [threads + 1] planes where those of a thread begin */
+    size_t points, skipped;   /* of all calls so far */
+    size_t number;            /* bytes of a number in tables and rings */
+    struct fused *single;     /* the same in floats, if the scene's steps are */
+    struct fused_watch watch; /* of both */
+    void *kept;               /* what steps in one pass go on from: the velocity half a step ahead, ... */
+    size_t kept_bytes;        /* ... in single precision u before it and the layers' memory behind it */
+    int threads;
+    void **buffer;    /* [threads] */
+    size_t ring_size; /* numbers in the rings of a plane */
+    size_t bytes;
+};
+
+/* What a block of planes works on: a := (F1), or with `moved` not NULL the step u += dt w, w += dt (F1). */
+struct fused_fields {
+    const void *u;
+    void *a;     /* w in a step */
+    void *moved; /* u again */
+    double dt;
+    size_t bring_on, before; /* planes of u to be brought on on the way */
+};
+
+/* Builds c->fused if the scene is one for it (c->fused stays NULL if not); false: no memory. Needs c->hform.
+ */
+bool fused_create(struct consistent *c);
+void fused_free(struct fused *fused);
+/* (F1) in the window computed[] of the planes first .. first + FUSED_PLANES - 1 (those that are there), first
+ * a multiple of FUSED_PLANES; an acceleration is 0 outside. */
+void fused_planes_double(const struct fused *fused, int thread, size_t first,
+                         const struct fused_fields *fields);
+void fused_planes_single(const struct fused *fused, int thread, size_t first,
+                         const struct fused_fields *fields);
+/* active.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
+void fused_look_double(struct fused *fused, const double *u);
+void fused_look_single(struct fused *fused, const float *u);
+/* All columns and rows. */
+struct window fused_whole(const struct fused *fused);
+/* Counts the points of a call and keeps the largest displacement. */
+void fused_count(struct fused *fused);
+
+/* What steps in one pass work on; extra: the layers' memory variables, NULL without layers. */
+struct step_fields_double {
+    double *u, *w, *extra, *work;
+};
+struct step_fields_single {
+    float *u, *w, *extra, *work;
+};
+
+/* fused_step.h. w := v + dt/2 a from w = v, with entries of a that are watched; `work` has room for a. */
+void fused_begin_double(const struct consistent *c, const struct drive *drive, double dt,
+                        const struct step_fields_double *fields, double *a);
+void fused_begin_single(const struct consistent *c, const struct drive *drive, double dt,
+                        const struct step_fields_single *fields, double *a);
+/* u += dt w, w += dt a at the new u; entries of y and a that are watched. */
+void fused_advance_double(const struct consistent *c, const struct drive *drive, double dt,
+                          const struct step_fields_double *fields, double *y, double *a);
+void fused_advance_single(const struct consistent *c, const struct drive *drive, double dt,
+                          const struct step_fields_single *fields, double *y, double *a);
+/* u and v = w - dt/2 a in y; a if it is not NULL. */
+void fused_settle_double(const struct consistent *c, const struct drive *drive, double dt,
+                         const struct step_fields_double *fields, double *y, double *a);
+void fused_settle_single(const struct consistent *c, const struct drive *drive, double dt,
+                         const struct step_fields_single *fields, double *y, double *a);
+
+/* one_pass.c: if the scene's steps of leapfrog can be made in one pass, takes what that needs and puts it
+ * into the model's class; SELAS_UNSUPPORTED: options.single, but they cannot. Needs model.state_size. */
+selas_status fused_steps_create(struct consistent *c, struct messages *messages);
+/* Keeps v and a (and y, if the state is kept apart) right at these control values, in all components. False:
+ * no memory. */
+bool fused_watch(struct consistent *c, size_t count, const size_t *place);
+
+#endif

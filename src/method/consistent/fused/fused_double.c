@@ -1,0 +1,14 @@
+/* The fused operator and step in double precision: kernels for degree 2 with one to three sweeps. In this
+ * order: each needs those before. */
+#define REAL double
+#define NAME(name) name##_double
+#define FUSED(c) ((c)->fused)
+#include "method/consistent/fused/fused_kernel.h"
+
+#include "method/consistent/fused/active.h"
+
+#include "method/consistent/fused/fused_strips.h"
+
+#include "method/consistent/galerkin/hform_edges.h"
+
+#include "method/consistent/fused/fused_step.h"

@@ -1,0 +1,14 @@
+/* The fused operator and step in single precision: kernels for degree 2 with one to three sweeps. In this
+ * order: each needs those before. */
+#define REAL float
+#define NAME(name) name##_single
+#define FUSED(c) ((c)->fused->single)
+#include "method/consistent/fused/fused_kernel.h"
+
+#include "method/consistent/fused/active.h"
+
+#include "method/consistent/fused/fused_strips.h"
+
+#include "method/consistent/galerkin/hform_edges.h"
+
+#include "method/consistent/fused/fused_step.h"

@@ -1,0 +1,278 @@
+/* A step of leapfrog in one pass over the fields (fused.h), for numbers of type REAL; included by
+ * fused_double.c and fused_single.c.
+ *
+ *   u(n+1) = u(n) + dt w(n+1/2),   w(n+3/2) = w(n+1/2) + dt a(n+1),   a(n+1) = (F1) + edges + loads + layers
+ *
+ * The first runs ahead of (F1) by the planes that it reaches, the second follows it row by row, so that u and
+ * w come from memory once and go there once. A thread has planes of its own; those that its neighbours read
+ * too are brought on first, and all threads wait for that. */
+#include "base/machine.h"
+#include "method/consistent/absorbing/pml_fast.h"
+#include "method/consistent/fused/fused.h"
+#include "method/spline/passes.h"
+
+#include <string.h>
+
+/* What the blocks of a thread share. */
+struct pass {
+    const struct consistent *c;
+    const struct drive *drive;
+    struct fused_fields fields;
+    double level;       /* smaller displacements move nothing */
+    size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
+    int thread;
+};
+
+/* Adds factor times what edges and loads do in plane k. */
+static void add_rest(const struct consistent *c, const struct drive *drive, size_t k, double factor,
+                     const REAL *u, REAL *field)
+{
+    REAL *out[3];
+    for (size_t component = 0; component < 3; component++)
+        out[component] = field + component * c->volume + k * c->plane;
+    NAME(hform_edges)(c, k, factor, u, out);
+    for (size_t l = 0; drive->load != NULL && l < c->model.scene->loads; l++) {
+        const struct sparse *load = &c->hform->load[l];
+        const double amplitude = factor * drive->load[l] * c->model.scene->load[l].amplitude;
+        for (size_t component = 0; amplitude != 0 && component < 3; component++) {
+            const size_t at = component * c->n[DEPTH] + k;
+            for (size_t e = load->start[at]; e < load->start[at + 1]; e++)
+                out[component][load->index[e]] += (REAL)(amplitude * load->value[e]);
+        }
+    }
+}
+
+/* What edges make of u, in plane k. */
+static struct window reached_by_edges(const struct consistent *c, const struct fused *f, size_t k)
+{
+    struct window reached = {{0, 0}, {0, 0}};
+    for (size_t e = 0; e < c->hform->edges; e++) {
+        const struct edge *edge = &c->hform->edge[e];
+        const bool along[2] = {edge->column[0] == NULL, edge->column[1] == NULL};
+        const bool upright = !along[0] && !along[1];
+        const size_t plane = upright ? k : edge->at[2];
+        const size_t half = upright && edge->depth != NULL ? edge->depth->half : 0;
+        if (k < edge->from[2] || k >= edge->to[2]) continue;
+        struct window source = {{0, 0}, {0, 0}};
+        for (size_t p = less(plane, half); p <= plane + half && p < f->n[2]; p++)
+            source = window_join(&source, &f->reached[p]);
+        if (!window_holds(&source, along[0] ? source.from[0] : edge->at[0],
+                          along[1] ? source.from[1] : edge->at[1]))
+            continue;
+        for (int axis = 0; axis < 2; axis++) {
+            if (along[axis]) continue;
+            source.from[axis] = edge->from[axis];
+            source.end[axis] = edge->to[axis];
+        }
+        reached = window_join(&reached, &source);
+    }
+    return reached;
+}
+
+/* What a block reads is brought on before, since its window hangs on that, or, where what neighbours have
+ * brought on shows that it is whole, on the way. */
+static void take_window(struct pass *pass, size_t first)
+{
+    const struct fused *f = FUSED(pass->c);
+    const size_t reach = (size_t)f->deep / 2, high = first + FUSED_PLANES + reach;
+    const size_t upto = high < pass->limit ? high : pass->limit;
+    struct fused_fields *fields = &pass->fields;
+    struct loud loud = nothing_loud(f);
+    fields->bring_on = pass->next;
+    fields->before = upto > pass->next ? upto : pass->next;
+    widen_loud(f, pass->level, less(first, reach), fields->bring_on, &loud);
+    widen_loud(f, pass->level, fields->before, high, &loud);
+    struct window window = window_of(f, &loud);
+    if (window_points(&window) < f->plane) {
+        bring_planes(f, fields, fields->bring_on, fields->before);
+        widen_loud(f, pass->level, fields->bring_on, fields->before, &loud);
+        window = window_of(f, &loud);
+        fields->bring_on = fields->before;
+    }
+    pass->next = fields->before;
+    f->computed[first / FUSED_PLANES] = window;
+}
+
+static void pass_block(struct pass *pass, size_t first)
+{
+    const struct consistent *c = pass->c;
+    const struct fused *f = FUSED(c);
+    const struct fused_fields *fields = &pass->fields;
+    const bool step = fields->moved != NULL;
+    if (step) take_window(pass, first);
+    NAME(fused_planes)(f, pass->thread, first, fields);
+    for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
+        add_rest(c, pass->drive, k, step ? fields->dt : 1, fields->u, fields->a);
+        if (!step) continue;
+        const struct window edges = reached_by_edges(c, f, k);
+        struct window *after = &f->will_reach[k];
+        *after = window_join(&f->reached[k], &f->computed[first / FUSED_PLANES]);
+        *after = window_join(after, &f->loaded[k]);
+        *after = window_join(after, &edges);
+    }
+}
+
+/* What a block cost in the last call: a point that is only brought on an eighth of one that is computed. */
+static size_t cost(const struct fused *f, size_t block)
+{
+    enum { COMPUTED = 8 };
+    const size_t first = block * FUSED_PLANES;
+    size_t sum = 1 + COMPUTED * FUSED_PLANES * window_points(&f->computed[block]);
+    for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
+        sum += window_points(&f->reached[k]);
+    return sum;
+}
+
+/* Where the planes of each thread begin, so that all have about as much to do. What is computed does not
+ * depend on the bounds. */
+static void lay_bounds(const struct fused *f)
+{
+    const size_t blocks = (f->n[2] + FUSED_PLANES - 1) / FUSED_PLANES, threads = (size_t)f->threads;
+    size_t all = 0, done = 0, thread = 1;
+    for (size_t block = 0; block < blocks; block++)
+        all += cost(f, block);
+    f->bound[0] = 0;
+    for (size_t block = 0; block < blocks; block++) {
+        while (thread < threads && done * threads >= all * thread)
+            f->bound[thread++] = block * FUSED_PLANES;
+        done += cost(f, block);
+    }
+    while (thread <= threads)
+        f->bound[thread++] = f->n[2];
+}
+
+/* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. */
+static void pass_thread(const struct consistent *c, const struct drive *drive,
+                        const struct fused_fields *fields, bool bring, double level, int thread, int stage)
+{
+    const struct fused *f = FUSED(c);
+    const size_t reach = (size_t)f->deep / 2, from = f->bound[thread], end = f->bound[thread + 1];
+    const size_t low = !bring || from + reach > end ? end : from + reach;
+    const size_t high = end == f->n[2] ? end : end > low + reach ? end - reach : low;
+    if (stage == 0) {
+        bring_planes(f, fields, from, low);
+        bring_planes(f, fields, high, end);
+        return;
+    }
+    struct pass pass = {c, drive, *fields, level, low, high, thread};
+    for (size_t first = from; first < end; first += FUSED_PLANES)
+        pass_block(&pass, first);
+}
+
+/* All planes; u is brought on too if `bring`. */
+static void pass_over(const struct consistent *c, const struct drive *drive,
+                      const struct fused_fields *fields, bool bring, double level)
+{
+    const struct fused *f = FUSED(c);
+    lay_bounds(f);
+#pragma omp parallel num_threads(f->threads)
+    for (int stage = bring ? 0 : 1; stage < 2; stage++) {
+#pragma omp for schedule(static, 1)
+        for (int thread = 0; thread < f->threads; thread++) {
+            const unsigned before = tiny_as_zero();
+            pass_thread(c, drive, fields, bring, level, thread, stage);
+            tiny_as_before(before);
+        }
+    }
+}
+
+static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
+{
+    REAL largest = 0;
+    for (size_t component = 0; component < 3; component++) {
+        const REAL size = NAME(largest_size)(u + component * f->volume + k * f->plane, f->plane);
+        if (size > largest) largest = size;
+    }
+    return largest;
+}
+
+/* Largest |u| before a step: that kept from the last one if u has it still. */
+static double largest_before(const struct fused *f, const REAL *u)
+{
+    if (f->quiet <= 0) return 0;
+    const double largest = plane_size(f, f->loudest, u);
+    return largest > 0 && largest == f->largest ? largest : all_sizes(f, u);
+}
+
+/* a := acceleration. */
+static void accelerate(const struct consistent *c, const struct drive *drive,
+                       const struct NAME(step_fields) * step, REAL *a)
+{
+    const struct fused_fields fields = {.u = step->u, .a = a};
+    NAME(fused_look)(FUSED(c), step->u);
+    pass_over(c, drive, &fields, false, 0);
+    if (c->pml != NULL) NAME(pml_fast_accelerate)(c, 1, step->extra, a);
+}
+
+void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
+                       const struct NAME(step_fields) * step, double *a)
+{
+    const struct fused_watch *watch = &c->fused->watch;
+    FUSED(c)->known = false;
+    accelerate(c, drive, step, step->work);
+    for (size_t i = 0; i < c->model.unknowns; i++)
+        step->w[i] += (REAL)(dt / 2) * step->work[i];
+    for (size_t i = 0; i < watch->count; i++)
+        a[watch->entry[i]] = step->work[watch->entry[i]];
+}
+
+/* The layers' memory goes on before u does, from the displacements in the middle of the step; what it does
+ * then comes last. */
+void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, double dt,
+                         const struct NAME(step_fields) * step, double *y, double *a)
+{
+    struct fused *f = FUSED(c);
+    const struct fused_watch *watch = &c->fused->watch;
+    const struct fused_fields fields = {.u = step->u, .a = step->w, .moved = step->u, .dt = dt};
+    const double level = f->quiet * largest_before(f, step->u);
+    const size_t n = c->model.unknowns;
+    if (!f->known) find_reached(f, step->u, step->w);
+    for (size_t k = 0; k < f->n[2]; k++)
+        forget_sizes(f, k);
+    for (size_t i = 0; i < watch->count; i++)
+        watch->before[i] = step->w[watch->entry[i]];
+    if (c->pml != NULL) NAME(pml_fast_remember)(c, dt, dt / 2, level, step->u, step->w, step->extra);
+    pass_over(c, drive, &fields, true, level);
+    if (c->pml != NULL) NAME(pml_fast_accelerate)(c, dt, step->extra, step->w);
+    if (c->pml != NULL) NAME(pml_fast_reached)(c, f->will_reach);
+    struct window *spare = f->reached;
+    f->reached = f->will_reach;
+    f->will_reach = spare;
+    for (size_t i = 0; i < watch->count; i++) {
+        const size_t at = watch->entry[i];
+        const double before = watch->before[i], after = step->w[at];
+        y[at] = step->u[at];
+        y[n + at] = (before + after) / 2;
+        a[at] = (after - before) / dt;
+    }
+    fused_count(f);
+}
+
+/* y[i] = value[i], i < count, unless it is that already: what was never written to takes no memory. */
+static void put(size_t count, const double *value, double *y)
+{
+    if (memcmp(y, value, count * sizeof *y) != 0) memcpy(y, value, count * sizeof *y);
+}
+
+void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, double dt,
+                        const struct NAME(step_fields) * step, double *y, double *a)
+{
+    enum { PAGE = 512 };
+    const size_t n = c->model.unknowns;
+    const bool apart = (const void *)step->u != (const void *)y;
+    accelerate(c, drive, step, step->work);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t from = 0; from < n; from += PAGE) {
+        const size_t count = n - from < PAGE ? n - from : PAGE;
+        double value[PAGE] = {0};
+        for (size_t i = 0; i < count; i++)
+            value[i] = step->w[from + i] - dt / 2 * step->work[from + i];
+        put(count, value, y + n + from);
+        for (size_t i = 0; i < count && apart; i++)
+            value[i] = step->u[from + i];
+        if (apart) put(count, value, y + from);
+        for (size_t i = 0; i < count && a != NULL; i++)
+            value[i] = step->work[from + i];
+        if (a != NULL) put(count, value, a + from);
+    }
+}

@@ -1,0 +1,201 @@
+/* The consistent smoothed point method (consistent.c): its axes, and what faces and grounds do to the control
+ * values on them. */
+#include "method/consistent/galerkin/galerkin.h"
+
+#include "base/memory.h"
+#include "scene/absorbing_layers.h"
+
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+/* What each face does to each component's control values, in the body's frame. */
+static void lay_faces(struct consistent *c)
+{
+    const struct scene *scene = c->model.scene;
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        const int axis = face / 2;
+        const struct spline *spline = c->spline[axis];
+        double direction[3];
+        memcpy(direction, boundary->direction, sizeof direction);
+        if (scene->body.rotated) body_direction_from_deck(&scene->body, boundary->direction, direction);
+        c->moving[face] = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
+        c->damped[face] = boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_LYSMER;
+        c->model.damped = c->model.damped || c->damped[face];
+        for (int component = 0; component < c->dimension; component++) {
+            const bool normal = component == axis;
+            bool *held = &c->held[component][face];
+            c->motion[face][component] = boundary->amplitude * direction[component];
+            if (boundary->kind == BOUNDARY_FIXED || c->layer[face] > 0) *held = true;
+            if (boundary->kind == BOUNDARY_ROLLER) *held = normal;
+            if (boundary->kind == BOUNDARY_SYMMETRY)
+                *held = normal && (!spline->mirror[face % 2] || spline->centred[face % 2]);
+            if (c->moving[face]) *held = !boundary->slip || fabs(direction[component]) > 1e-9;
+        }
+    }
+}
+
+/* Depths below the low end of the last axis where the material changes, as positions. */
+static size_t interfaces(const struct body *body, int axis, double *at)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < body->layers; i++) {
+        const double x = body->low[axis] + body->layer[i].top;
+        const double small = 1e-9 * (body->high[axis] - body->low[axis]);
+        if (x > body->low[axis] + small && x < body->high[axis] - small) at[count++] = x;
+    }
+    return count;
+}
+
+static selas_status lay_axes(struct consistent *c, struct messages *messages)
+{
+    static const int slots[3][3] = {{2, 0, 0}, {0, 2, 0}, {0, 1, 2}};
+    const struct body *body = &c->model.scene->body;
+    double *interface = array_new(body->layers, sizeof *interface);
+    if (interface == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the axes");
+    for (int axis = 0; axis < 3; axis++)
+        c->n[axis] = 1;
+    selas_status status = SELAS_OK;
+    for (int axis = 0; axis < c->dimension && status == SELAS_OK; axis++) {
+        struct spline_choice choice = {.degree = c->options.degree,
+                                       .low = body->low[axis],
+                                       .high = body->high[axis],
+                                       .spacing = body->spacing,
+                                       .mapped = c->options.mapped,
+                                       .interface = interface};
+        const double cells = round((choice.high - choice.low) / choice.spacing);
+        if (c->layer[2 * axis] + c->layer[2 * axis + 1] > 0)
+            choice.spacing = (choice.high - choice.low) / fmax(cells, 1);
+        choice.low -= (double)c->layer[2 * axis] * choice.spacing;
+        choice.high += (double)c->layer[2 * axis + 1] * choice.spacing;
+        c->slot[axis] = slots[c->dimension - 1][axis];
+        if (c->slot[axis] == DEPTH) choice.interfaces = interfaces(body, axis, interface);
+        const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
+        for (int end = 0; end < 2; end++)
+            choice.mirror[end] = boundary[end].kind == BOUNDARY_SYMMETRY;
+        if (choice.mirror[0] && choice.mirror[1] && cells <= 2 * choice.degree)
+            choice.mirror[0] = choice.mirror[1] = false; /* too thin: the normal component is held instead */
+        c->spline[axis] = spline_new(&choice, messages);
+        if (c->spline[axis] == NULL)
+            status = messages->no_memory ? SELAS_NO_MEMORY : SELAS_BAD_SCENE;
+        else
+            c->n[c->slot[axis]] = c->spline[axis]->count;
+        if (status == SELAS_OK && c->options.tuned && c->slot[axis] != DEPTH && !spline_tune(c->spline[axis]))
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for the axes");
+        c->layout[c->slot[axis]] = c->spline[axis];
+    }
+    array_free(interface);
+    c->plane = c->n[0] * c->n[1];
+    c->volume = c->plane * c->n[2];
+    /* a thread that has less than this many values to work on costs more than it helps */
+    const size_t worth = 1 + c->volume / 4000, all = (size_t)omp_get_max_threads();
+    c->threads = (int)(worth < all ? worth : all);
+    c->model.unknowns = (size_t)c->dimension * c->volume;
+    return status;
+}
+
+static void properties(const struct material *material, double property[WEIGHT_NONE])
+{
+    property[WEIGHT_DENSITY] = material->density;
+    property[WEIGHT_LAMBDA] = material->plane_lambda;
+    property[WEIGHT_MU] = material->mu;
+    property[WEIGHT_P] = material->plane_lambda + 2 * material->mu;
+}
+
+/* Material by element of the depth axis. */
+static bool lay_material(struct consistent *c)
+{
+    const struct scene *scene = c->model.scene;
+    properties(&scene->material[scene->body.material], c->property);
+    if (scene->body.layers == 0) return true;
+    const struct spline *spline = c->layout[DEPTH];
+    for (int weight = 0; weight < WEIGHT_NONE; weight++) {
+        c->weighted[weight] = array_new(spline->elements, sizeof(double));
+        if (c->weighted[weight] == NULL) return false;
+    }
+    for (size_t e = 0; e < spline->elements; e++) {
+        const double middle = (spline->element[e].x_from + spline->element[e].x_to) / 2;
+        double property[WEIGHT_NONE];
+        properties(scene_material_at(scene, middle - scene->body.low[c->dimension - 1]), property);
+        for (int weight = 0; weight < WEIGHT_NONE; weight++)
+            c->weighted[weight][e] = property[weight];
+    }
+    return true;
+}
+
+/* Planes of control values by their material, and the damped faces' speeds there. */
+static bool lay_planes(struct consistent *c)
+{
+    const struct scene *scene = c->model.scene;
+    const size_t n = c->n[DEPTH];
+    c->plane_class = array_new(n, sizeof *c->plane_class);
+    c->class_plane = array_new(n, sizeof *c->class_plane);
+    if (c->plane_class == NULL || c->class_plane == NULL) return false;
+    for (int face = 0; face < 2 * c->dimension; face++)
+        for (int component = 0; component < c->dimension; component++) {
+            c->speed[face][component] = array_new(n, sizeof(double));
+            if (c->speed[face][component] == NULL) return false;
+        }
+    const struct material *before = NULL;
+    for (size_t k = 0; k < n; k++) {
+        const struct spline *spline = c->layout[DEPTH];
+        const struct material *material =
+            scene->body.layers == 0
+                ? &scene->material[scene->body.material]
+                : scene_material_at(scene, spline->greville[k] - scene->body.low[c->dimension - 1]);
+        if (material == NULL) return false;
+        if (material != before) c->class_plane[c->classes++] = k;
+        before = material;
+        c->plane_class[k] = c->classes - 1;
+        for (int face = 0; face < 2 * c->dimension; face++)
+            for (int component = 0; component < c->dimension; component++) {
+                const struct boundary *boundary = &scene->boundary[face];
+                c->speed[face][component][k] = component == face / 2
+                                                   ? boundary->normal_factor * material->p_speed
+                                                   : boundary->shear_factor * material->s_speed;
+            }
+    }
+    return true;
+}
+
+double consistent_fastest(const struct consistent *c, int face)
+{
+    const struct scene *scene = c->model.scene;
+    const struct body *body = &scene->body;
+    double fastest = scene->material[body->material].p_speed;
+    if (body->layers == 0) return fastest;
+    const double depth = body->high[c->dimension - 1] - body->low[c->dimension - 1];
+    if (c->slot[face / 2] == DEPTH) return scene_material_at(scene, face % 2 == 0 ? 0 : depth)->p_speed;
+    for (size_t i = 0; i < body->layers; i++)
+        fastest = fmax(fastest, scene->material[body->layer[i].material].p_speed);
+    return fastest;
+}
+
+selas_status consistent_lay(struct consistent *c, struct messages *messages)
+{
+    for (int face = 0; face < 2 * c->dimension; face++)
+        c->layer[face] = layer_points(c->model.scene, face);
+    const selas_status status = lay_axes(c, messages);
+    if (status != SELAS_OK) return status;
+    lay_faces(c);
+    if (lay_material(c) && lay_planes(c)) return SELAS_OK;
+    return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
+}
+
+/* Control values of a component on a held face: the mass solve leaves 0 there. */
+void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane)
+{
+    for (int face = 0; face < 2 * c->dimension; face++) {
+        if (!c->held[component][face]) continue;
+        const int slot = c->slot[face / 2];
+        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        if (slot == 0)
+            for (size_t j = 0; j < c->n[1]; j++)
+                plane[j * c->n[0] + at] = 0;
+        else if (slot == 1)
+            memset(plane + at * c->n[0], 0, c->n[0] * sizeof *plane);
+        else if (k == at)
+            memset(plane, 0, c->plane * sizeof *plane);
+    }
+}

@@ -1,0 +1,155 @@
+/* The consistent smoothed point method: inside of the model (doc/consistent-method.md).
+ *
+ * Unknowns are control values of tensor-product B-splines in the body's own frame, component c of control
+ * value (i, j, k) at c * volume + i + n[0] * (j + n[1] * k). The scene's axes lie in the slots x, y, z of
+ * that layout: one axis in slot 2; two in 0 and 2; three in 0, 1, 2. The last axis (depth, slot 2) may have
+ * material that varies. */
+#ifndef SELAS_METHOD_CONSISTENT_GALERKIN_GALERKIN_H
+#define SELAS_METHOD_CONSISTENT_GALERKIN_GALERKIN_H
+
+#include "method/spline/tensor.h"
+#include "method/spline/tuned.h"
+#include "model/model.h"
+
+struct consistent_options {
+    int degree;       /* 1 .. SPLINE_MAX_DEGREE */
+    bool tuned;       /* exact mass: splines of all axes but the last tuned (tuned.h) */
+    bool mapped;      /* ends mapped instead of open */
+    int sweeps;       /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
+    bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
+    double
+        dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
+    double quiet;    /* fused operator: displacements below this times the largest move nothing; 0: all do */
+    bool single;     /* layers: tables for steps in single precision, too */
+    bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
+};
+
+enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };
+
+/* Material property that weights an integral over depth. */
+enum weighting { WEIGHT_DENSITY, WEIGHT_LAMBDA, WEIGHT_MU, WEIGHT_P, WEIGHT_NONE };
+
+struct axis_matrix {
+    int axis, test_slope, trial_slope;
+    bool test_odd, trial_odd;
+    enum weighting weight;
+    struct band *band;
+};
+
+/* A vector with few entries: those of component c in plane k are start[c * n[2] + k] and on. */
+struct sparse {
+    size_t *start, *index; /* index within the plane */
+    double *value;
+};
+
+/* Factors of M + half_step C, product form (section 5 of the manual); NULL for slots that are not used. */
+struct mass_factors {
+    double half_step;
+    size_t half[3];        /* [slot]: half-widths */
+    double *depth[3];      /* [component] */
+    double *(*side)[3][2]; /* [class][component][slot] */
+};
+
+struct consistent {
+    struct model model;
+    struct consistent_options options;
+    int dimension, slot[3];         /* slot of each axis */
+    struct spline *spline[3];       /* by axis */
+    const struct spline *layout[3]; /* by slot; NULL where there is no axis */
+    size_t n[3], plane, volume;
+    double property[WEIGHT_NONE];  /* of the body's material */
+    double *weighted[WEIGHT_NONE]; /* per element of the depth axis; NULL: the same everywhere */
+    size_t matrices;
+    struct axis_matrix matrix[MAX_MATRICES];
+    const struct band *mass_band[3][3]; /* [component][axis], weighted by density where that varies */
+    struct tensor_plan *stiffness, *mass;
+    bool held[3][BOX_FACES]; /* the face's control values of this component are prescribed */
+    bool moving[BOX_FACES];
+    double motion[BOX_FACES][3]; /* amplitude and direction in the body's frame */
+    bool damped[BOX_FACES];
+    double *speed[BOX_FACES][3]; /* of a damped face's component at each plane: factor times wave speed */
+    size_t classes;              /* kinds of planes by material; 1 without layers */
+    size_t *plane_class, *class_plane; /* [n[2]]; [classes]: the first plane of a class */
+    struct band *side[BOX_FACES][3];   /* layers: matrix over depth of a damped face across x or y */
+    struct sparse *load;               /* [scene->loads]; 0 for those that move */
+    size_t moving_loads;
+    struct moving_load *moving_load;                      /* moving_load.c */
+    struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
+    struct mass_factors factors[FACTOR_SETS];
+    struct band *scratch[3]; /* [axis]: matrix to be factorised */
+    size_t layer[BOX_FACES]; /* points of the absorbing layer behind the face; 0: none */
+    struct pml *pml;         /* NULL: no layers */
+    struct scene *own_scene; /* of a body that was cut (shorter.c); NULL: the scene is borrowed */
+    double *lane_buffer;     /* [threads * n[0] * LANES] */
+    double *line_buffer;     /* [threads * (n[0] + n[1])] */
+    double *face_buffer;     /* [dimension * plane] */
+    struct hform *hform;     /* NULL: exact mass */
+    struct fused *fused;     /* NULL: the scene is none for it, or it is not wanted */
+    int threads;
+    struct tuned_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
+    struct band *collocation[3][2];    /* [axis][odd]: LU factors of the values at the Greville points */
+};
+
+/* Lines of control values along a slot: `lanes` neighbouring lines may be worked on at once. */
+struct line_set {
+    size_t lines, lanes, length, stride;
+};
+static inline struct line_set line_set(const struct consistent *c, int slot)
+{
+    const size_t stride = slot == 0 ? 1 : slot == 1 ? c->n[0] : c->plane;
+    return (struct line_set){c->volume / c->n[slot], stride, c->n[slot], stride};
+}
+static inline size_t line_start(const struct line_set *set, size_t line)
+{
+    return line / set->stride * set->stride * set->length + line % set->stride;
+}
+
+static inline struct consistent *consistent_of(struct model *model)
+{
+    return (struct consistent *)model;
+}
+
+/* matrices.c: 1-D matrix of an axis, kept by the model; NULL: no memory. */
+const struct band *consistent_matrix(struct consistent *c, int axis, int test_slope, bool test_odd,
+                                     int trial_slope, bool trial_odd, enum weighting weight);
+bool consistent_plans(struct consistent *c);
+
+/* mass.c */
+bool mass_allocate(struct consistent *c);
+void mass_free(struct consistent *c);
+const struct mass_factors *mass_factors_for(struct consistent *c, double half_step);
+/* a := (M + half_step C)^-1 a */
+void mass_solve(struct consistent *c, const struct mass_factors *factors, double *a);
+
+/* loads.c: loads, prescribed faces. */
+selas_status forces_create(struct consistent *c, struct messages *messages);
+void forces_free(struct consistent *c);
+size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
+/* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
+ */
+void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
+                           double *line);
+bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
+void sparse_free(struct sparse *sparse);
+/* Adds loads and the pull of moving faces, as vectors given, in plane k. */
+void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
+                const struct sparse *pull, int component, size_t k, double *plane);
+void sparse_add(const struct consistent *c, const struct sparse *sparse, int component, size_t k,
+                double factor, double *plane);
+double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field);
+
+/* dampers.c: subtracts C v from plane k of each component; power v.Cv. */
+bool dampers_allocate(struct consistent *c);
+void dampers_subtract(const struct consistent *c, int thread, size_t k, const double *v, double *const *out);
+double dampers_power(const struct consistent *c, const double *v);
+
+/* axes.c: sets a component's prescribed control values in plane k to 0. */
+void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane);
+
+/* axes.c: axes, what faces do to control values, materials over depth. SELAS_NO_MEMORY,
+ * SELAS_BAD_SCENE. */
+selas_status consistent_lay(struct consistent *c, struct messages *messages);
+/* Fastest wave of the ground that a face touches. */
+double consistent_fastest(const struct consistent *c, int face);
+
+#endif

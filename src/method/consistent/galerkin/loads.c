@@ -1,0 +1,349 @@
+/* Loads and prescribed faces of the consistent method: integrals of the basis functions, exact for patches
+ * along the axes, by quadrature to rounding for discs (manual, section 4).
+ *
+ * The scene's load is the whole load: what a symmetry plane cuts off is not counted, and a point on the plane
+ * counts half. */
+#include "method/consistent/galerkin/galerkin.h"
+
+#include "base/memory.h"
+#include "method/consistent/galerkin/moving_load.h"
+#include "method/spline/disc.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Work space of set-up: a dense field, and the 1-D weights of the three axes. */
+struct workspace {
+    double *field;   /* [dimension * volume] */
+    double *line[3]; /* [count] by axis */
+    double *face;    /* [counts of a face's two axes]: disc */
+    double *work;    /* [largest count] */
+};
+
+static bool workspace_new(const struct consistent *c, struct workspace *w)
+{
+    *w = (struct workspace){.field = array_new((size_t)c->dimension * c->volume, sizeof *w->field)};
+    bool good = w->field != NULL;
+    size_t largest = 1;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const size_t count = c->spline[axis]->count;
+        w->line[axis] = array_new(count, sizeof(double));
+        good = good && w->line[axis] != NULL;
+        largest = count > largest ? count : largest;
+    }
+    w->face = array_new(largest * largest, sizeof *w->face);
+    w->work = array_new(largest, sizeof *w->work);
+    return good && w->face != NULL && w->work != NULL;
+}
+
+static void workspace_free(struct workspace *w)
+{
+    array_free(w->field);
+    array_free(w->face);
+    array_free(w->work);
+    for (int axis = 0; axis < 3; axis++)
+        array_free(w->line[axis]);
+}
+
+/* Keeps the entries of a dense field that are not zero. */
+bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse)
+{
+    const size_t planes = (size_t)c->dimension * c->n[DEPTH];
+    size_t count = 0;
+    for (size_t i = 0; i < (size_t)c->dimension * c->volume; i++)
+        count += field[i] != 0;
+    sparse->start = array_new(planes + 1, sizeof *sparse->start);
+    sparse->index = array_new(count, sizeof *sparse->index);
+    sparse->value = array_new(count, sizeof *sparse->value);
+    if (sparse->start == NULL || sparse->index == NULL || sparse->value == NULL) return false;
+    count = 0;
+    for (size_t plane = 0; plane < planes; plane++) {
+        sparse->start[plane] = count;
+        for (size_t i = 0; i < c->plane; i++) {
+            if (field[plane * c->plane + i] == 0) continue;
+            sparse->index[count] = i;
+            sparse->value[count++] = field[plane * c->plane + i];
+        }
+    }
+    sparse->start[planes] = count;
+    return true;
+}
+
+void sparse_free(struct sparse *sparse)
+{
+    array_free(sparse->start);
+    array_free(sparse->index);
+    array_free(sparse->value);
+}
+
+void sparse_add(const struct consistent *c, const struct sparse *sparse, int component, size_t k,
+                double factor, double *plane)
+{
+    const size_t at = (size_t)component * c->n[DEPTH] + k;
+    for (size_t e = sparse->start[at]; e < sparse->start[at + 1]; e++)
+        plane[sparse->index[e]] += factor * sparse->value[e];
+}
+
+void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
+                const struct sparse *pull, int component, size_t k, double *plane)
+{
+    const struct scene *scene = c->model.scene;
+    for (size_t l = 0; drive->load != NULL && l < scene->loads; l++)
+        if (drive->load[l] != 0)
+            sparse_add(c, &load[l], component, k, drive->load[l] * scene->load[l].amplitude, plane);
+    for (int face = 0; drive->motion != NULL && face < 2 * c->dimension; face++)
+        if (c->moving[face]) sparse_add(c, &pull[face], component, k, -drive->motion[face], plane);
+}
+
+double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field)
+{
+    double sum = 0;
+    for (size_t plane = 0; plane < (size_t)c->dimension * c->n[DEPTH]; plane++)
+        for (size_t e = sparse->start[plane]; e < sparse->start[plane + 1]; e++)
+            sum += sparse->value[e] * field[plane * c->plane + sparse->index[e]];
+    return sum;
+}
+
+/* field += factor * product of the three lines, component by component. */
+static void add_product(const struct consistent *c, const struct workspace *w, int component, double factor)
+{
+    static const double one[1] = {1};
+    const double *line[3] = {one, one, one};
+    for (int axis = 0; axis < c->dimension; axis++)
+        line[c->slot[axis]] = w->line[axis];
+    double *out = w->field + (size_t)component * c->volume;
+    for (size_t k = 0; k < c->n[2]; k++) {
+        if (line[2][k] == 0) continue;
+        for (size_t j = 0; j < c->n[1]; j++)
+            for (size_t i = 0; i < c->n[0]; i++)
+                out[k * c->plane + j * c->n[0] + i] += factor * line[0][i] * line[1][j] * line[2][k];
+    }
+}
+
+/* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
+ * Slopes of degree 1 jump at the points: there the mean of both sides. */
+void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
+                           double *line)
+{
+    const struct spline *spline = c->spline[axis];
+    const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
+    const double small = 1e-9 * (spline->high - spline->low); /* no layer lies behind a symmetry plane */
+    const bool cut = (boundary[0].kind == BOUNDARY_SYMMETRY && fabs(x - spline->low) < small) ||
+                     (boundary[1].kind == BOUNDARY_SYMMETRY && fabs(x - spline->high) < small);
+    const int sides = slope && spline->degree == 1 ? 2 : 1;
+    memset(line, 0, spline->count * sizeof *line);
+    for (int side = 0; side < sides; side++) {
+        const double beside = x + (sides == 2 ? (2 * side - 1) * small : 0);
+        struct tuned_point at;
+        tuned_at(spline, odd, sides == 2 ? fmin(fmax(beside, spline->low), spline->high) : x, &at);
+        for (size_t j = 0; j < at.count; j++)
+            line[at.index[j]] += (slope ? at.slope[j] : at.value[j]) * (half && cut ? .5 : 1) / sides;
+    }
+}
+
+static bool traction(struct consistent *c, const struct load *load, const double centre[3],
+                     const double direction[3], struct workspace *w)
+{
+    const struct body *body = &c->model.scene->body;
+    const int normal = face_axis(load->face);
+    for (int component = 0; component < c->dimension; component++) {
+        if (direction[component] == 0) continue;
+        int along[2], count = 0;
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const struct spline *spline = c->spline[axis];
+            const bool odd = axis == component;
+            double *line = w->line[axis];
+            if (axis == normal) {
+                consistent_point_line(c, axis, odd, false, false,
+                                      load->face % 2 == 0 ? body->low[axis] : body->high[axis], line);
+                continue;
+            }
+            const double half = load->size[load->shape == LOAD_DISC ? 0 : count] / 2;
+            along[count++] = axis;
+            if (load->shape == LOAD_POINT)
+                consistent_point_line(c, axis, odd, false, true, centre[axis], line);
+            else if (load->shape == LOAD_FACE)
+                tuned_moments(spline, odd, body->low[axis], body->high[axis], w->work, line);
+            else
+                tuned_moments(spline, odd, centre[axis] - half, centre[axis] + half, w->work, line);
+        }
+        if (load->shape != LOAD_DISC || count < 2) {
+            add_product(c, w, component, direction[component]);
+            continue;
+        }
+        /* the disc's moments do not factorise: one row of the first axis at a time */
+        const struct spline *first = c->spline[along[0]], *second = c->spline[along[1]];
+        const struct disc disc = {centre[along[0]], centre[along[1]], load->size[0] / 2};
+        if (!disc_moments(first, along[0] == component, second, along[1] == component, &disc, w->face))
+            return false;
+        for (size_t i = 0; i < first->count; i++) {
+            for (size_t m = 0; m < first->count; m++)
+                w->line[along[0]][m] = m == i;
+            memcpy(w->line[along[1]], w->face + i * second->count, second->count * sizeof(double));
+            add_product(c, w, component, direction[component]);
+        }
+    }
+    return true;
+}
+
+static void body_force(struct consistent *c, const struct load *load, const double centre[3],
+                       const double direction[3], struct workspace *w)
+{
+    const struct body *body = &c->model.scene->body;
+    for (int component = 0; component < c->dimension; component++) {
+        if (direction[component] == 0) continue;
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const struct spline *spline = c->spline[axis];
+            if (load->shape == LOAD_POINT)
+                consistent_point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
+            else
+                tuned_moments(spline, axis == component, body->low[axis], body->high[axis], w->work,
+                              w->line[axis]);
+        }
+        add_product(c, w, component, direction[component]);
+    }
+}
+
+/* The density -M_ij d/dx_j delta gives M_ij dN/dx_j at the source. */
+static void moment_tensor(struct consistent *c, const struct load *load, const double centre[3],
+                          struct workspace *w)
+{
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const double(*frame)[3] = c->model.scene->body.frame;
+    const bool rotated = c->model.scene->body.rotated;
+    for (int i = 0; i < c->dimension; i++)
+        for (int j = 0; j < c->dimension; j++) {
+            double moment = rotated ? 0 : load->moment[place[i][j]];
+            for (int k = 0; rotated && k < 3; k++)
+                for (int l = 0; l < 3; l++)
+                    moment += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
+            for (int axis = 0; axis < c->dimension; axis++)
+                consistent_point_line(c, axis, axis == i, axis == j, true, centre[axis], w->line[axis]);
+            if (moment != 0) add_product(c, w, i, moment);
+        }
+}
+
+static selas_status load_create(struct consistent *c, const struct load *load, struct sparse *sparse,
+                                struct workspace *w, struct messages *messages)
+{
+    const struct body *body = &c->model.scene->body;
+    double centre[3], direction[3];
+    memcpy(centre, load->centre, sizeof centre);
+    memcpy(direction, load->direction, sizeof direction);
+    if (body->rotated) {
+        body_from_deck(body, load->centre, centre);
+        body_direction_from_deck(body, load->direction, direction);
+    }
+    memset(w->field, 0, (size_t)c->dimension * c->volume * sizeof *w->field);
+    if (load->kind == LOAD_TRACTION && face_axis(load->face) >= c->dimension)
+        return fail(messages, SELAS_BAD_SCENE, "a load acts on face %s, which this body has not",
+                    face_name(load->face));
+    if (load_moves(load)) /* moving_load.c; nothing here */
+        return sparse_from(c, w->field, sparse) ? SELAS_OK
+                                                : fail(messages, SELAS_NO_MEMORY, "no memory for a load");
+    bool good = true;
+    if (load->kind == LOAD_TRACTION)
+        good = traction(c, load, centre, direction, w);
+    else if (load->kind == LOAD_MOMENT_TENSOR)
+        moment_tensor(c, load, centre, w);
+    else if (load->shape == LOAD_POINT || load->shape == LOAD_FACE)
+        body_force(c, load, centre, direction, w);
+    else
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "a body force acts at a point or over the whole body (shape = 'face')");
+    if (good && sparse_from(c, w->field, sparse)) return SELAS_OK;
+    return fail(messages, SELAS_NO_MEMORY, "no memory for a load");
+}
+
+/* True if a control value on a face belongs to it alone: no fixed face and no earlier moving face holds it.
+ */
+static bool owns(const struct consistent *c, int component, int face, const size_t at[3])
+{
+    for (int other = 0; other < 2 * c->dimension; other++) {
+        const int slot = c->slot[other / 2];
+        if (other == face || !c->held[component][other]) continue;
+        if (at[slot] != (other % 2 == 0 ? 0 : c->n[slot] - 1)) continue;
+        if (!c->moving[other] || other < face) return false;
+    }
+    return true;
+}
+
+/* 1 (times the motion's direction) on the control values of a moving face. */
+static void face_pattern(const struct consistent *c, int face, double *field)
+{
+    const int slot = c->slot[face / 2];
+    for (int component = 0; component < c->dimension; component++) {
+        if (!c->held[component][face]) continue;
+        for (size_t i = 0; i < c->volume; i++) {
+            const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
+            if (at[slot] == (face % 2 == 0 ? 0 : c->n[slot] - 1) && owns(c, component, face, at))
+                field[(size_t)component * c->volume + i] = c->motion[face][component];
+        }
+    }
+}
+
+static bool motion_create(struct consistent *c, int face, struct workspace *w)
+{
+    const size_t all = (size_t)c->dimension * c->volume;
+    memset(w->field, 0, all * sizeof *w->field);
+    face_pattern(c, face, w->field);
+    if (!sparse_from(c, w->field, &c->pattern[face])) return false;
+    double *inertia = array_new(all, sizeof *inertia);
+    if (inertia == NULL) return false;
+    for (size_t k = 0; k < c->n[DEPTH]; k++) {
+        double *out[3] = {NULL, NULL, NULL};
+        for (int component = 0; component < c->dimension; component++)
+            out[component] = inertia + (size_t)component * c->volume + k * c->plane;
+        tensor_plane(c->mass, 0, k, 1, w->field, out);
+    }
+    const bool good = sparse_from(c, inertia, &c->inertia[face]);
+    array_free(inertia);
+    return good;
+}
+
+selas_status forces_create(struct consistent *c, struct messages *messages)
+{
+    const struct scene *scene = c->model.scene;
+    struct workspace w;
+    selas_status status = SELAS_OK;
+    c->load = array_new(scene->loads, sizeof *c->load);
+    if (!workspace_new(c, &w) || c->load == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+    for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++)
+        status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+    if (status == SELAS_OK) status = moving_loads_create(c, messages);
+    for (int face = 0; status == SELAS_OK && face < 2 * c->dimension; face++)
+        if (c->moving[face] && !motion_create(c, face, &w))
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for a moving face");
+    workspace_free(&w);
+    return status;
+}
+
+static size_t sparse_bytes(const struct consistent *c, const struct sparse *sparse)
+{
+    const size_t planes = (size_t)c->dimension * c->n[DEPTH];
+    if (sparse->start == NULL) return 0;
+    return (planes + 1) * sizeof(size_t) + sparse->start[planes] * (sizeof(size_t) + sizeof(double));
+}
+
+size_t forces_bytes(const struct consistent *c)
+{
+    size_t bytes = 0;
+    for (size_t k = 0; k < c->model.scene->loads; k++)
+        bytes += sparse_bytes(c, &c->load[k]);
+    for (int face = 0; face < BOX_FACES; face++)
+        bytes += sparse_bytes(c, &c->pattern[face]) + sparse_bytes(c, &c->inertia[face]);
+    return bytes;
+}
+
+void forces_free(struct consistent *c)
+{
+    for (size_t k = 0; c->load != NULL && k < c->model.scene->loads; k++)
+        sparse_free(&c->load[k]);
+    array_free(c->load);
+    moving_loads_free(c);
+    for (int face = 0; face < BOX_FACES; face++) {
+        sparse_free(&c->pattern[face]);
+        sparse_free(&c->inertia[face]);
+    }
+}

@@ -1,0 +1,247 @@
+/* What users see of the consistent method: point values are the spline's own (this is Ding et al.'s
+ * de-convolution, Eq 38, done exactly), fields stand at the lattice points, initial states are interpolated
+ * at the Greville points of the control values (manual, section 6). */
+#include "method/consistent/consistent.h"
+#include "method/consistent/fused/fused.h"
+
+#include "base/memory.h"
+#include "scene/initial.h"
+
+#include <string.h>
+
+/* Functions of the three axes at one place, for components that are even and odd at symmetry planes. */
+struct place {
+    const struct tuned_point *at[3][2]; /* [axis][odd] */
+};
+
+/* Value, and with a gradient the slopes, of one component of a control field. */
+static void evaluate(const struct consistent *c, const struct place *place, int component,
+                     const double *field, double *value, double *gradient)
+{
+    static const struct tuned_point one = {.count = 1, .value = {1}};
+    const struct tuned_point *at[3] = {&one, &one, &one};
+    size_t count[3] = {1, 1, 1};
+    for (int axis = 0; axis < c->dimension; axis++) {
+        at[c->slot[axis]] = place->at[axis][axis == component];
+        count[c->slot[axis]] = place->at[axis][axis == component]->count;
+    }
+    double sum = 0, slope[3] = {0, 0, 0};
+    for (size_t k = 0; k < count[2]; k++)
+        for (size_t j = 0; j < count[1]; j++) {
+            const double *row = field + at[2]->index[k] * c->plane + at[1]->index[j] * c->n[0];
+            double along = 0, along_slope = 0;
+            for (size_t i = 0; i < count[0]; i++) {
+                along += at[0]->value[i] * row[at[0]->index[i]];
+                along_slope += at[0]->slope[i] * row[at[0]->index[i]];
+            }
+            sum += at[2]->value[k] * at[1]->value[j] * along;
+            slope[0] += at[2]->value[k] * at[1]->value[j] * along_slope;
+            slope[1] += at[2]->value[k] * at[1]->slope[j] * along;
+            slope[2] += at[2]->slope[k] * at[1]->value[j] * along;
+        }
+    *value = sum;
+    for (int axis = 0; gradient != NULL && axis < c->dimension; axis++)
+        gradient[axis] = slope[c->slot[axis]];
+}
+
+/* A field in deck coordinates at one place. */
+static void field_at(const struct consistent *c, const struct place *place, const struct material *material,
+                     selas_field field, const double *y, const double *a, double *value)
+{
+    struct point_values values = {0};
+    const double *v = y + c->model.unknowns;
+    for (int component = 0; component < c->dimension; component++) {
+        const size_t from = (size_t)component * c->volume;
+        if (field == SELAS_VELOCITY || field == SELAS_ENERGY)
+            evaluate(c, place, component, v + from, &values.velocity[component], NULL);
+        if (field == SELAS_ACCELERATION)
+            evaluate(c, place, component, a + from, &values.acceleration[component], NULL);
+        if (field != SELAS_VELOCITY && field != SELAS_ACCELERATION)
+            evaluate(c, place, component, y + from, &values.displacement[component],
+                     &values.gradient[3 * component]);
+    }
+    field_from_values(&c->model, material, &values, field, value);
+}
+
+static const struct material *material_at(const struct consistent *c, double depth_position)
+{
+    const struct scene *scene = c->model.scene;
+    if (scene->body.layers == 0) return &scene->material[scene->body.material];
+    return scene_material_at(scene, depth_position - scene->body.low[c->dimension - 1]);
+}
+
+static void to_body(const struct consistent *c, const double position[3], double place[3])
+{
+    memcpy(place, position, 3 * sizeof *place);
+    if (c->model.frame != NULL) body_from_deck(&c->model.scene->body, position, place);
+}
+
+void consistent_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                        const double *a, double *value)
+{
+    const struct consistent *c = consistent_of(model);
+    struct tuned_point at[3][2];
+    struct place place = {0};
+    double position[3];
+    to_body(c, probe->position, position);
+    for (int axis = 0; axis < c->dimension; axis++)
+        for (int odd = 0; odd < 2; odd++) {
+            tuned_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
+            place.at[axis][odd] = &at[axis][odd];
+        }
+    field_at(c, &place, probe->material, field, y, a, value);
+}
+
+/* What consistent_observe() reads there. */
+static bool watch_place(struct consistent *c, const double place[3])
+{
+    struct spline_point at[3];
+    const size_t local = (size_t)c->options.degree + 1;
+    for (unsigned odd = 0; odd < 8; odd++) {
+        for (int axis = 0; axis < c->dimension; axis++)
+            spline_at(c->spline[axis], (odd >> axis & 1U) != 0, place[axis], &at[c->slot[axis]]);
+        for (size_t w = 0; c->dimension == 3 && w < local * local * local; w++) {
+            const size_t seen = at[0].index[w % local] + c->n[0] * at[1].index[w / local % local] +
+                                c->plane * at[2].index[w / (local * local)];
+            if (!fused_watch(c, 1, &seen)) return false;
+        }
+    }
+    return true;
+}
+
+/* The weights are those of components that are even at symmetry planes; consistent_observe knows the others.
+ */
+selas_status consistent_probe(struct model *model, const double position[3], struct probe *probe,
+                              struct messages *messages)
+{
+    struct consistent *c = consistent_of(model);
+    struct tuned_point at[3] = {{.value = {1}}, {.value = {1}}, {.value = {1}}};
+    size_t count[3] = {1, 1, 1};
+    double place[3];
+    to_body(c, position, place);
+    for (int axis = 0; axis < c->dimension; axis++) {
+        tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
+        count[c->slot[axis]] = at[c->slot[axis]].count;
+    }
+    const selas_status status = probe_allocate(probe, count[0] * count[1] * count[2], messages);
+    if (status != SELAS_OK) return status;
+    memcpy(probe->position, position, sizeof probe->position);
+    probe->material = material_at(c, place[c->dimension - 1]);
+    for (size_t w = 0; w < probe->count; w++) {
+        const size_t i = w % count[0], j = w / count[0] % count[1], k = w / (count[0] * count[1]);
+        const double value[3] = {at[0].value[i], at[1].value[j], at[2].value[k]};
+        const double slope[3] = {at[0].slope[i] * value[1] * value[2], value[0] * at[1].slope[j] * value[2],
+                                 value[0] * value[1] * at[2].slope[k]};
+        probe->index[w] = at[0].index[i] + c->n[0] * at[1].index[j] + c->plane * at[2].index[k];
+        probe->weight[w] = value[0] * value[1] * value[2];
+        for (int axis = 0; axis < c->dimension; axis++)
+            probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
+    }
+    if (!watch_place(c, place)) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
+    return SELAS_OK;
+}
+
+/* Lattice points per axis: the deck's spacing, whatever the knots. */
+static double lattice_position(const struct consistent *c, int axis, size_t i)
+{
+    const double low = c->model.scene->body.low[axis], high = c->model.scene->body.high[axis];
+    const size_t cells = c->model.grid[axis] - 1;
+    return i == cells ? high : low + (high - low) * (double)i / (double)cells;
+}
+
+bool observe_create(struct consistent *c)
+{
+    struct model *model = &c->model;
+    const struct body *body = &model->scene->body;
+    model->points = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        model->grid[axis] = 1;
+        if (axis >= c->dimension) continue;
+        const double cells = (body->high[axis] - body->low[axis]) / body->spacing;
+        model->grid[axis] = cells < 1.5 ? 2 : (size_t)(cells + .5) + 1;
+        model->points *= model->grid[axis];
+        for (int odd = 0; odd < 2; odd++) {
+            c->lattice[axis][odd] = array_new(model->grid[axis], sizeof(struct tuned_point));
+            if (c->lattice[axis][odd] == NULL) return false;
+            for (size_t i = 0; i < model->grid[axis]; i++)
+                tuned_at(c->spline[axis], odd, lattice_position(c, axis, i), &c->lattice[axis][odd][i]);
+        }
+    }
+    return true;
+}
+
+void consistent_field(struct model *model, selas_field field, const double *y, const double *a, double *value)
+{
+    const struct consistent *c = consistent_of(model);
+    const size_t components = (size_t)field_components(field);
+#pragma omp parallel for schedule(static)
+    for (size_t p = 0; p < model->points; p++) {
+        const size_t at[3] = {p % model->grid[0], p / model->grid[0] % model->grid[1],
+                              p / (model->grid[0] * model->grid[1])};
+        struct place place = {0};
+        for (int axis = 0; axis < c->dimension; axis++)
+            for (int odd = 0; odd < 2; odd++)
+                place.at[axis][odd] = &c->lattice[axis][odd][at[axis]];
+        const int last = c->dimension - 1;
+        field_at(c, &place, material_at(c, lattice_position(c, last, at[last])), field, y, a,
+                 value + components * p);
+    }
+}
+
+/* Values at the Greville points become control values, one axis after the other. */
+static void interpolate(struct consistent *c, int component, double *field)
+{
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const struct band *lu = c->collocation[axis][axis == component];
+        const struct line_set set = line_set(c, c->slot[axis]);
+        for (size_t line = 0; line < set.lines; line++)
+            band_lu_solve(lu, field + line_start(&set, line), set.stride);
+    }
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        consistent_clear_held(c, component, k, field + k * c->plane);
+}
+
+void consistent_initialise(struct model *model, double *y)
+{
+    struct consistent *c = consistent_of(model);
+    const struct scene *scene = model->scene;
+    if (scene->initial.kind == INITIAL_REST) return;
+    double *fields[2] = {y, y + model->unknowns};
+    for (size_t i = 0; i < c->volume; i++) {
+        const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
+        double position[3] = {0}, state[2][3];
+        for (int axis = 0; axis < c->dimension; axis++)
+            position[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
+        if (scene->body.rotated) body_to_deck(&scene->body, position, position);
+        initial_at(scene, position, state[0], state[1]);
+        for (int kind = 0; kind < 2; kind++) {
+            if (scene->body.rotated) body_direction_from_deck(&scene->body, state[kind], state[kind]);
+            for (int component = 0; component < c->dimension; component++)
+                fields[kind][(size_t)component * c->volume + i] = state[kind][component];
+        }
+    }
+    for (int kind = 0; kind < 2; kind++)
+        for (int component = 0; component < c->dimension; component++)
+            interpolate(c, component, fields[kind] + (size_t)component * c->volume);
+}
+
+bool collocation_create(struct consistent *c)
+{
+    if (c->model.scene->initial.kind == INITIAL_REST) return true;
+    for (int axis = 0; axis < c->dimension; axis++)
+        for (int odd = 0; odd < 2; odd++) {
+            const struct spline *spline = c->spline[axis];
+            struct band *band = band_new(spline->count, (size_t)spline->degree);
+            if (band == NULL) return false;
+            c->collocation[axis][odd] = band;
+            for (size_t i = 0; i < spline->count; i++) {
+                struct spline_point at;
+                spline_at(spline, odd, spline->greville[i], &at);
+                for (int j = 0; j <= spline->degree; j++)
+                    if (at.value[j] != 0) band_add(band, i, at.index[j], at.value[j]);
+                if (band_get(band, i, i) == 0) band_add(band, i, i, 1); /* odd, on a symmetry plane */
+            }
+            if (!band_lu(band)) return false;
+        }
+    return true;
+}

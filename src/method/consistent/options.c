@@ -1,0 +1,88 @@
+/* Options of the consistent smoothed point method: what the deck says, what it leaves open, what cannot be
+ * (manual, doc/consistent-method.md). */
+#include "method/consistent/consistent.h"
+#include "method/consistent/galerkin/galerkin.h"
+#include "scene/absorbing_layers.h"
+
+#include <string.h>
+
+/* Ground that varies with depth. */
+static bool layered(const struct body *body)
+{
+    return body->layers > 1 || (body->layers == 1 && body->layer[0].top > 0);
+}
+
+static bool tunable(const struct scene *scene, const struct consistent_options *options)
+{
+    return options->degree == TUNED_DEGREE && options->sweeps == 0 && !options->mapped &&
+           scene->initial.kind == INITIAL_REST;
+}
+
+selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
+                              struct messages *messages)
+{
+    if (options->degree < 1 || options->degree > SPLINE_MAX_DEGREE)
+        return fail(messages, SELAS_BAD_SCENE, "method%%degree = %d; expected 1 to %d", options->degree,
+                    SPLINE_MAX_DEGREE);
+    if (options->dissipation > 0 && options->sweeps == 0)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "method%%dissipation needs method%%mass = 'vc1', 'vc2' or 'vc3', not 'exact'");
+    if (options->tuned && !tunable(scene, options))
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "method%%tuned needs method%%degree = %d, method%%mass = 'exact', method%%ends = 'open' and a "
+            "body at rest",
+            TUNED_DEGREE);
+    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "the consistent smoothed point method needs a box or a half-space; for other bodies take "
+                    "method%%variant = 'paper' or method%%name = 'sph'");
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        if (layer_points(scene, face) == 0) continue;
+        if (options->sweeps == 0)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: layer 'pml' needs method%%mass = 'vc1', 'vc2' or 'vc3'; with 'exact' take "
+                        "layer = 'lysmer'",
+                        face_name((enum face)face));
+    }
+    return SELAS_OK;
+}
+
+static bool given(const struct deck_group *group, const char *word)
+{
+    return group != NULL && deck_values(group, word) > 0;
+}
+
+/* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4 and the
+ * exact mass where no C-PML stands beside it (that is built on sweeps only): waves in a soft layer are short
+ * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/layered.md). Then
+ * splines are tuned, too. */
+struct consistent_options consistent_options_of(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
+    if (layered(&scene->body) && !layer_anywhere(scene) && !given(group, "mass") &&
+        !given(group, "depth_mass") && !given(group, "dissipation")) {
+        options.degree = 4;
+        options.sweeps = 0;
+    }
+    if (scene->method.degree > 0) { /* scene%accuracy */
+        options.degree = scene->method.degree;
+        options.sweeps = scene->method.sweeps;
+    }
+    if (given(group, "degree")) options.degree = (int)deck_integer(group, "degree", 0);
+    if (given(group, "mass")) {
+        const char *mass = deck_text(group, "mass", 0);
+        options.sweeps = strcmp(mass, "exact") == 0 ? 0 : mass[2] - '0'; /* vc1, vc2, vc3 */
+    }
+    if (given(group, "depth_mass"))
+        options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
+    if (given(group, "dissipation")) options.dissipation = deck_real(group, "dissipation", 0);
+    options.quiet = given(group, "quiet") ? deck_real(group, "quiet", 0) : 1e-12;
+    options.single = group != NULL && strcmp(deck_text(group, "precision", 0), "single") == 0;
+    if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
+    if (given(group, "ends")) options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
+    options.tuned = layered(&scene->body) && tunable(scene, &options);
+    if (given(group, "tuned")) options.tuned = deck_logical(group, "tuned", 0);
+    return options;
+}

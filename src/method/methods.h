@@ -1,0 +1,13 @@
+/* The methods: a table of names. */
+#ifndef SELAS_METHOD_METHODS_H
+#define SELAS_METHOD_METHODS_H
+
+#include "model/model.h"
+
+/* NULL if there is none. */
+const struct method *method_find(const char *name, const char *variant);
+
+/* Builds the scene's model by the method that it names. */
+selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages);
+
+#endif

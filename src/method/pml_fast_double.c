@@ -1,6 +1,0 @@
-/* The shared passes of absorbing layers in double precision. */
-#define REAL double
-#define NAME(name) name##_double
-#define FAST(c) ((c)->pml->fast)
-#include "method/pml_fast_kernel.h"
-#include "method/pml_fast_steps.h"

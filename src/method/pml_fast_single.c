@@ -1,6 +1,0 @@
-/* The shared passes of absorbing layers in single precision. */
-#define REAL float
-#define NAME(name) name##_single
-#define FAST(c) ((c)->pml->single)
-#include "method/pml_fast_kernel.h"
-#include "method/pml_fast_steps.h"

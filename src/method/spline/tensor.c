@@ -1,0 +1,229 @@
+/* Sums of Kronecker products applied plane by plane (doc/consistent-method.md, section 3). */
+#include "method/spline/tensor.h"
+
+#include "base/memory.h"
+#include "method/spline/passes.h"
+
+#include <omp.h>
+#include <string.h>
+
+enum { ALIGN = 8, MAX_TAPS = 64 }; /* doubles a cache line */
+
+struct z_item {
+    int in;
+    const struct band *matrix;
+};
+struct y_item {
+    size_t source, target; /* z item, x item */
+    const struct band *matrix;
+    double factor;
+};
+struct x_item {
+    int out;
+    const struct band *matrix;
+};
+
+struct tensor_plan {
+    size_t n[3], plane, volume; /* values in a plane, in a component */
+    int components, threads;
+    size_t z_items, y_items, x_items;
+    struct z_item *z;
+    struct y_item *y; /* in the order of their targets */
+    struct x_item *x;
+    size_t pad, row; /* zeros left and right of each row of the x passes; length of a padded row */
+    size_t thread_size;
+    double **buffer;    /* [threads]: z planes, padded x row, output planes of tensor_form */
+    double *plane_sums; /* [n[2]] */
+};
+
+static size_t rounded(size_t n)
+{
+    return (n + ALIGN - 1) / ALIGN * ALIGN;
+}
+
+static size_t find_z(struct tensor_plan *plan, const struct tensor_term *term)
+{
+    for (size_t i = 0; i < plan->z_items; i++)
+        if (plan->z[i].in == term->in && plan->z[i].matrix == term->matrix[2]) return i;
+    plan->z[plan->z_items] = (struct z_item){.in = term->in, .matrix = term->matrix[2]};
+    return plan->z_items++;
+}
+
+static size_t find_x(struct tensor_plan *plan, const struct tensor_term *term)
+{
+    for (size_t i = 0; i < plan->x_items; i++)
+        if (plan->x[i].out == term->out && plan->x[i].matrix == term->matrix[0]) return i;
+    plan->x[plan->x_items] = (struct x_item){.out = term->out, .matrix = term->matrix[0]};
+    return plan->x_items++;
+}
+
+/* One y item for each different (source, y matrix, target); equal ones add their factors. */
+static void add_term(struct tensor_plan *plan, const struct tensor_term *term)
+{
+    const struct y_item item = {find_z(plan, term), find_x(plan, term), term->matrix[1], term->factor};
+    if (term->matrix[0] != NULL && term->matrix[0]->half > plan->pad) plan->pad = term->matrix[0]->half;
+    for (size_t i = 0; i < plan->y_items; i++)
+        if (plan->y[i].source == item.source && plan->y[i].target == item.target &&
+            plan->y[i].matrix == item.matrix) {
+            plan->y[i].factor += item.factor;
+            return;
+        }
+    plan->y[plan->y_items++] = item;
+}
+
+static void sort_by_target(struct tensor_plan *plan)
+{
+    for (size_t i = 1; i < plan->y_items; i++) {
+        const struct y_item item = plan->y[i];
+        size_t j = i;
+        for (; j > 0 && plan->y[j - 1].target > item.target; j--)
+            plan->y[j] = plan->y[j - 1];
+        plan->y[j] = item;
+    }
+}
+
+static bool lay_buffers(struct tensor_plan *plan)
+{
+    plan->pad = rounded(plan->pad);
+    plan->row = rounded(plan->n[0]) + 2 * plan->pad;
+    plan->thread_size =
+        plan->z_items * rounded(plan->plane) + plan->row + (size_t)plan->components * rounded(plan->plane);
+    plan->buffer = array_new((size_t)plan->threads, sizeof *plan->buffer);
+    plan->plane_sums = array_new(plan->n[2], sizeof *plan->plane_sums);
+    if (plan->buffer == NULL || plan->plane_sums == NULL) return false;
+    for (int t = 0; t < plan->threads; t++) {
+        plan->buffer[t] = array_new(plan->thread_size, sizeof **plan->buffer);
+        if (plan->buffer[t] == NULL) return false;
+    }
+    return true;
+}
+
+struct tensor_plan *tensor_plan_new(const size_t n[3], int components, const struct tensor_term *terms,
+                                    size_t count, int threads)
+{
+    struct tensor_plan *plan = array_new(1, sizeof *plan);
+    if (plan == NULL) return NULL;
+    memcpy(plan->n, n, sizeof plan->n);
+    plan->plane = n[0] * n[1];
+    plan->volume = plan->plane * n[2];
+    plan->components = components;
+    plan->threads = threads;
+    plan->z = array_new(count, sizeof *plan->z);
+    plan->y = array_new(count, sizeof *plan->y);
+    plan->x = array_new(count, sizeof *plan->x);
+    if (plan->z != NULL && plan->y != NULL && plan->x != NULL) {
+        for (size_t i = 0; i < count; i++)
+            add_term(plan, &terms[i]);
+        sort_by_target(plan);
+        if (lay_buffers(plan)) return plan;
+    }
+    tensor_plan_free(plan);
+    return NULL;
+}
+
+void tensor_plan_free(struct tensor_plan *plan)
+{
+    if (plan == NULL) return;
+    for (int t = 0; plan->buffer != NULL && t < plan->threads; t++)
+        array_free(plan->buffer[t]);
+    array_free(plan->buffer);
+    array_free(plan->plane_sums);
+    array_free(plan->z);
+    array_free(plan->y);
+    array_free(plan->x);
+    array_free(plan);
+}
+
+size_t tensor_plan_bytes(const struct tensor_plan *plan)
+{
+    return (size_t)plan->threads * plan->thread_size * sizeof(double);
+}
+
+/* out[i] := init[i] + factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n;
+ * init NULL: 0. */
+static void pass_across(const struct band *matrix, size_t at, double factor, const double *in, size_t stride,
+                        size_t n, const double *init, double *out)
+{
+    const size_t half = matrix->half;
+    const size_t from = at < half ? half - at : 0;
+    const size_t end = matrix->n - at + half < 2 * half + 1 ? matrix->n - at + half : 2 * half + 1;
+    double weight[MAX_TAPS] = {0};
+    for (size_t d = from; d < end; d++)
+        weight[d - from] = factor * matrix->value[d * matrix->n + at];
+    pass_over_rows(weight, end - from, in + (at + from - half) * stride, stride, n, init, out);
+}
+
+static void add_row(double factor, const double *restrict in, size_t n, double *restrict out)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        out[i] += factor * in[i];
+}
+
+void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double factor, const double *u,
+                  double *const *out)
+{
+    tensor_rows(plan, thread, k, 0, plan->n[1], factor, u, out);
+}
+
+void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
+                 const double *u, double *const *out)
+{
+    const size_t nx = plan->n[0], plane = plan->plane, step = rounded(plane);
+    double *buffer = plan->buffer[thread];
+    double *row = buffer + plan->z_items * step + plan->pad;
+    for (size_t i = 0; i < plan->z_items; i++) {
+        const double *in = u + (size_t)plan->z[i].in * plan->volume;
+        if (plan->z[i].matrix != NULL) {
+            pass_across(plan->z[i].matrix, k, 1, in, plane, plane, NULL, buffer + i * step);
+        } else
+            memcpy(buffer + i * step, in + k * plane, plane * sizeof *in);
+    }
+    for (size_t x = 0, y = 0; x < plan->x_items; x++) {
+        const struct x_item *target = &plan->x[x];
+        size_t y_end = y;
+        while (y_end < plan->y_items && plan->y[y_end].target == x)
+            y_end++;
+        for (size_t j = from; j < end; j++) {
+            double *result = out[target->out] + j * nx;
+            const bool along = target->matrix != NULL;
+            double *sum = along ? row : result;
+            const double scale = along ? 1 : factor;
+            if (along) memset(row, 0, nx * sizeof *row);
+            for (size_t i = y; i < y_end; i++) {
+                const double *in = buffer + plan->y[i].source * step;
+                if (plan->y[i].matrix != NULL)
+                    pass_across(plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum, sum);
+                else
+                    add_row(scale * plan->y[i].factor, in + j * nx, nx, sum);
+            }
+            if (along)
+                pass_over_neighbours(target->matrix->value, 2 * target->matrix->half + 1, factor,
+                                     row - target->matrix->half, nx, result);
+        }
+        y = y_end;
+    }
+}
+
+double tensor_form(struct tensor_plan *plan, const double *w, const double *u)
+{
+    const size_t plane = plan->plane, step = rounded(plane);
+#pragma omp parallel for num_threads(plan->threads) schedule(static)
+    for (size_t k = 0; k < plan->n[2]; k++) {
+        const int thread = omp_get_thread_num();
+        double *out[3] = {NULL, NULL, NULL}, sum = 0;
+        for (int c = 0; c < plan->components; c++) {
+            out[c] = plan->buffer[thread] + plan->z_items * step + plan->row + (size_t)c * step;
+            memset(out[c], 0, plane * sizeof **out);
+        }
+        tensor_plane(plan, thread, k, 1, u, out);
+        for (int c = 0; c < plan->components; c++)
+            for (size_t i = 0; i < plane; i++)
+                sum += out[c][i] * w[(size_t)c * plan->volume + k * plane + i];
+        plan->plane_sums[k] = sum;
+    }
+    double total = 0;
+    for (size_t k = 0; k < plan->n[2]; k++)
+        total += plan->plane_sums[k];
+    return total;
+}

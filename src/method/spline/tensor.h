@@ -1,0 +1,39 @@
+/* Sums of Kronecker products applied plane by plane.
+ *
+ * The operators of the consistent method are sums of terms factor * A_x (x) A_y (x) A_z from one component to
+ * another, each A a band matrix of one axis. A plan shares what terms have in common; one z plane of the
+ * result is made at a time in buffers that stay in the cache, by 1-D passes in the order z, y, x, all of them
+ * unit-stride loops over x. Planes are independent: the result does not depend on the number of threads. */
+#ifndef SELAS_METHOD_SPLINE_TENSOR_H
+#define SELAS_METHOD_SPLINE_TENSOR_H
+
+#include "method/spline/band.h"
+
+struct tensor_term {
+    int out, in;                  /* components */
+    const struct band *matrix[3]; /* axes x, y, z; NULL = identity; not owned */
+    double factor;
+};
+
+struct tensor_plan;
+
+/* Plan for fields of n[0] x n[1] x n[2] values a component (x fastest, component stride = their product);
+ * keeps the pointers to the matrices. NULL: no memory. */
+struct tensor_plan *tensor_plan_new(const size_t n[3], int components, const struct tensor_term *terms,
+                                    size_t count, int threads);
+void tensor_plan_free(struct tensor_plan *plan);
+size_t tensor_plan_bytes(const struct tensor_plan *plan);
+
+/* Adds factor * (plan's operator on u), plane k, to out[component][n[0] * n[1]]; thread is the caller's
+ * number below `threads`. */
+void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double factor, const double *u,
+                  double *const *out);
+
+/* The same for rows from .. end - 1 of the plane alone. */
+void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
+                 const double *u, double *const *out);
+
+/* w^T A u, summed plane by plane. */
+double tensor_form(struct tensor_plan *plan, const double *w, const double *u);
+
+#endif

@@ -1,0 +1,88 @@
+/* Total-Lagrangian SPH: forces of the loads, energies, and the power of loads, moving faces, dampers and
+ * viscosity (doc/sph-total-lagrangian.md). */
+#include "method/total_lagrangian/total_lagrangian.h"
+
+#include <string.h>
+
+void tl_add_loads(struct tl_model *tl, const struct drive *drive)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    if (drive->load == NULL) return;
+    for (size_t k = 0; k < tl->model.scene->loads; k++) {
+        const struct tl_load *load = &tl->load[k];
+        const double amplitude = drive->load[k];
+        if (amplitude == 0) continue;
+        for (size_t e = 0; e < load->count; e++)
+            for (size_t a = 0; a < d; a++)
+                tl->force[d * load->point[e] + a] += amplitude * load->force[d * e + a];
+    }
+}
+
+/* M v. */
+void tl_weigh(struct model *model, const double *v, double *product)
+{
+    const struct tl_model *tl = (const struct tl_model *)model;
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t k = d * i; k < d * (i + 1); k++)
+            product[k] = tl->mass[i] * v[k];
+}
+
+void tl_energy(struct model *model, const double *y, struct energy *energy)
+{
+    struct tl_model *tl = (struct tl_model *)model;
+    const size_t d = (size_t)tl->cloud->dimension;
+    tl_sites(tl, y, NULL, tl->displacement, NULL);
+    tl_gradients(tl);
+    energy->strain = tl_strain_energy(tl);
+    energy->kinetic = 0;
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t c = 0; c < d; c++) {
+            const double v = y[model->unknowns + d * i + c];
+            energy->kinetic += 0.5 * tl->mass[i] * v * v;
+        }
+}
+
+/* Work done at moving faces: minus the force on each ghost, hourglass control's too, times its prescribed
+ * velocity. */
+static double motion_power(struct tl_model *tl, const double *velocity)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    double power = 0;
+    tl_ghost_hourglass(tl);
+    for (size_t g = 0; g < tl->ghosts; g++)
+        for (size_t c = 0; c < d; c++)
+            for (size_t f = 0; f < FACES; f++)
+                power -= tl->force[d * (tl->cloud->points + g) + c] * tl->ghost[g].motion[c][f] * velocity[f];
+    return power;
+}
+
+void tl_power(struct model *model, const struct drive *drive, const double *y, double *load, double *absorbed)
+{
+    struct tl_model *tl = (struct tl_model *)model;
+    const size_t n = model->unknowns;
+    const size_t d = (size_t)tl->cloud->dimension;
+    const double *v = y + n;
+    *load = 0;
+    *absorbed = 0;
+    if (tl->moving && drive->velocity != NULL) {
+        tl_sites(tl, y, v, drive->displacement, drive->velocity);
+        tl_gradients(tl);
+        tl_forces(tl);
+        *load += motion_power(tl, drive->velocity);
+    }
+    if (tl->site_v != NULL) {
+        tl_sites(tl, y, v, drive->displacement, drive->velocity);
+        memset(tl->force, 0, n * sizeof *tl->force);
+        tl_viscosity(tl);
+        for (size_t k = 0; k < n; k++)
+            *absorbed -= tl->force[k] * v[k];
+    }
+    for (size_t k = 0; tl->damper != NULL && k < n; k++)
+        *absorbed += tl->damper[k] * v[k] * v[k];
+    memset(tl->force, 0, n * sizeof *tl->force);
+    tl_add_loads(tl, drive);
+    for (size_t i = 0; i < model->points; i++)
+        for (size_t k = d * i; k < d * (i + 1); k++)
+            *load += tl->force[k] * v[k];
+}

@@ -1,0 +1,337 @@
+/* Loads, dampers and probes of total-Lagrangian SPH.
+ *
+ * A uniform stress t x n in the body pulls at the points with f_j = -sum_i V_i (t x n) G_ij + ..., the
+ * discrete form of the integral of t phi_j over the surface; so these forces, taken from the points near the
+ * loaded face and weighed with the part of their footprint that the patch covers, are the consistent load:
+ * under it a uniform stress is in equilibrium to the last layer. Forces at a place and moment tensors work on
+ * the moving-least-squares value and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force
+ * and moment. */
+#include "method/total_lagrangian/total_lagrangian.h"
+
+#include "base/memory.h"
+#include "points/least_squares.h"
+
+#include <math.h>
+#include <string.h>
+
+selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
+                      double *weight, double *gradient, struct messages *messages)
+{
+    double offset[3 * TL_PROBE_ROOM];
+    double kernel[TL_PROBE_ROOM];
+    double work[FIT_TERMS * TL_PROBE_ROOM];
+    if (tl->options.central) {
+        *count = tl_lattice_probe(tl, body_position, index, weight, gradient);
+        return SELAS_OK;
+    }
+    const int d = tl->cloud->dimension;
+    const size_t wanted = tl_wanted(tl);
+    const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);
+    const size_t nearest = neighbours_nearest(&tl->near, body_position);
+    const double spacing = nearest < tl->cloud->points ? tl->spacing[nearest] : tl->cloud->spacing;
+    double radius = tl_radius(tl) * spacing / tl->cloud->spacing;
+    while (radius <= tl->near.radius * (1 + 1e-9)) {
+        *count = 0;
+        for (size_t k = 0; k < near && *count < TL_PROBE_ROOM; k++) {
+            double square = 0;
+            for (size_t c = 0; c < 3; c++) {
+                offset[3 * *count + c] = tl->cloud->position[3 * tl->found[k] + c] - body_position[c];
+                square += offset[3 * *count + c] * offset[3 * *count + c];
+            }
+            kernel[*count] =
+                kernel_value(tl->options.kernel, d, sqrt(square), radius / tl->options.kernel->support);
+            kernel[*count] *= tl->cloud->volume[tl->found[k]];
+            if (tl->options.form != NULL) /* interpolates: a receiver at a point reads that point */
+                kernel[*count] /= 1e-6 + square / (spacing * spacing);
+            if (!(kernel[*count] > 0)) continue;
+            index[(*count)++] = tl->found[k];
+        }
+        const struct fit fit = {d, tl->options.degree, radius, *count, offset, kernel, work};
+        const bool enough = *count >= wanted || radius * 1.05 > tl->near.radius;
+        if (enough && fit_free(&fit, weight, gradient)) return SELAS_OK;
+        radius *= 1.05;
+    }
+    return fail(messages, SELAS_BAD_SCENE, "no points near (%g, %g, %g) to take a value from",
+                body_position[0], body_position[1], body_position[2]);
+}
+
+/* Length that [a - half, a + half] and [b - wide, b + wide] share. */
+static double overlap(double a, double half, double b, double wide)
+{
+    return fmax(0, fmin(a + half, b + wide) - fmax(a - half, b - wide));
+}
+
+/* Part of the rectangle about `place` (edges `width`, across `axis`) that a patch covers. */
+static double covered(const struct load *load, int axis, const double place[3], const double width[3],
+                      const double centre[3], int dimension)
+{
+    enum { CUTS = 16 };
+    if (load->shape == LOAD_FACE || dimension == 1) return 1;
+    if (load->shape == LOAD_SQUARE) {
+        double part = 1;
+        for (int c = 0, edge = 0; c < dimension && edge < 2; c++) {
+            if (c == axis) continue;
+            part *= overlap(place[c], 0.5 * width[c], centre[c], 0.5 * load->size[edge++]) / width[c];
+        }
+        return part;
+    }
+    int inside = 0;
+    for (int i = 0; i < CUTS; i++)
+        for (int j = 0; j < CUTS; j++) {
+            const double cut[2] = {(i + 0.5) / CUTS - 0.5, (j + 0.5) / CUTS - 0.5};
+            double square = 0;
+            for (int c = 0, k = 0; c < dimension && k < 2; c++) {
+                if (c == axis) continue;
+                const double away = place[c] + cut[k++] * width[c] - centre[c];
+                square += away * away;
+            }
+            inside += square <= 0.25 * load->size[0] * load->size[0];
+        }
+    return inside / (double)(CUTS * CUTS);
+}
+
+struct gather {
+    double *force; /* [dimension * points] */
+    struct messages *messages;
+};
+
+/* Adds a force (gradient NULL) or a moment tensor at a place. */
+static selas_status add_at(struct tl_model *tl, const double place[3], const double force[3],
+                           const double *moment, struct gather *gather)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    size_t count = 0;
+    size_t index[TL_PROBE_ROOM];
+    double weight[TL_PROBE_ROOM] = {0};
+    double gradient[3 * TL_PROBE_ROOM] = {0};
+    const selas_status status = tl_probe(tl, place, &count, index, weight, gradient, gather->messages);
+    if (status != SELAS_OK) return status;
+    for (size_t k = 0; k < count; k++)
+        for (size_t a = 0; a < d && a < 3; a++) {
+            double *out = gather->force + d * index[k] + a;
+            if (moment == NULL)
+                *out += weight[k] * force[a];
+            else
+                for (size_t b = 0; b < d; b++)
+                    *out += moment[3 * a + b] * gradient[3 * k + b];
+        }
+    return SELAS_OK;
+}
+
+/* Part of a point source that the body carries: a half for each symmetry plane it lies in. */
+static double carried(const struct scene *scene, const double place[3])
+{
+    double part = 1;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const int axis = face / 2;
+        const double plane = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
+        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY &&
+            fabs(place[axis] - plane) < 1e-6 * scene->body.spacing)
+            part *= 0.5;
+    }
+    return part;
+}
+
+static void moment_in_body(const struct scene *scene, const struct load *load, double scale, double moment[9])
+{
+    static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    double half[9];
+    for (int b = 0; b < 3; b++) {
+        double column[3];
+        double turned[3];
+        for (int a = 0; a < 3; a++)
+            column[a] = scale * load->moment[place[3 * a + b]];
+        body_direction_from_deck(&scene->body, column, turned);
+        for (int a = 0; a < 3; a++)
+            half[3 * a + b] = turned[a];
+    }
+    for (int a = 0; a < 3; a++)
+        body_direction_from_deck(&scene->body, half + 3 * a, moment + 3 * a);
+}
+
+/* Area of the patch on the surface. */
+static double patch_area(const struct tl_model *tl, const struct load *load, const double centre[3])
+{
+    double area = 0;
+    for (size_t e = 0; e < tl->cloud->elements; e++) {
+        const struct face_element *element = &tl->cloud->element[e];
+        if (element->face == (int)load->face)
+            area += element->area * covered(load, face_axis(load->face), element->position, element->width,
+                                            centre, tl->cloud->dimension);
+    }
+    return area;
+}
+
+/* Forces of the uniform stress -direction x normal, into tl->force. */
+static void uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t axis = (size_t)face_axis(face);
+    memset(tl->A, 0, d * tl->plane * sizeof *tl->A);
+    if (tl->extra != NULL) memset(tl->extra, 0, d * tl->cloud->points * sizeof *tl->extra);
+    for (size_t i = 0; i < tl->cloud->points; i++)
+        for (size_t a = 0; a < d; a++)
+            tl->A[(size_t)axis * tl->plane + d * i + a] =
+                -tl->cloud->volume[i] * direction[a] * face_sign(face);
+    tl_divergence(tl);
+}
+
+static selas_status traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
+                                    const double direction[3], struct gather *gather)
+{
+    const struct body *body = &tl->model.scene->body;
+    const size_t d = (size_t)tl->cloud->dimension;
+    const int axis = face_axis(load->face);
+    const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+    const double reach = fmin(2 * tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
+    double sum = 0;
+    uniform_stress(tl, direction, load->face);
+    for (size_t i = 0; i < tl->cloud->points; i++) {
+        const double *x = tl->cloud->position + 3 * i;
+        if (fabs(x[axis] - plane) > reach) continue;
+        const double wide = pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
+        const double width[3] = {wide, wide, wide};
+        const double part = covered(load, axis, x, width, centre, tl->cloud->dimension);
+        for (size_t a = 0; a < d; a++) {
+            gather->force[d * i + a] = part * tl->force[d * i + a];
+            sum += gather->force[d * i + a] * direction[a];
+        }
+    }
+    /* what patches that cut points and scattered points lose or win */
+    const double area = patch_area(tl, load, centre);
+    if (!(sum > 0.5 * area) || !(sum < 2 * area))
+        return fail(
+            gather->messages, SELAS_BAD_SCENE,
+            "a load's patch is too small for the spacing: make it a point load, or the spacing smaller");
+    for (size_t k = 0; k < d * tl->cloud->points; k++)
+        gather->force[k] *= load->amplitude * area / sum;
+    return SELAS_OK;
+}
+
+/* Tractions on the hole or on surfaces from a file, element by element. */
+static selas_status traction_on_elements(struct tl_model *tl, const struct load *load,
+                                         const double direction[3], struct gather *gather)
+{
+    for (size_t e = 0; e < tl->cloud->elements; e++) {
+        const struct face_element *element = &tl->cloud->element[e];
+        double force[3];
+        if (element->face != (int)load->face) continue;
+        for (int c = 0; c < 3; c++)
+            force[c] = direction[c] * load->amplitude * element->area;
+        const selas_status status = add_at(tl, element->position, force, NULL, gather);
+        if (status != SELAS_OK) return status;
+    }
+    return SELAS_OK;
+}
+
+static selas_status collect_load(struct tl_model *tl, const struct load *load, struct gather *gather)
+{
+    const struct scene *scene = tl->model.scene;
+    const size_t d = (size_t)scene->dimension;
+    double centre[3];
+    double direction[3];
+    double force[3];
+    body_from_deck(&scene->body, load->centre, centre);
+    body_direction_from_deck(&scene->body, load->direction, direction);
+    const double part = carried(scene, centre) * load->amplitude;
+    for (int c = 0; c < 3; c++)
+        force[c] = direction[c] * part;
+    if (load->kind == LOAD_MOMENT_TENSOR) {
+        double moment[9];
+        moment_in_body(scene, load, part, moment);
+        return add_at(tl, centre, force, moment, gather);
+    }
+    if (load->shape == LOAD_POINT) return add_at(tl, centre, force, NULL, gather);
+    if (load->kind == LOAD_BODY_FORCE) {
+        for (size_t i = 0; i < tl->cloud->points; i++)
+            for (size_t a = 0; a < d; a++)
+                gather->force[d * i + a] = tl->cloud->volume[i] * load->amplitude * direction[a];
+        return SELAS_OK;
+    }
+    if (tl->options.form != NULL && load->face != FACE_HOLE)
+        return tl->options.form->traction(tl, load, centre, direction, gather->force, gather->messages);
+    if (load->face != FACE_HOLE && (scene->body.shape != BODY_POINTS || load->shape == LOAD_FACE))
+        return traction_on_box(tl, load, centre, direction, gather);
+    if (load->shape != LOAD_FACE)
+        return fail(gather->messages, SELAS_UNSUPPORTED, "a load on face '%s' needs shape = 'face'",
+                    face_name(load->face));
+    return traction_on_elements(tl, load, direction, gather);
+}
+
+static selas_status compress(struct tl_model *tl, const double *force, struct tl_load *load,
+                             struct messages *messages)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    for (int pass = 0; pass < 2; pass++) {
+        size_t count = 0;
+        for (size_t i = 0; i < tl->cloud->points; i++) {
+            bool loaded = false;
+            for (size_t a = 0; a < d; a++)
+                loaded = loaded || force[d * i + a] != 0;
+            if (!loaded) continue;
+            if (pass == 1) {
+                load->point[count] = i;
+                memcpy(load->force + d * count, force + d * i, d * sizeof *force);
+            }
+            count++;
+        }
+        if (pass == 1) break;
+        load->count = count;
+        load->point = array_new(count, sizeof *load->point);
+        load->force = array_new(d * count, sizeof *load->force);
+        if (load->point == NULL || load->force == NULL)
+            return fail(messages, SELAS_NO_MEMORY, "no memory for the load on %zu points", count);
+    }
+    return SELAS_OK;
+}
+
+selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
+{
+    const struct scene *scene = tl->model.scene;
+    const size_t n = (size_t)scene->dimension * tl->cloud->points;
+    struct gather gather = {array_new(n, sizeof(double)), messages};
+    tl->load = array_new(scene->loads, sizeof *tl->load);
+    selas_status status = SELAS_OK;
+    if (gather.force == NULL || tl->load == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for loads");
+    for (size_t k = 0; k < scene->loads && status == SELAS_OK; k++) {
+        const struct load *load = &scene->load[k];
+        if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
+            status = fail(messages, SELAS_UNSUPPORTED, "total-Lagrangian points take no moving loads");
+        if (status != SELAS_OK || gather.force == NULL) break;
+        memset(gather.force, 0, n * sizeof(double));
+        status = collect_load(tl, load, &gather);
+        if (status == SELAS_OK) status = compress(tl, gather.force, &tl->load[k], messages);
+    }
+    array_free(gather.force);
+    return status;
+}
+
+/* Lysmer & Kuhlemeyer 1969: traction = -rho c v on the point nearest to each surface element. */
+selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
+{
+    const struct scene *scene = tl->model.scene;
+    const size_t d = (size_t)scene->dimension;
+    for (size_t e = 0; e < tl->cloud->elements; e++) {
+        const struct face_element *element = &tl->cloud->element[e];
+        if (element->face >= FACES) continue;
+        const struct boundary *boundary = &scene->boundary[element->face];
+        if (boundary->kind != BOUNDARY_TRANSMITTING) continue;
+        if (boundary->absorber == ABSORBER_PML)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "total-Lagrangian points have no perfectly matched layer; say layer = 'lysmer'");
+        if (tl->damper == NULL) tl->damper = array_new(d * tl->cloud->points, sizeof(double));
+        if (tl->damper == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for dampers");
+        const size_t i = neighbours_nearest(&tl->near, element->position);
+        if (i >= tl->cloud->points) continue;
+        const struct material *material = tl->material[i];
+        for (size_t a = 0; a < d; a++) {
+            const double normal = element->normal[a] * element->normal[a];
+            const double speed = normal * boundary->normal_factor * material->p_speed +
+                                 (1 - normal) * boundary->shear_factor * material->s_speed;
+            tl->damper[d * i + a] += element->area * material->density * speed;
+        }
+    }
+    tl->model.damped = tl->damper != NULL;
+    return SELAS_OK;
+}

@@ -1,0 +1,341 @@
+/* Set-up of total-Lagrangian SPH: gradient weights by weighted least squares in the reference configuration,
+ * and their transposed rows. */
+#include "method/total_lagrangian/setup.h"
+
+#include "base/memory.h"
+#include "points/least_squares.h"
+
+#include <math.h>
+#include <string.h>
+
+double tl_radius(const struct tl_model *tl)
+{
+    double length = tl->options.smoothing_length;
+    if (!(length > 0)) length = tl->options.central ? 0.8 : tl->options.degree == 2 ? 1.3 : 1.5;
+    return length * tl->options.kernel->support * tl->cloud->spacing;
+}
+
+static void work_free(struct tl_work *work)
+{
+    array_free(work->near);
+    array_free(work->index);
+    array_free(work->offset);
+    array_free(work->weight);
+    array_free(work->gradient);
+    array_free(work->fit);
+    *work = (struct tl_work){0};
+}
+
+static bool work_allocate(struct tl_work *work, size_t room)
+{
+    work_free(work);
+    work->room = room;
+    work->near = array_new(room, sizeof *work->near);
+    work->index = array_new(room, sizeof *work->index);
+    work->offset = array_new(3 * room, sizeof *work->offset);
+    work->weight = array_new(room, sizeof *work->weight);
+    work->gradient = array_new(3 * room, sizeof *work->gradient);
+    work->fit = array_new(FIT_TERMS * room, sizeof *work->fit);
+    return work->near != NULL && work->index != NULL && work->offset != NULL && work->weight != NULL &&
+           work->gradient != NULL && work->fit != NULL;
+}
+
+bool tl_find_near(const struct tl_model *tl, const struct neighbours *near, size_t i, double radius,
+                  struct tl_work *work)
+{
+    const double *x = tl->site_position + 3 * i;
+    work->found = neighbours_within(near, x, radius, work->room, work->near);
+    if (work->found <= work->room) return true;
+    if (!work_allocate(work, 2 * work->found)) return false;
+    work->found = neighbours_within(near, x, radius, work->room, work->near);
+    return true;
+}
+
+double tl_distance(const double *a, const double *b)
+{
+    double square = 0;
+    for (int c = 0; c < 3; c++)
+        square += (a[c] - b[c]) * (a[c] - b[c]);
+    return sqrt(square);
+}
+
+static double site_volume(const struct tl_model *tl, size_t s)
+{
+    return s < tl->cloud->points ? tl->cloud->volume[s] : tl->ghost[s - tl->cloud->points].volume;
+}
+
+/* Exponent of the kernel in the weights of quadratic gradients, and what it does (measured, see the manual).
+ * On a lattice, where the stencil is whole: sharp weights, for they disperse waves least (error of a pulse
+ * .012 instead of .030 with exponent 1/2); where faces cut it: flat ones, for the largest gradient weights
+ * are there and limit the time step (courant limit .97 instead of .66 with exponent 1). On scattered points
+ * the same smooth weights everywhere, since jumps from point to point make noise in the stress. */
+static double weight_exponent(const struct tl_model *tl, bool cut)
+{
+    const bool lattice = tl->cloud->grid[0] > 0;
+    if (!lattice) return 0.5;
+    return cut ? 0.2 : 2;
+}
+
+/* Of the sites near point i those within `radius`, with their weights; returns how many. Linear: V |W'| / r,
+ * the corrected kernel gradient. Quadratic: V W^exponent. */
+static size_t collect(const struct tl_model *tl, size_t i, double radius, double exponent,
+                      struct tl_work *work)
+{
+    const struct kernel *kernel = tl->options.kernel;
+    const double *x = tl->site_position + 3 * i;
+    const double h = radius / kernel->support;
+    const bool quadratic = tl->options.degree == 2;
+    size_t count = 0;
+    for (size_t k = 0; k < work->found; k++) {
+        const size_t j = work->near[k];
+        double square = 0;
+        if (j == i && !quadratic) continue;
+        for (size_t c = 0; c < 3; c++) {
+            work->offset[3 * count + c] = tl->site_position[3 * j + c] - x[c];
+            square += work->offset[3 * count + c] * work->offset[3 * count + c];
+        }
+        const double r = sqrt(square);
+        if (r >= radius * (1 - 1e-9)) continue;
+        double weight = quadratic ? pow(kernel_value(kernel, tl->cloud->dimension, r, h), exponent)
+                                  : -kernel_derivative_over_r(kernel, tl->cloud->dimension, r, h);
+        weight *= site_volume(tl, j);
+        if (!(weight > 0)) continue;
+        work->weight[count] = weight;
+        work->index[count++] = (uint32_t)j;
+    }
+    return count;
+}
+
+/* Neighbours within `reach` spacings of a point inside a lattice. */
+static size_t lattice_neighbours(int dimension, double reach)
+{
+    const int most = (int)ceil(reach);
+    const int m[3] = {most, dimension > 1 ? most : 0, dimension > 2 ? most : 0};
+    size_t count = 0;
+    for (int x = -m[0]; x <= m[0]; x++)
+        for (int y = -m[1]; y <= m[1]; y++)
+            for (int z = -m[2]; z <= m[2]; z++)
+                count += x * x + y * y + z * z < reach * reach * (1 - 1e-9);
+    return count - 1;
+}
+
+size_t tl_wanted(const struct tl_model *tl)
+{
+    if (tl->options.degree == 1) return 0;
+    return lattice_neighbours(tl->cloud->dimension, tl_radius(tl) / tl->cloud->spacing);
+}
+
+/* Gradient weights of point i into work->gradient; returns how many sites they take, 0 if no radius up to
+ * `most` will do, SIZE_MAX if there is no memory. Quadratic gradients at faces and corners grow their radius
+ * until they have as many neighbours as inside: a one-sided fit over few points has large weights, which
+ * would limit the time step. */
+static size_t fit_point(const struct tl_model *tl, const struct neighbours *near, size_t i, double most,
+                        struct tl_work *work)
+{
+    const double reach = tl_radius(tl) / tl->cloud->spacing;
+    const bool quadratic = tl->options.degree == 2;
+    const size_t wanted = tl_wanted(tl);
+    double radius = reach * tl->spacing[i], found = tl->options.central ? most : radius;
+    size_t count = 0;
+    bool done = false;
+    bool cut = false;
+    if (!tl_find_near(tl, near, i, found, work)) return SIZE_MAX;
+    if (tl->options.central)
+        return tl_central_row(tl, work->near, work->found, i, work->index, work->gradient);
+    for (; !done && radius <= most * (1 + 1e-12); radius *= 1.03) {
+        if (radius > found && !tl_find_near(tl, near, i, found = most, work)) return SIZE_MAX;
+        count = collect(tl, i, radius, weight_exponent(tl, cut), work);
+        cut = cut || count < wanted;
+        if (count < wanted && radius * 1.03 < most) continue;
+        const struct fit fit = {tl->cloud->dimension, tl->options.degree, radius,   count,
+                                work->offset,         work->weight,       work->fit};
+        done = quadratic ? fit_free(&fit, NULL, work->gradient) : fit_through_centre(&fit, work->gradient);
+    }
+    return done ? count : 0;
+}
+
+selas_status tl_no_memory(const struct tl_model *tl, struct messages *messages)
+{
+    return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu points", tl->cloud->points);
+}
+
+size_t tl_layers_within(const struct tl_model *tl, double radius)
+{
+    double least = radius;
+    for (size_t c = 0; c < (size_t)tl->cloud->dimension && tl->cloud->grid[0] > 0; c++) {
+        const struct body *body = &tl->model.scene->body;
+        least = fmin(least, (body->high[c] - body->low[c]) / (double)tl->cloud->grid[c]);
+    }
+    return (size_t)ceil(radius / least) + 1;
+}
+
+static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
+                                  struct messages *messages)
+{
+    const double most = tl_search_radius(tl);
+    const size_t layers = tl_layers_within(tl, most);
+    struct tl_rows *rows = &tl->gradient;
+    for (size_t i = 0; i < tl->cloud->points; i++) {
+        struct tl_like like;
+        tl_likes(tl, i, layers, &like);
+        if (tl_rows_share(tl, rows, i, &like, false)) continue;
+        const size_t count = fit_point(tl, near, i, most, work);
+        if (count == 0)
+            return fail(
+                messages, SELAS_BAD_SCENE,
+                "point %zu at (%g, %g, %g) has too few neighbours for a gradient of degree %d: the body is "
+                "too thin for its spacing",
+                i, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1], tl->cloud->position[3 * i + 2],
+                tl->options.degree);
+        bool room = count < SIZE_MAX;
+        for (size_t k = 0; room && k < count; k++)
+            if (work->index[k] != i) room = tl_rows_add(rows, i, work->index[k], work->gradient + 3 * k);
+        if (!room || !tl_rows_close(rows, i, &like, NULL, 0)) return tl_no_memory(tl, messages);
+    }
+    return tl_rows_end(rows) ? SELAS_OK : tl_no_memory(tl, messages);
+}
+
+/* G_ii = minus the sum over j of G_ij; false if that is 0 but for rounding, as inside a lattice. */
+static bool own_weight(const struct tl_model *tl, size_t i, double own[3])
+{
+    const struct tl_rows *rows = &tl->gradient;
+    double size = 0;
+    own[0] = own[1] = own[2] = 0;
+    for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
+        for (size_t a = 0; a < rows->width && a < 3; a++) {
+            own[a] -= rows->weight[rows->width * k + a];
+            size += fabs(rows->weight[rows->width * k + a]);
+        }
+    return fabs(own[0]) + fabs(own[1]) + fabs(own[2]) > 1e-13 * size;
+}
+
+/* Largest distance of the neighbours in the gradients. */
+static double reach_of_rows(const struct tl_model *tl)
+{
+    const struct tl_rows *rows = &tl->gradient;
+    double most = 0;
+    for (size_t r = 0; r < rows->rows; r++)
+        for (size_t k = rows->start[r]; k < rows->start[r + 1]; k++) {
+            const size_t i = rows->example[r];
+            most = fmax(most, tl_distance(tl->site_position + 3 * i,
+                                          tl->site_position + 3 * tl_neighbour(rows, i, k)));
+        }
+    return most * (1 + 1e-9);
+}
+
+/* Adds what stands for site s in the row of point i to the open transposed row. */
+static bool add_transposed(struct tl_model *tl, size_t s, size_t i)
+{
+    const struct tl_rows *rows = &tl->gradient;
+    double own[3];
+    if (i == s && own_weight(tl, i, own)) return tl_rows_add(&tl->transposed, s, i, own);
+    if (i == s) return true;
+    const ptrdiff_t shift = rows->dimension * ((ptrdiff_t)s - (ptrdiff_t)i);
+    for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
+        if (rows->shift[k] == shift)
+            return tl_rows_add(&tl->transposed, s, i, rows->weight + rows->width * k);
+    return true;
+}
+
+/* Rows of the sites over the points whose gradients they enter. */
+static selas_status transpose(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
+                              struct messages *messages)
+{
+    const double reach = reach_of_rows(tl);
+    const size_t layers = tl_layers_within(tl, reach) + tl_layers_within(tl, tl_search_radius(tl));
+    for (size_t s = 0; s < tl->sites; s++) {
+        struct tl_like like;
+        tl_likes(tl, s, layers, &like);
+        if (tl_rows_share(tl, &tl->transposed, s, &like, false)) continue;
+        bool room = tl_find_near(tl, near, s, reach, work);
+        for (size_t k = 0; room && k < work->found && work->near[k] < tl->cloud->points; k++)
+            room = add_transposed(tl, s, work->near[k]);
+        if (!room || !tl_rows_close(&tl->transposed, s, &like, NULL, 0)) return tl_no_memory(tl, messages);
+    }
+    return tl_rows_end(&tl->transposed) ? SELAS_OK : tl_no_memory(tl, messages);
+}
+
+/* Ghosts of each point that has some. */
+static selas_status return_rows(struct tl_model *tl, struct messages *messages)
+{
+    const size_t n = tl->cloud->points;
+    uint32_t *count = array_new(n + 1, sizeof *count);
+    bool room = count != NULL;
+    for (size_t g = 0; room && g < tl->ghosts; g++)
+        tl->sources += count[tl->ghost[g].source]++ == 0;
+    tl->source = array_new(tl->sources, sizeof *tl->source);
+    tl->returned_start = array_new(tl->sources + 1, sizeof *tl->returned_start);
+    tl->returned = array_new(tl->ghosts, sizeof *tl->returned);
+    room = room && tl->source != NULL && tl->returned_start != NULL && tl->returned != NULL;
+    for (size_t i = 0, s = 0; room && i < n; i++) {
+        if (count[i] == 0) continue;
+        tl->source[s] = i;
+        tl->returned_start[s + 1] = tl->returned_start[s] + count[i];
+        count[i] = (uint32_t)s++;
+    }
+    for (size_t g = 0; room && g < tl->ghosts; g++)
+        tl->returned[tl->returned_start[count[tl->ghost[g].source]]++] = (uint32_t)g;
+    for (size_t s = tl->sources; room && s > 0; s--) /* moved on while filling, and now back */
+        tl->returned_start[s] = tl->returned_start[s - 1];
+    if (room) tl->returned_start[0] = 0;
+    array_free(count);
+    return room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for %zu ghosts", tl->ghosts);
+}
+
+static double largest_spacing(const struct tl_model *tl)
+{
+    double largest = 0;
+    for (size_t i = 0; i < tl->cloud->points; i++)
+        largest = fmax(largest, tl->spacing[i]);
+    return largest;
+}
+
+double tl_search_radius(const struct tl_model *tl)
+{
+    return 1.5 * tl_radius(tl) / tl->cloud->spacing * largest_spacing(tl);
+}
+
+static selas_status fill_rows(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
+                              struct messages *messages)
+{
+    const int dimension = tl->cloud->dimension;
+    const size_t n = tl->cloud->points, d = (size_t)dimension;
+    const bool viscous = tl->options.viscosity_alpha > 0 || tl->options.viscosity_beta > 0;
+    bool room = work_allocate(work, 256) && tl_rows_begin(&tl->gradient, dimension, n, d) &&
+                tl_rows_begin(&tl->transposed, dimension, tl->sites, d);
+    if (room && tl->options.hourglass > 0) room = tl_rows_begin(&tl->pair, dimension, n, 1);
+    if (room && viscous) {
+        tl->site_v = array_new(d * tl->sites, sizeof(double));
+        room = tl->site_v != NULL && tl_rows_begin(&tl->viscous, dimension, n, 2);
+    }
+    if (!room) return tl_no_memory(tl, messages);
+    selas_status status = tl->options.form != NULL ? tl->options.form->gradients(tl, near, messages)
+                                                   : fill_gradient(tl, near, work, messages);
+    if (status == SELAS_OK) status = transpose(tl, near, work, messages);
+    if (status == SELAS_OK) status = return_rows(tl, messages);
+    if (status == SELAS_OK && tl->options.hourglass > 0)
+        status = tl_make_hourglass(tl, 1.6 * (1 + 1e-9) * largest_spacing(tl), near, work, messages);
+    if (status == SELAS_OK && viscous) status = tl_make_viscosity(tl, near, work, messages);
+    return status;
+}
+
+selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
+{
+    struct neighbours near = {0};
+    struct tl_work work = {0};
+    const int d = tl->cloud->dimension;
+    const double most = tl_search_radius(tl), usual = most / 1.5;
+    selas_status status = tl_make_ghosts(tl, most, messages);
+    if (status == SELAS_OK && tl->sites > INT32_MAX / 3)
+        status =
+            fail(messages, SELAS_UNSUPPORTED, "%zu points are more than this method can number", tl->sites);
+    if (status == SELAS_OK)
+        status = tl->options.form != NULL
+                     ? neighbours_find(&near, d, tl->sites, tl->site_position, most, true, messages)
+                     : neighbours_cells(&near, d, tl->sites, tl->site_position, usual, messages);
+    if (status == SELAS_OK) status = fill_rows(tl, &near, &work, messages);
+    if (status == SELAS_OK) status = tl_find_runs(tl, messages);
+    neighbours_free(&near);
+    work_free(&work);
+    return status;
+}

@@ -1,0 +1,133 @@
+/* Lists of neighbours for eight particles at a time (contract.h), and the choice between them
+ * and lists of single particles. The choice is made once, from the reference places, so that it does not
+ * depend on the history of the run. */
+#include "method/updated_lagrangian/updated_lagrangian.h"
+
+#include "base/memory.h"
+#include "base/vectors.h"
+
+/* Eight particles may have this many times the neighbours of one between them before they are better summed
+ * one by one (measured: doc/performance.md). */
+static const double MOST = 2;
+
+/* First entry from k on of particle i's list that its kernel can reach before the next search; the end of the
+ * list if there is none. Where lengths differ the lists hold many that it cannot. */
+static size_t reachable(const struct updated *updated, size_t i, size_t k)
+{
+    const struct neighbours *near = &updated->neighbours;
+    const size_t points = updated->cloud->points;
+    for (; k < near->start[i + 1] && !updated->even; k++) {
+        const size_t j = near->index[k], source = j < points ? j : updated->ghost[j - points].source;
+        const double most =
+            updated->reach * (updated->length[i] + updated->length[source]) / 2 + updated->skin;
+        double square = 0;
+        for (size_t a = 0; a < (size_t)updated->dimension; a++) {
+            const double d = updated->searched[3 * i + a] - updated->searched[3 * j + a];
+            square += d * d;
+        }
+        if (square < most * most) break;
+    }
+    return k;
+}
+
+/* Merges the lists of particles i ... i + 7 into ascending distances in memory; returns how many. Adds the
+ * number of pairs to *pairs. */
+static uint32_t merge(const struct updated *updated, size_t i, size_t *pairs)
+{
+    const struct neighbours *near = &updated->neighbours;
+    const size_t last = i + VEC < updated->cloud->points ? i + VEC : updated->cloud->points;
+    int32_t *shift = updated->shift + near->start[i];
+    size_t next[VEC] = {0};
+    uint32_t count = 0;
+    for (size_t n = i; n < last; n++)
+        next[n - i] = reachable(updated, n, near->start[n]);
+    for (;;) {
+        int64_t least = INT64_MAX;
+        for (size_t n = i; n < last; n++) {
+            if (next[n - i] == near->start[n + 1]) continue;
+            const int64_t distance = (int64_t)near->index[next[n - i]] - (int64_t)n;
+            if (distance < least) least = distance;
+        }
+        if (least == INT64_MAX) return count;
+        shift[count++] = (int32_t)least;
+        for (size_t n = i; n < last; n++) {
+            if (next[n - i] == near->start[n + 1] || (int64_t)near->index[next[n - i]] - (int64_t)n != least)
+                continue;
+            next[n - i] = reachable(updated, n, next[n - i] + 1);
+            ++*pairs;
+        }
+    }
+}
+
+selas_status updated_merge_lists(struct updated *updated, struct messages *messages)
+{
+    const size_t points = updated->cloud->points;
+    if (updated->shift_room < updated->neighbours.pair_room) {
+        array_free(updated->shift);
+        updated->shift_room = updated->neighbours.pair_room;
+        updated->shift = array_new(updated->shift_room, sizeof *updated->shift);
+        if (updated->shift == NULL) {
+            updated->shift_room = 0;
+            return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu particles", points);
+        }
+    }
+    size_t pairs = 0;
+#pragma omp parallel for schedule(static) reduction(+ : pairs) if (points >= UPDATED_PARALLEL)
+    for (size_t i = 0; i < points; i += VEC)
+        updated->shifts[i / VEC] = merge(updated, i, &pairs);
+    updated->merged = pairs;
+    return SELAS_OK;
+}
+
+/* The places before the first and behind the last are far away from everything. */
+static void fill_ends(struct updated *updated)
+{
+    const size_t places = updated->cloud->points + updated->ghosts;
+    for (size_t k = 0; k < updated->stride; k++) {
+        if (k >= VEC && k < VEC + places) continue;
+        for (size_t a = 0; a < (size_t)updated->dimension; a++)
+            updated->planes[a * updated->stride + k] = 1e6 * updated->reach * updated->longest;
+        updated->planes[updated->layout.density * updated->stride + k] = updated->material->density;
+        updated->planes[updated->layout.length * updated->stride + k] = 1;
+    }
+}
+
+selas_status updated_one_by_one(struct updated *updated, struct messages *messages)
+{
+    const size_t places = updated->cloud->points + updated->ghosts;
+    array_free(updated->planes);
+    array_free(updated->shifts);
+    array_free(updated->shift);
+    updated->ordered = false;
+    updated->planes = NULL;
+    updated->shifts = NULL;
+    updated->shift = NULL;
+    updated->shift_room = 0;
+    array_free(updated->record);
+    updated->record = array_new(updated->layout.size * places, sizeof(double));
+    if (updated->record == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", updated->cloud->points);
+    return SELAS_OK;
+}
+
+selas_status updated_choose_order(struct updated *updated, struct messages *messages)
+{
+    const size_t points = updated->cloud->points, places = points + updated->ghosts;
+    if (!updated->cubic || places > INT32_MAX) return updated_one_by_one(updated, messages);
+    const size_t groups = (points + VEC - 1) / VEC;
+    updated->stride = (places + 4 * VEC - 1) / VEC * VEC;
+    updated->shifts = array_new(groups, sizeof *updated->shifts);
+    updated->planes = array_new(updated->layout.size * updated->stride, sizeof *updated->planes);
+    if (updated->shifts == NULL || updated->planes == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
+    selas_status status = updated_merge_lists(updated, messages);
+    double merged = 0;
+    for (size_t k = 0; status == SELAS_OK && k < groups; k++)
+        merged += VEC * (double)updated->shifts[k];
+    updated->ordered = merged < MOST * (double)updated->merged;
+    if (updated->ordered)
+        fill_ends(updated);
+    else if (status == SELAS_OK)
+        status = updated_one_by_one(updated, messages);
+    return status;
+}

@@ -1,0 +1,106 @@
+/* Rates of updated-Lagrangian SPH (He & Seaid 2016, Eqs 12-19, with the corrections of
+ * doc/sph-updated-lagrangian.md):
+ *
+ *   d rho_i / dt = -rho_i tr(grad v_i)
+ *   d v_i / dt   = sum_j m_j (s_j/rho_j^2 + s_i/rho_i^2 - Pi_ij I + f_ij^4 (R_i + R_j)) . L_i^-1 grad W_ij
+ *   grad v_i     = sum_j V_j (v_j - v_i) (L_i^-1 grad W_ij)^T,   L_i = sum_j V_j grad W_ij (x_j - x_i)^T
+ *   d s_i / dt   = lambda tr(e) I + 2 mu e + w s - s w,   e and w: symmetric and antisymmetric part of grad v
+ *
+ * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
+ * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
+ * threads. Particles in some order (lattices, rings) are summed eight at a time, others one by one
+ * (gather.h, pairs.h); what the sums say is worked out for eight at a time
+ * (contract.h). */
+#include "method/updated_lagrangian/gather.h"
+
+#include <string.h>
+
+enum { BLOCK = 32 };
+
+void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
+{
+    vec8 m[6] = {{0}}, x[3][3];
+    for (int s = 0; s < dimension * (dimension + 1) / 2; s++)
+        m[s] += matrix[s];
+    invert(dimension, m, x);
+    for (int a = 0; a < dimension; a++)
+        for (int b = 0; b < dimension; b++)
+            inverse[a][b] = x[a][b][0];
+}
+
+/* Rates of the particles first ... last - 1; first is a multiple of VEC. */
+INLINED void rates(const struct updated *updated, const int dimension, size_t first, size_t last,
+                   const double *y, double *dydt)
+{
+    const struct pair_switches on = {updated->alpha > 0 || updated->beta > 0, updated->repulsive,
+                                     updated->cubic, updated->even, updated->pressed};
+    _Alignas(64) struct eight_sums sums[BLOCK / VEC] = {{.matrix = {{0}}}};
+    if (updated->ordered)
+        gather_eights(updated, dimension, on, first, last, sums);
+    else
+        for (size_t i = first; i < last; i++)
+            gather_one(updated, dimension, on, i, (i - first) % VEC, &sums[(i - first) / VEC]);
+    for (size_t i = first; i < last; i += VEC)
+        contract(updated, dimension, i, i + VEC < last ? VEC : last - i, &sums[(i - first) / VEC], y, dydt);
+}
+
+/* Instances with constant dimension. */
+#define RATES(dimension)                                                                                     \
+    EACH_MACHINE static void rates_##dimension(const struct updated *updated, size_t first, size_t last,     \
+                                               const double *y, double *dydt)                                \
+    {                                                                                                        \
+        rates(updated, dimension, first, last, y, dydt);                                                     \
+    }
+RATES(1)
+RATES(2)
+RATES(3)
+#undef RATES
+
+static void all_rates(const struct updated *updated, const double *y, double *dydt)
+{
+    const size_t points = updated->cloud->points, blocks = (points + BLOCK - 1) / BLOCK;
+#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
+    for (size_t block = 0; block < blocks; block++) {
+        const size_t first = BLOCK * block;
+        const size_t last = first + BLOCK < points ? first + BLOCK : points;
+        if (updated->dimension == 1)
+            rates_1(updated, first, last, y, dydt);
+        else if (updated->dimension == 2)
+            rates_2(updated, first, last, y, dydt);
+        else
+            rates_3(updated, first, last, y, dydt);
+    }
+}
+
+static void add_body_forces(const struct updated *updated, const struct drive *drive, const double *y,
+                            double *acceleration)
+{
+    const struct scene *scene = updated->model.scene;
+    if (drive->load == NULL) return;
+    const size_t points = updated->cloud->points, dimension = (size_t)updated->dimension;
+    const double *density = y + 2 * updated->model.unknowns;
+    for (size_t k = 0; k < scene->loads; k++) {
+        if (scene->load[k].kind != LOAD_BODY_FORCE) continue;
+        for (size_t i = 0; i < points; i++)
+            for (size_t a = 0; a < dimension; a++)
+                acceleration[dimension * i + a] +=
+                    drive->load[k] * updated->load_direction[3 * k + a] / density[i];
+    }
+}
+
+void updated_rate(struct model *model, const struct drive *drive, const double *y, double *dydt)
+{
+    struct updated *updated = updated_of(model);
+    const size_t unknowns = model->unknowns;
+    model->evaluations++;
+    updated_fill(updated, drive, y);
+    memcpy(dydt, y + unknowns, unknowns * sizeof *dydt);
+    if (updated->search_failed) {
+        for (size_t i = unknowns; i < model->state_size; i++)
+            dydt[i] = NAN;
+        return;
+    }
+    all_rates(updated, y, dydt);
+    if (updated->hourglass != NULL) updated_add_hourglass(updated, y, dydt + unknowns);
+    add_body_forces(updated, drive, y, dydt + unknowns);
+}

@@ -1,0 +1,333 @@
+/* Updated-Lagrangian SPH as published by He & Seaid (2016): checks the scene, reads the switches, places
+ * particles and ghosts. The equations are in rate.c. */
+#include "method/updated_lagrangian/updated_lagrangian.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const NAME = "updated-lagrangian SPH";
+
+static selas_status check_loads(const struct scene *scene, struct messages *messages)
+{
+    if (scene->loads > 64)
+        return fail(messages, SELAS_UNSUPPORTED, "%s takes at most 64 loads, not %zu", NAME, scene->loads);
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        const bool moves = load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
+        const bool body_force = load->kind == LOAD_BODY_FORCE && load->shape == LOAD_FACE;
+        const bool traction =
+            load->kind == LOAD_TRACTION && load->shape != LOAD_POINT && load->face != FACE_HOLE && !moves;
+        if (!body_force && !traction)
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "%s takes tractions at rest on box faces (square, disc, face) and uniform body forces; "
+                "load %zu is another kind",
+                NAME, k + 1);
+    }
+    return SELAS_OK;
+}
+
+/* What the ghosts of a face do; tractions need a face that is free or transmitting. */
+static selas_status choose_wall(struct updated *updated, enum face face, struct messages *messages)
+{
+    const struct scene *scene = updated->model.scene;
+    const struct boundary *boundary = &scene->boundary[face];
+    bool loaded = false;
+    for (size_t k = 0; k < scene->loads; k++)
+        loaded = loaded || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].face == face);
+    body_direction_from_deck(&scene->body, boundary->direction, updated->direction[face]);
+    enum updated_wall wall = WALL_NONE;
+    switch (boundary->kind) {
+    case BOUNDARY_FREE:
+        wall = loaded ? WALL_TRACTION : WALL_NONE;
+        break;
+    case BOUNDARY_TRANSMITTING:
+        if (boundary->absorber != ABSORBER_LYSMER)
+            return fail(messages, SELAS_UNSUPPORTED, "%s has no absorbing layers, only layer = 'lysmer'",
+                        NAME);
+        wall = WALL_TRACTION;
+        break;
+    case BOUNDARY_FIXED:
+        wall = WALL_STICK;
+        break;
+    case BOUNDARY_ROLLER:
+    case BOUNDARY_SYMMETRY:
+        wall = WALL_SLIP;
+        break;
+    case BOUNDARY_VELOCITY:
+    case BOUNDARY_DISPLACEMENT:
+        wall = boundary->slip ? WALL_SLIP : WALL_STICK;
+        break;
+    }
+    if (wall == WALL_SLIP && boundary->slip &&
+        fabs(fabs(updated->direction[face][face_axis(face)]) - 1) > 1e-9)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s: a wall that moves with slip moves along its own normal (face '%s')", NAME,
+                    face_name(face));
+    if (wall != WALL_NONE && face == FACE_HOLE)
+        return fail(messages, SELAS_UNSUPPORTED, "%s leaves the hole free", NAME);
+    updated->wall[face] = wall;
+    updated->pressed = updated->pressed || wall == WALL_TRACTION;
+    return SELAS_OK;
+}
+
+static selas_status check_scene(struct updated *updated, struct messages *messages)
+{
+    const struct scene *scene = updated->model.scene;
+    if (scene->body.layers > 0)
+        return fail(messages, SELAS_UNSUPPORTED, "%s takes one material, no layers", NAME);
+    selas_status status = check_loads(scene, messages);
+    const int faces = 2 * scene->dimension;
+    for (int face = 0; face < faces && status == SELAS_OK; face++)
+        status = choose_wall(updated, (enum face)face, messages);
+    if (status == SELAS_OK) status = choose_wall(updated, FACE_HOLE, messages);
+    return status;
+}
+
+/* Ghosts that carry a traction have no adjoint. */
+static selas_status check_forces(const struct updated *updated, struct messages *messages)
+{
+    if (updated->options.adjoint && updated->pressed)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s with forces = 'adjoint' takes no tractions and no transmitting faces", NAME);
+    if (!updated->options.correction && (updated->options.adjoint || updated->options.hourglass > 0))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s: forces = 'adjoint' and hourglass need gradient_correction = .true.", NAME);
+    return SELAS_OK;
+}
+
+static void choose_layout(struct updated *updated)
+{
+    const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
+    struct updated_layout *layout = &updated->layout;
+    layout->velocity = dimension;
+    layout->volume = 2 * dimension;
+    layout->span = layout->volume + 1;
+    layout->mass = layout->span + 1;
+    layout->density = layout->mass + 1;
+    layout->length = layout->density + 1;
+    layout->tension = layout->length + 1;
+    layout->repulsion = layout->tension + stresses;
+    layout->size = layout->repulsion + stresses;
+}
+
+static void choose_lengths(struct updated *updated)
+{
+    const struct updated_options *options = &updated->options;
+    const double spacing = updated->cloud->spacing;
+    updated->smoothing_length = options->smoothing_length * spacing;
+    updated->reach = options->kernel->support * updated->smoothing_length;
+    updated->skin = .15 * spacing;
+    const double shape = 6 * options->kernel->shape(updated->dimension, 1 / options->smoothing_length);
+    updated->repulsion_scale = 1 / (shape * shape * shape * shape);
+    const double h = updated->smoothing_length;
+    updated->slope_scale =
+        options->kernel->normalisation[updated->dimension - 1] / pow(h, updated->dimension + 2);
+    updated->cubic = options->kernel == kernel_find("cubic");
+    updated->sound_speed = sqrt(updated->material->young / updated->material->density); /* Eq 18 */
+    updated->alpha = options->alpha;
+    updated->beta = options->beta;
+    updated->repulsive = options->artificial_stress > 0;
+}
+
+/* One smoothing length as published, except on the graded arrangement, where the spacing changes several-fold
+ * and the length follows it: with one length the kernel reaches too few particles where they are far apart
+ * and smears the stress where they are close. On even arrangements the volumes tell of noise only. */
+static selas_status choose_own_lengths(struct updated *updated, struct messages *messages)
+{
+    const struct cloud *cloud = updated->cloud;
+    updated->length = array_new(cloud->points, sizeof(double));
+    if (updated->length == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", cloud->points);
+    const struct body *body = &updated->model.scene->body;
+    updated->even = body->shape != BODY_PLATE_WITH_HOLE || body->arrangement != ARRANGEMENT_CONFORMAL;
+    updated->longest = updated->even ? 1 : 0;
+    for (size_t i = 0; i < cloud->points; i++) {
+        updated->length[i] =
+            updated->even ? 1 : pow(cloud->volume[i], 1.0 / updated->dimension) / cloud->spacing;
+        updated->longest = fmax(updated->longest, updated->length[i]);
+    }
+    return SELAS_OK;
+}
+
+static selas_status take_memory(struct updated *updated, struct messages *messages)
+{
+    const struct scene *scene = updated->model.scene;
+    const size_t points = updated->cloud->points, places = points + updated->ghosts;
+    updated->mass = array_new(points, sizeof(double));
+    updated->searched = array_new(3 * places, sizeof(double));
+    updated->deck_position = array_new(3 * points, sizeof(double));
+    updated->load_direction = array_new(3 * scene->loads, sizeof(double));
+    if (updated->mass == NULL || updated->searched == NULL || updated->deck_position == NULL ||
+        updated->load_direction == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles and %zu ghosts", points,
+                    updated->ghosts);
+    for (size_t i = 0; i < points; i++) {
+        updated->mass[i] = updated->material->density * updated->cloud->volume[i];
+        body_to_deck(&scene->body, updated->cloud->position + 3 * i, updated->deck_position + 3 * i);
+    }
+    for (size_t k = 0; k < scene->loads; k++) {
+        body_direction_from_deck(&scene->body, scene->load[k].direction, updated->load_direction + 3 * k);
+        for (size_t a = 0; a < 3; a++)
+            updated->load_direction[3 * k + a] *= scene->load[k].amplitude;
+    }
+    memcpy(updated->searched, updated->reference, 3 * places * sizeof(double));
+    const selas_status status =
+        neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
+                        updated->longest * updated->reach + updated->skin, false, messages);
+    return status == SELAS_OK ? updated_choose_order(updated, messages) : status;
+}
+
+static void destroy(struct model *model)
+{
+    struct updated *updated = updated_of(model);
+    cloud_free(&updated->cloud);
+    neighbours_free(&updated->neighbours);
+    array_free(updated->mass);
+    array_free(updated->length);
+    array_free(updated->ghost);
+    array_free(updated->reference);
+    array_free(updated->searched);
+    array_free(updated->record);
+    updated_hourglass_free(updated->hourglass);
+    array_free(updated->planes);
+    array_free(updated->shifts);
+    array_free(updated->shift);
+    array_free(updated->deck_position);
+    array_free(updated->load_direction);
+    array_free(updated);
+}
+
+static void fill_public_face(struct updated *updated)
+{
+    struct model *model = &updated->model;
+    const size_t points = updated->cloud->points, dimension = (size_t)updated->dimension;
+    model->points = points;
+    model->position = updated->deck_position;
+    memcpy(model->grid, updated->cloud->grid, sizeof model->grid);
+    model->unknowns = dimension * points;
+    model->state_size = (2 * dimension + 1 + (size_t)updated->stresses) * points;
+    model->component_stride = 1;
+    model->point_stride = dimension;
+    model->damped = updated->alpha > 0 || updated->beta > 0;
+    model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
+    model->bytes = neighbours_bytes(&updated->neighbours) + (points + updated->ghosts) * 6 * sizeof(double) +
+                   updated->layout.size * sizeof(double) *
+                       (updated->ordered ? updated->stride : points + updated->ghosts) +
+                   updated->shift_room * sizeof *updated->shift + points * 8 * sizeof(double) +
+                   updated_hourglass_bytes(updated);
+}
+
+static selas_status build(struct updated *updated, struct messages *messages)
+{
+    const size_t points = updated->cloud->points;
+    choose_layout(updated);
+    choose_lengths(updated);
+    selas_status status = check_scene(updated, messages);
+    if (status != SELAS_OK) return status;
+    updated->reference = array_new(3 * points, sizeof(double));
+    if (updated->reference == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
+    memcpy(updated->reference, updated->cloud->position, 3 * points * sizeof(double));
+    status = check_forces(updated, messages);
+    if (status != SELAS_OK) return status;
+    status = choose_own_lengths(updated, messages);
+    if (status == SELAS_OK) status = updated_ghosts_create(updated, messages);
+    if (status == SELAS_OK) status = take_memory(updated, messages);
+    if (status == SELAS_OK && (updated->options.hourglass > 0 || updated->options.adjoint))
+        status = updated_hourglass_new(updated, messages);
+    if (status == SELAS_OK) fill_public_face(updated);
+    return status;
+}
+
+static const struct model_core core = {
+    .destroy = destroy,
+    .initialise = updated_initialise,
+    .probe = updated_probe,
+    .observe = updated_observe,
+    .field = updated_field,
+    .energy = updated_energy,
+    .power = updated_power,
+    .unseen = updated_unseen,
+    .describe = updated_describe,
+};
+static const struct model_operator spatial = {.rate = updated_rate, .spectrum = updated_spectrum};
+
+selas_status updated_lagrangian_new(const struct scene *scene, const struct updated_options *options,
+                                    struct cloud *cloud, struct model **model, struct messages *messages)
+{
+    *model = NULL;
+    struct updated *updated = array_new(1, sizeof *updated);
+    if (updated == NULL) {
+        cloud_free(&cloud);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the method");
+    }
+    updated->model.method = &method_updated_lagrangian;
+    updated->model.core = &core;
+    updated->model.spatial = &spatial;
+    updated->model.scene = scene;
+    updated->options = *options;
+    updated->dimension = scene->dimension;
+    updated->stresses = scene->dimension * (scene->dimension + 1) / 2;
+    updated->cloud = cloud;
+    updated->material = &scene->material[scene->body.material];
+    const selas_status status = build(updated, messages);
+    if (status != SELAS_OK) {
+        destroy(&updated->model);
+        return status;
+    }
+    *model = &updated->model;
+    return SELAS_OK;
+}
+
+static double real_or(const struct deck_group *group, const char *name, double standard)
+{
+    return deck_values(group, name) > 0 ? deck_real(group, name, 0) : standard;
+}
+
+static bool logical_or(const struct deck_group *group, const char *name, bool standard)
+{
+    return deck_values(group, name) > 0 ? deck_logical(group, name, 0) : standard;
+}
+
+struct updated_options updated_lagrangian_published(void)
+{
+    return (struct updated_options){.kernel = kernel_find("cubic"),
+                                    .smoothing_length = 1.5,
+                                    .alpha = 2.5,
+                                    .beta = 2.5,
+                                    .artificial_stress = .3,
+                                    .correction = true,
+                                    .jaumann = true};
+}
+
+static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
+{
+    const struct deck_group *group = scene->method.group;
+    struct updated_options options = updated_lagrangian_published();
+    *model = NULL;
+    if (group != NULL) {
+        if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
+        options.smoothing_length = real_or(group, "smoothing_length", options.smoothing_length);
+        options.alpha = real_or(group, "viscosity_alpha", options.alpha);
+        options.beta = real_or(group, "viscosity_beta", options.beta);
+        options.artificial_stress = real_or(group, "artificial_stress", options.artificial_stress);
+        options.correction = logical_or(group, "gradient_correction", options.correction);
+        options.adjoint =
+            deck_values(group, "forces") > 0 && strcmp(deck_text(group, "forces", 0), "adjoint") == 0;
+        options.hourglass = real_or(group, "hourglass", options.hourglass);
+        options.jaumann = logical_or(group, "jaumann", options.jaumann);
+    }
+    struct cloud *cloud = NULL;
+    const selas_status status = cloud_create(scene, &cloud, messages);
+    if (status != SELAS_OK) return status;
+    return updated_lagrangian_new(scene, &options, cloud, model, messages);
+}
+
+const struct method method_updated_lagrangian = {
+    .name = "sph",
+    .variant = "updated-lagrangian",
+    .create = create,
+};

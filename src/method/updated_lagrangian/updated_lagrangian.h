@@ -1,0 +1,173 @@
+/* Updated-Lagrangian SPH of He & Seaid (2016), section 2: what its files share.
+ *
+ * State y = [u | v | density | stress]: u and v with `dimension` numbers a particle, one density, and the
+ * stress components in the plane (1D: xx; 2D: xx yy xy; 3D: xx yy zz xy yz zx). Everything is in the body's
+ * own frame. Particles are followed by ghosts in all geometric arrays; ghosts have no state of their own. */
+#ifndef SELAS_METHOD_UPDATED_LAGRANGIAN_UPDATED_LAGRANGIAN_H
+#define SELAS_METHOD_UPDATED_LAGRANGIAN_UPDATED_LAGRANGIAN_H
+
+#include "kernel/kernel.h"
+#include "model/model.h"
+#include "points/cloud.h"
+#include "points/neighbours.h"
+
+#include <stdint.h>
+
+/* Switches of the method; each costs nothing when off. */
+struct updated_options {
+    const struct kernel *kernel;
+    double smoothing_length;  /* in spacings; the paper: 1.5 */
+    double alpha, beta;       /* of Monaghan's viscosity, Eq 17; both 0: off */
+    double artificial_stress; /* epsilon of Eq 22; 0: off */
+    bool correction;          /* kernel gradient correction L */
+    bool jaumann;             /* rotation of the stress, Eqs 8 and 9 */
+    bool adjoint;             /* stresses act by the adjoint of grad v, not by Eq 19 */
+    double hourglass;         /* xi of hourglass.c; 0: off, as published */
+};
+
+/* A ghost mirrors a particle at one to three faces, in this order. */
+struct updated_ghost {
+    uint32_t source;
+    unsigned char count, face[3];
+    uint64_t loads; /* bit k: load k presses on its face at this place */
+};
+
+/* What a face does to its ghosts. */
+enum updated_wall { WALL_NONE, WALL_STICK, WALL_SLIP, WALL_TRACTION };
+
+/* Components of a packed particle: place, velocity, volume, span (the volume, or 0 for ghosts that carry a
+ * traction but do not deform with the body), mass, density, smoothing length over the usual one, stress /
+ * density^2, artificial stress. */
+struct updated_layout {
+    size_t velocity, volume, span, mass, density, length, tension, repulsion, size;
+};
+
+struct updated_hourglass;
+
+enum { UPDATED_END = 8 }; /* empty places at both ends of the planes */
+
+struct updated {
+    struct model model; /* first: the public face */
+    struct updated_options options;
+    int dimension;
+    int stresses;   /* components of the stress */
+    bool repulsive; /* artificial stress is on; off while the spectrum is measured */
+    double alpha, beta;
+    bool pressed;             /* some face has ghosts that carry a traction */
+    bool velocities_displace; /* while waves are measured v stands for u: hourglass control takes it, dampers
+                                 rest */
+    struct updated_hourglass *hourglass; /* NULL without hourglass control */
+    bool both_sides; /* viscosity between receding pairs too: while the spectrum is measured */
+    struct cloud *cloud;
+    const struct material *material;
+    double sound_speed, smoothing_length, reach;
+    double repulsion_scale; /* 1 over the kernel's shape at one spacing */
+    double slope_scale;     /* W'/r over w'(q)/q */
+    bool cubic;             /* the kernel is the cubic spline */
+    double *mass;
+    double *length; /* smoothing length of a particle over the usual one */
+    bool even;      /* all of them are 1 */
+    double longest; /* the largest of them */
+    size_t ghosts;
+    struct updated_ghost *ghost;
+    enum updated_wall wall[FACES];
+    double direction[FACES][3]; /* of prescribed motions, body frame */
+    double *load_direction;     /* [3 * loads] times amplitude, body frame */
+    double *reference;          /* [3 * (points + ghosts)] */
+    double *searched;           /* the same at the last search for neighbours */
+    double skin;                /* lists reach this much further than the kernel */
+    bool ordered;               /* particles are summed eight at a time: chosen from the reference places */
+    double *record; /* [layout.size * (points + ghosts)] particle by particle; NULL where ordered */
+    size_t stride;  /* of the planes */
+    double *planes; /* [layout.size * stride] component by component, UPDATED_END empty places at both ends */
+    uint32_t *shifts;          /* [points / 8] number of distances in memory of each eight particles ... */
+    int32_t *shift;            /* ... which stand from neighbours.start of the first of them on */
+    size_t shift_room, merged; /* pairs that were merged into them */
+    double *deck_position;     /* model.position */
+    struct updated_layout layout;
+    struct neighbours neighbours;
+    bool search_failed; /* no memory: rates become NaN, which the run notices */
+};
+
+/* A packed particle: its component c stands at c times updated_step(). */
+static inline double *updated_packed(const struct updated *updated, size_t place)
+{
+    return updated->ordered ? updated->planes + UPDATED_END + place
+                            : updated->record + updated->layout.size * place;
+}
+
+static inline size_t updated_step(const struct updated *updated)
+{
+    return updated->ordered ? updated->stride : 1;
+}
+
+enum { UPDATED_PARALLEL = 1000 }; /* fewer particles run on one thread */
+
+static inline struct updated *updated_of(struct model *model)
+{
+    return (struct updated *)model;
+}
+
+/* Index of the stress component (a, b). */
+static const int updated_component[4][3][3] = {
+    {{0}}, {{0}}, {{0, 2, 0}, {2, 1, 0}, {0}}, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+
+extern const struct method method_updated_lagrangian;
+
+/* The switches as published: cubic spline, h = 1.5 spacings, alpha = beta = 2.5, epsilon = .3, all
+ * corrections. */
+struct updated_options updated_lagrangian_published(void);
+
+/* Takes the cloud; on failure it is freed too. */
+selas_status updated_lagrangian_new(const struct scene *scene, const struct updated_options *options,
+                                    struct cloud *cloud, struct model **model, struct messages *messages);
+
+/* ghosts.c */
+selas_status updated_ghosts_create(struct updated *updated, struct messages *messages);
+/* Fills the packed particles, ghosts included, from a state. */
+void updated_fill(struct updated *updated, const struct drive *drive, const double *y);
+/* Power of the tractions and moving walls at all faces; transmitting faces in *absorbed. */
+double updated_power_of_faces(const struct updated *updated, const struct drive *drive, const double *y,
+                              double *absorbed);
+
+/* artificial_stress.c: R of Eqs 20-23 in any dimension from s / rho^2: minus epsilon times its
+ * positive (tensile) part. UPDATED_TENSORS tensors in sequence; their components stand `stride` apart. */
+enum { UPDATED_TENSORS = 16 };
+void updated_artificial_stress(int dimension, double epsilon, size_t stride, const double *tension,
+                               double *repulsion);
+
+/* order.c: the lists of eight particles at a time, after each search ... */
+selas_status updated_merge_lists(struct updated *updated, struct messages *messages);
+/* ... and whether that pays; takes the memory for it. */
+selas_status updated_choose_order(struct updated *updated, struct messages *messages);
+/* Has particles summed one by one from now on. */
+selas_status updated_one_by_one(struct updated *updated, struct messages *messages);
+
+/* rate.c: inverse of L; the identity where the neighbours do not span the space. */
+void updated_invert(int dimension, const double matrix[6], double inverse[3][3]);
+/* dy/dt. */
+void updated_rate(struct model *model, const struct drive *drive, const double *y, double *dydt);
+/* hourglass.c: memory for it ... */
+selas_status updated_hourglass_new(struct updated *updated, struct messages *messages);
+void updated_hourglass_free(struct updated_hourglass *all);
+size_t updated_hourglass_bytes(const struct updated *updated);
+/* ... and what it adds to the acceleration; after updated_fill(). */
+void updated_add_hourglass(struct updated *updated, const double *y, double *acceleration);
+/* spectrum.c */
+selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
+
+/* fields.c */
+void updated_unseen(struct model *model, const double *y, struct unseen *found);
+void updated_initialise(struct model *model, double *y);
+selas_status updated_probe(struct model *model, const double position[3], struct probe *probe,
+                           struct messages *messages);
+void updated_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                     const double *a, double *value);
+void updated_field(struct model *model, selas_field field, const double *y, const double *a, double *value);
+void updated_energy(struct model *model, const double *y, struct energy *energy);
+void updated_power(struct model *model, const struct drive *drive, const double *y, double *load,
+                   double *absorbed);
+void updated_describe(const struct model *model,
+                      void (*tell)(void *context, const char *key, const char *value), void *context);
+
+#endif

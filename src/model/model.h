@@ -1,0 +1,217 @@
+/* The model: points, operator and loads of one scene by one method; knows nothing of files.
+ *
+ * State. A linear method has the second-order form M a + C v + K u = F(t) with n = `unknowns` numbers in each
+ * of u, v, a. The state vector of every method is y = [u | v | extra], `state_size` numbers: u are
+ * displacements (control values where the method has them), v their rates, extra what else the method
+ * integrates (stress, density; none for linear methods). Component c of point i stands at y[c *
+ * component_stride + i * point_stride] in u and likewise in v.
+ *
+ * A model's functions come in groups; a group that a model does not have is NULL. Linear methods fill
+ * `accelerate`; methods with state of their own fill `rate`; a method may fill both. Nothing here allocates
+ * memory after create(). */
+#ifndef SELAS_MODEL_MODEL_H
+#define SELAS_MODEL_MODEL_H
+
+#include "base/messages.h"
+#include "scene/scene.h"
+
+/* Amplitudes that drive the model at one instant; the stepping scheme fills them (so it may take differences
+ * of them or warp them). A NULL array means all zero. */
+struct drive {
+    double time;
+    const double *load; /* [scene->loads]: history value times load amplitude is load[k] * amplitude */
+    const double
+        *motion; /* [FACES]: second time derivative of the prescribed displacement history (per amplitude) */
+    const double *displacement, *velocity; /* [FACES]: that history itself and its first derivative */
+    const double *extra; /* the state's extra part, for models that have `remember`; NULL: all 0 */
+};
+
+struct energy {
+    double kinetic, strain;
+};
+
+/* Where and how to read a point value: sum over j of weight[j] * (value at point index[j]). */
+struct probe {
+    double position[3]; /* deck coordinates */
+    size_t count;
+    size_t *index;    /* [count] */
+    double *weight;   /* [count] */
+    double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame
+                         of the unknowns (the body's if model->frame is set, else the deck's) */
+    const struct material *material;
+    unsigned mirrored; /* method/mirror.c: bit 1 << axis if the values come from the mirror image across it */
+};
+
+/* What limits an explicit time step, about the body at rest. */
+struct spectrum {
+    double omega;        /* largest frequency of the undamped waves [rad/time] */
+    double wave_damping; /* mean damping rate of those fastest waves [1/time]; 0 if interior waves are
+                            undamped */
+    double viscous;      /* largest damping rate of any motion [1/time] */
+    bool dampers;        /* transmitting faces have dampers, which the scheme takes implicitly */
+};
+
+/* As half_step of accelerate(): so large that components with dampers do not accelerate. */
+#define DAMPERS_HOLD 1e30
+
+/* What is wrong where users see nothing: in absorbing layers, in the density of particles. */
+struct unseen {
+    double speed;           /* largest; infinite if it is not finite */
+    size_t spoiled, places; /* places whose numbers are not finite or overflow when squared, of all of them */
+    char place[160]; /* where: "in the layer behind face x+, about (1, 2, 3)"; the middle of the spoiled ones
+                      */
+};
+
+struct model;
+
+/* An entry of the table of methods (method/methods.c): what a deck may ask for. */
+struct method {
+    const char *name, *variant; /* as in the deck */
+    bool mirrors; /* exact on the half of a symmetric scene with symmetry on the middle plane: see
+                     method/mirror.h */
+    bool single;  /* some scenes may keep the state in single precision */
+    /* Checks the scene for this method and builds the model; says in messages what cannot be. */
+    selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
+};
+
+/* What every model has. */
+struct model_core {
+    void (*destroy)(struct model *model);
+    /* Initial state from scene->initial; y is zero on entry. NULL: at rest. */
+    void (*initialise)(struct model *model, double *y);
+    /* Finds weights for a position (deck coordinates). */
+    selas_status (*probe)(struct model *model, const double position[3], struct probe *probe,
+                          struct messages *messages);
+    /* Value of a field at a probe in deck coordinates; `value` has room for 6. NULL: the linear standard in
+     * model/probe.c (from u, v, a, weights and Hooke's law). */
+    void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                    const double *a, double *value);
+    /* Field at all body points, value[components * i + c], deck coordinates. */
+    void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
+    void (*energy)(struct model *model, const double *y, struct energy *energy);
+    /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out).
+     */
+    void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
+                  double *absorbed);
+    /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
+     * their memory; density). Only called when a run has failed. NULL: there are no such places. */
+    void (*unseen)(struct model *model, const double *y, struct unseen *found);
+    /* Lines of the plan and the report that only this method can tell: calls tell(context, key, value). NULL:
+     * none. */
+    void (*describe)(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+};
+
+/* The spatial operator. */
+struct model_operator {
+    /* Solves (M + half_step C) a = F(drive) - K u - C v for a. half_step = 0 is the plain acceleration;
+     * leapfrog passes dt/2. Prescribed components get a from drive->motion. v may be NULL where the model has
+     * no C. */
+    void (*accelerate)(struct model *model, const struct drive *drive, double half_step, const double *u,
+                       const double *v, double *a);
+    /* dy/dt for the Runge-Kutta family. */
+    void (*rate)(struct model *model, const struct drive *drive, const double *y, double *dydt);
+    /* product := M v, in the inner product of energy() or a multiple of it; v is 0 where it is prescribed.
+     * NULL: Lanczos takes two calls of energy() in its place. */
+    void (*weigh)(struct model *model, const double *v, double *product);
+    /* Nonlinear models: while on, accelerate() and energy() are those of the operator linearised about the
+     * body at rest (for measuring its spectrum). NULL for linear models. */
+    void (*linearise)(struct model *model, bool on);
+    /* A smaller model with the same operator but for its length (*shorter; NULL: none that is worth it),
+     * whose largest frequency is below this one's by not more than the part `deficit` of it. Free it with
+     * model_free(). NULL: there is none. */
+    selas_status (*shorten)(const struct model *model, struct model **shorter, double *deficit,
+                            struct messages *messages);
+    /* Methods with state of their own. NULL: measured with accelerate(). */
+    selas_status (*spectrum)(struct model *model, struct spectrum *spectrum, struct messages *messages);
+    /* Filters the increment of one step: u_before and u are the displacements at both ends; changes u and
+     * sets the velocity of the increment, v = (u - u_before) / dt (leapfrog's half-step velocity), to match.
+     * Called right after u has moved, before the acceleration there. NULL where there is no filter. */
+    void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
+};
+
+/* Steps of leapfrog in one pass over the fields. The model keeps the velocity half a step ahead and perhaps
+ * u; from begin() on, which takes y as the state at the drive's time, y and a are right only where probes and
+ * the power of loads look, until settle() makes y whole, and a if it is not NULL. settle() changes nothing of
+ * what is kept. */
+struct model_one_pass {
+    void (*begin)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    /* From one step to the next, whose drive it is. */
+    void (*advance)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
+    /* What is kept beside y, for checkpoints. */
+    void *(*kept)(struct model *model, size_t *bytes);
+};
+
+/* Memory of linear models (absorbing layers). */
+struct model_memory {
+    /* Brings the extra part of y over a step dt. On entry u is that of the end of the step, v the mean
+     * velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
+     * acceleration at the end, which gets it in drive->extra. */
+    void (*remember)(struct model *model, double dt, double *y);
+};
+
+struct model {
+    const struct method *method;
+    const struct model_core *core;
+    const struct model_operator *spatial;
+    const struct model_one_pass *one_pass; /* NULL: steps are made with the operator */
+    const struct model_memory *memory;     /* NULL: none */
+    struct model *part; /* method/mirror.c: the part below mirror planes, whose state and functions (but for
+                           the core) this model has: ask model_computed(); NULL: the whole body is computed */
+    const struct scene *scene; /* borrowed */
+    size_t points;             /* points of the body that users see */
+    const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not
+                                  stored. Ask model_position(). */
+    size_t grid[3];            /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
+    size_t unknowns;           /* numbers in u */
+    size_t state_size;         /* numbers in y */
+    size_t component_stride, point_stride;
+    size_t bytes;       /* memory held by the model */
+    bool single;        /* steps in one pass keep the state in single precision; y is what others see of it */
+    bool damped;        /* C is not zero */
+    double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
+                           [1/time] */
+    bool self_adjoint;  /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
+    const double (
+        *frame)[3]; /* unknowns are in the body's frame: rotate to deck coordinates; NULL: they are not */
+    unsigned long evaluations; /* calls of accelerate or rate so far */
+};
+
+/* The model whose state, operator, passes and memory these are: what time stepping works on. */
+static inline struct model *model_computed(struct model *model)
+{
+    return model->part != NULL ? model->part : model;
+}
+
+/* Frees the model and sets the pointer to NULL. */
+void model_free(struct model **model);
+
+/* model/positions.c: deck coordinates of a point that users see. */
+void model_position(const struct model *model, size_t point, double position[3]);
+
+/* What is known at one place, in the frame of the unknowns. */
+struct point_values {
+    double displacement[3], velocity[3], acceleration[3];
+    double gradient[9]; /* d u_i / d x_j at [3 * i + j] */
+};
+
+/* model/probe.c */
+/* Room for count weights, all zero; SELAS_NO_MEMORY. */
+selas_status probe_allocate(struct probe *probe, size_t count, struct messages *messages);
+void probe_free(struct probe *probe);
+/* A field in deck coordinates from values at one place: rotation by model->frame, strain, Hooke's law of the
+ * material in the scene's dimension and plane (out-of-plane strain and stress included). */
+void field_from_values(const struct model *model, const struct material *material,
+                       const struct point_values *values, selas_field field, double *value);
+/* The linear standard (methods without an `observe` of their own). */
+void probe_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                   const double *a, double *value);
+/* Value of a field at a probe by the method's own `observe` or the standard: what everybody else calls. */
+void model_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
+                   const double *a, double *value);
+int field_components(selas_field field); /* 3, 6 or 1 */
+const char *field_name(selas_field field);
+const char *const *component_names(selas_field field); /* "x", "y", ... or "xx", ... */
+
+#endif

@@ -1,0 +1,17 @@
+/* The head of a checkpoint: 512 bytes of text before HDF5's own. It says who wrote the file, how long it is,
+ * and the checksums of head and body, so that a file that is cut short or has a flipped bit anywhere is known
+ * before HDF5 sees it. */
+#ifndef SELAS_RECORD_CHECKPOINT_HEAD_H
+#define SELAS_RECORD_CHECKPOINT_HEAD_H
+
+#include "base/messages.h"
+
+enum { CHECKPOINT_HEAD = 512 };
+
+/* Writes the head of the finished file and brings all of it on the disk. */
+selas_status checkpoint_seal(const char *path, struct messages *messages);
+/* False, with the reason in why[size], unless the file is a whole checkpoint of this version and byte order.
+ */
+bool checkpoint_whole(const char *path, char *why, size_t size);
+
+#endif

@@ -1,0 +1,134 @@
+/* Decks that files keep (see the header). */
+#include "record/checkpoint/kept.h"
+
+#include "base/crc64.h"
+#include "base/memory.h"
+#include "base/stored.h"
+#include "record/checkpoint/head.h"
+#include "record/run_file.h"
+#include "record/sets.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+char *kept_text_of(const struct scene *scene, struct messages *messages)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (file == NULL) return NULL;
+    const selas_status status = scene->deck != NULL ? deck_write(scene->deck, file, messages) : SELAS_OK;
+    if (fclose(file) == 0 && status == SELAS_OK) return text;
+    free(text);
+    return NULL;
+}
+
+static uint64_t file_checksum(const struct crc64_table *table, uint64_t before, const char *path)
+{
+    char block[4096];
+    size_t length;
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) return crc64_add(table, before, "?", 1);
+    while ((length = fread(block, 1, sizeof block, file)) > 0)
+        before = crc64_add(table, before, block, length);
+    fclose(file);
+    return before;
+}
+
+bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
+{
+    static const char *const group[4] = {"body", "boundary", "load", "reference"};
+    struct crc64_table table;
+    crc64_prepare(&table);
+    *checksum = 0;
+    for (size_t g = 0; g < 4 && scene->deck != NULL; g++)
+        for (size_t i = 0; i < deck_count(scene->deck, group[g]); i++) {
+            const struct deck_group *one = deck_get(scene->deck, group[g], i);
+            if (deck_values(one, "file") == 0) continue;
+            char *path = deck_resolve(scene->deck, deck_text(one, "file", 0));
+            if (path == NULL) return false;
+            *checksum = file_checksum(&table, *checksum, path);
+            array_free(path);
+        }
+    return true;
+}
+
+selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, struct messages *messages)
+{
+    char why[200] = "it holds no deck";
+    *kept = (struct kept_deck){0};
+    if (checkpoint_whole(path, why, sizeof why)) {
+        snprintf(why, sizeof why, "it holds no deck");
+        const struct quiet quiet = quiet_begin();
+        const hid_t file = hdf_open_file(path);
+        if (file >= 0) {
+            kept->text = set_text(file, "deck");
+            kept->source = set_text(file, "source");
+            kept->name = set_text(file, "name");
+            H5Fclose(file);
+        }
+        quiet_end(quiet);
+    }
+    if (kept->text != NULL && kept->source != NULL && kept->name != NULL && kept->text[0] != '\0')
+        return SELAS_OK;
+    kept_deck_free(kept);
+    return fail(messages, SELAS_FILE_ERROR, "the checkpoint '%s' cannot be used: %s", path, why);
+}
+
+/* A text that is an attribute or, if it is long, a data set (provenance.c); NULL if there is none. */
+static char *provenance_text(hid_t place, const char *name)
+{
+    const bool attribute = H5Aexists(place, name) > 0;
+    const hid_t from = attribute ? H5Aopen(place, name, H5P_DEFAULT) : stored_set(place, name);
+    if (from < 0) return NULL;
+    const hid_t type = attribute ? H5Aget_type(from) : H5Dget_type(from);
+    const hid_t space = attribute ? H5Aget_space(from) : H5Dget_space(from);
+    const size_t size = H5Tget_size(type);
+    const bool right = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+                       H5Sget_simple_extent_npoints(space) == 1 && size < (size_t)1 << 30;
+    char *text = right ? calloc(size + 1, 1) : NULL;
+    const bool good =
+        text != NULL && (attribute ? H5Aread(from, type, text)
+                                   : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)) >= 0;
+    H5Sclose(space);
+    H5Tclose(type);
+    if (attribute)
+        H5Aclose(from);
+    else
+        H5Dclose(from);
+    if (good) return text;
+    free(text);
+    return NULL;
+}
+
+selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct messages *messages)
+{
+    *kept = (struct kept_deck){0};
+    const struct quiet quiet = quiet_begin();
+    const hid_t file = hdf_open_file(path);
+    const int error = errno;
+    const hid_t place =
+        file >= 0 && stored_here(file, "provenance") ? H5Gopen2(file, "provenance", H5P_DEFAULT) : -1;
+    if (place >= 0) {
+        kept->text = provenance_text(place, "deck_echo");
+        kept->source = provenance_text(place, "deck");
+        kept->name = provenance_text(place, "deck_name");
+        H5Gclose(place);
+    }
+    if (file >= 0) H5Fclose(file);
+    quiet_end(quiet);
+    if (kept->text != NULL && kept->source != NULL && kept->name != NULL) return SELAS_OK;
+    kept_deck_free(kept);
+    if (file < 0) return hdf_cannot("read", path, error, messages);
+    return fail(messages, SELAS_FILE_ERROR,
+                "'%s' holds no deck (/provenance/deck_echo): is it the run.h5 of a run?", path);
+}
+
+void kept_deck_free(struct kept_deck *kept)
+{
+    free(kept->text);
+    free(kept->source);
+    free(kept->name);
+    *kept = (struct kept_deck){0};
+}

@@ -1,0 +1,25 @@
+/* The deck that a checkpoint or run.h5 keeps, and what tells that a scene is the very same. */
+#ifndef SELAS_RECORD_CHECKPOINT_KEPT_H
+#define SELAS_RECORD_CHECKPOINT_KEPT_H
+
+#include "scene/scene.h"
+
+#include <stdint.h>
+
+struct kept_deck {
+    char *text;   /* with all defaults and overrides: runs to the same bits */
+    char *source; /* as it was read */
+    char *name;   /* file name without folder and ".nml" */
+};
+
+/* SELAS_FILE_ERROR with the reason if the file is damaged or holds none. */
+selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, struct messages *messages);
+selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct messages *messages);
+void kept_deck_free(struct kept_deck *kept);
+
+/* The deck of a scene with all defaults as text (free it), "" without a deck; NULL without memory. */
+char *kept_text_of(const struct scene *scene, struct messages *messages);
+/* Checksum of the files that the deck only names: points, tables, references; false without memory. */
+bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
+
+#endif

@@ -1,0 +1,367 @@
+/* Sections through snapshots. A lattice gives its planes of points, loose points those near a plane. */
+#include "record/plots/section.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void body_position(const struct recorder *recorder, const struct snapshot_record *record, size_t point,
+                          double position[3])
+{
+    const size_t i = record->index != NULL ? record->index[point] : point;
+    model_position(recorder->model, i, position);
+    if (recorder->scene->body.rotated) body_from_deck(&recorder->scene->body, position, position);
+}
+
+static void bounds_of(const struct recorder *recorder, const struct snapshot_record *record, double low[3],
+                      double high[3])
+{
+    for (size_t i = 0; i < record->points; i++) {
+        double x[3];
+        body_position(recorder, record, i, x);
+        for (int axis = 0; axis < 3; axis++) {
+            low[axis] = i == 0 ? x[axis] : fmin(low[axis], x[axis]);
+            high[axis] = i == 0 ? x[axis] : fmax(high[axis], x[axis]);
+        }
+    }
+}
+
+/* Where the vertical cut goes: through the first load that has a place, else through the middle. */
+static double cut_place(const struct recorder *recorder, const double low[3], const double high[3])
+{
+    const struct scene *scene = recorder->scene;
+    for (size_t k = 0; k < scene->loads; k++) {
+        if (scene->load[k].shape == LOAD_FACE) continue;
+        double centre[3];
+        if (scene->body.rotated)
+            body_from_deck(&scene->body, scene->load[k].centre, centre);
+        else
+            memcpy(centre, scene->load[k].centre, sizeof centre);
+        return fmin(fmax(centre[1], low[1]), high[1]);
+    }
+    return 0.5 * (low[1] + high[1]);
+}
+
+/* Keeps the points whose coordinate `axis` lies within `reach` of `place`. */
+static bool pick_near(const struct recorder *recorder, const struct snapshot_record *record,
+                      struct section *section, int axis, double place, double reach)
+{
+    section->stride = section->block = record->points;
+    section->count = 1;
+    section->pick = array_new(record->points, sizeof *section->pick);
+    if (section->pick == NULL) return false;
+    for (size_t i = 0; i < record->points; i++) {
+        double x[3];
+        body_position(recorder, record, i, x);
+        if (axis < 0 || fabs(x[axis] - place) <= reach) section->pick[section->points++] = i;
+    }
+    return section->points > 0;
+}
+
+static size_t row_of(const struct section *section, size_t point)
+{
+    const size_t read = section->pick != NULL ? section->pick[point] : point;
+    return section->start + read / section->block * section->stride + read % section->block;
+}
+
+/* A regular section is drawn as an image with at least so many pixels along each axis. */
+enum { FINE = 280 };
+
+static void look_regular(struct section *section)
+{
+    const size_t number[2] = {section->along, section->across};
+    if (number[0] < 2 || number[1] < 2) return;
+    section->regular = true;
+    for (size_t k = 0; k < section->points; k++)
+        for (int side = 0; side < 2; side++) {
+            const size_t at = side == 0 ? k % number[0] : k / number[0];
+            const double step = (section->high[side] - section->low[side]) / (double)(number[side] - 1);
+            const double expected = section->low[side] + (double)at * step;
+            if (!(fabs((double)section->coordinate[2 * k + (size_t)side] - expected) <= 1e-3 * step))
+                section->regular = false;
+        }
+    const size_t least = number[0] < number[1] ? number[0] : number[1];
+    const size_t refine = (FINE + least - 2) / (least - 1);
+    const size_t most = number[0] > number[1] ? number[0] : number[1];
+    const size_t factor = most * refine > 4 * FINE ? (4 * FINE + most - 1) / most : refine;
+    for (int side = 0; side < 2; side++)
+        section->fine[side] = (number[side] - 1) * factor + 1;
+}
+
+static bool place_points(const struct recorder *recorder, const struct snapshot_record *record,
+                         struct section *section)
+{
+    section->coordinate = array_new(2 * section->points, sizeof *section->coordinate);
+    if (section->coordinate == NULL) return false;
+    for (size_t k = 0; k < section->points; k++) {
+        double x[3];
+        body_position(recorder, record, row_of(section, k), x);
+        for (int side = 0; side < 2; side++) {
+            const double at = x[section->axis[side]];
+            section->coordinate[2 * k + (size_t)side] = (float)at;
+            section->low[side] = k == 0 ? at : fmin(section->low[side], at);
+            section->high[side] = k == 0 ? at : fmax(section->high[side], at);
+        }
+    }
+    look_regular(section);
+    return true;
+}
+
+/* Loose points have no spacing that is known here beyond the body's. */
+static double spacing_of(const struct recorder *recorder, const double low[3], const double high[3])
+{
+    const struct body *body = &recorder->scene->body;
+    if (body->spacing > 0.0) return body->spacing;
+    const double volume = (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
+    return cbrt(volume / (double)(recorder->model->points + 1));
+}
+
+static bool surface_section(const struct recorder *recorder, const struct snapshot_record *record,
+                            const double low[3], const double high[3], struct section *section)
+{
+    *section = (struct section){.axis = {0, 1}};
+    snprintf(section->title, sizeof section->title, "surface z = %.4g", low[2]);
+    const size_t *grid = record->grid;
+    if (grid[0] == 0)
+        return pick_near(recorder, record, section, 2, low[2], 0.55 * spacing_of(recorder, low, high)) &&
+               place_points(recorder, record, section);
+    section->along = grid[0];
+    section->across = grid[1];
+    section->points = section->stride = section->block = grid[0] * grid[1];
+    section->count = 1;
+    return place_points(recorder, record, section);
+}
+
+static bool cut_section(const struct recorder *recorder, const struct snapshot_record *record,
+                        const double low[3], const double high[3], struct section *section)
+{
+    *section = (struct section){.axis = {0, 2}, .downwards = true};
+    const double place = cut_place(recorder, low, high);
+    const size_t *grid = record->grid;
+    snprintf(section->title, sizeof section->title, "cut at y = %.4g", place);
+    if (grid[0] == 0)
+        return pick_near(recorder, record, section, 1, place, 0.55 * spacing_of(recorder, low, high)) &&
+               place_points(recorder, record, section);
+    size_t nearest = 0;
+    double least = INFINITY;
+    for (size_t j = 0; j < grid[1]; j++) {
+        double x[3];
+        body_position(recorder, record, j * grid[0], x);
+        if (fabs(x[1] - place) >= least) continue;
+        least = fabs(x[1] - place);
+        nearest = j;
+        snprintf(section->title, sizeof section->title, "cut at y = %.4g", x[1]);
+    }
+    section->along = grid[0];
+    section->across = grid[2];
+    section->points = grid[0] * grid[2];
+    section->start = nearest * grid[0];
+    section->stride = grid[0] * grid[1];
+    section->count = grid[2];
+    section->block = grid[0];
+    return place_points(recorder, record, section);
+}
+
+/* One or two dimensions: everything. */
+static bool whole_section(const struct recorder *recorder, const struct snapshot_record *record,
+                          struct section *section)
+{
+    *section = (struct section){.axis = {0, 1}};
+    if (record->grid[0] == 0)
+        return pick_near(recorder, record, section, -1, 0.0, 0.0) && place_points(recorder, record, section);
+    section->along = record->grid[0];
+    section->across = record->grid[1];
+    section->points = section->stride = section->block = record->points;
+    section->count = 1;
+    return place_points(recorder, record, section);
+}
+
+static bool choose_sections(const struct recorder *recorder, struct film *film)
+{
+    const struct snapshot_record *record = &recorder->snapshot[film->group];
+    if (recorder->scene->dimension < 3) {
+        film->sections = 1;
+        return whole_section(recorder, record, &film->section[0]);
+    }
+    double low[3] = {0}, high[3] = {0};
+    bounds_of(recorder, record, low, high);
+    film->sections = 2;
+    return surface_section(recorder, record, low, high, &film->section[0]) &&
+           cut_section(recorder, record, low, high, &film->section[1]);
+}
+
+static bool choose_field(unsigned fields, selas_field *field)
+{
+    static const selas_field order[] = {SELAS_VELOCITY, SELAS_DISPLACEMENT, SELAS_ACCELERATION,
+                                        SELAS_PRESSURE, SELAS_ENERGY,       SELAS_STRESS,
+                                        SELAS_STRAIN};
+    for (size_t k = 0; k < sizeof order / sizeof *order; k++)
+        if ((fields >> order[k] & 1U) != 0) {
+            *field = order[k];
+            return true;
+        }
+    return false;
+}
+
+/* Values of a section in one frame, [points * components] in the frame's buffer; vectors in the body's frame.
+ */
+static bool read_section(const struct recorder *recorder, const struct film *film,
+                         const struct section *section, const struct frame *frame, struct messages *messages)
+{
+    const struct snapshot_record *record = &recorder->snapshot[film->group];
+    const size_t components = (size_t)field_components(film->field);
+    double *value = record->buffer;
+    if (run_file_read(recorder, frame->number, film->field, section->start, section->stride, section->count,
+                      section->block, value, messages) != SELAS_OK)
+        return false;
+    for (size_t k = 0; section->pick != NULL && k < section->points; k++) /* picks ascend: in place */
+        memmove(value + components * k, value + components * section->pick[k], components * sizeof *value);
+    if (components == 3 && recorder->scene->body.rotated)
+        for (size_t k = 0; k < section->points; k++) {
+            double own[3];
+            body_direction_from_deck(&recorder->scene->body, value + 3 * k, own);
+            memcpy(value + 3 * k, own, sizeof own);
+        }
+    return true;
+}
+
+/* The component that is largest anywhere at any time. */
+static bool choose_component(const struct recorder *recorder, struct film *film, struct messages *messages)
+{
+    const size_t components = (size_t)field_components(film->field);
+    double largest[6] = {0};
+    for (size_t f = 0; f < film->frames && components > 1; f++)
+        for (size_t s = 0; s < film->sections; s++) {
+            if (!read_section(recorder, film, &film->section[s], &film->frame[f], messages)) return false;
+            const double *value = recorder->snapshot[film->group].buffer;
+            for (size_t i = 0; i < film->section[s].points * components; i++)
+                largest[i % components] = fmax(largest[i % components], fabs(value[i]));
+        }
+    for (size_t c = 1; c < components; c++)
+        if (largest[c] > largest[film->component]) film->component = c;
+    return true;
+}
+
+bool film_create(const struct recorder *recorder, size_t group, struct film *film, struct messages *messages)
+{
+    *film = (struct film){.group = group};
+    if (!choose_field(recorder->scene->snapshot[group].fields, &film->field)) return false;
+    film->frame = array_new(recorder->entries, sizeof *film->frame);
+    for (size_t k = 0; film->frame != NULL && k < recorder->entries; k++)
+        if (recorder->entry[k].group == group)
+            film->frame[film->frames++] =
+                (struct frame){.number = recorder->entry[k].number, .time = recorder->entry[k].time};
+    if (film->frames > 0 && choose_sections(recorder, film) && choose_component(recorder, film, messages))
+        return true;
+    film_free(film);
+    return false;
+}
+
+/* Weights of the four points around a place s in [0, 1] between the middle two (Keys 1981, cubic
+ * convolution).
+ */
+static void cubic_weights(double s, double weight[4])
+{
+    weight[0] = 0.5 * s * (s * (2.0 - s) - 1.0);
+    weight[1] = 0.5 * (s * s * (3.0 * s - 5.0) + 2.0);
+    weight[2] = 0.5 * s * (s * (4.0 - 3.0 * s) + 1.0);
+    weight[3] = 0.5 * s * s * (s - 1.0);
+}
+
+/* The four points around pixel i of an axis, repeated at the ends, and their weights. */
+static void around(size_t i, size_t factor, size_t points, size_t index[4], double weight[4])
+{
+    const size_t low = i / factor < points - 1 ? i / factor : points - 2;
+    cubic_weights((double)i / (double)factor - (double)low, weight);
+    index[0] = low > 0 ? low - 1 : 0;
+    index[1] = low;
+    index[2] = low + 1;
+    index[3] = low + 2 < points ? low + 2 : points - 1;
+}
+
+/* Pixels of a regular section: cubic between the points. */
+static bool write_image(const struct section *section, const double *value, size_t components, FILE *data)
+{
+    const size_t factor = (section->fine[0] - 1) / (section->along - 1);
+    for (size_t j = 0; j < section->fine[1]; j++) {
+        size_t row[4], column[4];
+        double up[4], across[4];
+        around(j, factor, section->across, row, up);
+        for (size_t i = 0; i < section->fine[0]; i++) {
+            around(i, factor, section->along, column, across);
+            double sum = 0.0;
+            for (size_t k = 0; k < 4; k++)
+                for (size_t l = 0; l < 4; l++)
+                    sum += up[k] * across[l] * value[components * (row[k] * section->along + column[l])];
+            const float pixel = (float)sum;
+            if (fwrite(&pixel, sizeof pixel, 1, data) != 1) return false;
+        }
+    }
+    return true;
+}
+
+static bool write_points(const struct section *section, const double *value, size_t components, FILE *data)
+{
+    for (size_t k = 0; k < section->points; k++) {
+        const float row[3] = {section->coordinate[2 * k], section->coordinate[2 * k + 1],
+                              (float)value[components * k]};
+        if (fwrite(row, sizeof row, 1, data) != 1) return false;
+    }
+    return true;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* One scale for all frames: curves get the largest value; maps half as much again as the median of the
+ * frames' largest, so that late and faint waves still show while the few strongest frames saturate. */
+static void choose_scale(struct film *film)
+{
+    double *sorted = array_new(film->frames, sizeof *sorted);
+    for (size_t s = 0; s < film->sections; s++) {
+        for (size_t f = 0; f < film->frames; f++) {
+            film->largest[s] = fmax(film->largest[s], film->frame[f].largest[s]);
+            if (sorted != NULL) sorted[f] = film->frame[f].largest[s];
+        }
+        film->scale[s] = film->largest[s];
+        if (sorted == NULL) continue;
+        qsort(sorted, film->frames, sizeof *sorted, ascending);
+        const double moderate = 1.5 * sorted[film->frames / 2];
+        if (moderate > 0.0) film->scale[s] = fmin(film->largest[s], moderate);
+    }
+    array_free(sorted);
+}
+
+bool film_write(const struct recorder *recorder, struct film *film, FILE *data, struct messages *messages)
+{
+    const size_t components = (size_t)field_components(film->field);
+    for (size_t f = 0; f < film->frames; f++)
+        for (size_t s = 0; s < film->sections; s++) {
+            const struct section *section = &film->section[s];
+            struct frame *frame = &film->frame[f];
+            if (!read_section(recorder, film, section, frame, messages)) return false;
+            const double *value = recorder->snapshot[film->group].buffer + film->component;
+            frame->skip[s] = (size_t)ftell(data);
+            if (!(section->regular ? write_image : write_points)(section, value, components, data))
+                return false;
+            for (size_t k = 0; k < section->points; k++)
+                frame->largest[s] = fmax(frame->largest[s], fabs(value[components * k]));
+        }
+    choose_scale(film);
+    return true;
+}
+
+void film_free(struct film *film)
+{
+    array_free(film->frame);
+    for (size_t s = 0; s < 2; s++) {
+        array_free(film->section[s].pick);
+        array_free(film->section[s].coordinate);
+    }
+    *film = (struct film){0};
+}

@@ -1,0 +1,26 @@
+#include "scene/resolution.h"
+
+#include <math.h>
+
+double source_cutoff(const struct scene *scene)
+{
+    double omega = 0.0;
+    for (size_t k = 0; k < scene->loads; k++)
+        omega = fmax(omega, history_cutoff(&scene->load[k].history, SOURCE_COUNTS));
+    for (size_t face = 0; face < FACES; face++)
+        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
+            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
+            omega = fmax(omega, history_cutoff(&scene->boundary[face].history, SOURCE_COUNTS));
+    return omega;
+}
+
+double points_per_wavelength(const struct scene *scene)
+{
+    const double omega = source_cutoff(scene);
+    double slowest = INFINITY;
+    for (size_t m = 0; m < scene->materials; m++)
+        slowest =
+            fmin(slowest, scene->dimension == 1 ? scene->material[m].p_speed : scene->material[m].s_speed);
+    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return 0.0;
+    return 6.283185307179586477 * slowest / omega / scene->body.spacing;
+}

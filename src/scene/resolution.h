@@ -1,0 +1,17 @@
+/* How finely a scene's points resolve its waves. */
+#ifndef SELAS_SCENE_RESOLUTION_H
+#define SELAS_SCENE_RESOLUTION_H
+
+#include "scene/scene.h"
+
+/* Part of the largest amplitude in the spectrum that still counts. */
+#define SOURCE_COUNTS 0.05
+
+/* Angular frequency above which the spectra of all loads and prescribed motions lie below SOURCE_COUNTS of
+ * their largest amplitude (history_cutoff) [rad/time]; 0 if there is none. */
+double source_cutoff(const struct scene *scene);
+
+/* Of the slowest wave at that frequency; 0 if nothing tells. */
+double points_per_wavelength(const struct scene *scene);
+
+#endif
