@@ -12,7 +12,7 @@ FUZZED   = $(patsubst regress/hardening/fuzz/%.c,%,$(wildcard regress/hardening/
 define program
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
-	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(LIBS) $(EXTRA_LIBS)
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.a,$^) $(LIBS) $(EXTRA_LIBS)
 endef
 $(BUILD)/test/%: %.c $(BUILD)/libselas.a
 	$(program)
