@@ -78,6 +78,8 @@ const char *deck_directory(const struct deck *deck); /* folder of the file, "." 
 /* Path of a file that the deck names (a word of type WORD_FILE), relative to the deck's folder unless it is
  * absolute; new memory (array_free), NULL if there is none. */
 char *deck_resolve(const struct deck *deck, const char *file);
+/* The same from the root, wherever the program stands. */
+char *deck_absolute(const struct deck *deck, const char *file);
 const char *deck_source(const struct deck *deck); /* the text as read, without overrides */
 /* Gives a deck that was made from an echo the text that it came from. */
 selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages);
@@ -89,5 +91,7 @@ void deck_reference(FILE *file);
  * (%.17g); a file that gfortran's namelist reading takes and that runs to the same bits. Paths are written so
  * that the echo, which lies in another folder, still finds them. */
 selas_status deck_write(const struct deck *deck, FILE *file, struct messages *messages);
+/* The same in new memory (free it), "" without a deck; NULL if that failed. */
+char *deck_echo(const struct deck *deck, struct messages *messages);
 
 #endif

@@ -28,7 +28,7 @@ char *deck_resolve(const struct deck *deck, const char *file)
     return path;
 }
 
-static char *absolute(const struct deck *deck, const char *file)
+char *deck_absolute(const struct deck *deck, const char *file)
 {
     char *path = deck_resolve(deck, file);
     if (path == NULL || *path == '/') return path;
@@ -63,7 +63,7 @@ static bool write_value(const struct deck *deck, enum word_type type, const stru
         fputs(value->as.logical ? ".true." : ".false.", file);
         break;
     case WORD_FILE:
-        path = absolute(deck, value->as.text);
+        path = deck_absolute(deck, value->as.text);
         if (path == NULL) return false;
         write_text(path, file);
         array_free(path);
@@ -109,4 +109,17 @@ selas_status deck_write(const struct deck *deck, FILE *file, struct messages *me
     if (!good) return fail(messages, SELAS_NO_MEMORY, "not enough memory to write the deck");
     if (ferror(file) != 0) return fail(messages, SELAS_FILE_ERROR, "the deck's echo: %s", strerror(errno));
     return SELAS_OK;
+}
+
+char *deck_echo(const struct deck *deck, struct messages *messages)
+{
+    char *text = NULL;
+    size_t size = 0;
+    if (deck == NULL) return strdup("");
+    FILE *file = open_memstream(&text, &size);
+    if (file == NULL) return NULL;
+    const selas_status status = deck_write(deck, file, messages);
+    if (fclose(file) == 0 && status == SELAS_OK) return text;
+    free(text);
+    return NULL;
 }

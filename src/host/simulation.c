@@ -203,7 +203,7 @@ selas_status simulation_prepare(selas_simulation *simulation)
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK || simulation->prepared) return status;
     struct messages *messages = &simulation->messages;
-    const struct stopwatch watch = start_watch();
+    const struct stopwatch begun = start_watch();
     if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
@@ -213,7 +213,7 @@ selas_status simulation_prepare(selas_simulation *simulation)
                                  &simulation->recorder, messages);
     simulation->prepared = status == SELAS_OK;
     simulation->figures.threads = omp_get_max_threads();
-    add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
+    add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
 
@@ -222,7 +222,7 @@ static selas_status start(selas_simulation *simulation)
 {
     selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
-    const struct stopwatch watch = start_watch();
+    const struct stopwatch begun = start_watch();
     model_computed(simulation->model)->evaluations = 0;
     status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
     if (status == SELAS_OK && simulation->recording)
@@ -231,7 +231,7 @@ static selas_status start(selas_simulation *simulation)
         status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
     if (status == SELAS_OK) status = host_answer(simulation);
     if (status != SELAS_STOPPED) simulation->failed = status;
-    add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
+    add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
 
@@ -250,7 +250,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
         return fail(messages, simulation->failed, "the simulation has failed before; no step can follow");
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
-    const struct stopwatch watch = start_watch();
+    const struct stopwatch begun = start_watch();
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
         simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
         status = host_answer(simulation);
@@ -260,7 +260,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
         if (status == SELAS_OK && stopped) status = SELAS_STOPPED;
     }
     if (status != SELAS_STOPPED) simulation->failed = status;
-    add_elapsed(watch, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
+    add_elapsed(begun, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
     return status;
 }
 

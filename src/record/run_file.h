@@ -27,6 +27,7 @@ selas_status hdf_cannot(const char *what, const char *path, int error, struct me
 /* New file with `head` bytes before HDF5's own (0, 512, 1024, ...); negative on failure. */
 hid_t hdf_create_file(const char *path, size_t head);
 hid_t hdf_open_file(const char *path); /* for reading */
+/* An attribute, or a data set where the text is too long for one. */
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);
 bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value);
@@ -40,7 +41,8 @@ bool snapshot_file_there(const struct recorder *recorder, size_t number, double 
 /* Brings the files of all snapshots so far on the disk. */
 void snapshot_files_sync(const struct recorder *recorder);
 
-/* provenance.c: groups /settings and /provenance */
+/* settings.c: group /settings; provenance.c: group /provenance */
+bool write_settings(const struct deck *deck, hid_t file);
 bool write_provenance(const struct recorder *recorder, hid_t file, const struct run_figures *figures,
                       struct messages *messages);
 

@@ -12,18 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-char *kept_text_of(const struct scene *scene, struct messages *messages)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (file == NULL) return NULL;
-    const selas_status status = scene->deck != NULL ? deck_write(scene->deck, file, messages) : SELAS_OK;
-    if (fclose(file) == 0 && status == SELAS_OK) return text;
-    free(text);
-    return NULL;
-}
-
 static uint64_t file_checksum(const struct crc64_table *table, uint64_t before, const char *path)
 {
     char block[4096];
