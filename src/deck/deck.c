@@ -143,11 +143,6 @@ const char *deck_name(const struct deck *deck)
     return deck->name;
 }
 
-const char *deck_directory(const struct deck *deck)
-{
-    return deck->directory;
-}
-
 const char *deck_source(const struct deck *deck)
 {
     return deck->source;

@@ -74,7 +74,6 @@ void deck_warning(const struct deck *deck, const struct deck_group *group, const
                   struct messages *messages, const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 const char *deck_name(const struct deck *deck);      /* file name without folder and ".nml" */
-const char *deck_directory(const struct deck *deck); /* folder of the file, "." if none */
 /* Path of a file that the deck names (a word of type WORD_FILE), relative to the deck's folder unless it is
  * absolute; new memory (array_free), NULL if there is none. */
 char *deck_resolve(const struct deck *deck, const char *file);

@@ -4,7 +4,6 @@
 #include "deck/deck_private.h"
 
 #include <errno.h>
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -97,15 +96,9 @@ static bool write_group(const struct deck *deck, const struct deck_group *group,
 
 selas_status deck_write(const struct deck *deck, FILE *file, struct messages *messages)
 {
-    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
     bool good = true;
     for (size_t i = 0; i < deck->list.groups && good; i++)
         good = write_group(deck, &deck->list.group[i], file);
-    if (plain != (locale_t)0) {
-        uselocale(host);
-        freelocale(plain);
-    }
     if (!good) return fail(messages, SELAS_NO_MEMORY, "not enough memory to write the deck");
     if (ferror(file) != 0) return fail(messages, SELAS_FILE_ERROR, "the deck's echo: %s", strerror(errno));
     return SELAS_OK;

@@ -31,6 +31,14 @@ static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
     *cpu += now.cpu - since.cpu;
 }
 
+struct c_locale door_enter(selas_simulation *simulation)
+{
+    const struct c_locale locale = c_locale_begin();
+    const bool outermost = locale.host != locale.own; /* the functions of the library call each other */
+    if (simulation != NULL && outermost) simulation->host_locale = locale.host;
+    return locale;
+}
+
 /* --- Opening and closing
  * --------------------------------------------------------------------------------------- */
 
@@ -85,6 +93,7 @@ static selas_status build_scene(selas_simulation *simulation)
 selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
                                   selas_simulation **opened)
 {
+    AT_THE_DOOR(NULL);
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
@@ -102,6 +111,7 @@ selas_status selas_open_deck(const char *path, selas_simulation **simulation)
 
 selas_status selas_open_text(const char *name, const char *text, selas_simulation **opened)
 {
+    AT_THE_DOOR(NULL);
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
@@ -114,6 +124,7 @@ selas_status selas_open_text(const char *name, const char *text, selas_simulatio
 
 selas_status selas_open_new(const char *name, selas_simulation **opened)
 {
+    AT_THE_DOOR(NULL);
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
@@ -195,6 +206,7 @@ selas_status simulation_scene(selas_simulation *simulation)
 
 selas_status selas_build(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_scene(simulation);
 }
 
@@ -266,11 +278,13 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
 
 selas_status selas_step(selas_simulation *simulation, unsigned long steps)
 {
+    AT_THE_DOOR(simulation);
     return run_steps(simulation, steps);
 }
 
 selas_status selas_advance(selas_simulation *simulation, double time)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK) return status;
     if (!isfinite(time))
@@ -288,11 +302,13 @@ double selas_time(const selas_simulation *simulation)
 
 double selas_end_time(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_scene(simulation) == SELAS_OK ? simulation->scene->end_time : (double)NAN;
 }
 
 double selas_time_step(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_prepare(simulation) == SELAS_OK ? simulation->stepper->dt : 0.0;
 }
 
@@ -303,12 +319,14 @@ unsigned long selas_steps(const selas_simulation *simulation)
 
 unsigned long selas_steps_needed(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     if (simulation_prepare(simulation) != SELAS_OK) return 0;
     return simulation->stepper->steps + simulation->stepper->extra;
 }
 
 selas_status selas_finish(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK || simulation->finished) return status;
     const unsigned long needed = simulation->stepper->steps + simulation->stepper->extra;
@@ -326,5 +344,6 @@ const char *selas_message(const selas_simulation *simulation)
 
 const char *selas_output_directory(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_scene(simulation) == SELAS_OK ? simulation->scene->output.directory : "";
 }
