@@ -255,7 +255,13 @@ static void unfinished_run(void **state)
     FILE *old = fopen(path_of("run.h5"), "w");
     fputs("older", old);
     fclose(old);
-    assert_int_equal(run(true), SELAS_OK);
+    assert_int_equal(run(true), SELAS_FILE_ERROR); /* is no result of selas ... */
+    assert_non_null(strstr(messages.text, "run.h5' is no result of selas"));
+    recorder_free(&recorder);
+    FILE *list = fopen(path_of(".selas-results"), "w");
+    fputs("run.h5\n", list);
+    fclose(list);
+    assert_int_equal(run(true), SELAS_OK); /* ... but where it is known for one */
     recorder_free(&recorder);
     assert_false(there("run.h5.part"));
     assert_true(there("unfinished/snapshot_0004.h5") && there("unfinished/points.h5"));

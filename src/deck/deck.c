@@ -138,6 +138,11 @@ size_t deck_choice(const struct deck_group *group, const char *name, size_t i)
     return word_find_choice(&group->kind->word[word], deck_text(group, name, i));
 }
 
+const char *deck_source_path(const struct deck *deck)
+{
+    return deck->path;
+}
+
 const char *deck_name(const struct deck *deck)
 {
     return deck->name;

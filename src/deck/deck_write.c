@@ -27,6 +27,21 @@ char *deck_resolve(const struct deck *deck, const char *file)
     return path;
 }
 
+bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context)
+{
+    for (size_t g = 0; g < deck->list.groups; g++) {
+        const struct deck_group *group = &deck->list.group[g];
+        for (size_t w = 0; w < group->kind->words; w++) {
+            if (group->kind->word[w].type != WORD_FILE || group_values(group, w) == 0) continue;
+            char *path = deck_resolve(deck, group_value(group, w, 0)->as.text);
+            const bool good = path != NULL && visit(context, path);
+            array_free(path);
+            if (!good) return false;
+        }
+    }
+    return true;
+}
+
 char *deck_absolute(const struct deck *deck, const char *file)
 {
     char *path = deck_resolve(deck, file);

@@ -12,20 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct quiet quiet_begin(void)
-{
-    struct quiet quiet = {0};
-    errno = 0;
-    H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return quiet;
-}
-
-void quiet_end(struct quiet quiet)
-{
-    H5Eset_auto2(H5E_DEFAULT, quiet.function, quiet.data);
-}
-
 /* HDF5 tells only that it failed; what the system said is still in errno, if it was the system. */
 selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages)
 {

@@ -3,6 +3,7 @@
 #ifndef SELAS_RUN_FILE_H
 #define SELAS_RUN_FILE_H
 
+#include "base/hdf_quiet.h"
 #include "record/parts.h"
 #include "record/unfinished.h"
 
@@ -13,14 +14,6 @@ struct run_file {
     struct unfinished unfinished; /* its folder, and the lock on that of the results */
     size_t synced;                /* snapshots whose files are known to be on the disk */
 };
-
-/* HDF5 prints its errors unless it is told not to; the library prints nothing. errno is 0 from then on. */
-struct quiet {
-    H5E_auto2_t function;
-    void *data;
-};
-struct quiet quiet_begin(void);
-void quiet_end(struct quiet quiet);
 
 /* "cannot WHAT 'PATH': ..." with the system's reason, if `error` (errno after the failure) is one. */
 selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages);
