@@ -84,15 +84,42 @@ check "... and is the same" awk '/^error largest:/ { found = 1; if ($3 > 1e-12) 
 check "with histories that end too early it is told, exit 2" sh -c \
     '"$0" compared.nml scene%end_time=4 output%directory=longer 2>said_longer; test $? -eq 2 && grep -q "goes from t = 0 to 3, the run from 0 to 4" said_longer' "$selas"
 check "... and the results are there" test -s longer/run.h5 -a -s longer/centre.dat -a ! -e longer/centre.exact.dat
-mkdir killed
-echo older >killed/run.h5
+# a second run into a folder
+sed 's/side/far/; s/depth/deep/; s/^&snapshot.*//' small.nml >second.nml
+cp -r out both
+echo mine >both/notes.dat
+check "another run into the same folder" "$selas" second.nml output%directory=both
+check "... takes away what the first one left and it does not write" sh -c \
+    '! ls both/side.dat both/depth.dat both/run.xdmf both/run_2.xdmf 2>/dev/null | grep -q .'
+check "... leaves what is not selas's" grep -qx mine both/notes.dat
+check "... and has all of its own" test -s both/centre.dat -a -s both/far.dat -a -s both/deep.dat -a -s both/run.h5
+check "selas diff compares the receivers of run.h5" sh -c \
+    'cp -r out more && cp out/side.dat more/stranger.dat && "$0" diff out more && "$0" diff more out' "$selas"
+check "... and misses one that is not there" sh -c \
+    'rm more/side.dat; "$0" diff out more >said; test $? -eq 1 && grep -q "side .*is not in more" said' "$selas"
+refused() { # refused WORDS DECK [OVERRIDE]...: exit 1, with the words
+    words=$1
+    shift
+    "$selas" "$@" 2>said
+    test $? -eq 1 && grep -q "$words" said
+}
+mkdir own theirs
+cp small.nml own/deck.nml
+check "a run does not overwrite its deck" refused "own/deck.nml', which the deck is read from" own/deck.nml output%directory=own
+check "... the deck is as it was" cmp small.nml own/deck.nml
+check "... nor one that an earlier run has left" refused "out/deck.nml', which the deck is read from" out/deck.nml output%directory=out
+echo mine | tee theirs/report.txt >theirs/centre.exact.dat
+check "a run does not overwrite what is no result" refused "'theirs/report.txt' is no result of selas" small.nml output%directory=theirs
+check "... nor do exact histories" refused "'theirs/centre.exact.dat' is no result of selas" exact compared.nml output%directory=theirs
+check "... it is as it was" grep -qx mine theirs/report.txt theirs/centre.exact.dat
+cp -r out killed
 "$selas" small.nml output%directory=killed body%spacing=0.25 scene%end_time=6000 >/dev/null 2>&1 &
 run=$!
 sleep 1
 kill -9 $run 2>/dev/null
 wait $run 2>/dev/null
-check "a killed run leaves the older run.h5" grep -qx older killed/run.h5
-check "... and no half files" sh -c '! ls killed | grep -qE "\.(dat|png|xdmf|txt)$"'
+check "a killed run leaves the older run.h5" cmp out/run.h5 killed/run.h5
+check "... and no half files" sh -c '! ls killed | grep -q "\.part$"'
 touch file
 check "a folder that cannot be made is told, exit 1" sh -c '"$0" small.nml output%directory=file/out; test $? -eq 1' "$selas"
 exit $((failures > 0))

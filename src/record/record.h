@@ -6,6 +6,8 @@
 #include "exact/exact.h"
 #include "stepping/stepping.h"
 
+#include <stdio.h>
+
 struct recorder;
 
 /* History of one receiver, finished (corrected by the scheme, low-passed, on the rows of history_step). */
@@ -45,6 +47,8 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
  * report.txt, and with output%plots the PNGs. */
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages);
+/* After recorder_write: the last lines of the report, with the errors of the velocity alone. */
+void recorder_summary(const struct recorder *recorder, const struct run_figures *figures, FILE *out);
 /* Of a run that was stopped: RECEIVER.dat and, with output%plots, their pictures, and PROFILE.dat, as far as
  * it came, marked unfinished, into the folder of what is not finished; they go when the run is over. */
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages);

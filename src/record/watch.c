@@ -216,10 +216,10 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
 {
     struct watch *watch = &recorder->watch;
     if (watch->by_work || watch->with_faces) add_work(recorder, state);
-    if (state->step < watch->next) return glance(recorder, state, messages);
-    watch->next = state->step + EVERY;
-    const unsigned long end = recorder->stepper->steps; /* the balance at the end is wanted in any case */
-    if (state->step < end && watch->next > end) watch->next = end;
+    if ((double)state->step < watch->next) return glance(recorder, state, messages);
+    const unsigned long end = recorder->stepper->steps, next = state->step + EVERY;
+    /* the balance at the end is wanted in any case */
+    watch->next = (double)(state->step < end && next > end ? end : next);
     const selas_status sound = watch_sound(recorder, state, messages);
     return sound != SELAS_OK ? sound : judge(recorder, state, true, messages);
 }
