@@ -66,6 +66,13 @@ check "run.xdmf closes what it opens" awk '
 check "the profile has two blocks of 11 rows of 4 + 3 + 6 columns" awk '
     !/^#/ && NF { rows++; if (NF != 13) bad = 1 } /^# t = / { blocks++ } END { exit !(rows == 22 && blocks == 2 && !bad) }' out/depth.dat
 check "report.txt has a key and a value on every line" awk '!/^[^:]+: ./ { print; bad = 1 } END { exit bad }' out/report.txt
+own_memory() { # started by a process of 300 MB the report tells of the run's own memory
+    big=$(head -c 300000000 /dev/zero | tr '\0' x)
+    "$selas" small.nml output%directory=of_large || return 1
+    big=${big%%x*}
+    awk -F': ' '$1 == "peak memory bytes" { seen = 1; large = $2 > 2e8 } END { exit large || !seen }' of_large/report.txt
+}
+check "the peak memory is the run's own" own_memory
 check "the energy balance closes" awk -F': ' '$1 == "energy balance defect" { seen = 1; split($2, w, " "); if (w[1] > 0.02) exit 1 } END { if (!seen) exit 1 }' out/report.txt
 check "the echoed deck runs" "$selas" out/deck.nml output%directory=again
 grep -v '^#' out/side.dat >first
@@ -83,6 +90,17 @@ check "a run is compared with another one's histories" "$selas" compared.nml out
 check "... and is the same" awk '/^error largest:/ { found = 1; if ($3 > 1e-12) exit 1 } END { exit !found }' compared/report.txt
 check "with histories that end too early it is told, exit 2" sh -c \
     '"$0" compared.nml scene%end_time=4 output%directory=longer 2>said_longer; test $? -eq 2 && grep -q "goes from t = 0 to 3, the run from 0 to 4" said_longer' "$selas"
+sed 's/kind = .file.*/kind = "bar" \//' compared.nml >wrong.nml
+refuses() { # refuses WORDS DECK [OVERRIDE]...: `selas check` exits 2 with the words, behind the plan
+    words=$1
+    shift
+    "$selas" check "$@" >plan 2>said
+    test $? -eq 2 && grep -q "$words" said && grep -q '^steps: ' plan
+}
+check "selas check refuses them, too" refuses 'goes from t = 0 to 3, the run from 0 to 4' compared.nml scene%end_time=4
+check "... and takes what the run takes" "$selas" check compared.nml
+check "... and refuses an exact solution that there is not" refuses "reference 'bar': the bar is one-dimensional" \
+    wrong.nml
 check "... and the results are there" test -s longer/run.h5 -a -s longer/centre.dat -a ! -e longer/centre.exact.dat
 # a second run into a folder
 sed 's/side/far/; s/depth/deep/; s/^&snapshot.*//' small.nml >second.nml

@@ -107,7 +107,9 @@ selas_status selas_plan(selas_simulation *simulation,
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     if (tell == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
-    const selas_status status = simulation_prepare(simulation);
-    if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
-    return status;
+    selas_status status = simulation_prepare(simulation);
+    if (status != SELAS_OK) return status;
+    recorder_plan(simulation->recorder, simulation->state.y == NULL ? simulation->stepper : NULL, tell,
+                  context);
+    return make_exact(simulation); /* what the run would refuse when it is over */
 }

@@ -162,6 +162,10 @@ void histories_note(FILE *out, const struct recorder *recorder);
 void plan_tell(const struct recorder *recorder,
                void (*tell)(void *context, const char *key, const char *value), void *context);
 
+/* estimate.c: wall-clock seconds of a step and its record, measured; negative without memory. To be called
+ * before the state of the run is made. */
+double estimate_step(const struct recorder *recorder, struct stepper *stepper);
+
 /* report.c: report.txt */
 selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                           struct messages *messages);

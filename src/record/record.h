@@ -57,10 +57,11 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
                     double *value);
 /* The plan that `selas check` prints and report.txt begins with, one key and value after the other: points,
  * unknowns, lattice, method, scheme, time step and how it was chosen, steps, memory and bytes per point,
- * points per wavelength of the slowest wave at the loads' cutoff (history_cutoff), estimated time (a few
- * operator calls are timed), which parts are on, model's describe. */
-void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
-                   void *context);
+ * points per wavelength of the slowest wave at the loads' cutoff (history_cutoff), which parts are on,
+ * model's describe, estimated time (some steps are timed; `stepper` is NULL once the run has begun: no time).
+ */
+void recorder_plan(struct recorder *recorder, struct stepper *stepper,
+                   void (*tell)(void *context, const char *key, const char *value), void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
 /* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it

@@ -5,6 +5,8 @@
 #include "base/safe_file.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 
 static void tell_line(void *context, const char *key, const char *value)
@@ -17,10 +19,19 @@ static double per(double amount, double whole)
     return whole == 0.0 ? 0.0 : amount / whole; /* what is not finite has to show */
 }
 
+/* Of this program since it began: what getrusage() tells is that of the process that started it, if that was
+ * larger. */
 static double peak_memory(void)
 {
+    char line[256];
+    double kibibytes = 0.0;
+    FILE *status = fopen("/proc/self/status", "r");
+    while (status != NULL && kibibytes == 0.0 && fgets(line, sizeof line, status) != NULL)
+        if (strncmp(line, "VmHWM:", 6) == 0) kibibytes = strtod(line + 6, NULL);
+    if (status != NULL) fclose(status);
     struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0.0;
+    if (kibibytes == 0.0 && getrusage(RUSAGE_SELF, &usage) == 0) kibibytes = (double)usage.ru_maxrss;
+    return 1024.0 * kibibytes;
 }
 
 static void write_energy(FILE *out, const struct recorder *recorder)
