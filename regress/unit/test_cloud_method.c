@@ -209,11 +209,8 @@ static void held_points_rest(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summation_by_parts),
-        cmocka_unit_test(uniform_stress),
-        cmocka_unit_test(patches),
-        cmocka_unit_test(spectrum_is_real),
-        cmocka_unit_test(held_points_rest),
+        cmocka_unit_test(summation_by_parts), cmocka_unit_test(uniform_stress),   cmocka_unit_test(patches),
+        cmocka_unit_test(spectrum_is_real),   cmocka_unit_test(held_points_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,7 +21,7 @@ double layer_expected_reflection(size_t points)
     return measured_part * layer_profile_reflection(points);
 }
 
-bool layer_unneeded(const struct scene *scene, int face)
+static bool layer_unneeded(const struct scene *scene, int face)
 {
     if (scene->boundary[face].always || scene->receivers + scene->profiles == 0) return false;
     return echo_path(scene, face) - 4 * scene->body.spacing > 1.02 * scene_fastest(scene) * scene->end_time;

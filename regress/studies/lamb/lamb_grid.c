@@ -6,8 +6,8 @@
  *   lamb_grid [PULSE|all] [NU ...]       default: triangle, short, smooth for nu = .1 .25 .4 .45
  *
  * Exit status 1 if a kinked pulse is off by more than 1e-4, a smooth one by more than 1e-5. */
-#include "exact/lamb_closed.h"
 #include "exact/lamb_fft.h"
+#include "lamb_closed.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* The half-space's surface under a vertical patch load in closed form, in the time domain: the independent
  * check of lamb_fft.c (nothing but the patch is shared with it). Surface points only. */
-#ifndef SELAS_LAMB_CLOSED_H
-#define SELAS_LAMB_CLOSED_H
+#ifndef LAMB_CLOSED_H
+#define LAMB_CLOSED_H
 
 #include "base/messages.h"
 #include "exact/patch.h"

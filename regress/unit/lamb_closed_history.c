@@ -3,7 +3,7 @@
  * waves from corners and edges, where it is smooth, graded towards them. */
 #include "base/memory.h"
 #include "exact/gauss12.h"
-#include "exact/lamb_closed.h"
+#include "lamb_closed.h"
 
 #include <math.h>
 #include <stdlib.h>
