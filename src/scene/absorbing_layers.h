@@ -14,8 +14,8 @@ bool layer_anywhere(const struct scene *scene);
  * the one to be expected by measurement. */
 double layer_profile_reflection(size_t points);
 double layer_expected_reflection(size_t points);
-/* Is an absorbing layer that the scene asks for left out, since no wave that the face sends back is seen by receivers
- * and profiles within end_time? */
+/* Is an absorbing layer that the scene asks for left out, since no wave that the face sends back is seen by
+ * receivers and profiles within end_time? */
 bool layer_left_out(const struct scene *scene, int face);
 
 #endif
