@@ -1,5 +1,5 @@
 /* What a host calls to drive loads and faces: by a function, or at a value that it holds; and the mean motion
- * under a load. How they are driven: drive.c. */
+ * under a load. How they are driven: driven_loads.c. */
 #include "host/simulation.h"
 
 #include "base/memory.h"

@@ -17,15 +17,6 @@
 /* Pieces of one load, all directions together; each takes memory for its own force pattern. */
 enum { MOST_PIECES = 100000 };
 
-bool host_drives(const selas_simulation *simulation)
-{
-    const struct host *host = &simulation->host;
-    bool any = host->loads > 0;
-    for (size_t face = 0; face < FACES; face++)
-        any = any || host->face[face].function != NULL;
-    return any;
-}
-
 /* --- Cutting loads into pieces --- */
 
 /* How a load is cut: `count` pieces along each axis of the body's frame, about `middle`. */
@@ -100,10 +91,9 @@ static void lay_pieces(struct scene *scene, size_t original, const struct cut *c
         if (whole->kind == LOAD_TRACTION && whole->shape == LOAD_FACE && d > 1) piece.shape = LOAD_SQUARE;
         if (whole->kind == LOAD_BODY_FORCE) piece.shape = LOAD_POINT;
         piece.amplitude = whole->kind == LOAD_BODY_FORCE ? volume : 1.0;
+        piece.driven = BY_HOST;
         piece.name[0] = '\0';
         for (size_t c = 0; c < d; c++) {
-            /* the histories are never asked; no two are alike, so that no mirror plane is taken for one */
-            piece.history = (struct history){.kind = HISTORY_STEP, .delay = (double)(first + d * p + c + 1)};
             memset(piece.direction, 0, sizeof piece.direction);
             piece.direction[c] = 1.0;
             scene->load[first + d * p + c] = piece;
@@ -121,10 +111,8 @@ static selas_status make_room(selas_simulation *simulation, const struct cut *cu
         if (!host->load[i].held) pieces += pieces_of(&cut[i]);
     struct load *all = array_new(scene->loads + d * pieces, sizeof *all);
     array_free(host->centre);
-    array_free(host->held);
     host->centre = array_new(3 * pieces, sizeof *host->centre);
-    host->held = array_new(scene->loads + d * pieces, sizeof *host->held);
-    if (all == NULL || host->centre == NULL || host->held == NULL) {
+    if (all == NULL || host->centre == NULL) {
         array_free(all);
         return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the pieces of the host's loads");
     }
@@ -145,9 +133,9 @@ static void take_over(selas_simulation *simulation, const struct cut *cut)
         struct driven_load *driven = &host->load[i];
         struct load *load = &scene->load[driven->load];
         history_free(&load->history);
-        load->history = (struct history){.kind = HISTORY_STEP, .delay = (double)(driven->load + 1)};
+        load->history = (struct history){0};
+        load->driven = HELD_BY_HOST; /* at 0 if its pieces have a function */
         load->amplitude = 1.0;
-        host->held[driven->load] = true;
         driven->first = piece;
         driven->pieces = driven->held ? 0 : pieces_of(&cut[i]);
         if (driven->held) continue;
@@ -157,16 +145,10 @@ static void take_over(selas_simulation *simulation, const struct cut *cut)
     }
 }
 
-selas_status host_prepare_scene(selas_simulation *simulation)
+static selas_status prepare_loads(selas_simulation *simulation)
 {
-    struct host *host = &simulation->host;
-    struct scene *scene = simulation->scene;
-    if (!host_drives(simulation)) return SELAS_OK;
-    if (scene->stepping.unwarp_given && scene->stepping.unwarp)
-        return fail(&simulation->messages, SELAS_BAD_SCENE,
-                    "stepping%%unwarp needs histories that are known beforehand; the host drives this scene");
-    scene->stepping.unwarp_given = true;
-    scene->stepping.unwarp = false;
+    const struct host *host = &simulation->host;
+    const struct scene *scene = simulation->scene;
     struct cut *cut = array_new(host->loads, sizeof *cut);
     if (cut == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the host's loads");
     selas_status status = SELAS_OK;
@@ -176,18 +158,22 @@ selas_status host_prepare_scene(selas_simulation *simulation)
     if (status == SELAS_OK) status = make_room(simulation, cut);
     if (status == SELAS_OK) take_over(simulation, cut);
     array_free(cut);
+    return status;
+}
+
+selas_status host_prepare_scene(selas_simulation *simulation)
+{
+    const struct host *host = &simulation->host;
     for (size_t face = 0; face < FACES; face++) {
-        struct boundary *boundary = &scene->boundary[face];
+        struct boundary *boundary = &simulation->scene->boundary[face];
         if (host->face[face].function == NULL) continue;
-        host->drive.moves = true;
-        /* the host's motion may come at any time: the energy watch must not take its end for that of the
-         * deck's */
         history_free(&boundary->history);
-        boundary->history = (struct history){.kind = HISTORY_TRIANGLE, .duration = scene->end_time};
+        boundary->history = (struct history){0};
+        boundary->driven = BY_HOST;
         boundary->kind = BOUNDARY_DISPLACEMENT;
         boundary->amplitude = 1.0;
     }
-    return status;
+    return host->loads > 0 ? prepare_loads(simulation) : SELAS_OK;
 }
 
 /* --- Asking the host --- */
@@ -258,14 +244,11 @@ static void drive_at_time(void *context, double time, double *load, double *disp
     }
 }
 
-selas_status host_prepare_stepper(selas_simulation *simulation)
+void host_prepare_stepper(selas_simulation *simulation)
 {
     struct host *host = &simulation->host;
-    if (!host_drives(simulation)) return SELAS_OK;
-    host->drive.context = simulation;
-    host->drive.at = drive_at_time;
-    host->drive.held = host->held;
-    return drive_by_host(simulation->stepper, &host->drive, &simulation->messages);
+    host->drive = (struct host_drive){simulation, drive_at_time};
+    if (scene_driven(simulation->scene)) simulation->stepper->driver.host = &host->drive;
 }
 
 selas_status host_answer(selas_simulation *simulation)
@@ -284,7 +267,9 @@ selas_status host_refresh(selas_simulation *simulation)
 {
     if (!simulation->dirty) return SELAS_OK;
     simulation->dirty = false;
-    drive_again(simulation->stepper, &simulation->state);
+    struct stepper *stepper = simulation->stepper;
+    driver_changed(&stepper->driver, simulation->state.step);
+    stepper->scheme->again(stepper, &simulation->state);
     return recorder_observe_again(simulation->recorder, &simulation->state, &simulation->messages);
 }
 
@@ -293,5 +278,4 @@ void host_free(selas_simulation *simulation)
     struct host *host = &simulation->host;
     free(host->load);
     array_free(host->centre);
-    array_free(host->held);
 }

@@ -217,7 +217,7 @@ selas_status simulation_prepare(selas_simulation *simulation)
     if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
-    if (status == SELAS_OK && simulation->recorder == NULL) status = host_prepare_stepper(simulation);
+    if (status == SELAS_OK) host_prepare_stepper(simulation);
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);

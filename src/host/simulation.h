@@ -32,7 +32,6 @@ struct host {
     struct driven_face face[FACES];
     size_t pieces;
     double *centre; /* [3 * pieces] deck coordinates */
-    bool *held;     /* [scene->loads] */
     struct host_drive drive;
     int answer;              /* what the callbacks returned since this was last looked at: the worst */
     char refused[NAME_SIZE]; /* the load or face whose callback it was */
@@ -101,12 +100,10 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 /* host/driven_loads.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */
 selas_status host_prepare_scene(selas_simulation *simulation);
-/* Puts the host in the histories' place: after the stepper is made. */
-selas_status host_prepare_stepper(selas_simulation *simulation);
+/* Puts the host behind the driver: after the stepper is made. */
+void host_prepare_stepper(selas_simulation *simulation);
 /* What the callbacks said since the last call: SELAS_OK, SELAS_STOPPED or SELAS_CALLBACK_FAILED. */
 selas_status host_answer(selas_simulation *simulation);
-/* True if the host drives anything. */
-bool host_drives(const selas_simulation *simulation);
 /* Makes the state's acceleration that of the loads as they are now. */
 selas_status host_refresh(selas_simulation *simulation);
 /* SELAS_OK if a function can give this load, or the reason why not. */

@@ -75,6 +75,7 @@ struct load {
     double moment[6];    /* xx yy zz xy yz zx */
     double velocity[3];  /* of a moving patch; 0 = at rest */
     struct history history;
+    enum driven driven;
     size_t group; /* occurrence of &load */
 };
 
@@ -229,6 +230,7 @@ unsigned scene_needs(const struct scene *scene);
 selas_status scene_check_faces(const struct scene *scene, unsigned can, const char *who,
                                struct messages *messages);
 bool scene_loads_move(const struct scene *scene); /* any of them */
+bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
 double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */

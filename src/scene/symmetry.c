@@ -93,7 +93,8 @@ static bool same_load(const struct load *a, const struct load *b, double length)
            history_same(&a->history, &b->history);
 }
 
-/* Each load's image must be among the loads as often as the load itself (two equal loads add). */
+/* Each load's image must be among the loads as often as the load itself (two equal loads add). What a host
+ * gives is like nothing but itself. */
 static bool loads_are_symmetric(const struct scene *scene, int axis, double middle, double length)
 {
     for (size_t i = 0; i < scene->loads; i++) {
@@ -103,6 +104,7 @@ static bool loads_are_symmetric(const struct scene *scene, int axis, double midd
         size_t images = 0;
         for (size_t j = 0; j < scene->loads; j++) {
             const struct load other = in_body_frame(&scene->body, &scene->load[j]);
+            if (i != j && (load.driven != BY_HISTORY || other.driven != BY_HISTORY)) continue;
             equals += same_load(&load, &other, length);
             images += same_load(&image, &other, length);
         }
