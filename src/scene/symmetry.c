@@ -103,8 +103,8 @@ static bool loads_are_symmetric(const struct scene *scene, int axis, double midd
         size_t equals = 0;
         size_t images = 0;
         for (size_t j = 0; j < scene->loads; j++) {
+            if (i != j && (load.driven != BY_HISTORY || scene->load[j].driven != BY_HISTORY)) continue;
             const struct load other = in_body_frame(&scene->body, &scene->load[j]);
-            if (i != j && (load.driven != BY_HISTORY || other.driven != BY_HISTORY)) continue;
             equals += same_load(&load, &other, length);
             images += same_load(&image, &other, length);
         }
