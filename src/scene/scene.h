@@ -115,9 +115,13 @@ struct initial {
     double centre[3], width;
 };
 
+/* Where the points of a method lie: on the faces of a box, whose spacing must divide every edge; there too, or
+ * scattered; in the middles of cells that fit edge by edge. */
+enum point_places { POINTS_ON_FACES, POINTS_SCATTERED, POINTS_IN_CELLS };
+
 struct method_choice {
-    char name[NAME_SIZE];           /* 'smoothed-point', 'sph' */
-    char variant[NAME_SIZE];        /* 'consistent', 'paper'; 'total-lagrangian', 'updated-lagrangian' */
+    char name[NAME_SIZE], variant[NAME_SIZE]; /* as in deck/choices.h */
+    enum point_places points;
     const struct deck_group *group; /* further options: each method reads its own with deck_*() */
     int degree, sweeps; /* of the consistent method, chosen by scene%accuracy; degree 0: by group */
 };

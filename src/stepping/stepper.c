@@ -164,8 +164,7 @@ static selas_status check_abilities(const struct stepper *stepper, struct messag
         const char *what;
     } needs[] = {
         {SCHEME_MOVING_LOADS, scene_loads_move(model->scene), "loads that move need"},
-        {SCHEME_FILTERS, model->spatial->after_step != NULL,
-         "the filter of this method (method%filter) needs"},
+        {SCHEME_FILTERS, model->spatial->after_step != NULL, "a filter (method%filter > 0) needs"},
         {SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"},
         {SCHEME_REMEMBERS, model->memory != NULL, "absorbing layers (boundary%layer = 'pml') need"},
     };
