@@ -37,7 +37,7 @@ static bool can(const struct scheme_class *scheme, const struct model *model, un
 const char *scheme_names(const struct model *model, unsigned abilities, char text[SCHEME_NAMES_SIZE])
 {
     size_t left = 0, length = 0;
-    text[0] = '\0';
+    snprintf(text, SCHEME_NAMES_SIZE, "(none fits this method)");
     for (size_t i = 0; scheme_table[i] != NULL; i++)
         left += can(scheme_table[i], model, abilities);
     for (size_t i = 0; scheme_table[i] != NULL && length < SCHEME_NAMES_SIZE; i++) {

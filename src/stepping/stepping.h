@@ -77,7 +77,8 @@ const struct scheme_class *scheme_find(const char *name);
 /* True if the model has the functions that the scheme calls. */
 bool scheme_fits(const struct scheme_class *scheme, const struct model *model);
 const struct scheme_class *scheme_default(const struct model *model);
-/* Text such as "'leapfrog' or 'rk4'": schemes that fit the model and can do all that is asked for. */
+/* Text such as "'leapfrog' or 'rk4'": schemes that fit the model and can do all that is asked for, in words if
+ * there is none. */
 enum { SCHEME_NAMES_SIZE = 200 };
 const char *scheme_names(const struct model *model, unsigned abilities, char text[SCHEME_NAMES_SIZE]);
 
