@@ -85,7 +85,9 @@ static void gives_values_and_defaults(void **state)
     const struct deck_group *load = deck_get(r.deck, "load", 0);
     assert_int_equal(deck_choice(load, "kind", 0), 0);
     assert_string_equal(deck_name(r.deck), "case");
-    assert_string_equal(deck_directory(r.deck), "folder");
+    char *file = deck_resolve(r.deck, "points.txt");
+    assert_string_equal(file, "folder/points.txt");
+    array_free(file);
     release(&r);
 }
 

@@ -200,7 +200,9 @@ static bool ask(selas_simulation *simulation, selas_vector_function function, vo
     value[0] = value[1] = value[2] = 0.0;
     if (host->answer < 0) return false;
     simulation->busy = true;
+    const locale_t own = uselocale(simulation->host_locale);
     int answer = function(context, time, position, value);
+    uselocale(own);
     simulation->busy = false;
     if (answer >= 0 && !isfinite(value[0] + value[1] + value[2])) answer = -1;
     if (answer != 0 && (host->answer == 0 || answer < 0)) {
