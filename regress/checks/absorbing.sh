@@ -2,9 +2,8 @@
 # Absorbing layers around a quarter of a half-space in three dimensions, free surface running into them: quiet long after the waves
 # have left. (With memory terms that did not know the exact mass over depth it grew from t = 9 on.)
 build=${1:-build}
-out=$build/test/absorbing
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 cat >"$out/quarter.nml" <<'D'
 &scene dimension = 3, end_time = 40 /
 &material name = 'rock', density = 1, lambda = 1, mu = 1 /
@@ -45,4 +44,3 @@ grep -v '^#' "$out/straight.dat" >"$out/a"
 grep -v '^#' "$out/run/r2.dat" | paste -d ' ' "$out/a" - | awk '
     { d = $7 - $14; if (d < 0) d = -d; if (d > far) far = d; v = $7 < 0 ? -$7 : $7; if (v > peak) peak = v }
     END { print (NR > 50 && peak > 1e-3 && far < 1e-11 * peak ? "ok" : "not ok") " - layers of a body turned by 30 degrees: " far " of " peak }'
-rm -rf "$out"

@@ -1,18 +1,17 @@
 #!/bin/sh
-# &scene accuracy: scenes that no table of errors holds (regress/accuracy.d/scenes.sh, waves.sh, solids.sh), one or more of
+# &scene accuracy: scenes that no table of errors holds (regress/studies/accuracy/scenes.sh, waves.sh, solids.sh), one or more of
 # each kind. The error reached against the exact solution lies between a fifth of the wanted one and the wanted one; the plan says what was chosen; the
 # echoed deck chooses the same again.
 build=${1:-build}
-out=$build/test/accuracy
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
-. regress/accuracy.d/scenes.sh
-. regress/accuracy.d/waves.sh
-. regress/accuracy.d/solids.sh
-. regress/accuracy.d/runs.sh
-. regress/accuracy.d/trials.sh
+. regress/studies/accuracy/scenes.sh
+. regress/studies/accuracy/waves.sh
+. regress/studies/accuracy/solids.sh
+. regress/studies/accuracy/runs.sh
+. regress/studies/accuracy/trials.sh
 vector() { sed -n 's/^error largest: \([^ ]*\).*/\1/p' "$out/run/report.txt"; }
 for pair in w2:.05 w9:.01 12:.03 9:.05 l3:.05 b1:.03 b3:.02 b4:.1 p2:.04 1:.02 5:.03; do
     number=${pair%:*}
@@ -57,4 +56,3 @@ refused 'pulled slowly' p2 's/smoothing=0.008/smoothing=0.0001/'
 refused 'that settle' p2 's/viscosity_alpha = 0.5//'
 refused "arrangement = 'conformal'" p2 "s/'conformal'/'radial'/"
 refused 'out of reach of what was measured' p2 's/nothing//' .002
-rm -rf "$out"

@@ -1,16 +1,15 @@
 #!/bin/sh
-# Disks that fail: writes that end in ENOSPC, EDQUOT or EIO at any place of a run (regress/restart.d/failing.c), a disk and
+# Disks that fail: writes that end in ENOSPC, EDQUOT or EIO at any place of a run (regress/checks/parts/failing.c), a disk and
 # folders that cannot be written, results that stand in the way or are open elsewhere. A run either ends as it should, with the
 # same bits, or says why with exit status 1, leaves no half file, and goes on from what it left to the same bits.
 # Argument: the build folder. Prints TAP.
 build=${1:-build}
 selas=$PWD/$build/selas
-failing=$PWD/$build/test/failing.so
-. "$PWD/regress/restart.d/scenes"
+. "$PWD/regress/checks/parts/scenes.sh"
 work=$(mktemp -d "${TMPDIR:-/tmp}/selas-disks-XXXXXX") || exit 1
 trap 'cd /; umount "$work"/ro 2>/dev/null; chattr -i "$work"/fixed 2>/dev/null; rm -rf "$work"' EXIT
-mkdir -p "$build/test"
-${CC:-cc} -shared -fPIC -O1 -o "$failing" regress/restart.d/failing.c -ldl || exit 1
+failing=$work/failing.so
+${CC:-cc} -shared -fPIC -O1 -o "$failing" regress/checks/parts/failing.c -ldl || exit 1
 cd "$work" || exit 1
 export OMP_NUM_THREADS=1
 failures=0

@@ -2,9 +2,8 @@
 # method%dissipation: the load centre is at rest once the exact signal has ended (t > 2.8, kinked pulse), which the
 # lattice's own undamped waves disturb; the error of a smooth pulse stays what it was.
 build=${1:-build}
-out=$build/test/dissipation
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
 cat >"$out/deck.nml" <<'DECK'

@@ -1,10 +1,10 @@
 # The hosts of regress/hosts/ are built against an installed copy (pkg-config, DESTDIR) and run; what is installed, the
 # names that the libraries show, and the declarations of the Fortran module are checked. Argument: the build folder.
-build=$(cd "${1:-build}" && pwd)
+build=${1:-build}
 root=$PWD
-work=$build/test/hosts
-rm -rf "$work"
-mkdir -p "$work"
+selas=$root/$build/selas
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
 check() { # check NAME COMMAND...
     name=$1
@@ -14,7 +14,7 @@ check() { # check NAME COMMAND...
         sed 's/^/# /' "$work/log" | head -20
     fi
 }
-place=$work/place
+place="$work/a place" # blanks in a path hurt nobody
 check "make install" make -s install BUILD="$build" PREFIX="$place"
 check "make install with DESTDIR puts the same files below it" sh -c "
     make -s install BUILD='$build' PREFIX=/opt/selas DESTDIR='$work/dest' &&
@@ -23,19 +23,27 @@ check "make install with DESTDIR puts the same files below it" sh -c "
 check "make uninstall leaves no file" sh -c "
     make -s uninstall BUILD='$build' PREFIX=/opt/selas DESTDIR='$work/dest' && ! find '$work/dest' ! -type d | grep -q ."
 only_selas() { ! nm "$@" | awk 'NF > 1 {print $NF}' | grep -v '^selas_'; }
+check "the manual and the decks are installed" test -s "$place/share/doc/selas/README.md" -a -s "$place/share/selas/halfspace.nml"
 check "libselas.so shows only selas_ names" only_selas -D --defined-only "$place/lib/libselas.so"
 check "libselas.a shows only selas_ names" only_selas -g --defined-only "$place/lib/libselas.a"
 check "libselas.so has a versioned name" sh -c "readelf -d '$place/lib/libselas.so' | grep -q 'SONAME.*libselas.so.[0-9]'"
 
 export PKG_CONFIG_PATH=$place/lib/pkgconfig
-flags="$(pkg-config --cflags --libs selas-fortran) -Wl,-rpath,$place/lib"
+with() { # with PACKAGE COMMAND...: the command with what pkg-config says of the package
+    package=$1
+    shift
+    eval "set -- \"\$@\" $(pkg-config $static --cflags --libs "$package")"
+    "$@"
+}
+static=
+rpath="-Wl,-rpath,$place/lib"
 cd "$work" || exit 1
 for host in halfspace_by_calls coupled_mass twins; do
-    # shellcheck disable=SC2086
-    check "$host compiles (f2018)" gfortran -std=f2018 -Wall -Wno-compare-reals -Werror -O1 "$root/regress/hosts/$host.f90" $flags -o $host
+    check "$host compiles (f2018)" with selas-fortran gfortran -std=f2018 -Wall -Wno-compare-reals -Werror -O1 "$rpath" \
+        -o $host "$root/regress/hosts/$host.f90"
 done
-# shellcheck disable=SC2086
-check "legacy compiles (fixed form, legacy)" gfortran -std=legacy -ffixed-form -O1 "$root/regress/hosts/legacy.f" $flags -o legacy
+check "legacy compiles (fixed form, legacy)" with selas-fortran gfortran -std=legacy -ffixed-form -O1 "$rpath" -o legacy \
+    "$root/regress/hosts/legacy.f"
 cat >ten.c <<'C'
 #include <selas.h>
 #include <stdio.h>
@@ -49,19 +57,25 @@ int main(int count, char **words)
     return status == SELAS_OK ? 0 : 1;
 }
 C
-shared="$(pkg-config --cflags --libs selas) -Wl,-rpath,$place/lib"
-# shellcheck disable=SC2086
-check "a C host links the shared library" sh -c "cc -std=c17 -Wall -Werror ten.c $shared -o ten && ./ten '$root/input/bar.nml'"
-# shellcheck disable=SC2046
-check "a C host links the static library" sh -c "cc ten.c -I'$place/include' '$place/lib/libselas.a' $(pkg-config --libs gsl fftw3 hdf5) -fopenmp -lm -o ten-static && ./ten-static '$root/input/bar.nml'"
+check "a C host links the shared library" with selas cc -std=c17 -Wall -Werror "$rpath" -o ten ten.c
+check "and runs" ./ten "$root/input/bar.nml"
+static=--static
+check "a C host links all libraries statically" with selas cc -static -o ten-static ten.c
+check "and runs" ./ten-static "$root/input/bar.nml"
+check "a Fortran host links all libraries statically" with selas-fortran gfortran -static -o legacy-static "$root/regress/hosts/legacy.f"
+mkdir alone
+cp "$place"/lib/*.a alone/
+check "a C host links libselas.a with the other libraries shared" with selas cc -Lalone -o ten-mixed ten.c
+check "it needs no libselas.so" sh -c "! readelf -d ten-mixed | grep -q 'NEEDED.*selas' && ./ten-mixed '$root/input/bar.nml'"
 
 spacing=0.5
-check "the program runs halfspace.nml" "$build/selas" -q "$root/input/halfspace.nml" body%spacing=$spacing output%directory="$work/run" output%plots=.false.
+check "the program runs halfspace.nml" "$selas" -q "$root/input/halfspace.nml" body%spacing=$spacing output%directory="$work/run" output%plots=.false.
 check "host 1: by calls, bit for bit the program's histories" ./halfspace_by_calls run $spacing
 # measured .0157 at spacing .25 (.0042 at .125, .049 at .5): command in doc/calling.md
 check "host 2: two-way coupled mass" ./coupled_mass 0.25 0.018
-check "the program runs bar.nml" "$build/selas" -q "$root/input/bar.nml" body%spacing=0.02 output%directory="$work/bar" output%plots=.false.
+check "the program runs bar.nml" "$selas" -q "$root/input/bar.nml" body%spacing=0.02 output%directory="$work/bar" output%plots=.false.
 check "host 3: Fortran 77" ./legacy "$root/input/bar.nml" middle bar/middle.dat 0.02
+check "host 3, all libraries static" ./legacy-static "$root/input/bar.nml" middle bar/middle.dat 0.02
 ./twins "$root/input/halfspace.nml" || echo "not ok - the Fortran twins ended early"
 
 # The interfaces of selas.f90 are the declarations of selas.h, types and all; a difference is seen on either side.
@@ -92,6 +106,27 @@ int main(void)
 }
 C
 check "selas.f90 has the same codes and fields" sh -c "
-    cc codes.c -I'$place/include' -o codes && ./codes | tr 'A-Z' 'a-z' | sort >codes-c &&
+    cc codes.c '-I$place/include' -o codes && ./codes | tr 'A-Z' 'a-z' | sort >codes-c &&
     sed -n '/parameter, public/,/^ *!*\$/p' '$root/src/selas.f90' | tr ',&' '\n\n' |
         sed -n 's/.*\(selas_[a-z_]*\) = \([0-9]*\).*/\1 \2/p' | sort >codes-f && diff codes-c codes-f"
+
+# CFLAGS is in every link, as -fsanitize and -flto need it: objects that are there linked anew.
+cd "$root" || exit 1
+mkdir "$work/linked"
+cp -a "$build/obj" "$build/commit" "$work/linked/"
+linked() { # linked FILE: it asks for the library of the sanitizer
+    make --no-print-directory BUILD="$work/linked" CFLAGS='-O1 -fsanitize=undefined' "$work/linked/$1" && readelf -d "$work/linked/$1" | grep -q libubsan
+}
+check "CFLAGS is used in linking the program" linked selas
+check "CFLAGS is used in linking the shared library" linked "$(basename "$(readlink "$place/lib/libselas.so")")"
+
+# A tree on a path with blanks
+tree="$work/a tree"
+mkdir -p "$tree/$build"
+cp -a Makefile src input doc regress "$tree/"
+cp -a "$build/obj" "$build/whole" "$build"/[!t]*.* "$tree/$build/"
+cd "$tree" || exit 1
+check "a tree on a path with blanks: make" make -s BUILD="$build"
+check "and make install" make -s install BUILD="$build" PREFIX="$tree/in stalled"
+check "and make uninstall" sh -c "make -s uninstall BUILD='$build' PREFIX='$tree/in stalled' && ! find 'in stalled' ! -type d | grep -q ."
+check "and scripts there" sh -c "! TMPDIR='$tree' sh regress/checks/wrong-decks.sh '$build' | grep -v '^ok' && ! sh regress/checks/results.sh '$build' | grep -v '^ok'"

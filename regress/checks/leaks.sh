@@ -1,9 +1,8 @@
 # The wrong calls and the checkpoints of the library (build/test/test_api*) leave no memory behind: LeakSanitizer. The same
 # under valgrind, which also sees reads of what was never written: `make check-leaks`. Argument: the build folder.
 build=${1:-build}
-work=$build/test/leaks
-rm -rf "$work"
-mkdir -p "$work"
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1
 # shellcheck disable=SC2046
 sanitized() { # sanitized SOURCE PROGRAM

@@ -3,9 +3,8 @@
 # A bar whose end is pushed at speed 1 from t = 0 on, without any warning before: the end must be at x = t after every scheme and
 # every step, and behind the front d'Alembert's wave moves with v = 1 and stress -rho c.
 build=${1:-build}
-out=$build/test/moved-face
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 cat >"$out/push.nml" <<'D'
 &scene dimension = 1, end_time = 2.0 /
 &material name = 'bar', density = 1.0, lambda = 0.0, mu = 0.5 /
@@ -32,4 +31,3 @@ for scheme in leapfrog modified-equation 'leapfrog stepping%unwarp=F' 'leapfrog 
         echo "not ok - the wave carries the push, $scheme: u = $moved, wanted 1"
     fi
 done
-rm -rf "$out"

@@ -3,9 +3,8 @@
 # bit: the fragments of regress/namelist/fragments.txt, and every deck of input/ with its echo.
 build=${1:-build}
 here=regress/namelist
-work=$build/test/namelist
-rm -rf "$work"
-mkdir -p "$work"
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
 
 # shellcheck disable=SC2046 # the words of pkg-config
 ${CC:-cc} -std=c17 -D_GNU_SOURCE -Isrc -o "$work/values" $here/values.c "$build/libselas.a" -fopenmp \

@@ -3,9 +3,8 @@
 # (boundary%always) agree to 1e-5 of the largest value: what is felt ahead of the first wave. Parts that a deck does not ask for are not in the plan and take no
 # memory: each adds its line and its bytes to those of the bare deck.
 build=${1:-build}
-out=$build/test/needed
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
 
@@ -110,4 +109,3 @@ for method in consistent paper; do # u, v, a; the paper's filter keeps the state
     check "$method: $state numbers of state per unknown" test "$state" = $wanted
 done
 echo "# $points points"
-rm -rf "$out"

@@ -2,6 +2,7 @@
 # The nightly regression itself, on a copy with a handful of cases: a good night, a changed history, a broken case, a
 # night that is killed, two at once, accepting. Argument: the build folder. Prints TAP.
 build=$(cd "${1:-build}" && pwd)
+export build
 work=$(mktemp -d "${TMPDIR:-/tmp}/selas-nightly-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 check() { # check WHAT COMMAND...
@@ -9,14 +10,14 @@ check() { # check WHAT COMMAND...
     shift
     if "$@" >"$work/said" 2>&1; then echo "ok - $what"; else echo "not ok - $what"; sed 's/^/# /' "$work/said" | head -20; fi
 }
-mkdir -p "$work/regress/cases" "$work/output"
-cp -r regress/nightly regress/nightly.d regress/accept "$work/regress/"
+mkdir -p "$work/regress/cases" "$work/regress/studies" "$work/output"
+cp -r regress/nightly "$work/regress/"
 cp -r input "$work/"
 for name in pulse-fixed pulse-transmitting bar-rk4; do cp -r "regress/cases/$name" "$work/regress/cases/"; done
 cd "$work" || exit 1
 page=output/regress/index.html
 summary=output/regress/summary.txt
-night() { regress/nightly -q -b "$build" "$@" >night.log 2>&1; }
+night() { regress/nightly/run -q -b "$build" "$@" >night.log 2>&1; }
 last() { tail -n 1 "$summary"; }
 
 check 'a good night ends with status 0' night
@@ -36,7 +37,7 @@ awk '!/^#/ && $5 > 1 && !done { $5 *= 1.00001; done = 1 } { print }' regress/cas
 cp changed regress/cases/pulse-fixed/accepted/far.dat
 mkdir regress/cases/aa-broken
 printf 'what: refused\ndeck: input/plane-wave.nml\noverride: body%%spacing=-1\natol: 1e-7\nrtol: 1e-7\nhalf: quick\n' >regress/cases/aa-broken/case
-check 'a changed number and a refused deck: status 1' sh -c "! regress/nightly -q -b $build >night.log 2>&1"
+check 'a changed number and a refused deck: status 1' sh -c "! regress/nightly/run -q -b \"\$build\" >night.log 2>&1"
 check 'the heads of cases end as they should' sh -c "! grep -qE '[;,] *</small>' $page"
 check 'the page is red' grep -q '<header class="red">' $page
 check 'all other cases were run' sh -c "grep -q '^passed bar-rk4' $summary && grep -q '^passed pulse-transmitting' $summary"
@@ -45,21 +46,21 @@ check 'failures stand first' sh -c "[ \$(grep -n 'id=\"pulse-fixed\"' $page | cu
 check 'the difference is drawn' grep -q 'differs from what was accepted: far_vx' $page
 
 check 'accepting asks, and takes no for an answer' sh -c "
-    echo n | regress/accept -b $build pulse-fixed | grep -q 'left as it was' && cmp changed regress/cases/pulse-fixed/accepted/far.dat"
-check 'accepting shows the difference' sh -c "echo n | regress/accept -b $build pulse-fixed | grep -qE '^far +vx .* differs'"
-check 'accepting with --yes' sh -c "regress/accept --yes -b $build pulse-fixed | grep -q 'pulse-fixed: accepted'"
+    echo n | regress/nightly/accept -b \"\$build\" pulse-fixed | grep -q 'left as it was' && cmp changed regress/cases/pulse-fixed/accepted/far.dat"
+check 'accepting shows the difference' sh -c "echo n | regress/nightly/accept -b \"\$build\" pulse-fixed | grep -qE '^far +vx .* differs'"
+check 'accepting with --yes' sh -c "regress/nightly/accept --yes -b \"\$build\" pulse-fixed | grep -q 'pulse-fixed: accepted'"
 rm -rf regress/cases/aa-broken
 check 'green again' night
-printf '#!/bin/sh\necho "ok - one"\necho "not ok - two <b>"\n' >regress/absorption
+printf '#!/bin/sh\necho "ok - one"\necho "not ok - two <b>"\n' >regress/studies/absorption
 check 'further checks count line by line, and a full night runs them' sh -c "
-    ! regress/nightly -b $build >night.log 2>&1 && grep -q '^    not ok - two <b>' $summary && grep -q 'two &lt;b&gt;' $page &&
+    ! regress/nightly/run -b \"\$build\" >night.log 2>&1 && grep -q '^    not ok - two <b>' $summary && grep -q 'two &lt;b&gt;' $page &&
     tail -n 1 $summary | grep -q ', 1 failed$'"
-rm regress/absorption
-check 'from cron, with next to no environment' env -i PATH=/usr/bin:/bin sh -c "cd / && $work/regress/nightly -q -b $build pulse-fixed"
+rm regress/studies/absorption
+check 'from cron, with next to no environment' env -i PATH=/usr/bin:/bin sh -c "cd / && '$work/regress/nightly/run' -q -b '$build' pulse-fixed"
 check 'an error 6 % above the recorded one is red' sh -c "
     cp regress/cases/pulse-fixed/errors kept
     awk -F': ' '{ printf \"%s: %.4e\\n\", \$1, \$2 / 1.06 }' kept >regress/cases/pulse-fixed/errors
-    ! regress/nightly -q -b $build pulse-fixed >night.log 2>&1 && grep -q 'not ok - pulse-fixed: error far velocity' $summary
+    ! regress/nightly/run -q -b \"\$build\" pulse-fixed >night.log 2>&1 && grep -q 'not ok - pulse-fixed: error far velocity' $summary
     status=\$?
     cp kept regress/cases/pulse-fixed/errors
     exit \$status"
@@ -69,7 +70,7 @@ mkdir regress/cases/slow
 printf 'what: slow\ndeck: input/plane-wave.nml\noverride: body%%spacing=0.0005\noverride: scene%%end_time=60\natol: 1\nrtol: 1\nhalf: quick\n' >regress/cases/slow/case
 begin() { # begin: starts a night in the background, waits until it is at the slow case alone
     rm -f $page
-    regress/nightly -q -b "$build" >night.log 2>&1 &
+    regress/nightly/run -q -b "$build" >night.log 2>&1 &
     night=$!
     tries=0
     while [ $tries -lt 300 ] && ! { [ -d output/regress/cases/slow ] && grep -q ' 4 of 5 ' $page 2>/dev/null; }; do
@@ -78,7 +79,7 @@ begin() { # begin: starts a night in the background, waits until it is at the sl
     done
 }
 begin
-check 'a second night does not start beside it' sh -c "regress/nightly -q -b $build 2>&1 | grep -q 'another one is at work'"
+check 'a second night does not start beside it' sh -c "regress/nightly/run -q -b \"\$build\" 2>&1 | grep -q 'another one is at work'"
 kill -TERM $night
 wait $night 2>/dev/null
 check 'killed: the page says so' grep -q 'NOT FINISHED: . of 5 done; killed by signal TERM at' $page

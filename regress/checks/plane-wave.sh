@@ -2,8 +2,9 @@
 # Runs input/plane-wave.nml in its variants against d'Alembert: P in a bar and a box, S in a rectangle, askew in
 # a box; held, free and absorbing ends; the observed order of the whole chain (start, operator, step, recording).
 build=${1:-build}
-out=$build/test/plane-wave
-rm -rf "$out"
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+out=$work/run
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
 

@@ -27,8 +27,7 @@ status 2 "check without a deck" "$selas" check
 status 2 "unknown option" "$selas" --fast input/halfspace.nml
 status 2 "a deck that is not there" "$selas" nothere.nml
 status 0 "check of each deck" sh -c "for deck in input/*.nml; do '$selas' check \$deck >/dev/null 2>&1 || exit 1; done"
-out=$build/test/program
-rm -rf "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 ok "a quiet run prints nothing" sh -c "[ -z \"\$('$selas' -q input/halfspace.nml body%spacing=1 output%plots=F output%low_pass=0 output%directory='$out' 2>&1)\" ]"
 ok "and leaves its report" test -s "$out/report.txt"
-rm -rf "$out"

@@ -4,7 +4,7 @@
 # over before the signal comes is made again.
 build=${1:-build}
 selas=$PWD/$build/selas
-. "$PWD/regress/restart.d/scenes"
+. "$PWD/regress/checks/parts/scenes.sh"
 work=$(mktemp -d "${TMPDIR:-/tmp}/selas-restart-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1

@@ -3,7 +3,7 @@
 # times what is added. Argument: the build folder. Prints TAP.
 build=${1:-build}
 selas=$PWD/$build/selas
-. "$PWD/regress/restart.d/scenes"
+. "$PWD/regress/checks/parts/scenes.sh"
 work=$(mktemp -d "${TMPDIR:-/tmp}/selas-single-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1

@@ -1,10 +1,9 @@
 #!/bin/sh
 # What a run says when it grows by itself: refused beforehand, stopped with place and time, or warned of at the end, each once; the
-# hard cases all together are `regress/stability BUILD quick`.
+# hard cases all together are `regress/studies/stability/run BUILD quick`.
 build=${1:-build}
-out=$build/test/stability
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
 cat >"$out/box.nml" <<'D'
@@ -57,4 +56,3 @@ if [ $? -eq 0 ] && ! grep -q warning "$out/log"; then echo "ok - a sound run is 
     echo "not ok - a sound run is not warned of"
     cat "$out/log"
 fi
-rm -rf "$out"

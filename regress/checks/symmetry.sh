@@ -2,9 +2,8 @@
 # Mirror planes that the program finds by itself: with method%symmetry on and off the same histories to 1e-12 of
 # the largest value, for a part of the work and of the memory; none where there are none.
 build=${1:-build}
-out=$build/test/symmetry
-rm -rf "$out"
-mkdir -p "$out"
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
 

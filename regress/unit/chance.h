@@ -1,4 +1,4 @@
-/* Numbers drawn by chance, always the same ones; others with SELAS_SEED=n (regress/seeds). */
+/* Numbers drawn by chance, always the same ones; others with SELAS_SEED=n (regress/hardening/seeds). */
 #ifndef CHANCE_H
 #define CHANCE_H
 

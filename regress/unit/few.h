@@ -1,5 +1,5 @@
 /* Some scenes of many where each takes long: under valgrind, where vectors take eighty times as long
- * (regress/valgrind sets SELAS_FEW_SCENES). */
+ * (regress/hardening/valgrind sets SELAS_FEW_SCENES). */
 #ifndef FEW_H
 #define FEW_H
 

@@ -8,6 +8,16 @@
 
 /* The smallest positive root of cos cosh = -1 is that of Eq 30, and slender beams follow Euler and Bernoulli.
  */
+/* Kirsch's stresses xx yy xy (as exact/hole.h). */
+static void hole_stress(double far, double radius, double x, double y, double stress[3])
+{
+    const double angle = atan2(y, x);
+    const double q = radius * radius / (x * x + y * y);
+    stress[0] = far * (1 - q * (1.5 * cos(2 * angle) + cos(4 * angle)) + 1.5 * q * q * cos(4 * angle));
+    stress[1] = far * (-q * (0.5 * cos(2 * angle) - cos(4 * angle)) - 1.5 * q * q * cos(4 * angle));
+    stress[2] = far * (-q * (0.5 * sin(2 * angle) + sin(4 * angle)) + 1.5 * q * q * sin(4 * angle));
+}
+
 static void beam_theories_agree_when_slender(void **state)
 {
     (void)state;

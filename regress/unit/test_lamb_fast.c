@@ -5,8 +5,8 @@
  * that what is compared is the means of u over intervals, (W(t+d) - W(t))/d, and their differences over d:
  * velocity seen through a triangular window. */
 #include "exact/gauss12.h"
-#include "exact/lamb_closed.h"
 #include "exact/lamb_moving.h"
+#include "lamb_closed.h"
 
 #include "few.h"
 #include "near.h"

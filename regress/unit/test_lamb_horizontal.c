@@ -19,8 +19,8 @@
  * The point load's form of this is Chao's (1960, J. Appl. Mech. 27, 559-567). u_z of Tx is -u_x of Tz:
  * Pekeris (lamb_closed.c). Velocity under a triangle is a sum of three step displacements. */
 #include "exact/gauss12.h"
-#include "exact/lamb_closed.h"
 #include "exact/lamb_fft.h"
+#include "lamb_closed.h"
 
 #include "few.h"
 #include "near.h"

@@ -1,7 +1,7 @@
 /* scene%accuracy for the swinging beam (He & Seaid 2016, section 4.2; doc/accuracy.md, section 6). What is
  * wanted of it is the frequency of its first bending mode, as the report names it: the velocity also holds
  * waves of shear across the beam that the start sets going (Euler and Bernoulli's mode moves no section along
- * the beam), and those no method has right for long. Measured (regress/accuracy.d/beams.sh), with n spacings
+ * the beam), and those no method has right for long. Measured (regress/studies/accuracy/beams.sh), with n spacings
  * across a beam of width W and length L, nu' = nu, in plane strain nu / (1 - nu),
  *   |error of the frequency| = a (W / L)^q (1 + m nu'^4) / (n^p + b) + d (W / L) nu'^2 n^-r,              (1)
  * the last part that of the corners of the clamp, where the stress has no bound. */

@@ -1,5 +1,5 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
- * 4): the largest one for which the error law of accuracy_surface.c, with the exact velocity's spectrum,
+ * 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"

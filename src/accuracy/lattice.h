@@ -1,4 +1,4 @@
-/* The speed that plane waves have on a lattice, for scene%accuracy (accuracy_lattice.c). */
+/* The speed that plane waves have on a lattice, for scene%accuracy (lattice.c). */
 #ifndef SELAS_ACCURACY_LATTICE_H
 #define SELAS_ACCURACY_LATTICE_H
 

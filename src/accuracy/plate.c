@@ -1,7 +1,7 @@
 /* scene%accuracy for the plate with a hole that is pulled slowly and settles (He & Seaid 2016, section 4.3;
  * doc/accuracy.md, section 7). Nothing moves in the end, so that what is wanted is the stress along the
  * ligament, L1 of the error over L1 of the stress, against the finite plate. Measured
- * (regress/accuracy.d/plates.sh), E the distance from the hole's centre to the plate's edge,
+ * (regress/studies/accuracy/plates.sh), E the distance from the hole's centre to the plate's edge,
  *   error = a (spacing / E)^p,                                                                            (1)
  * within a factor of two: rings of points round a hole fit the straight edges by chance. */
 #include "accuracy/kinds.h"

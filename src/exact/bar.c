@@ -20,13 +20,6 @@ struct bar {
     double length, speed, impedance; /* L, c, rho c */
 };
 
-void bar_smearing(double alpha, double smoothing_length, double speed, double time, double *l1, double *l2)
-{
-    const double width = sqrt(alpha * speed * smoothing_length / 4 * time);
-    *l1 = 2 * width / (sqrt(M_PI) * speed * time);
-    *l2 = sqrt((2 - sqrt(2)) * width / (sqrt(M_PI) * speed * time));
-}
-
 static selas_status refuse(struct messages *messages, const char *why)
 {
     return fail(messages, SELAS_BAD_SCENE, "reference 'bar': %s", why);

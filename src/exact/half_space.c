@@ -87,11 +87,6 @@ void half_space_set(struct half_space *half_space, double density, double lambda
     }
 }
 
-double complex half_space_rayleigh_function(const struct half_space *half_space, double complex y)
-{
-    return (2 + y) * (2 + y) - 4 * csqrt(1 + half_space->ratio * y) * csqrt(1 + y);
-}
-
 /* What all compliances at one k share. */
 struct roots {
     struct pair p, q, pq, kap;

@@ -25,10 +25,6 @@ struct half_space {
 /* Density > 0, mu > 0, lambda > -2 mu / 3. */
 void half_space_set(struct half_space *half_space, double density, double lambda, double mu);
 
-/* Left side of the Rayleigh equation in y = s^2 / (s_speed k)^2 (Re y > -1):
- * (2 + y)^2 - 4 sqrt(1 + ratio y) sqrt(1 + y). */
-double complex half_space_rayleigh_function(const struct half_space *half_space, double complex y);
-
 enum { BLOCK = 48 }; /* wavenumbers evaluated at once */
 
 /* Compliances times mu on a block of wavenumbers; real and imaginary parts apart. */

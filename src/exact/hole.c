@@ -17,15 +17,6 @@ struct solution {
     bool velocity; /* the history is that of a velocity */
 };
 
-void hole_stress(double far, double radius, double x, double y, double stress[3])
-{
-    const double angle = atan2(y, x);
-    const double q = radius * radius / (x * x + y * y);
-    stress[0] = far * (1 - q * (1.5 * cos(2 * angle) + cos(4 * angle)) + 1.5 * q * q * cos(4 * angle));
-    stress[1] = far * (-q * (0.5 * cos(2 * angle) - cos(4 * angle)) - 1.5 * q * q * cos(4 * angle));
-    stress[2] = far * (-q * (0.5 * sin(2 * angle) + sin(4 * angle)) + 1.5 * q * q * sin(4 * angle));
-}
-
 void hole_displacement(double far, double radius, double mu, double kappa, double x, double y,
                        double displacement[2])
 {

@@ -6,10 +6,8 @@
 
 extern const struct exact_class exact_hole;
 
-/* Stress xx yy xy at (x, y) from the hole's centre, |(x, y)| >= radius, under the far stress `far` along x.
- */
-void hole_stress(double far, double radius, double x, double y, double stress[3]);
-/* Displacement x y there; kappa = (3 - nu) / (1 + nu) in plane stress, 3 - 4 nu in plane strain. */
+/* Displacement x y at (x, y) from the hole's centre, |(x, y)| >= radius, under the far stress `far` along x;
+ * kappa = (3 - nu) / (1 + nu) in plane stress, 3 - 4 nu in plane strain. */
 void hole_displacement(double far, double radius, double mu, double kappa, double x, double y,
                        double displacement[2]);
 

@@ -25,7 +25,7 @@ static bool in_box(const struct scene *scene)
     return scene->body.shape == BODY_BOX || scene->body.shape == BODY_HALF_SPACE;
 }
 
-bool layer_unneeded(const struct scene *scene, int face)
+static bool layer_unneeded(const struct scene *scene, int face)
 {
     double fastest = 0;
     for (size_t m = 0; m < scene->materials; m++)

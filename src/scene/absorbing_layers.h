@@ -14,9 +14,8 @@ bool layer_anywhere(const struct scene *scene);
  * expected by measurement. */
 double layer_profile_reflection(size_t points);
 double layer_expected_reflection(size_t points);
-/* True if no wave that the face sends back is seen by receivers and profiles within end_time; and if a layer
- * that the scene asks for is left out for that. */
-bool layer_unneeded(const struct scene *scene, int face);
+/* Is a layer that the scene asks for left out, since no wave that the face sends back is seen by receivers
+ * and profiles within end_time? */
 bool layer_left_out(const struct scene *scene, int face);
 
 #endif

@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 /* Points between what the box holds and a layer, depth of the box in points at least, and what a layer point
- * costs against one of the body (regress/layer-cost; doc/performance.md, section 6). */
+ * costs against one of the body (regress/studies/layer-cost; doc/performance.md, section 6). */
 enum { MARGIN = 4, LEAST_DEPTH = 12, LAYER = 8 };
 static const double LAYER_COST = 2.8;
 

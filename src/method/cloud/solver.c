@@ -3,7 +3,7 @@
  * For x = (f, grad f / 2) with a smooth f a pair sees only third derivatives of f, so that the eigenvalues
  * fall as the sixth power of the wave number: conjugate gradients with the diagonal alone take thousands of
  * turns (15^3 points: 4,000 for 5e-7). So the smooth part is preconditioned by Galerkin's matrix on cubic
- * B-splines f with knots a few spacings apart (cloud_splines.c), solved by Cholesky (a two-level additive
+ * B-splines f with knots a few spacings apart (splines.c), solved by Cholesky (a two-level additive
  * Schwarz method; Smith, Bjorstad & Gropp 1996, section 2). (GSL's sparse GMRES wants the matrix stored and
  * knows no preconditioner.) */
 #include "method/cloud/pairs.h"

@@ -84,12 +84,6 @@ struct band *band_sum(const struct band *a, double factor, const struct band *b)
     return c;
 }
 
-void band_apply(const struct band *band, const double *x, double *y)
-{
-    for (size_t i = 0; i < band->n; i++)
-        y[i] = band_row(band, i, x, 1);
-}
-
 bool band_factorise(const struct band *band, double *factor)
 {
     const size_t n = band->n, half = band->half;

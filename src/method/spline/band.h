@@ -25,9 +25,6 @@ void band_clear(struct band *band, size_t row);                            /* ro
 struct band *band_product(const struct band *a, const struct band *b);
 struct band *band_sum(const struct band *a, double factor, const struct band *b);
 
-/* y = A x for one vector (set-up and tests; the step loop has method/spline/tensor.c). */
-void band_apply(const struct band *band, const double *x, double *y);
-
 /* Entry `row` of A x, x[j] at x[j * stride]; a NULL matrix is the identity. */
 static inline double band_row(const struct band *band, size_t row, const double *x, size_t stride)
 {

@@ -1,4 +1,4 @@
-/* B-splines on one axis: values and integrals (bspline_lay.c lays the knots).
+/* B-splines on one axis: values and integrals (knots.c lays the knots).
  *
  * Values by the recurrence of Cox and de Boor; integrals by Gauss quadrature, exact for polynomials; the
  * rational integrands of mapped ends get enough points for rounding (doc/consistent-method.md, section 2). */

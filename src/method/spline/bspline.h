@@ -45,7 +45,7 @@ struct spline {
     struct spline_element *element;
     double *gauss_position, *gauss_weight; /* [gauss] on [0, 1] */
     size_t gauss;
-    struct band *filter[2]; /* [odd] tuned splines (tuned_spline.h); NULL: none */
+    struct band *filter[2]; /* [odd] tuned splines (tuned.h); NULL: none */
 };
 
 /* Builds the basis; NULL with a message if there are too few cells for the degree or no memory. */

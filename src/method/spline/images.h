@@ -1,5 +1,5 @@
 /* Control values of an axis and their images beyond symmetry planes, and differences of them: what the
- * dissipation (hform_dissipation.c) and the tuned matrices (tuned_spline.c) are made of. */
+ * dissipation (hform_dissipation.c) and the tuned matrices (tuned.c) are made of. */
 #ifndef SELAS_METHOD_SPLINE_IMAGES_H
 #define SELAS_METHOD_SPLINE_IMAGES_H
 

@@ -1,5 +1,5 @@
 /* Ghosts of total-Lagrangian SPH: kinematic, u_g = T u_m + prescribed motion; the forces on them go back by
- * T^T (total_lagrangian_force.c).
+ * T^T (force.c).
  *
  * The points within reach of a face are mirrored in it. On symmetry planes, rollers and faces pushed along
  * their normal while they slip, the normal component changes its sign (plus twice the motion); this is exact,

@@ -1,4 +1,4 @@
-/* Set-up of total-Lagrangian SPH: the pairs of hourglass control and of viscosity (total_lagrangian_force.c
+/* Set-up of total-Lagrangian SPH: the pairs of hourglass control and of viscosity (force.c
  * has their equations). */
 #include "method/total_lagrangian/setup.h"
 

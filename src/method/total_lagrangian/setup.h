@@ -19,7 +19,7 @@ size_t tl_layers_within(const struct tl_model *tl, double radius);
 double tl_distance(const double *a, const double *b);
 selas_status tl_no_memory(const struct tl_model *tl, struct messages *messages);
 
-/* total_lagrangian_pairs.c. `radius`: the largest distance of a pair. */
+/* pairs.c. `radius`: the largest distance of a pair. */
 selas_status tl_make_hourglass(struct tl_model *tl, double radius, const struct neighbours *near,
                                struct tl_work *work, struct messages *messages);
 selas_status tl_make_viscosity(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,

@@ -1,7 +1,7 @@
 /* Total-Lagrangian SPH, method 'sph', variant 'total-lagrangian': the model behind the method table.
  *
  * Points carry reference volumes; the energy is the sum of V_i psi(grad u_i) with least-squares gradients in
- * the reference configuration, the forces are minus its exact derivatives (total_lagrangian_force.c), the
+ * the reference configuration, the forces are minus its exact derivatives (force.c), the
  * mass is rho V_i. So M u'' + dE/du = F with M diagonal and E bounded below: in the linear regime the
  * spectrum is imaginary whatever the points and weights. Vignjevic, Reveles & Campbell 2006 for the
  * reference-configuration form, doc/sph-total-lagrangian.md for the derivation. */

@@ -48,7 +48,7 @@ struct tl_options tl_default_options(void);
 selas_status total_lagrangian_create(const struct scene *scene, const struct tl_options *options,
                                      struct model **model, struct messages *messages);
 
-/* Rows of weights, shared by the points (or sites) that have the same: total_lagrangian_rows.c. The numbers
+/* Rows of weights, shared by the points (or sites) that have the same: rows.c. The numbers
  * of neighbour start[of[i]] + n of point i stand shift[that] after those of i. */
 struct tl_rows {
     size_t points, width, rows;
@@ -77,7 +77,7 @@ static inline size_t tl_neighbour(const struct tl_rows *rows, size_t i, size_t k
 }
 
 /* Points (of a kind of row: sites) in sequence that one kernel does at a time. In a run all have the same
- * row: total_lagrangian_runs.c. */
+ * row: runs.c. */
 struct tl_block {
     uint32_t first;
     uint16_t count;
@@ -146,16 +146,16 @@ struct tl_model {
     double displacement[FACES]; /* amplitudes of the last drive, for energy() */
 };
 
-/* total_lagrangian_ghosts.c: sites beyond and on the faces. */
+/* ghosts.c: sites beyond and on the faces. */
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
-/* total_lagrangian_setup.c: gradient weights, hourglass pairs, viscosity pairs. */
+/* setup.c: gradient weights, hourglass pairs, viscosity pairs. */
 selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
 /* Points before one that may share its row; `sure` of them do, but for ghosts. `inside`: no ghost is near. */
 struct tl_like {
     size_t before, sure, point[3];
     bool inside;
 };
-/* total_lagrangian_rows.c: rows are made point by point, in sequence, by sharing or by adding entries and
+/* rows.c: rows are made point by point, in sequence, by sharing or by adding entries and
  * closing. False: no memory. */
 bool tl_rows_begin(struct tl_rows *rows, int dimension, size_t points, size_t width);
 bool tl_rows_add(struct tl_rows *rows, size_t i, size_t j, const double *weight);
@@ -170,14 +170,14 @@ void tl_likes(const struct tl_model *tl, size_t i, size_t layers, struct tl_like
 bool tl_rows_share(const struct tl_model *tl, struct tl_rows *rows, size_t i, const struct tl_like *like,
                    bool of_materials);
 bool tl_near(double a, double b, double scale); /* the same but for the rounding of positions */
-/* total_lagrangian_runs.c: cuts the points into blocks, after all rows are there. */
+/* runs.c: cuts the points into blocks, after all rows are there. */
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages);
 double tl_radius(const struct tl_model *tl);        /* of the weights, in length */
 double tl_search_radius(const struct tl_model *tl); /* the largest a point's weights may take */
 /* Neighbours that a quadratic fit should have: those of a point inside a lattice; linear ones take what there
  * is. */
 size_t tl_wanted(const struct tl_model *tl);
-/* total_lagrangian_lattice.c: gradient = 'central'. Weights of a point over sites, of those near it, into
+/* central.c: gradient = 'central'. Weights of a point over sites, of those near it, into
  * index and gradient (3 numbers a site, at most 12 sites), 0 if it has no neighbour along an axis; weights of
  * a value at a place of the body over at most 64 points. */
 size_t tl_central_row(const struct tl_model *tl, const uint32_t *near, size_t count, size_t i,
@@ -186,22 +186,22 @@ size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], size_t
                         double *gradient);
 /* A place of the body's frame on a symmetry plane or roller across the axis. */
 bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis);
-/* total_lagrangian_loads.c */
+/* loads.c */
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
-/* total_lagrangian_energy.c: adds what the loads of a drive pull at the points to tl->force; entries of the
+/* energy.c: adds what the loads of a drive pull at the points to tl->force; entries of the
  * model's class. */
 void tl_add_loads(struct tl_model *tl, const struct drive *drive);
 void tl_weigh(struct model *model, const double *v, double *product);
 void tl_energy(struct model *model, const double *y, struct energy *energy);
 void tl_power(struct model *model, const struct drive *drive, const double *y, double *load,
               double *absorbed);
-/* total_lagrangian_short.c: entry of the model's class. */
+/* shorter.c: entry of the model's class. */
 selas_status tl_shorten(const struct model *model, struct model **shorter, double *deficit,
                         struct messages *messages);
-/* total_lagrangian_observe.c: entries of the model's class. */
+/* observe.c: entries of the model's class. */
 selas_status tl_model_probe(struct model *model, const double position[3], struct probe *probe,
                             struct messages *messages);
 void tl_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
@@ -211,7 +211,7 @@ enum { TL_PROBE_ROOM = 512 };
 /* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
  * hundred points, much more on a busy machine). */
 enum { TL_SERIAL = 3000 };
-/* total_lagrangian_force.c: internal forces of displacements u into tl->force (points), H and A on the way.
+/* force.c: internal forces of displacements u into tl->force (points), H and A on the way.
  */
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
               const double *velocity);

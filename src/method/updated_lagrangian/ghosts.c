@@ -279,7 +279,7 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t place = 0; place < places; place += UPDATED_TENSORS) {
         if (updated->repulsive) repel(updated, place);
-        /* updated_lagrangian_hourglass.c adds their force */
+        /* hourglass.c adds their force */
         for (size_t i = place; updated->options.adjoint && i < place + UPDATED_TENSORS && i < places; i++)
             for (size_t s = 0; s < (size_t)updated->stresses; s++)
                 updated_packed(updated, i)[step * (updated->layout.tension + s)] = 0;

@@ -1,5 +1,5 @@
 /* Updated-Lagrangian SPH as published by He & Seaid (2016): checks the scene, reads the switches, places
- * particles and ghosts. The equations are in updated_lagrangian_rate.c. */
+ * particles and ghosts. The equations are in rate.c. */
 #include "method/updated_lagrangian/updated_lagrangian.h"
 
 #include "base/memory.h"

@@ -23,7 +23,7 @@ struct updated_options {
     bool correction;          /* kernel gradient correction L */
     bool jaumann;             /* rotation of the stress, Eqs 8 and 9 */
     bool adjoint;             /* stresses act by the adjoint of grad v, not by Eq 19 */
-    double hourglass;         /* xi of updated_lagrangian_hourglass.c; 0: off, as published */
+    double hourglass;         /* xi of hourglass.c; 0: off, as published */
 };
 
 /* A ghost mirrors a particle at one to three faces, in this order. */
@@ -123,7 +123,7 @@ struct updated_options updated_lagrangian_published(void);
 selas_status updated_lagrangian_new(const struct scene *scene, const struct updated_options *options,
                                     struct cloud *cloud, struct model **model, struct messages *messages);
 
-/* updated_lagrangian_ghosts.c */
+/* ghosts.c */
 selas_status updated_ghosts_create(struct updated *updated, struct messages *messages);
 /* Fills the packed particles, ghosts included, from a state. */
 void updated_fill(struct updated *updated, const struct drive *drive, const double *y);
@@ -148,27 +148,27 @@ struct updated_rates {
 };
 EACH_PROCESSOR(struct updated_rates, updated_rates)
 
-/* updated_lagrangian_order.c: the lists of eight particles at a time, after each search ... */
+/* order.c: the lists of eight particles at a time, after each search ... */
 selas_status updated_merge_lists(struct updated *updated, struct messages *messages);
 /* ... and whether that pays; takes the memory for it. */
 selas_status updated_choose_order(struct updated *updated, struct messages *messages);
 /* Has particles summed one by one from now on. */
 selas_status updated_one_by_one(struct updated *updated, struct messages *messages);
 
-/* updated_lagrangian_rate.c: inverse of L; the identity where the neighbours do not span the space. */
+/* rate.c: inverse of L; the identity where the neighbours do not span the space. */
 void updated_invert(int dimension, const double matrix[6], double inverse[3][3]);
 /* dy/dt. */
 void updated_rate(struct model *model, const struct drive *drive, const double *y, double *dydt);
-/* updated_lagrangian_hourglass.c: memory for it ... */
+/* hourglass.c: memory for it ... */
 selas_status updated_hourglass_new(struct updated *updated, struct messages *messages);
 void updated_hourglass_free(struct updated_hourglass *all);
 size_t updated_hourglass_bytes(const struct updated *updated);
 /* ... and what it adds to the acceleration; after updated_fill(). */
 void updated_add_hourglass(struct updated *updated, const double *y, double *acceleration);
-/* updated_lagrangian_spectrum.c */
+/* spectrum.c */
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
 
-/* updated_lagrangian_fields.c */
+/* fields.c */
 void updated_unseen(struct model *model, const double *y, struct unseen *found);
 void updated_initialise(struct model *model, double *y);
 selas_status updated_probe(struct model *model, const double position[3], struct probe *probe,

@@ -5,7 +5,7 @@
  * profiles have; /due, /entry_group, /entry_time: snapshots so far (their files are snapshot_file.c's);
  * /watch and /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with
  * all defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
- * Numbers have 64 bits: what is read back is what was written. The head is checkpoint_head.c's. */
+ * Numbers have 64 bits: what is read back is what was written. The head is head.c's. */
 #include "record/checkpoint/kept.h"
 
 #include "base/memory.h"

@@ -111,7 +111,7 @@ void fused_planes_double(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
 void fused_planes_single(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
-/* fused_window.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
+/* active.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
 void fused_look_double(struct fused *fused, const double *u);
 void fused_look_single(struct fused *fused, const float *u);
 /* All columns and rows. */
@@ -143,7 +143,7 @@ void fused_settle_double(const struct consistent *c, const struct drive *drive, 
 void fused_settle_single(const struct consistent *c, const struct drive *drive, double dt,
                          const struct step_fields_single *fields, double *y, double *a);
 
-/* fused_model.c: if the scene's steps of leapfrog can be made in one pass, takes what that needs and puts it
+/* one_pass.c: if the scene's steps of leapfrog can be made in one pass, takes what that needs and puts it
  * into the model's class; SELAS_UNSUPPORTED: options.single, but they cannot. Needs model.state_size. */
 selas_status fused_steps_create(struct consistent *c, struct messages *messages);
 /* Keeps v and a (and y, if the state is kept apart) right at these control values, in all components. False:

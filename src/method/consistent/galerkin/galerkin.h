@@ -13,7 +13,7 @@
 
 struct consistent_options {
     int degree;       /* 1 .. SPLINE_MAX_DEGREE */
-    bool tuned;       /* exact mass: splines of all axes but the last tuned (tuned_spline.h) */
+    bool tuned;       /* exact mass: splines of all axes but the last tuned (tuned.h) */
     bool mapped;      /* ends mapped instead of open */
     int sweeps;       /* 0: exact mass; 1 .. 3: van Cittert mass and H-form */
     bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
@@ -79,7 +79,7 @@ struct consistent {
     struct band *scratch[3]; /* [axis]: matrix to be factorised */
     size_t layer[BOX_FACES]; /* points of the absorbing layer behind the face; 0: none */
     struct pml *pml;         /* NULL: no layers */
-    struct scene *own_scene; /* of a body that was cut (consistent_short.c); NULL: the scene is borrowed */
+    struct scene *own_scene; /* of a body that was cut (shorter.c); NULL: the scene is borrowed */
     double *lane_buffer;     /* [threads * n[0] * LANES] */
     double *line_buffer;     /* [threads * (n[0] + n[1])] */
     double *face_buffer;     /* [dimension * plane] */
@@ -109,19 +109,19 @@ static inline struct consistent *consistent_of(struct model *model)
     return (struct consistent *)model;
 }
 
-/* consistent_matrices.c: 1-D matrix of an axis, kept by the model; NULL: no memory. */
+/* matrices.c: 1-D matrix of an axis, kept by the model; NULL: no memory. */
 const struct band *consistent_matrix(struct consistent *c, int axis, int test_slope, bool test_odd,
                                      int trial_slope, bool trial_odd, enum weighting weight);
 bool consistent_plans(struct consistent *c);
 
-/* consistent_mass.c */
+/* mass.c */
 bool mass_allocate(struct consistent *c);
 void mass_free(struct consistent *c);
 const struct mass_factors *mass_factors_for(struct consistent *c, double half_step);
 /* a := (M + half_step C)^-1 a */
 void mass_solve(struct consistent *c, const struct mass_factors *factors, double *a);
 
-/* consistent_forces.c: loads, prescribed faces. */
+/* loads.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
 void forces_free(struct consistent *c);
 size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
@@ -138,7 +138,7 @@ void sparse_add(const struct consistent *c, const struct sparse *sparse, int com
                 double factor, double *plane);
 double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field);
 
-/* consistent_dampers.c: subtracts C v from plane k of each component; power v.Cv. */
+/* dampers.c: subtracts C v from plane k of each component; power v.Cv. */
 bool dampers_allocate(struct consistent *c);
 void dampers_subtract(const struct consistent *c, int thread, size_t k, const double *v, double *const *out);
 double dampers_power(const struct consistent *c, const double *v);
@@ -146,7 +146,7 @@ double dampers_power(const struct consistent *c, const double *v);
 /* axes.c: sets a component's prescribed control values in plane k to 0. */
 void consistent_clear_held(const struct consistent *c, int component, size_t k, double *plane);
 
-/* consistent_lay.c: axes, what faces do to control values, materials over depth. SELAS_NO_MEMORY,
+/* axes.c: axes, what faces do to control values, materials over depth. SELAS_NO_MEMORY,
  * SELAS_BAD_SCENE. */
 selas_status consistent_lay(struct consistent *c, struct messages *messages);
 /* Fastest wave of the ground that a face touches. */

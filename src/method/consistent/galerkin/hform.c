@@ -1,4 +1,4 @@
-/* The H-form (manual, sections 8 and 9): making (hform_accelerate.c uses it).
+/* The H-form (manual, sections 8 and 9): making (accelerate.c uses it).
  *
  *   N = sum over j <= m of (I - D^-1 M)^j D^-1,  D = row sums of M,  H = N^-1 in place of M everywhere:
  *   rho a_i = -[(lambda + 2 mu) A_i + mu sum A_j] u_i + (lambda + mu) sum over j != i of C2_i C1_j u_j -

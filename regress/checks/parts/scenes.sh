@@ -1,0 +1,135 @@
+# Small scenes for restarts: every method, schemes of each kind, boundaries with memory. Sourced by
+# regress/checks/restart.sh and regress/hardening/kills. scene NAME writes NAME.nml; the names are in $scenes.
+scenes='layers pass single modified paper plate bar flying moving'
+rock="&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /"
+steel="&material name = 'steel', density = 7800.0, young = 2e11, poisson = 0.3 /"
+marks="&snapshot every = 0.4, fields = 'velocity', 'stress' /
+&output plots = .false. /"
+
+scene() {
+    case $1 in
+    layers) cat <<END ;; # C-PML, histories un-warped at the end
+&scene dimension = 3, end_time = 4.0 /
+$rock
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3, 3, 2, spacing = 0.5 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
+&load face = 'z-', shape = 'square', centre = 1.5, 1.5, 0, size = 1, 1, direction = 0, 0, 1
+  history = 'ricker', frequency = 0.4, delay = 2.5 /
+&receiver name = 'r1', position = 2, 1.5, 0 /
+&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
+&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
+$marks
+END
+    single) cat <<END ;; # steps in one pass in single precision, with layers
+&scene dimension = 3, end_time = 4.0 /
+&method precision = 'single' /
+$rock
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
+&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
+  history = 'ricker', frequency = 0.4, delay = 2.5 /
+&receiver name = 'r1', position = 2, 1.5, 0 /
+&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
+&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
+$marks
+END
+    pass) cat <<END ;; # steps in one pass, planes at rest
+&scene dimension = 3, end_time = 4.0 /
+$rock
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 9, spacing = 0.25 /
+&boundary face = 'x-', kind = 'fixed' /
+&boundary face = 'z+', kind = 'roller' /
+&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0.3, 1
+  history = 'ricker', frequency = 0.4, delay = 2.5 /
+&receiver name = 'r1', position = 2, 1.5, 0 /
+&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
+&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
+$marks
+END
+    modified) cat <<END ;; # fourth order in time, dampers
+&scene dimension = 2, end_time = 4.0 /
+&stepping scheme = 'modified-equation', safety = 0.3 /
+$rock
+&body material = 'rock', shape = 'box', low = 0, 0, high = 6, 4, spacing = 0.25 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'lysmer' /
+&load face = 'y-', shape = 'square', centre = 3, 0, size = 1, direction = 1, 1, history = 'gaussian', width = 0.3, delay = 1.2 /
+&receiver name = 'r1', position = 4, 0 /
+&profile name = 'line', from = 0, 1, to = 6, 1, points = 9, times = 1.5, 3.3, fields = 'acceleration' /
+$marks
+END
+    paper) cat <<END ;; # as published, with its filter
+&scene dimension = 3, end_time = 4.0 /
+&method variant = 'paper', filter = 0.1 /
+&stepping time_step = 0.05 /
+$rock
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3, 3, 3, spacing = 0.5 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting' /
+&load face = 'z-', shape = 'square', centre = 1.5, 1.5, 0, size = 1, 1, direction = 0, 0, 1, history = 'triangle', duration = 2 /
+&receiver name = 'r1', position = 2, 1.5, 0 /
+&profile name = 'line', from = 0, 1, 0, to = 3, 1, 0, points = 9, times = 1.5, 3.3, fields = 'displacement' /
+$marks
+END
+    plate) cat <<END ;; # total Lagrangian, Runge-Kutta, mirror planes, a face that is moved
+&scene dimension = 2, plane = 'stress', end_time = 4.0 /
+&method name = 'sph', variant = 'total-lagrangian', gradient = 'quadratic' /
+&stepping scheme = 'rk4', safety = 0.6 /
+$rock
+&body material = 'rock', shape = 'plate-with-hole', low = 0, 0, high = 2, 2, spacing = 0.125
+  hole_centre = 0, 0, hole_radius = 0.6, arrangement = 'conformal' /
+&boundary face = 'x-', 'y-', kind = 'symmetry' /
+&boundary face = 'y+', kind = 'displacement', slip = .true., direction = 0, 1, amplitude = 1e-3, history = 'step', smoothing = 1 /
+&receiver name = 'r1', position = 1, 2 /
+&profile name = 'line', from = 0.6, 0, to = 2, 0, points = 9, times = 1.5, 3.3, fields = 'stress' /
+$marks
+END
+    bar) cat <<END ;; # updated Lagrangian, stabilised stages, viscosity, an exact solution
+&scene dimension = 1, plane = 'stress', end_time = 0.2e-3 /
+&method name = 'sph', variant = 'updated-lagrangian', artificial_stress = 0.0 /
+&stepping scheme = 'rkc', safety = 0.5 /
+$steel
+&body material = 'steel', shape = 'box', low = 0, high = 1, spacing = .01 /
+&boundary face = 'x+', kind = 'fixed' /
+&load face = 'x-', shape = 'face', direction = 1, amplitude = 1e7, history = 'step' /
+&receiver name = 'r1', position = .5 /
+&profile name = 'along', from = .01, to = .99, points = 21, times = .1e-3, .2e-3, fields = 'velocity', 'stress' /
+&reference kind = 'bar' /
+&snapshot every = 2e-5, fields = 'velocity', 'stress' /
+&output plots = .false. /
+END
+    flying) cat <<END ;; # updated Lagrangian on the move: new neighbours, artificial stress, turning stress
+&scene dimension = 2, plane = 'strain', end_time = 1.0 /
+&method name = 'sph', variant = 'updated-lagrangian', viscosity_alpha = 1.0, viscosity_beta = 1.0 /
+&stepping scheme = 'pc2', courant = 0.2 /
+$rock
+&body material = 'rock', shape = 'box', low = 0, 0, high = 4.2, 3, spacing = 0.1 /
+&initial kind = 'gaussian', centre = 1, 1, width = 0.6, amplitude = 0.3, direction = 1, 0.5 /
+&receiver name = 'r1', position = 1.2, 1.1 /
+&profile name = 'line', from = 0, 1, to = 4, 1, points = 9, times = 0.5, 0.9, fields = 'pressure' /
+&snapshot every = 0.1, fields = 'velocity', 'stress' /
+&output plots = .false. /
+END
+    moving) cat <<END ;; # a patch on the move, half of the body, no transform
+&scene dimension = 3, end_time = 4.0 /
+&stepping scheme = 'leapfrog', safety = 0.4 /
+$rock
+&body material = 'rock', shape = 'box', low = -2, -1.5, 0, high = 2, 1.5, 1.5, spacing = 0.5 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'lysmer' /
+&load face = 'z-', shape = 'square', centre = -1, 0, 0, size = 1, 1, velocity = 0.5, 0, 0
+  direction = 0, 0, 1, history = 'gaussian', width = 0.4, delay = 2.4 /
+&receiver name = 'r1', position = 0, -1, 0 /
+&profile name = 'line', from = -2, 0, 0, to = 2, 0, 0, points = 9, times = 1.5, 3.3, fields = 'velocity' /
+$marks
+END
+    esac >"$1.nml"
+}
+
+# same A B: true if two folders of results have the same bits: histories, profiles, snapshots, figures of the report.
+same() {
+    for one in "$1"/*.dat; do cmp "$one" "$2/$(basename "$one")" || return 1; done
+    [ "$(ls "$1")" = "$(ls "$2")" ] || { echo "other files: $(ls "$2")"; return 1; }
+    h5diff --exclude-path /provenance --exclude-path /settings "$1/run.h5" "$2/run.h5" || return 1
+    for folder in "$1" "$2"; do
+        grep -E '^(points|steps|time|energy|work|error|operator calls|order|stages|judged)' "$folder/report.txt" >"$folder.figures"
+    done
+    diff "$1.figures" "$2.figures"
+}
