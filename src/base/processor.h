@@ -12,7 +12,7 @@
  * A file of kernels puts its functions into a table, whose name ends with the kind it is compiled for, and
  * its header declares the tables of all kinds and the choice between them:
  *
- *   header:  EACH_PROCESSOR(struct passes, passes)                declares passes_taken()
+ *   header:  EACH_PROCESSOR(struct passes, passes)                declares taken_passes()
  *   source:  const struct passes OF_PROCESSOR(passes) = {...};
  */
 #ifndef SELAS_BASE_PROCESSOR_H
@@ -35,20 +35,23 @@ selas_status processor_check(struct messages *messages);
 
 /* The Makefile says which kind a kernel is compiled for (1, 3, 4); all else is as for the plain one. */
 #if !defined(SELAS_KIND) || SELAS_KIND == 1
-#define OF_PROCESSOR(name) name##_plain
+#define PROCESSOR_SUFFIX plain
 #define VECTOR_BYTES 16
 #elif SELAS_KIND == 3
-#define OF_PROCESSOR(name) name##_v3
+#define PROCESSOR_SUFFIX v3
 #define VECTOR_BYTES 32
 #else
-#define OF_PROCESSOR(name) name##_v4
+#define PROCESSOR_SUFFIX v4
 #define VECTOR_BYTES 64
 #endif
+#define OF_PROCESSOR(name) PROCESSOR_JOINED(name, PROCESSOR_SUFFIX)
+#define PROCESSOR_JOINED(name, suffix) PROCESSOR_PASTED(name, suffix)
+#define PROCESSOR_PASTED(name, suffix) name##_##suffix
 
 #if defined(__x86_64__)
 #define EACH_PROCESSOR(type, table)                                                                          \
     extern const type table##_plain, table##_v3, table##_v4;                                                 \
-    static inline const type *table##_taken(void)                                                            \
+    static inline const type *taken_##table(void)                                                            \
     {                                                                                                        \
         const enum processor kind = processor_taken();                                                       \
         return kind == PROCESSOR_V4 ? &table##_v4 : kind == PROCESSOR_V3 ? &table##_v3 : &table##_plain;     \
@@ -56,7 +59,7 @@ selas_status processor_check(struct messages *messages);
 #else
 #define EACH_PROCESSOR(type, table)                                                                          \
     extern const type table##_plain;                                                                         \
-    static inline const type *table##_taken(void)                                                            \
+    static inline const type *taken_##table(void)                                                            \
     {                                                                                                        \
         return &table##_plain;                                                                               \
     }

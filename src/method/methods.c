@@ -1,6 +1,7 @@
 /* The table of methods: a new method is a folder and a line here. */
 #include "method/methods.h"
 
+#include "base/processor.h"
 #include "method/cloud/cloud.h"
 #include "method/consistent/consistent.h"
 #include "method/mirror.h"
@@ -27,6 +28,8 @@ const struct method *method_find(const char *name, const char *variant)
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     *model = NULL;
+    const selas_status status = processor_check(messages);
+    if (status != SELAS_OK) return status;
     const struct method *method = method_find(scene->method.name, scene->method.variant);
     if (method == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,

@@ -169,7 +169,7 @@ static selas_status pair_correction(const struct tl_model *tl, struct cloud_pair
     double *boundary = array_new(d * pairs->points, sizeof *boundary);
     vec4 *rest = array_new(n, sizeof *rest);
     vec4 *multiplier = array_new(n, sizeof *multiplier);
-    const struct cloud_solvers *solvers = cloud_solvers_taken();
+    const struct cloud_solvers *solvers = taken_cloud_solvers();
     struct cloud_solver *solver = NULL;
     selas_status status = SELAS_OK;
     if (boundary == NULL || rest == NULL || multiplier == NULL)

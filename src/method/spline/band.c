@@ -125,7 +125,7 @@ static void scale(double factor, size_t lanes, double *row)
 /* Each row of the solution is a sum over rows that are known, and itself. */
 void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
-    const struct passes *passes = passes_taken();
+    const struct passes *passes = taken_passes();
     double weight[MOST_HALF + 1];
     for (size_t i = 0; i < n; i++) {
         const size_t reach = smaller(i, half);
@@ -138,7 +138,7 @@ void band_forward(const double *factor, size_t n, size_t half, double *x, size_t
 
 void band_backward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
-    const struct passes *passes = passes_taken();
+    const struct passes *passes = taken_passes();
     double weight[MOST_HALF + 1];
     for (size_t i = n; i-- > 0;) {
         const size_t reach = smaller(n - 1 - i, half);

@@ -169,7 +169,7 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
 void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
                  const double *u, double *const *out)
 {
-    const struct passes *passes = passes_taken();
+    const struct passes *passes = taken_passes();
     const size_t nx = plan->n[0], plane = plan->plane, step = rounded(plane);
     double *buffer = plan->buffer[thread];
     double *row = buffer + plan->z_items * step + plan->pad;

@@ -93,20 +93,20 @@ void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double
 static void gradient_block(struct tl_model *tl, const struct tl_block *block)
 {
     const int axis = tl->cloud->dimension - 1;
-    (block->run ? tl_run_loops_taken()->gradient : tl_point_loops_taken()->gradient)[axis](tl, block);
+    (block->run ? taken_tl_run_loops()->gradient : taken_tl_point_loops()->gradient)[axis](tl, block);
 }
 
 static void stress_block(struct tl_model *tl, const struct tl_block *block)
 {
     const int axis = tl->cloud->dimension - 1;
-    tl_run_loops_taken()->stress[axis](tl, block);
-    if (!block->run && tl->extra != NULL) tl_point_loops_taken()->control[axis](tl, block);
+    taken_tl_run_loops()->stress[axis](tl, block);
+    if (!block->run && tl->extra != NULL) taken_tl_point_loops()->control[axis](tl, block);
 }
 
 static void force_block(struct tl_model *tl, const struct tl_block *block)
 {
     const int axis = tl->cloud->dimension - 1;
-    (block->run ? tl_run_loops_taken()->force : tl_point_loops_taken()->force)[axis](tl, block);
+    (block->run ? taken_tl_run_loops()->force : taken_tl_point_loops()->force)[axis](tl, block);
 }
 
 void tl_gradients(struct tl_model *tl)

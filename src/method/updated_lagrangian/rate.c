@@ -17,7 +17,12 @@ void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
     lanes m[6] = {{0}}, x[3][3];
     for (int s = 0; s < dimension * (dimension + 1) / 2; s++)
         m[s] += matrix[s];
-    invert(dimension, m, x);
+    if (dimension == 1)
+        invert(1, m, x);
+    else if (dimension == 2)
+        invert(2, m, x);
+    else
+        invert(3, m, x);
     for (int a = 0; a < dimension; a++)
         for (int b = 0; b < dimension; b++)
             inverse[a][b] = x[a][b][0];
@@ -30,7 +35,7 @@ static void all_rates(const struct updated *updated, const double *y, double *dy
     for (size_t block = 0; block < blocks; block++) {
         const size_t first = UPDATED_BLOCK * block;
         const size_t last = first + UPDATED_BLOCK < points ? first + UPDATED_BLOCK : points;
-        updated_rates_taken()->of[updated->dimension - 1](updated, first, last, y, dydt);
+        taken_updated_rates()->of[updated->dimension - 1](updated, first, last, y, dydt);
     }
 }
 

@@ -13,7 +13,7 @@ enum { ROW_LANES = FAST_LANES * sizeof(double) / sizeof(REAL) };
 
 static const struct NAME(pml_kernels) * kernels(void)
 {
-    return NAME(pml_kernels_taken)();
+    return NAME(taken_pml_kernels)();
 }
 
 static void apply_group(const struct row_group *group, const REAL *in, size_t in_step, size_t width, bool add,
@@ -294,7 +294,7 @@ double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
         for (size_t i = 0; i < 3; i++)
             largest =
                 fmax(largest,
-                     (double)passes_taken()->NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
+                     (double)taken_passes()->NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
     return c->options.quiet * largest;
 }
 

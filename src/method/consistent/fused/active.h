@@ -34,7 +34,7 @@ static void forget_sizes(const struct fused *f, size_t k)
 static void take_sizes(const struct fused *f, size_t k, const struct window *window, REAL dt, const REAL *w,
                        REAL *u)
 {
-    const struct NAME(fused_kernels) *kernels = NAME(fused_kernels_taken)();
+    const struct NAME(fused_kernels) *kernels = NAME(taken_fused_kernels)();
     const size_t n = window->end[0] - window->from[0];
     REAL *column = columns_of(f, k) + window->from[0], *strip = strips_of(f, k);
     if (window_points(window) == 0) return;

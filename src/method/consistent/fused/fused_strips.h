@@ -208,7 +208,7 @@ void NAME(fused_planes)(const struct fused *fused, int thread, size_t first,
     struct strip s = {.f = f, .rings = (REAL *)f->buffer[thread] + (f->stride - f->width)};
     s.spare = s.rings + FUSED_PLANES * f->ring_size;
     s.zero = s.spare + FUSED_ROWS * f->stride;
-    s.kernel = NAME(fused_kernels_taken)();
+    s.kernel = NAME(taken_fused_kernels)();
     while (s.kernel->of[s.sweeps].taps != f->wide)
         s.sweeps++;
     if (fields->moved == NULL && window_points(window) < f->plane) clear_planes(f, first, (REAL *)fields->a);
