@@ -11,7 +11,7 @@ FUZZED   = $(patsubst regress/hardening/fuzz/%.c,%,$(wildcard regress/hardening/
 define program
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
-	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(LIBS) $(EXTRA_LIBS)
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c %.o %.a,$^) $(LIBS) $(EXTRA_LIBS)
 endef
 $(BUILD)/test/%: %.c $(BUILD)/libselas.a
 	$(program)
@@ -21,7 +21,10 @@ $(BUILD)/replay/%: %.c regress/hardening/fuzz/replay.c $(BUILD)/libselas.a
 	$(program)
 
 $(TESTS): private EXTRA_LIBS = -lcmocka
-$(BUILD)/test/bench: private EXTRA = -ffp-contract=fast
+# The bench's own loops are compiled as kernels are
+$(BUILD)/test/bench: $(KINDS:%=$(BUILD)/obj/%/peak.o)
+$(BUILD)/obj/%/peak.o: peak.c
+	$(compile)
 $(FUZZED:%=$(BUILD)/fuzz/%): private EXTRA = -fsanitize=fuzzer
 # The closed form of the half-space shares nothing with the library's
 $(patsubst %,$(BUILD)/test/%,test_lamb test_lamb_fast test_lamb_horizontal lamb_grid): regress/unit/lamb_closed.c \

@@ -19,6 +19,9 @@ typedef long long lanes_mask __attribute__((vector_size(VECTOR_BYTES), aligned(8
 typedef unsigned long long lanes_bits __attribute__((vector_size(VECTOR_BYTES), aligned(8), may_alias));
 enum { LANES = VECTOR_BYTES / 8 };
 
+/* Sixteen, not thirty-two: loops whose sums do not all stay in registers are cut into several. */
+enum { FEW_REGISTERS = VECTOR_BYTES < 64 };
+
 /* Numbers that are laid out together, whatever the kind: a whole number of vectors on each. */
 enum { GROUP = 8 };
 

@@ -1,12 +1,12 @@
-/* Sums over rows and neighbours in vectors, eight at a time where there are sixteen registers, and at the end
- * of a row up to one more. The last vector of a row that is no whole number of them overlaps the one before:
- * sums of one go are all made before any is stored. */
+/* Sums over rows and neighbours in vectors, eight at a time (sums of fewer wait for each other, more find no
+ * registers), and at the end of a row up to nine. The last vector of a row that is no whole number of them
+ * overlaps the one before: sums of one go are all made before any is stored. */
 #include "method/spline/passes.h"
 
 #include "base/machine.h"
 #include "base/vectors.h"
 
-enum { TOGETHER = VECTOR_BYTES == 64 ? 4 : 8, MOST = TOGETHER + 1 };
+enum { TOGETHER = 8, MOST = TOGETHER + 1 };
 
 /* Where vector v of `count` begins, from i on: the last one at `last`. */
 INLINED size_t place(const int count, int v, size_t i, size_t last)
@@ -27,7 +27,7 @@ INLINED void rows_at(const int count, const double *restrict weight, size_t taps
         *(lanes *)(out + place(count, v, i, last)) = sum[v];
 }
 
-/* CALL(count) for the vectors that are left from i on, at most MOST. */
+/* CALL(count) for the vectors that are left from i on, 1 to MOST. */
 #define FOR_THE_REST(CALL)                                                                                   \
     switch ((n - i + LANES - 1) / LANES) {                                                                   \
         CASE(1, CALL)                                                                                        \
@@ -43,7 +43,7 @@ INLINED void rows_at(const int count, const double *restrict weight, size_t taps
     }
 #define CASE(count, CALL)                                                                                    \
     case count:                                                                                              \
-        if (count < MOST) CALL((count < MOST ? count : MOST));                                               \
+        CALL(count);                                                                                         \
         break;
 
 static void over_rows(const double *weight, size_t taps, const double *in, size_t stride, size_t n,

@@ -126,34 +126,40 @@ INLINED void stress_of_vector(const struct tl_model *tl, size_t i, const size_t 
     }
 }
 
-INLINED void stress_run(struct tl_model *tl, const struct tl_block *block, const size_t d)
+/* Hourglass forces of the points from i on and their moments: vectors first ... last - 1 of d. */
+INLINED void control_run(const struct tl_model *tl, const struct tl_block *block, size_t i, const size_t d,
+                         const size_t first, const size_t last, lanes force[MOST], lanes moment[MOST][MOST])
 {
     const struct tl_rows *rows = &tl->pair;
-    const bool controlled = tl->extra != NULL;
-    const size_t begin = controlled ? tl_first(rows, block->first) : 0,
-                 end = controlled ? tl_last(rows, block->first) : 0;
     const double *origin = tl->place + d * block->first;
-    for (size_t p = 0; p < block->count; p += LANES) {
-        const size_t i = points_at(block, p, LANES);
-        const double *u = tl->site_u + d * i, *H = tl->H + d * i;
-        lanes A[MOST][MOST], moment[MOST][MOST] = {{{0}}}, force[MOST] = {{0}};
-        for (size_t k = begin; k < end; k++) {
-            const ptrdiff_t shift = rows->shift[k];
-            double X[MOST];
+    const double *u = tl->site_u + d * i, *H = tl->H + d * i;
+    for (size_t k = tl_first(rows, block->first), end = tl_last(rows, block->first); k < end; k++) {
+        const ptrdiff_t shift = rows->shift[k];
+        double X[MOST];
+        for (size_t b = 0; b < d; b++)
+            X[b] = origin[shift + (ptrdiff_t)b] - origin[b];
+        for (size_t v = first; v < last; v++) {
+            lanes seen = {0};
             for (size_t b = 0; b < d; b++)
-                X[b] = origin[rows->shift[k] + (ptrdiff_t)b] - origin[b];
-            for (size_t v = 0; v < d; v++) {
-                lanes seen = {0};
-                for (size_t b = 0; b < d; b++)
-                    seen += (AT(H + b * tl->plane + LANES * v) + AT(H + b * tl->plane + shift + LANES * v)) *
-                            X[b];
-                lanes e = AT(u + shift + LANES * v) - AT(u + LANES * v) - 0.5 * seen;
-                e *= rows->weight[k];
-                force[v] += e;
-                for (size_t b = 0; b < d; b++)
-                    moment[b][v] += e * X[b];
-            }
+                seen +=
+                    (AT(H + b * tl->plane + LANES * v) + AT(H + b * tl->plane + shift + LANES * v)) * X[b];
+            lanes e = AT(u + shift + LANES * v) - AT(u + LANES * v) - 0.5 * seen;
+            e *= rows->weight[k];
+            force[v] += e;
+            for (size_t b = 0; b < d; b++)
+                moment[b][v] += e * X[b];
         }
+    }
+}
+
+INLINED void stress_run(struct tl_model *tl, const struct tl_block *block, const size_t d)
+{
+    const bool controlled = tl->extra != NULL;
+    for (size_t p = 0; p < block->count; p += LANES) {
+        const size_t i = points_at(block, p, LANES), step = FEW_REGISTERS && d == 3 ? 1 : d;
+        lanes A[MOST][MOST], moment[MOST][MOST] = {{{0}}}, force[MOST] = {{0}};
+        for (size_t v = 0; controlled && v < d; v += step)
+            control_run(tl, block, i, d, v, v + step, force, moment);
         stress_of_vector(tl, i, d, A);
         for (size_t v = 0; v < d; v++) {
             for (size_t b = 0; b < d; b++)

@@ -241,9 +241,10 @@ INLINED void add_full(const int dimension, const struct chunk *chunk, struct lan
     }
 }
 
-/* Fifth loop: L and the velocity gradient. Leaves V grad W in place of d. */
-INLINED void add_strains(const int dimension, const bool pressed, struct chunk *restrict chunk,
-                         struct lane_sums *restrict sums)
+/* Fifth loop: the velocity gradient and L, each on its own where there are few registers. Leaves V grad W in
+ * place of d. */
+INLINED void add_strains(const int dimension, const bool pressed, const bool velocity, const bool matrix,
+                         struct chunk *restrict chunk, struct lane_sums *restrict sums)
 {
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
@@ -255,9 +256,10 @@ INLINED void add_strains(const int dimension, const bool pressed, struct chunk *
         }
         for (int a = 0; a < dimension; a++) {
             const lanes strain = span * d[a];
-            chunk->d[a][k] = (pressed ? chunk->volume[k] : span) * d[a];
-            for (int b = 0; b < dimension; b++)
+            for (int b = 0; velocity && b < dimension; b++)
                 sums->velocity[b][a] += change[b] * strain;
+            if (!matrix) continue;
+            chunk->d[a][k] = (pressed ? chunk->volume[k] : span) * d[a];
             for (int b = a; b < dimension; b++)
                 sums->matrix[updated_component[dimension][a][b]] -= d[b] * strain;
         }
@@ -312,16 +314,28 @@ INLINED void add_stresses(const struct updated *updated, const int dimension, co
               sums))} NOT_INLINED static void strains_##dim(bool pressed, struct chunk *restrict chunk,      \
                                                             struct lane_sums *restrict sums)                 \
     {                                                                                                        \
-        if (pressed)                                                                                         \
-            add_strains(dim, true, chunk, sums);                                                             \
-        else                                                                                                 \
-            add_strains(dim, false, chunk, sums);                                                            \
+        if (FEW_REGISTERS && dim == 3) {                                                                     \
+            add_strains(dim, false, true, false, chunk, sums);                                               \
+            if (pressed)                                                                                     \
+                add_strains(dim, true, false, true, chunk, sums);                                            \
+            else                                                                                             \
+                add_strains(dim, false, false, true, chunk, sums);                                           \
+        } else if (pressed) {                                                                                \
+            add_strains(dim, true, true, true, chunk, sums);                                                 \
+        } else {                                                                                             \
+            add_strains(dim, false, true, true, chunk, sums);                                                \
+        }                                                                                                    \
     }                                                                                                        \
     NOT_INLINED static void stresses_##dim(const struct updated *updated, struct pair_switches on,           \
                                            const struct pairs *pairs, const struct chunk *restrict chunk,    \
                                            struct lane_sums *restrict sums)                                  \
     {                                                                                                        \
-        EACH_SWITCH(add_stresses(updated, dim, as, 0, dim *(dim + 1) / 2, pairs, chunk, sums))               \
+        if (FEW_REGISTERS && dim == 3) {                                                                     \
+            EACH_SWITCH(add_stresses(updated, dim, as, 0, 3, pairs, chunk, sums))                            \
+            EACH_SWITCH(add_stresses(updated, dim, as, 3, 6, pairs, chunk, sums))                            \
+        } else {                                                                                             \
+            EACH_SWITCH(add_stresses(updated, dim, as, 0, dim *(dim + 1) / 2, pairs, chunk, sums))           \
+        }                                                                                                    \
     }
 LOOPS(1)
 LOOPS(2)

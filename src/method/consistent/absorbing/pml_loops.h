@@ -13,11 +13,18 @@ INLINED const lanes *at(const REAL *place)
     return (const lanes *)place;
 }
 
+/* Vectors of so many rows that are summed together: few sums wait for each other, many find no registers. */
+enum { MOST_VECTORS = 4 };
+INLINED int vectors_of(const int rows)
+{
+    return VECTOR_BYTES == 64 || (rows > 2 && rows < 7) ? 2 : rows < 7 ? MOST_VECTORS : 1;
+}
+
 /* out row r := (add: out row r) + sum over t of weight[t * rows + r] times in row t, `count` vectors. */
 INLINED void rows_block(const int rows, const int count, const bool add, const REAL *restrict weight,
                         size_t inputs, const REAL *in, size_t in_step, REAL *out, size_t out_step)
 {
-    lanes sum[FAST_ROWS][2];
+    lanes sum[FAST_ROWS][MOST_VECTORS];
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] =
         add ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
     for (size_t t = 0; t < inputs; t++, weight += rows, in += in_step)
@@ -30,10 +37,13 @@ INLINED void rows_block(const int rows, const int count, const bool add, const R
 INLINED void rows_all(const int rows, const bool add, const REAL *weight, size_t inputs, const REAL *in,
                       size_t in_step, size_t width, REAL *out, size_t out_step)
 {
+    const int count = vectors_of(rows);
+    const size_t together = (size_t)count * LANES;
     size_t i = 0;
-    for (; i + 2 * LANES <= width; i += 2 * LANES)
-        rows_block(rows, 2, add, weight, inputs, in + i, in_step, out + i, out_step);
-    if (i < width) rows_block(rows, 1, add, weight, inputs, in + i, in_step, out + i, out_step);
+    for (; i + together <= width; i += together)
+        rows_block(rows, count, add, weight, inputs, in + i, in_step, out + i, out_step);
+    for (; i < width; i += LANES)
+        rows_block(rows, 1, add, weight, inputs, in + i, in_step, out + i, out_step);
 }
 
 /* out row r += matrix by diagonals times in row r, with its neighbours. */
