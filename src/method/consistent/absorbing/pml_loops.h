@@ -4,7 +4,7 @@
 #include "method/consistent/absorbing/pml_kernels.h"
 
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
-enum { LANES = VECTOR_BYTES / sizeof(REAL) };
+enum { LANES = VECTOR_BYTES / sizeof(REAL), MOST_VECTORS = 4, FEW_REGISTERS = VECTOR_BYTES < 64 };
 
 #define UNROLLED _Pragma("GCC unroll 16")
 
@@ -13,37 +13,38 @@ INLINED const lanes *at(const REAL *place)
     return (const lanes *)place;
 }
 
-/* Vectors of so many rows that are summed together: few sums wait for each other, many find no registers. */
-enum { MOST_VECTORS = 4 };
-INLINED int vectors_of(const int rows)
-{
-    return VECTOR_BYTES == 64 || (rows > 2 && rows < 7) ? 2 : rows < 7 ? MOST_VECTORS : 1;
-}
-
-/* out row r := (add: out row r) + sum over t of weight[t * rows + r] times in row t, `count` vectors. */
-INLINED void rows_block(const int rows, const int count, const bool add, const REAL *restrict weight,
-                        size_t inputs, const REAL *in, size_t in_step, REAL *out, size_t out_step)
+/* out row r := (add: out row r) + sum over t of weight[t * of + r] times in row t, `count` vectors. */
+INLINED void rows_block(const int rows, const int of, const int count, const bool add,
+                        const REAL *restrict weight, size_t inputs, const REAL *in, size_t in_step, REAL *out,
+                        size_t out_step)
 {
     lanes sum[FAST_ROWS][MOST_VECTORS];
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] =
         add ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
-    for (size_t t = 0; t < inputs; t++, weight += rows, in += in_step)
+    for (size_t t = 0; t < inputs; t++, weight += of, in += in_step)
         UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] +=
             weight[r] * *at(in + v * LANES);
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) *
         (lanes *)(out + (size_t)r * out_step + v * LANES) = sum[r][v];
 }
 
+/* Rows in two halves where not all sums of two vectors find registers, since one vector alone would need a
+ * weight for each multiplication. Few rows: four vectors, as few sums wait for each other. */
 INLINED void rows_all(const int rows, const bool add, const REAL *weight, size_t inputs, const REAL *in,
                       size_t in_step, size_t width, REAL *out, size_t out_step)
 {
-    const int count = vectors_of(rows);
+    const int half = FEW_REGISTERS && rows > 6 ? rows / 2 : rows;
+    const int count = FEW_REGISTERS && rows < 3 ? MOST_VECTORS : 2;
     const size_t together = (size_t)count * LANES;
     size_t i = 0;
-    for (; i + together <= width; i += together)
-        rows_block(rows, count, add, weight, inputs, in + i, in_step, out + i, out_step);
+    for (; i + together <= width; i += together) {
+        rows_block(half, rows, count, add, weight, inputs, in + i, in_step, out + i, out_step);
+        if (half < rows)
+            rows_block(rows - half, rows, count, add, weight + half, inputs, in + i, in_step,
+                       out + i + (size_t)half * out_step, out_step);
+    }
     for (; i < width; i += LANES)
-        rows_block(rows, 1, add, weight, inputs, in + i, in_step, out + i, out_step);
+        rows_block(rows, rows, 1, add, weight, inputs, in + i, in_step, out + i, out_step);
 }
 
 /* out row r += matrix by diagonals times in row r, with its neighbours. */
