@@ -85,7 +85,7 @@ stops: $(BUILD)/test/stops ## restarts from random steps with two threads and on
 kills: $(BUILD)/selas ## 200 runs killed at random times: each must go on to the same bits (some minutes)
 	@regress/hardening/kills $(BUILD)
 
-instructions: $(BUILD)/selas ## instructions of three small scenes against those recorded (two minutes; installs valgrind)
+instructions: $(BUILD)/selas ## instructions of small scenes, kernels for x86-64-v3, against those recorded (some minutes; installs valgrind)
 	@sh regress/setup leaks
 	@sh regress/hardening/instructions/run $(BUILD)
 
@@ -157,7 +157,7 @@ bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: d
 	@sh regress/studies/bench/run $(BUILD) all
 
 bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/performance.md
-	@sh regress/studies/bench/sph $(BUILD)
+	@for kind in $$($(BUILD)/test/bench kinds); do SELAS_PROCESSOR=$$kind sh regress/studies/bench/sph $(BUILD) && echo || exit 1; done
 
 bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace.nml
 	@mkdir -p $(BUILD)/test

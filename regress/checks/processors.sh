@@ -60,7 +60,7 @@ for kind in x86-64 x86-64-v3 x86-64-v4 plain; do
     esac
 done
 SELAS_PROCESSOR=z80 "$selas" check pass.nml >log 2>&1
-[ $? -ne 0 ] && grep -q "SELAS_PROCESSOR = 'z80' is no kind of processor; expected" log
+[ $? -ne 0 ] && grep -q "SELAS_PROCESSOR = 'z80' is no kind of processor here; expected" log
 told $? "a kind that does not exist is refused"
 
 each layers layers scene%end_time=3.0

@@ -5,16 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#if defined(__x86_64__)
+#define PLAIN "x86-64"
+#define NAMES "'x86-64', 'x86-64-v3' or 'x86-64-v4'"
+#else
+#define PLAIN "plain"
+#define NAMES "'plain'"
+#endif
+
 static const struct {
     const char *name;
     int bytes;
-} kinds[PROCESSORS] = {
-#if defined(__x86_64__)
-    {"x86-64", 16}, {"x86-64-v3", 32}, {"x86-64-v4", 64}
-#else
-    {"plain", 16}, {"x86-64-v3", 32}, {"x86-64-v4", 64}
-#endif
-};
+} kinds[PROCESSORS] = {{PLAIN, 16}, {"x86-64-v3", 32}, {"x86-64-v4", 64}};
 
 bool processor_there(enum processor kind)
 {
@@ -85,10 +87,8 @@ selas_status processor_check(struct messages *messages)
     if (name == NULL) return SELAS_OK;
     const enum processor named = find(name);
     if (named == PROCESSORS)
-        return fail(
-            messages, SELAS_BAD_ARGUMENT,
-            "SELAS_PROCESSOR = '%s' is no kind of processor; expected 'x86-64', 'x86-64-v3' or 'x86-64-v4'",
-            name);
+        return fail(messages, SELAS_BAD_ARGUMENT,
+                    "SELAS_PROCESSOR = '%s' is no kind of processor here; expected " NAMES, name);
     if (!processor_there(named))
         return fail(messages, SELAS_BAD_ARGUMENT,
                     "SELAS_PROCESSOR = '%s': this machine does not have it; the best it has is '%s'", name,

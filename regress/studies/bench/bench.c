@@ -1,7 +1,7 @@
 /* Speed of the lattice operator and of a step of leapfrog beside what the processor can do, measured in the
  * same run: CPU time of one thread, the best of some repetitions. Usage: bench [NX NY NZ]...; prints rows of
- * a Markdown table. `bench kinds` prints the kinds of processors that the machine has; SELAS_PROCESSOR takes
- * one of them. */
+ * a Markdown table. `bench kinds` prints the kinds of processors that the machine has, the best first;
+ * SELAS_PROCESSOR takes one of them. */
 #include "base/memory.h"
 #include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
@@ -142,7 +142,7 @@ static struct timing measure(const size_t n[3], bool exact, bool unfused, bool s
 int main(int count, char **word)
 {
     if (count == 2 && strcmp(word[1], "kinds") == 0) {
-        for (enum processor kind = PROCESSOR_PLAIN; kind < PROCESSORS; kind++)
+        for (enum processor kind = PROCESSORS; kind-- > PROCESSOR_PLAIN;)
             if (processor_there(kind)) puts(processor_name(kind));
         return 0;
     }
