@@ -85,7 +85,9 @@ static void gives_values_and_defaults(void **state)
     const struct deck_group *load = deck_get(r.deck, "load", 0);
     assert_int_equal(deck_choice(load, "kind", 0), 0);
     assert_string_equal(deck_name(r.deck), "case");
-    assert_string_equal(deck_directory(r.deck), "folder");
+    char *file = deck_resolve(r.deck, "points.txt");
+    assert_string_equal(file, "folder/points.txt");
+    array_free(file);
     release(&r);
 }
 
@@ -359,7 +361,7 @@ static void table_is_sound(void **state)
             const struct word *word = &group->word[j];
             assert_int_equal(words_find(group, word->name, strlen(word->name)), j);
             assert_true(word->count >= 1 && *word->gloss != '\0');
-            assert_false(word->obligatory && word->defaults != NULL);
+            assert_false(word->need == OBLIGATORY && word->defaults != NULL);
             if (word->type == WORD_CHOICE) {
                 assert_non_null(word->range);
             } else if (word->range != NULL) {
@@ -384,11 +386,11 @@ static void table_is_sound(void **state)
 static void ranges_and_spellings(void **state)
 {
     (void)state;
-    const struct word half_open = {"a", WORD_REAL, 1, NULL, "(-1, 0.5]", false, ""};
+    const struct word half_open = {"a", WORD_REAL, 1, NULL, "(-1, 0.5]", OPTIONAL, ""};
     assert_false(word_in_range(&half_open, -1.0));
     assert_true(word_in_range(&half_open, 0.5));
     assert_false(word_in_range(&half_open, 0.5000001));
-    const struct word positive = {"a", WORD_REAL, 1, NULL, "(0, inf)", false, ""};
+    const struct word positive = {"a", WORD_REAL, 1, NULL, "(0, inf)", OPTIONAL, ""};
     assert_false(word_in_range(&positive, 0.0));
     assert_true(word_in_range(&positive, 1e300));
     assert_false(word_in_range(&positive, 1e300 * 1e300));
@@ -397,6 +399,25 @@ static void ranges_and_spellings(void **state)
     assert_int_equal(words_distance("spacing", "spaing"), 1);
     assert_int_equal(words_distance("kitten", "sitting"), 3);
     assert_int_equal(words_distance("", "abc"), 3);
+}
+
+/* Words for experts are suggested only where no other word is as near. */
+static void suggestions(void **state)
+{
+    (void)state;
+    static const struct word words[] = {{"quiet", WORD_REAL, 1, NULL, NULL, EXPERT, ""},
+                                        {"quint", WORD_REAL, 1, NULL, NULL, OPTIONAL, ""},
+                                        {"force", WORD_CHOICE, 1, NULL, "push|pull", EXPERT, ""}};
+    static const struct word_group group = {"group", GROUP_ONCE, "", words, 3};
+    static const struct word_table table = {&group, 1};
+    char text[SUGGESTION_SIZE];
+    assert_string_equal(suggest_word(&group, "quit", text), "; did you mean 'quint'?");  /* both 1 away */
+    assert_string_equal(suggest_word(&group, "quite", text), "; did you mean 'quiet'?"); /* 1 against 2 */
+    assert_string_equal(suggest_word(&group, "forec", text), "; did you mean 'force'?");
+    assert_string_equal(suggest_word(&group, "spacing", text), "");
+    assert_string_equal(suggest_group(&table, "gruop", "&", text), "; did you mean '&group'?");
+    assert_string_equal(suggest_group(&table, "body", "&", text), "");
+    assert_string_equal(suggest_choice(&words[2], "pul", text), "; did you mean 'pull'?");
 }
 
 int main(void)
@@ -414,6 +435,7 @@ int main(void)
         cmocka_unit_test(junk_ends_quickly),
         cmocka_unit_test(table_is_sound),
         cmocka_unit_test(ranges_and_spellings),
+        cmocka_unit_test(suggestions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

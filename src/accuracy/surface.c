@@ -1,11 +1,15 @@
 /* The error law of scene%accuracy for loads on the surface of the ground (doc/accuracy.md, sections 2 and 3).
  *
  * The error at a receiver has, at each frequency, three parts relative to the exact velocity (measured,
- * regress/studies/accuracy/law.sh): that of the load's own field, of the source and the surface, and of the
- * way, e^2 = (S n^-s (size/r)^q d)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c, (1) n the
- * points along the load's shortest edge, r the distance, d and g 1 along the axes of the lattice and less
- * between them, c the speed of the surface wave. With V the exact velocity's spectrum the relative L2 error
- * of the history is E(h)^2 = sum e^2 |V|^2 / sum |V|^2. (2) */
+ * regress/studies/accuracy/law.sh): that of the load's own field, of the source and the surface, and of the way,
+ *
+ *   e^2 = (S n^-s (size/r)^q d)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c,          (1)
+ *
+ * n the points along the load's shortest edge, r the distance, d and g 1 along the axes of the lattice and
+ * less between them, c the speed of the surface wave. With V the exact velocity's spectrum the relative L2
+ * error of the history is
+ *
+ *   E(h)^2 = sum e^2 |V|^2 / sum |V|^2.                                                                  (2) */
 #include "accuracy/surface.h"
 
 #include "exact/half_space.h"
@@ -31,11 +35,6 @@ static const double BURIED = 0.6; /* receivers in the ground err less (measured)
  * weighted by exp(-depth / (FELT wavelength)) over its depth. */
 static const double FELT = 0.5;
 
-bool has_absorbing_layer(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML;
-}
-
 static void add_layer(struct surface_ground *ground, const struct material *material, double top)
 {
     struct half_space here;
@@ -57,7 +56,7 @@ struct surface_ground surface_ground_of(const struct scene *scene, double spacin
     ground.tuned = ground.layers > 1;
     for (int face = 0; face <= FACE_Z_HIGH; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (!has_absorbing_layer(boundary)) continue;
+        if (!boundary_has_layer(boundary)) continue;
         const double way =
             echo_path(scene, face) - 4 * spacing; /* as method/consistent/absorbing/layer.c has it */
         if (boundary->always || way <= 1.02 * ground.p_speed * scene->end_time) ground.tuned = false;

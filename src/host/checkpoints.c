@@ -2,7 +2,7 @@
  * deck in run.h5. */
 #include "host/simulation.h"
 
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,6 +19,7 @@ static selas_status check_path(selas_simulation *simulation, const char *path)
 
 selas_status selas_save(selas_simulation *simulation, const char *path)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status != SELAS_OK) return status;
@@ -26,8 +27,7 @@ selas_status selas_save(selas_simulation *simulation, const char *path)
                             KEEP_NOTHING, &simulation->messages);
 }
 
-/* --- Going on
- * ------------------------------------------------------------------------------------------------- */
+/* --- Going on --- */
 
 /* The folder that holds a path; NULL without memory. */
 static char *folder_of(const char *path)
@@ -68,6 +68,7 @@ static selas_status prepare_restore(selas_simulation *simulation)
 
 selas_status selas_restore(selas_simulation *simulation, const char *path)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_prepare(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status == SELAS_OK) status = prepare_restore(simulation);
@@ -89,8 +90,7 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
     return SELAS_OK;
 }
 
-/* --- Runs of the program
- * --------------------------------------------------------------------------------------- */
+/* --- Runs of the program --- */
 
 static selas_status read_kept(selas_simulation *simulation, const struct kept_deck *kept, size_t count,
                               const char *const *overrides)

@@ -3,7 +3,9 @@
 
 #include <math.h>
 
-static const char *const kinds[] = {"a traction", "a body force", "a moment tensor"};
+static const char *const kinds[] = {[LOAD_TRACTION] = "a traction",
+                                    [LOAD_BODY_FORCE] = "a body force",
+                                    [LOAD_MOMENT_TENSOR] = "a moment tensor"};
 
 /* The two axes of a box face in the order of the axes (one in 2D, none in 1D); how many there are. */
 static int axes_of_face(enum face face, int dimension, int axes[2])
@@ -86,14 +88,14 @@ static void warn_of_held_face(struct builder *builder, const struct deck_group *
     double own[3];
     body_direction_from_deck(&builder->scene->body, load->direction, own);
     const double normal = fabs(own[face_axis(load->face)]);
-    const bool mirrored = boundary->kind == BOUNDARY_ROLLER || boundary->kind == BOUNDARY_SYMMETRY;
-    const bool moved = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-    if (boundary->kind == BOUNDARY_FIXED || (mirrored && normal > 0) || (moved && !boundary->slip))
+    const bool slides = boundary_slides(boundary);
+    if (boundary_is_fixed(boundary) || (slides && normal > 0) ||
+        (boundary_moves(boundary) && !boundary->slip))
         deck_warning(
             builder->deck, group, "face", builder->messages,
             "the load acts on the face '%s', whose motion &boundary %zu prescribes%s; it does nothing "
             "there",
-            face_name(load->face), boundary->group + 1, mirrored ? " along the normal" : "");
+            face_name(load->face), boundary->group + 1, slides ? " along the normal" : "");
 }
 
 static void read_traction(struct builder *builder, const struct deck_group *group, struct load *load)
@@ -113,7 +115,7 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
         return;
     }
     if (deck_values(group, "shape") == 0 && dimension > 1) {
-        complain(builder, group, NULL, "a traction needs shape: 'square', 'disc', 'face' or 'point'");
+        complain(builder, group, NULL, "a traction needs shape; expected one of" LOAD_SHAPES(CHOICE_QUOTED));
         return;
     }
     load->shape = LOAD_FACE; /* the end of a bar in 1D is a whole face whatever the shape */
