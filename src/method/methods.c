@@ -25,7 +25,7 @@ const struct method *method_find(const char *name, const char *variant)
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     *model = NULL;
-    const selas_status status = processor_check(messages);
+    selas_status status = processor_check(messages);
     if (status != SELAS_OK) return status;
     const struct method *method = method_find(scene->method.name, scene->method.variant);
     if (method == NULL)
@@ -39,7 +39,7 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
             "'double'");
     char name[2 * NAME_SIZE + 32];
     snprintf(name, sizeof name, "method '%s', variant '%s',", method->name, method->variant);
-    const selas_status status = scene_check_faces(scene, method->faces, name, messages);
+    status = scene_check_faces(scene, method->faces, name, messages);
     if (status != SELAS_OK) return status;
     const unsigned axes = method->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(method, scene, axes, model, messages);

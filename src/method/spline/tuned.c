@@ -6,9 +6,9 @@
  *   F  = 1 + sum of f_q B_q^T B_q,                                                                      (U2)
  *
  * B_q the q-th differences of evenly spaced control values (symbol of B_q^T B_q: t^q), A half the difference
- * of the next row and the last one (symbol i sin(theta)). The numbers are those of
- * regress/studies/tuned-splines. Towards ends that are no symmetry planes all of them fade out, and a little
- * stiffness is added where they do (U6). */
+ * of the next row and the last one (symbol i sin(theta)). The numbers are those of regress/studies/tuned-splines.
+ * Towards ends that are no symmetry planes all of them fade out, and a little stiffness is added where they
+ * do (U6). */
 #include "method/spline/tuned.h"
 
 #include "base/memory.h"
