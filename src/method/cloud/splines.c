@@ -208,26 +208,21 @@ static void add_pairs(struct cloud_splines *splines)
         splines->row[a][a] += 1e-9 * largest;
 }
 
-/* The sum of n products, GROUP of them in lanes of their own, which are then added up by halves: one order
- * whatever the width. */
+/* The sum of n products, GROUP of them in lanes of their own: one order whatever the width. */
 static double sum_of_products(size_t n, const double *a, const double *b)
 {
     lanes sum[GROUP / LANES] = {0};
-    double part[GROUP];
+    double part[GROUP], total = 0;
     size_t k = 0;
     for (; k + GROUP <= n; k += GROUP)
         for (size_t v = 0; v < GROUP / LANES; v++)
             sum[v] += AT(a + k + LANES * v) * AT(b + k + LANES * v);
     memcpy(part, sum, sizeof part);
-    for (size_t half = GROUP / 2; half > 0; half /= 2) {
-        for (size_t l = 0; l < half; l++)
-            part[l] += part[half + l];
-        if (n - k < half) continue;
-        for (size_t l = 0; l < half; l++)
-            part[l] += a[k + l] * b[k + l];
-        k += half;
-    }
-    return part[0];
+    for (; k < n; k++)
+        part[0] += a[k] * b[k];
+    for (size_t lane = 0; lane < GROUP; lane++)
+        total += part[lane];
+    return total;
 }
 
 /* L of L L^T in the matrix's place; false if it is not positive. */
