@@ -1,0 +1,62 @@
+/* Plane strata over a half-space in (wavenumber, Laplace) space with sources and receivers at any of their
+ * levels: what a jump of motion or traction at one level moves at the others. Formulas and sources: strata.c,
+ * doc/seismograms.md (Eqs 1-21). */
+#ifndef SELAS_STRATA_H
+#define SELAS_STRATA_H
+
+#include "base/messages.h"
+#include "exact/pair.h"
+
+#include <complex.h>
+
+/* One material at one Laplace frequency: moduli over a common one, s^2 over the squared speeds. */
+struct rock_at {
+    struct pair mu, axial; /* mu, lambda + 2 mu */
+    struct pair w_p, w_s;  /* s^2 / c_p^2, s^2 / c_s^2 */
+};
+
+/* Jumps at a source of P-SV motion, each with its own kernels. */
+enum strata_column {
+    COLUMN_VERTICAL, /* force down: Z = 1 */
+    COLUMN_AXIAL,    /* M_zz: W = 1/(lambda + 2 mu), Q = k lambda/(lambda + 2 mu) */
+    COLUMN_RADIAL,   /* force along k, M_nn: Q = 1 */
+    COLUMN_DIP,      /* M_nz: U = 1/mu */
+    COLUMN_ACROSS,   /* SH: force across k, M_tn: Y = 1 */
+    COLUMN_TWIST,    /* SH: M_tz: V = 1/mu */
+    COLUMNS
+};
+
+/* What a column moves at a receiver: u_r = i U, u_z = W, u_t = V, sigma_zz = -Z, sigma_nz = -i Q, sigma_tz =
+ * -Y, (sigma_nn +- sigma_tt)/2 = MEAN, DIFFERENCE, sigma_nt = i TWIST. P-SV columns have U W Q Z and both
+ * halves, SH columns V Y X in the places of U W Q. */
+enum strata_kernel { KERNEL_U, KERNEL_W, KERNEL_Q, KERNEL_Z, KERNEL_MEAN, KERNEL_DIFFERENCE, KERNELS };
+enum { KERNEL_V = KERNEL_U, KERNEL_Y = KERNEL_W, KERNEL_X = KERNEL_Q };
+
+struct strata {
+    size_t levels; /* faces of pieces: the surface, interfaces, sources, receivers */
+    double *depth; /* [levels] ascending from 0 */
+    size_t *rock;  /* [levels] material below each level */
+    size_t rocks;
+    size_t sources;   /* levels with sources */
+    size_t *source;   /* [sources] */
+    bool *moments;    /* [sources] whether more than forces act there */
+    size_t receivers; /* levels with receivers */
+    size_t *receiver; /* [receivers] */
+    bool stress;      /* kernels of stress are wanted */
+};
+
+/* Room for one wavenumber; each thread has its own. SELAS_NO_MEMORY gives NULL. */
+struct strata_work;
+struct strata_work *strata_work_new(const struct strata *strata);
+void strata_work_free(struct strata_work **work);
+
+/* Kernels for a wavenumber k > 0 and materials rock[strata->rocks] at one frequency of Re s > 0, Im s >= 0:
+ * kernel[((source * receivers + receiver) * COLUMNS + column) * KERNELS + kernel]; those that are not wanted
+ * (no moments, no stress) are left alone. */
+void strata_kernels(const struct strata *strata, const struct rock_at *rock, double k,
+                    struct strata_work *work, struct pair *kernel);
+
+/* Ground below the surface pushed there: compliances U, W, V at level `receiver` (an index of a level), as
+ * matrix {U/Q W/Q U/Z W/Z} and across. */
+
+#endif
