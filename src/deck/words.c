@@ -4,7 +4,7 @@
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
 #define FACES "x-|x+|y-|y+|z-|z+|hole|all"
 #define FIELDS "displacement|velocity|acceleration|stress|strain|pressure|energy"
-#define HISTORIES "triangle|step|ricker|gaussian|sine-burst|table"
+#define HISTORIES "triangle|step|ricker|gaussian|sine-burst|table|brune|error-function"
 #define POSITIVE "(0, inf)"
 #define NOT_NEGATIVE "[0, inf)"
 
@@ -76,6 +76,8 @@ static const struct word method_words[] = {
     {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "hourglass control (sph, cloud)"},
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", false,
      "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
+    {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", false,
+     "relaxation mechanisms of damped materials (reference 'layered', spectrum 'scheme'; else 3)"},
     {"law", WORD_CHOICE, 1, NULL, "linear|saint-venant-kirchhoff|neo-hookean", false,
      "elastic law (total-lagrangian)"},
 };
@@ -106,6 +108,11 @@ static const struct word material_words[] = {
     {"s_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of S waves [length/time]"},
     {"bulk", WORD_REAL, 1, NULL, POSITIVE, false, "bulk modulus [stress]"},
     {"shear", WORD_REAL, 1, NULL, POSITIVE, false, "shear modulus [stress]"},
+    {"q_p", WORD_REAL, 1, NULL, POSITIVE, false,
+     "quality of P waves, the same at all frequencies; without q_p and q_s there is no damping"},
+    {"q_s", WORD_REAL, 1, NULL, POSITIVE, false, "quality of S waves"},
+    {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, false,
+     "frequency at which the speeds or elastic constants of a damped material are meant [1/time]"},
 };
 
 static const struct word body_words[] = {
@@ -131,10 +138,23 @@ static const struct word body_words[] = {
         {"history", WORD_CHOICE, 1, NULL, HISTORIES, false, "how it varies in time"},                        \
         {"duration", WORD_REAL, 1, NULL, POSITIVE, false, "length of the triangle [time]"},                  \
         {"frequency", WORD_REAL, 1, NULL, POSITIVE, false, "frequency of ricker and sine-burst [1/time]"},   \
-        {"delay", WORD_REAL, 1, NULL, NULL, false, "time of the peak of ricker and gaussian [time]"},        \
-        {"width", WORD_REAL, 1, NULL, POSITIVE, false, "standard deviation of the gaussian [time]"},         \
+        {"delay",                                                                                            \
+         WORD_REAL,                                                                                          \
+         1,                                                                                                  \
+         NULL,                                                                                               \
+         NULL,                                                                                               \
+         false,                                                                                              \
+         "time of the peak of ricker and gaussian, of the middle of error-function [time]"},                 \
+        {"width",                                                                                            \
+         WORD_REAL,                                                                                          \
+         1,                                                                                                  \
+         NULL,                                                                                               \
+         POSITIVE,                                                                                           \
+         false,                                                                                              \
+         "standard deviation of gaussian and of the rate of error-function, time constant of brune [time]"}, \
         {"cycles", WORD_REAL, 1, "5", POSITIVE, false, "cycles of the Hann-windowed sine-burst"},            \
         {"file", WORD_FILE, 1, NULL, NULL, false, "table of the history: columns time, value"},              \
+        {"start", WORD_REAL, 1, "0", NOT_NEGATIVE, false, "when the history begins [time]"},                 \
     {                                                                                                        \
         "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, false,                                                 \
             "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                   \
@@ -186,6 +206,10 @@ static const struct word load_words[] = {
     {"size", WORD_REAL, 2, NULL, POSITIVE, false, "edges of the square, or diameter of the disc [length]"},
     {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, false, "moment tensor: xx yy zz xy yz zx [force length]"},
+    {"sources", WORD_FILE, 1, NULL, NULL, false,
+     "file of point forces or moment tensors in place of centre and moment or direction, text or HDF5: "
+     "place, "
+     "values, amplitude, start"},
     {"velocity", WORD_REAL, 3, NULL, NULL, false, "velocity of a moving patch [length/time]; else at rest"},
     HISTORY_WORDS,
 };
@@ -225,9 +249,17 @@ static const struct word output_words[] = {
 };
 
 static const struct word reference_words[] = {
-    {"kind", WORD_CHOICE, 1, NULL, "lamb|stokes|bar|beam|hole|plane-wave|file", true, "exact solution"},
+    {"kind", WORD_CHOICE, 1, NULL, "lamb|layered|stokes|bar|beam|hole|plane-wave|file", true,
+     "exact solution"},
     {"file", WORD_FILE, 1, NULL, NULL, false,
      "of kind 'file': the history of the one receiver, or the folder of a run with one of each"},
+    {"tolerance", WORD_REAL, 1, NULL, "[1e-10, 0.1]", false,
+     "wanted error, relative L2 of velocity (lamb, layered: 1e-6); the report says what was reached"},
+    {"spectrum", WORD_CHOICE, 1, NULL, "constant-q|scheme", false,
+     "damping of materials with q_p and q_s: constant Q, which is the default, or by the relaxation "
+     "mechanisms "
+     "of method%mechanisms (layered)"},
+    {"stress", WORD_LOGICAL, 1, NULL, NULL, false, "write histories of stress too (layered, point sources)"},
 };
 
 #define GROUP(name, occurrence, gloss)                                                                       \

@@ -353,7 +353,8 @@ bool sums_at(struct sums *sums, const struct band *band, struct finesse finesse,
         memset(value, 0, sums->receivers * n * COMPONENTS * sizeof *value);
         for (size_t j = 0; j < n; j++)
             for (size_t i = 0; i < sources; i++)
-                factor[j * sources + i] = unit ? 1 : history_laplace(sums->problem->source[i].history, s[j]);
+                factor[j * sources + i] =
+                    unit ? 1 : history_laplace_uncut(sums->problem->source[i].history, s[j]);
         room = sum_blocks(sums, &grid, n, s, factor, weight, value);
         for (size_t j = 0; j < n; j++)
             finish(sums, s[j], factor + j * sources, n * COMPONENTS, value + j * COMPONENTS);

@@ -49,7 +49,15 @@ static void add_loads(const struct builder *builder, struct extents *extents)
     const int dimension = builder->scene->dimension;
     for (size_t k = 0; k < deck_count(builder->deck, "load"); k++) {
         const struct deck_group *group = deck_get(builder->deck, "load", k);
-        for (int c = 0; c < dimension; c++) {
+        double low[3], high[3];
+        const bool many = sources_span(builder, group, low, high);
+        for (int c = 0; c < dimension && many; c++) {
+            const double centre = .5 * (low[c] + high[c]);
+            if ((k > 0 && centre != extents->centre[c]) || low[c] < high[c]) extents->one_centre[c] = false;
+            extents->centre[c] = centre;
+            widen(&extents->load[c], low[c], high[c]);
+        }
+        for (int c = 0; c < dimension && !many; c++) {
             const double centre = component(group, "centre", c);
             const double path = component(group, "velocity", c) * builder->scene->end_time;
             const double half = c < dimension - 1 ? half_size(group, c) : 0.0;

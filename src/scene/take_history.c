@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *const history_words[] = {"history", "duration", "frequency", "delay",     "width",
-                                     "cycles",  "file",     "smoothing", "amplitude", NULL};
+const char *const history_words[] = {"history", "duration",  "frequency", "delay",     "width", "cycles",
+                                     "file",    "smoothing", "start",     "amplitude", NULL};
 
 enum { PARAMETERS = 6 };
 
@@ -22,6 +22,8 @@ static const struct {
     {"history 'gaussian'", {false, false, true, true, false, false}},
     {"history 'sine-burst'", {false, true, false, false, true, false}},
     {"history 'table'", {false, false, false, false, false, true}},
+    {"history 'brune'", {false, false, false, true, false, false}},
+    {"history 'error-function'", {false, false, true, true, false, false}},
 };
 static const char *const parameters[PARAMETERS] = {"duration", "frequency", "delay",
                                                    "width",    "cycles",    "file"};
@@ -49,9 +51,11 @@ static bool take_table(struct builder *builder, const struct deck_group *group, 
 static void warn_of_cut(struct builder *builder, const struct deck_group *group,
                         const struct history *history)
 {
-    if (history->kind != HISTORY_RICKER && history->kind != HISTORY_GAUSSIAN) return;
+    if (history->kind != HISTORY_RICKER && history->kind != HISTORY_GAUSSIAN &&
+        history->kind != HISTORY_ERROR_FUNCTION)
+        return;
     struct history raw = *history;
-    raw.smoothing = 0;
+    raw.smoothing = raw.start = 0;
     const double start = fabs(history_value(&raw, 0, 0));
     if (start > 1e-3)
         deck_warning(builder->deck, group, "delay", builder->messages,
@@ -67,7 +71,7 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
     if (deck_values(group, "history") == 0) {
         complain(builder, group, NULL,
                  "%s needs history: 'triangle', 'step', 'ricker', 'gaussian', "
-                 "'sine-burst' or 'table'",
+                 "'sine-burst', 'table', 'brune' or 'error-function'",
                  purpose);
         return false;
     }
@@ -88,6 +92,7 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
         }
     }
     history->smoothing = deck_real(group, "smoothing", 0);
+    history->start = deck_real(group, "start", 0);
     if (right && history->kind == HISTORY_TABLE) right = take_table(builder, group, history);
     if (right)
         warn_of_cut(builder, group, history);
