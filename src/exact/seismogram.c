@@ -18,6 +18,9 @@ enum { SAMPLES = 3, MOST_BANDS = 64, ATTEMPTS = 4 };
 /* Wavenumbers times levels: what is spent once the histories' main frequencies are in. */
 static const double MOST_EVALUATIONS = 5e7;
 
+/* Waves after the period may be so much louder than those before its end. */
+static const double LOUDER = 10;
+
 struct work {
     const struct seismogram_problem *problem;
     struct sums sums;
@@ -223,10 +226,13 @@ static double norm_from(struct work *work, size_t receiver, size_t from)
     return largest;
 }
 
-/* Notes what was reached with the band from `from` on; the worst of the receivers. */
-static double judge(struct work *work, size_t from, double cutoff)
+/* Notes what was reached with the band from `from` on; the worst of the receivers. What is above the last
+ * band is taken to fall on as the bands fell, or to be less than an eighth of the last band where the
+ * histories end there. */
+static double judge(struct work *work, size_t from, double cutoff, bool end)
 {
     double worst = 0;
+    const size_t tail = work->frequencies - (work->frequencies - from) / 8;
     for (size_t r = 0; r < work->receivers; r++) {
         struct seismogram_effort *effort = &work->seismogram[r].effort;
         const double part = norm_from(work, r, from);
@@ -237,8 +243,9 @@ static double judge(struct work *work, size_t from, double cutoff)
         effort->decay = work->decay;
         effort->evaluations = work->sums.evaluations;
         effort->of_wavenumbers = norm > 0 ? work->growth * sqrt(work->missed[r]) / norm : 0;
-        effort->of_frequencies = norm > 0 ? part * ratio / (1 - ratio) / norm : 0;
-        effort->of_period = exp(-work->decay * work->period);
+        const double left = end ? norm_from(work, r, tail) : part * ratio / (1 - ratio);
+        effort->of_frequencies = norm > 0 ? left / norm : 0;
+        effort->of_period = LOUDER * exp(-work->decay * work->period);
         effort->reached = effort->of_wavenumbers + effort->of_frequencies + effort->of_period;
         work->last[r] = part;
         worst = fmax(worst, effort->of_frequencies);
@@ -323,7 +330,7 @@ static bool work_off_bands(struct work *work)
     for (int band = 0; band < MOST_BANDS; band++) {
         const size_t from = work->frequencies;
         if (!add_band(work, cutoff) || !make_plan(work)) return false;
-        worst = judge(work, from, cutoff);
+        worst = judge(work, from, cutoff, cutoff >= most);
         complete = cutoff >= most || (band > 1 && cutoff >= least && worst < .3 * work->tolerance);
         const double spent = work->sums.evaluations * (double)work->sums.strata.levels;
         if (complete || (cutoff >= least && spent > .5 * MOST_EVALUATIONS)) break;
@@ -353,7 +360,7 @@ static selas_status prepare(struct work *work, struct messages *messages)
     work->tolerance = problem->tolerance > 0 ? problem->tolerance : 1e-6;
     const double digits = -log(work->tolerance);
     work->period = (problem->stretch > 0 ? problem->stretch : 1.5) * problem->end_time;
-    work->decay = (digits + 2.5) / work->period;
+    work->decay = (digits + 2 + log(LOUDER)) / work->period;
     const double exponent = 2 * work->decay * problem->end_time;
     work->growth = sqrt(expm1(exponent) / exponent);
     work->finesse = (struct finesse){.5 * exponent + digits + 2, 1};
