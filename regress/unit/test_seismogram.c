@@ -329,8 +329,8 @@ static void far_field_is_one_dimensional(void **state)
     (void)state;
     const double near = off_one_dimension(200), far = off_one_dimension(1000);
     print_message("layer over a far source against one dimension: %.1e, five times as far %.1e\n", near, far);
-    assert_true(far < 2e-2);
-    assert_true(far > .15 * near && far < .25 * near);
+    assert_true(far < 1e-2);
+    assert_true(far < .25 * near);
 }
 
 /* --- In time -------------------------------------------------------------------------------------------- */
@@ -350,14 +350,14 @@ static void contours_agree(void **state)
                                          .rock = rock,
                                          .sources = 2,
                                          .source = source,
-                                         .end_time = 7,
-                                         .tolerance = 1e-8,
+                                         .end_time = 5,
+                                         .tolerance = 3e-8,
                                          .stress = true};
     struct seismogram one[2] = {{.position = {1.4, .9, 0}}, {.position = {-.8, 1.1, 1.1}}};
     struct seismogram other[2] = {one[0], one[1]};
     seismic_compute(&problem, 2, one);
     problem.stretch = 2.3;
-    problem.tolerance = 3e-9;
+    problem.tolerance = 1e-8;
     seismic_compute(&problem, 2, other);
     double worst = 0, largest[2][4] = {{0}};
     for (int r = 0; r < 2; r++)

@@ -18,6 +18,9 @@ struct exact_class {
      * uz vx vy vz. Must be safe to call from several threads. */
     selas_status (*history)(struct exact *exact, const double position[3], size_t n, const double *time,
                             double *value, struct messages *messages);
+    /* Stress there, value[6 * i] = xx yy zz xy yz zx; NULL: not offered. As history(). */
+    selas_status (*stress)(struct exact *exact, const double position[3], size_t n, const double *time,
+                           double *value, struct messages *messages);
     /* Lines for the report: how accurate, how it was computed. */
     void (*describe)(const struct exact *exact,
                      void (*tell)(void *context, const char *key, const char *value), void *context);

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "exact/ground.h"
+#include "exact/layered_damping.h"
 #include "exact/seismogram.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ struct layered_ground {
     struct seismogram_problem problem;
     struct seismogram_rock *rock;
     struct seismogram_source *source; /* images included */
+    struct layered_damping damping;
     size_t seismograms;
     struct seismogram *seismogram; /* of the scene's receivers */
 };
@@ -224,6 +226,8 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     ground->problem.tolerance = scene->reference.tolerance;
     ground->problem.stress = scene->reference.stress;
     status = set_rocks(ground, scene, messages);
+    if (status == SELAS_OK && scene->reference.scheme)
+        status = layered_mechanisms(scene, ground->problem.rocks, ground->rock, &ground->damping, messages);
     if (status == SELAS_OK) status = set_sources(ground, scene, messages);
     if (status == SELAS_OK) status = compute_receivers(ground, scene, messages);
     if (status != SELAS_OK) {
@@ -271,6 +275,44 @@ static selas_status history(struct exact *exact, const double position[3], size_
     return status;
 }
 
+static selas_status stress(struct exact *exact, const double position[3], size_t n, const double *time,
+                           double *value, struct messages *messages)
+{
+    const struct layered_ground *ground = (const struct layered_ground *)exact;
+    const struct seismogram *seismogram = NULL;
+    struct seismogram own = {.value = NULL};
+    if (n == 0) return SELAS_OK;
+    const selas_status status = find(ground, position, time[n - 1], &own, &seismogram, messages);
+    struct body back = exact->scene->body; /* its frame the other way round turns a tensor back */
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            back.frame[i][j] = exact->scene->body.frame[j][i];
+    for (size_t i = 0; i < n && status == SELAS_OK; i++) {
+        double line[SEISMOGRAM_LINES];
+        seismogram_at(seismogram, time[i], line);
+        turn_moment(&back, line + SEISMOGRAM_STRESS, value + 6 * i);
+    }
+    seismogram_free(&own);
+    return status;
+}
+
+/* Mechanisms or constant Q, and what the loads' spectrum sees of the difference. */
+static void describe_damping(const struct layered_ground *ground,
+                             void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    char text[256];
+    bool damped = false;
+    for (size_t i = 0; i < ground->problem.rocks; i++)
+        damped = damped || ground->rock[i].shear.power > 0;
+    if (damped) tell(context, "exact damping", "constant Q (Kjartansson 1979)");
+    if (ground->damping.mechanisms == 0) return;
+    int at = snprintf(text, sizeof text, "%zu relaxation mechanisms, misfit %.2g/Q, angular frequencies",
+                      ground->damping.mechanisms, ground->damping.misfit);
+    for (size_t l = 0; l < ground->damping.mechanisms; l++)
+        at += snprintf(text + at, sizeof text - (size_t)at, " %.4g", ground->damping.rate[l]);
+    tell(context, "exact damping", text);
+}
+
 static void tell_number(void (*tell)(void *context, const char *key, const char *value), void *context,
                         const char *key, double number)
 {
@@ -287,6 +329,7 @@ static void describe(const struct exact *exact,
     for (size_t i = 0; i < ground->seismograms; i++)
         if (ground->seismogram[i].effort.reached >= worst.reached) worst = ground->seismogram[i].effort;
     tell(context, "exact", "layered ground by wavenumbers and FFT (doc/seismograms.md)");
+    describe_damping(ground, tell, context);
     if (ground->seismograms == 0) return;
     tell_number(tell, context, "exact accuracy (L2 of velocity, estimated)", worst.reached);
     tell_number(tell, context, "exact accuracy of the wavenumbers", worst.of_wavenumbers);
@@ -303,5 +346,6 @@ const struct exact_class exact_layered_ground = {
     .create = create,
     .destroy = destroy,
     .history = history,
+    .stress = stress,
     .describe = describe,
 };

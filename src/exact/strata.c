@@ -90,8 +90,14 @@ static struct matrix2 carried(const struct rock_at *rock, const struct wave *wav
 static void reflect(struct matrix2 s, struct matrix2 n, struct matrix2 end, struct matrix2 *impedance,
                     struct matrix2 *carry)
 {
-    const struct matrix2 back = matrix2_mirrored(s);
-    const struct matrix2 r = matrix2_product(matrix2_inverse(matrix2_sum(end, back)), matrix2_less(s, end));
+    const struct matrix2 back = matrix2_mirrored(s), step = matrix2_less(s, end);
+    if (step.a.re == 0 && step.b.re == 0 && step.d.re == 0 && step.a.im == 0 && step.b.im == 0 &&
+        step.d.im == 0) { /* nothing comes back */
+        *impedance = s;
+        *carry = n;
+        return;
+    }
+    const struct matrix2 r = matrix2_product(matrix2_inverse(matrix2_sum(end, back)), step);
     const struct matrix2 h = matrix2_product(matrix2_product(matrix2_mirrored(n), r), n);
     const struct matrix2 start = matrix2_inverse(matrix2_one_plus(h));
     *impedance = matrix2_product(matrix2_less(s, matrix2_product(back, h)), start);
