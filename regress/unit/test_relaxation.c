@@ -22,7 +22,8 @@ static void band_of_pulse(struct relaxation_band *band)
 static void fit_is_that_of_another_program(void **state)
 {
     (void)state;
-    static const double wanted[MOST_MECHANISMS] = {0.32918311541068257, 2.247213709180817, 14.034822837455103};
+    static const double wanted[MOST_MECHANISMS] = {0.32918311541068257, 2.247213709180817,
+                                                   14.034822837455103};
     static const double axial[2][3] = {{0.06973451372622277, 0.04671164936012833, 0.07595962509068271},
                                        {0.015981634400679835, 0.010182049707781046, 0.015658920377061243}};
     static const double shear[2][3] = {{0.06973451372622277, 0.04671164936012833, 0.07595962509068271},

@@ -1,5 +1,5 @@
 /* Moduli of damped solids over the Laplace variable: constant Q, and relaxation mechanisms
- * (doc/seismograms.md, Eqs 22-27). */
+ * (doc/seismograms.md, Eqs 22, 23). */
 #ifndef SELAS_MODULUS_H
 #define SELAS_MODULUS_H
 

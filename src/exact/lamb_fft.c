@@ -201,6 +201,19 @@ static double signal_norm(const struct work *work, const struct lamb_signal *sig
     return sqrt(fmax(sum[0], fmax(sum[1], sum[2])));
 }
 
+/* A tenth of the velocity that the loads' whole histories would cause if all went slowly: the least by which an error
+ * is judged, so that a time before the pulse asks for nothing. */
+static double least_norm(const struct work *work, const struct lamb_signal *signal)
+{
+    double sum = 0;
+    for (size_t l = 0; l < work->problem->loads; l++) {
+        const double *rest = signal->statics + 3 * l;
+        const double size = sqrt(rest[0] * rest[0] + rest[1] * rest[1] + rest[2] * rest[2]);
+        sum += .1 * size * history_rate_norm(work->problem->load[l].history);
+    }
+    return sum;
+}
+
 static void find_scales(const struct work *work, struct scales *scales)
 {
     *scales = (struct scales){.edge = INFINITY, .depth = INFINITY};
@@ -259,7 +272,7 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
                 return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
             }
             const double ratio = fmin(.8, fmax(.3, last[r] > 0 ? part / last[r] : .8));
-            const double norm = signal_norm(work, signal);
+            const double norm = fmax(signal_norm(work, signal), least_norm(work, signal));
             signal->effort = (struct lamb_effort){
                 cutoff,      wavenumber,        work->period,
                 work->decay, work->evaluations, norm > 0 ? part * ratio / (1 - ratio) / norm : 0};

@@ -1,4 +1,4 @@
-/* Seismograms by FFT over frequencies s = eta + 2 pi i j / T (doc/seismograms.md, Eqs 28-36). Frequencies are
+/* Seismograms by FFT over frequencies s = eta + 2 pi i j / T (doc/seismograms.md, Eqs 29-36). Frequencies are
  * worked off in bands of half an octave, each with its own wavenumbers. Some frequencies of every band are
  * computed once more with narrower panels and a larger range: what differs bounds the error of the sums, and
  * where it is too large the band is made anew. The bands end when what is to come is below the tolerance. */
@@ -277,28 +277,15 @@ static bool keep(struct work *work, bool complete)
 
 /* --- The whole ---------------------------------------------------------------------------------------- */
 
-/* Square of the L2 norm of the rate of a history. */
-static double power_of_rate(const struct history *history)
-{
-    enum { STEPS = 2000 };
-    const double end = history_end(history), step = end / STEPS;
-    double sum = 0;
-    for (int i = 0; i < STEPS && step > 0; i++) {
-        const double rate = history_value(history, (i + .5) * step, 1);
-        sum += rate * rate * step;
-    }
-    return sum;
-}
-
 /* What the whole histories of the sources would move each receiver by if all went slowly: a tenth of that is
  * the least that an error is measured by, so that a time before the waves come asks for nothing. */
 static bool find_least(struct work *work)
 {
     const struct seismogram_problem *problem = work->problem;
-    double deepest = problem->rock[problem->rocks - 1].top, power = 0;
+    double deepest = problem->rock[problem->rocks - 1].top, rate = 0;
     for (size_t i = 0; i < problem->sources; i++) {
         deepest = fmax(deepest, problem->source[i].position[2]);
-        power = fmax(power, power_of_rate(problem->source[i].history));
+        rate = fmax(rate, history_rate_norm(problem->source[i].history));
     }
     for (size_t r = 0; r < work->receivers; r++)
         deepest = fmax(deepest, work->seismogram[r].position[2]);
@@ -311,7 +298,7 @@ static bool find_least(struct work *work)
     const bool room = sums_at(&work->sums, &band, (struct finesse){9, 1}, 1, &s, true, value);
     for (size_t r = 0; r < work->receivers && room; r++)
         for (size_t c = 0; c < 3; c++)
-            work->least[r] = fmax(work->least[r], .1 * cabs(value[r * COMPONENTS + c]) * sqrt(power));
+            work->least[r] = fmax(work->least[r], .1 * cabs(value[r * COMPONENTS + c]) * rate);
     array_free(value);
     return room;
 }

@@ -1,6 +1,6 @@
 /* Plane strata over a half-space in (wavenumber, Laplace) space with sources and receivers at any of their
  * levels: what a jump of motion or traction at one level moves at the others. Formulas and sources: strata.c,
- * doc/seismograms.md (Eqs 1-21). */
+ * doc/seismograms.md (Eqs 1-13). */
 #ifndef SELAS_STRATA_H
 #define SELAS_STRATA_H
 
@@ -55,8 +55,5 @@ void strata_work_free(struct strata_work **work);
  * (no moments, no stress) are left alone. */
 void strata_kernels(const struct strata *strata, const struct rock_at *rock, double k,
                     struct strata_work *work, struct pair *kernel);
-
-/* Ground below the surface pushed there: compliances U, W, V at level `receiver` (an index of a level), as
- * matrix {U/Q W/Q U/Z W/Z} and across. */
 
 #endif

@@ -329,3 +329,15 @@ bool history_same(const struct history *a, const struct history *b)
     return a->rows == 0 || (memcmp(a->table_time, b->table_time, bytes) == 0 &&
                             memcmp(a->table_value, b->table_value, bytes) == 0);
 }
+
+double history_rate_norm(const struct history *history)
+{
+    enum { STEPS = 2000 };
+    const double step = (history_end(history) - history->start) / STEPS;
+    double sum = 0;
+    for (int i = 0; i < STEPS && step > 0; i++) {
+        const double rate = history_value(history, history->start + (i + .5) * step, 1);
+        sum += rate * rate * step;
+    }
+    return sqrt(sum);
+}

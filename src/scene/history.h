@@ -52,6 +52,9 @@ bool history_same(const struct history *a, const struct history *b);
  * today). */
 double history_end(const struct history *history);
 
+/* L2 norm of f' over all time, impulses left out. */
+double history_rate_norm(const struct history *history);
+
 /* Angular frequency above which the amplitude spectrum of f stays below `fraction` of its largest value. */
 double history_cutoff(const struct history *history, double fraction);
 
