@@ -277,8 +277,8 @@ static void echo_comes_in_time(void **state)
 static void a_short_time_costs_little(void **state)
 {
     (void)state;
-    const struct history pulse = {.kind = HISTORY_GAUSSIAN, .width = .4, .delay = 2.4};
-    const struct lamb_load load = {{.shape = PATCH_RECTANGLE, .half = {.5, .5}}, {0, 0, 1}, &pulse};
+    const struct history bell = {.kind = HISTORY_GAUSSIAN, .width = .4, .delay = 2.4};
+    const struct lamb_load load = {{.shape = PATCH_RECTANGLE, .half = {.5, .5}}, {0, 0, 1}, &bell};
     const struct stratum strata[2] = {{0, 1, .25, .75, .5}, {1, 1, 1, sqrt(3), 1}};
     struct layered *layered = NULL;
     struct messages messages = {0};

@@ -4,12 +4,11 @@
  * where it is too large the band is made anew. The bands end when what is to come is below the tolerance. */
 #include "exact/seismogram.h"
 
-#include "base/fft_room.h"
 #include "base/memory.h"
+#include "exact/contour.h"
 #include "exact/rows.h"
 #include "exact/seismogram_work.h"
 
-#include <fftw3.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,23 +25,15 @@ struct work {
     struct sums sums;
     size_t receivers;
     struct seismogram *seismogram;
-    double tolerance, period, decay, growth; /* growth: of errors by exp(decay t), in L2 over [0, end] */
+    struct contour contour;
+    double tolerance, growth; /* growth: of errors by exp(decay t), in L2 over [0, end] */
     struct finesse finesse;
     size_t components, frequencies, room;
     double complex *spectrum; /* [receivers * components][room]: displacement (and stress) */
     double *missed;           /* [receivers]: squares of the sums' errors of velocity */
     double *least;            /* [receivers]: norm of velocity below which nothing is judged */
     double *last;             /* [receivers]: norm of the last band */
-    size_t rows;
-    fftw_plan plan;
-    double complex *in;
-    double *out;
 };
-
-static double complex frequency(const struct work *work, size_t j)
-{
-    return work->decay + I * (2 * M_PI * (double)j / work->period);
-}
 
 static selas_status no_memory(struct messages *messages)
 {
@@ -62,28 +53,14 @@ static void add_missed(const struct work *work, size_t n, const size_t *sample, 
             for (size_t i = 0; i < SAMPLES; i++) {
                 const size_t j = sample[i];
                 const double complex rough = coarse[(r * n + j - work->frequencies) * COMPONENTS + c];
-                const double part =
-                    cabs(frequency(work, j) * (rough - fine[(r * SAMPLES + i) * COMPONENTS + c]));
+                const double part = cabs(contour_frequency(&work->contour, j) *
+                                         (rough - fine[(r * SAMPLES + i) * COMPONENTS + c]));
                 sum += part * part;
             }
             largest = fmax(largest, sum / SAMPLES);
         }
-        missed[r] = largest * (double)count * 2 / work->period;
+        missed[r] = largest * (double)count * 2 / work->contour.period;
     }
-}
-
-static bool make_room(struct work *work, size_t until)
-{
-    if (until <= work->room) return true;
-    const size_t room = 2 * until, lines = work->receivers * work->components;
-    double complex *wider = array_new(lines * room, sizeof *wider);
-    if (wider == NULL) return false;
-    for (size_t i = 0; i < lines && work->frequencies > 0; i++)
-        memcpy(wider + i * room, work->spectrum + i * work->room, work->frequencies * sizeof *wider);
-    array_free(work->spectrum);
-    work->spectrum = wider;
-    work->room = room;
-    return true;
 }
 
 /* Square of the norm, exp(-decay t) times velocity over the period, of the largest component. */
@@ -93,18 +70,18 @@ static double damped_norm(const struct work *work, size_t receiver, size_t n, co
     for (size_t c = 0; c < 3; c++) {
         double sum = 0;
         for (size_t j = 0; j < work->frequencies; j++) {
-            const double part =
-                cabs(frequency(work, j) * work->spectrum[(receiver * work->components + c) * work->room + j]);
+            const double part = cabs(contour_frequency(&work->contour, j) *
+                                     work->spectrum[(receiver * work->components + c) * work->room + j]);
             sum += part * part;
         }
         for (size_t j = 0; j < n; j++) {
-            const double part =
-                cabs(frequency(work, work->frequencies + j) * value[(receiver * n + j) * COMPONENTS + c]);
+            const double part = cabs(contour_frequency(&work->contour, work->frequencies + j) *
+                                     value[(receiver * n + j) * COMPONENTS + c]);
             sum += part * part;
         }
         largest = fmax(largest, sum);
     }
-    return largest * 2 / work->period;
+    return largest * 2 / work->contour.period;
 }
 
 /* Whether the sums of a band are right enough, as far as can be known before all bands are in. */
@@ -126,11 +103,12 @@ static bool sum_band(struct work *work, size_t until, double complex *value, dou
     double complex *fine = array_new(work->receivers * SAMPLES * COMPONENTS, sizeof *fine);
     bool room = s != NULL && fine != NULL;
     struct band band;
-    band_set(&band, work->problem, frequency(work, from), frequency(work, until - 1));
+    band_set(&band, work->problem, contour_frequency(&work->contour, from),
+             contour_frequency(&work->contour, until - 1));
     for (size_t j = 0; j < n && room; j++)
-        s[j] = frequency(work, from + j);
+        s[j] = contour_frequency(&work->contour, from + j);
     for (int i = 0; i < SAMPLES; i++)
-        few[i] = frequency(work, sample[i]);
+        few[i] = contour_frequency(&work->contour, sample[i]);
     for (int attempt = 0; room; attempt++) {
         const struct finesse finer = {work->finesse.digits + 5, 1.35 * work->finesse.finer};
         room = sums_at(&work->sums, &band, work->finesse, n, s, false, value) &&
@@ -147,12 +125,15 @@ static bool sum_band(struct work *work, size_t until, double complex *value, dou
 
 static bool add_band(struct work *work, double cutoff)
 {
-    const size_t until = (size_t)ceil(cutoff * work->period / (2 * M_PI)) + 1, n = until - work->frequencies;
+    const size_t until = (size_t)ceil(cutoff * work->contour.period / (2 * M_PI)) + 1,
+                 n = until - work->frequencies;
     if (until <= work->frequencies) return true;
     double complex *value = array_new(work->receivers * n * COMPONENTS, sizeof *value);
     double *missed = array_new(work->receivers, sizeof *missed);
-    const bool right =
-        value != NULL && missed != NULL && make_room(work, until) && sum_band(work, until, value, missed);
+    const bool right = value != NULL && missed != NULL &&
+                       contour_widen(&work->spectrum, work->receivers * work->components, work->frequencies,
+                                     until, &work->room) &&
+                       sum_band(work, until, value, missed);
     for (size_t r = 0; r < work->receivers && right; r++) {
         work->missed[r] += missed[r];
         for (size_t c = 0; c < work->components; c++)
@@ -168,60 +149,21 @@ static bool add_band(struct work *work, double cutoff)
 
 /* --- To time ------------------------------------------------------------------------------------------ */
 
-/* Time grid over one period, eight samples in the shortest one. */
-static bool make_plan(struct work *work)
-{
-    size_t rows = 256;
-    while (rows < 16 * work->frequencies)
-        rows *= 2;
-    if (rows == work->rows) return true;
-    bool room = false;
-#pragma omp critical(selas_fftw_planner)
-    {
-        if (work->plan != NULL) fftw_destroy_plan(work->plan);
-        fftw_free(work->in);
-        fftw_free(work->out);
-        work->plan = NULL;
-        work->in = fftw_malloc((rows / 2 + 1) * sizeof *work->in);
-        work->out = fftw_malloc(rows * sizeof *work->out);
-        if (work->in != NULL && work->out != NULL && fft_room(rows))
-            work->plan = fftw_plan_dft_c2r_1d((int)rows, work->in, work->out, FFTW_ESTIMATE);
-        room = work->plan != NULL;
-    }
-    work->rows = rows;
-    return room;
-}
-
-/* Frequencies [from, end) of one line of a receiver to work->out, without exp(decay t); the last `fade` of
- * them fade out. */
+/* Frequencies [from, end) of one line of a receiver, the last `fade` of them fading out. */
 static void transform(struct work *work, size_t receiver, size_t line, size_t from, size_t fade)
 {
-    const bool rate = line >= SEISMOGRAM_VELOCITY && line < SEISMOGRAM_STRESS;
     const size_t component = line < SEISMOGRAM_VELOCITY ? line : line - 3;
-    const double complex *spectrum =
-        work->spectrum + (receiver * work->components + (rate ? line - 3 : component)) * work->room;
-    memset(work->in, 0, (work->rows / 2 + 1) * sizeof *work->in);
-    for (size_t j = from; j < work->frequencies; j++) {
-        const size_t left = work->frequencies - j;
-        const double share = left <= fade ? .5 - .5 * cos(M_PI * (double)left / (double)(fade + 1)) : 1;
-        work->in[j] = share * spectrum[j] * (rate ? frequency(work, j) : 1) / work->period;
-    }
-    fftw_execute(work->plan);
+    contour_transform(&work->contour, work->spectrum + (receiver * work->components + component) * work->room,
+                      from, work->frequencies, line >= SEISMOGRAM_VELOCITY && line < SEISMOGRAM_STRESS, fade);
 }
 
 /* Largest L2 norm over [0, end] among the velocity components of the frequencies from `from` on. */
 static double norm_from(struct work *work, size_t receiver, size_t from)
 {
-    const double step = work->period / (double)work->rows;
     double largest = 0;
     for (size_t c = 0; c < 3; c++) {
         transform(work, receiver, SEISMOGRAM_VELOCITY + c, from, 0);
-        double sum = 0;
-        for (size_t i = 0; i < work->rows && (double)i * step <= work->problem->end_time; i++) {
-            const double value = work->out[i] * exp(work->decay * (double)i * step);
-            sum += value * value;
-        }
-        largest = fmax(largest, sqrt(sum * step));
+        largest = fmax(largest, contour_norm(&work->contour, work->problem->end_time));
     }
     return largest;
 }
@@ -239,13 +181,13 @@ static double judge(struct work *work, size_t from, double cutoff, bool end)
         const double norm = fmax(norm_from(work, r, 0), work->least[r]);
         const double ratio = fmin(.8, fmax(.3, work->last[r] > 0 ? part / work->last[r] : .8));
         effort->cutoff = cutoff;
-        effort->period = work->period;
-        effort->decay = work->decay;
+        effort->period = work->contour.period;
+        effort->decay = work->contour.decay;
         effort->evaluations = work->sums.evaluations;
         effort->of_wavenumbers = norm > 0 ? work->growth * sqrt(work->missed[r]) / norm : 0;
         const double left = end ? norm_from(work, r, tail) : part * ratio / (1 - ratio);
         effort->of_frequencies = norm > 0 ? left / norm : 0;
-        effort->of_period = LOUDER * exp(-work->decay * work->period);
+        effort->of_period = LOUDER * exp(-work->contour.decay * work->contour.period);
         effort->reached = effort->of_wavenumbers + effort->of_frequencies + effort->of_period;
         work->last[r] = part;
         worst = fmax(worst, effort->of_frequencies);
@@ -259,16 +201,16 @@ static bool keep(struct work *work, bool complete)
     for (size_t r = 0; r < work->receivers; r++) {
         struct seismogram *seismogram = &work->seismogram[r];
         seismogram->end_time = work->problem->end_time;
-        seismogram->decay = work->decay;
-        seismogram->step = work->period / (double)work->rows;
+        seismogram->decay = work->contour.decay;
+        seismogram->step = work->contour.period / (double)work->contour.rows;
         seismogram->rows = (size_t)(seismogram->end_time / seismogram->step) + 16;
-        if (seismogram->rows > work->rows) seismogram->rows = work->rows;
+        if (seismogram->rows > work->contour.rows) seismogram->rows = work->contour.rows;
         seismogram->lines = work->problem->stress ? SEISMOGRAM_LINES : SEISMOGRAM_STRESS;
         seismogram->value = array_new(seismogram->lines * seismogram->rows, sizeof *seismogram->value);
         if (seismogram->value == NULL) return false;
         for (size_t line = 0; line < seismogram->lines; line++) {
             transform(work, r, line, 0, fade);
-            memcpy(seismogram->value + line * seismogram->rows, work->out,
+            memcpy(seismogram->value + line * seismogram->rows, work->contour.out,
                    seismogram->rows * sizeof *seismogram->value);
         }
     }
@@ -312,11 +254,11 @@ static bool work_off_bands(struct work *work)
         if (isfinite(rough)) least = fmax(least, rough);
         most = fmax(most, history_cutoff(history, 1e-12));
     }
-    double cutoff = fmin(most, fmax(8 * work->decay, least / 16)), worst = 0;
+    double cutoff = fmin(most, fmax(8 * work->contour.decay, least / 16)), worst = 0;
     bool complete = false;
     for (int band = 0; band < MOST_BANDS; band++) {
         const size_t from = work->frequencies;
-        if (!add_band(work, cutoff) || !make_plan(work)) return false;
+        if (!add_band(work, cutoff) || !contour_grid(&work->contour, work->frequencies)) return false;
         worst = judge(work, from, cutoff, cutoff >= most);
         complete = cutoff >= most || (band > 1 && cutoff >= least && worst < .3 * work->tolerance);
         const double spent = work->sums.evaluations * (double)work->sums.strata.levels;
@@ -346,9 +288,9 @@ static selas_status prepare(struct work *work, struct messages *messages)
     if (status != SELAS_OK) return status;
     work->tolerance = problem->tolerance > 0 ? problem->tolerance : 1e-6;
     const double digits = -log(work->tolerance);
-    work->period = (problem->stretch > 0 ? problem->stretch : 1.5) * problem->end_time;
-    work->decay = (digits + 2 + log(LOUDER)) / work->period;
-    const double exponent = 2 * work->decay * problem->end_time;
+    work->contour.period = (problem->stretch > 0 ? problem->stretch : 1.5) * problem->end_time;
+    work->contour.decay = (digits + 2 + log(LOUDER)) / work->contour.period;
+    const double exponent = 2 * work->contour.decay * problem->end_time;
     work->growth = sqrt(expm1(exponent) / exponent);
     work->finesse = (struct finesse){.5 * exponent + digits + 2, 1};
     work->components = problem->stress ? COMPONENTS : 3;
@@ -366,12 +308,7 @@ static void work_free(struct work *work)
     array_free(work->missed);
     array_free(work->least);
     array_free(work->last);
-#pragma omp critical(selas_fftw_planner)
-    {
-        if (work->plan != NULL) fftw_destroy_plan(work->plan);
-        fftw_free(work->in);
-        fftw_free(work->out);
-    }
+    contour_free(&work->contour);
 }
 
 selas_status seismograms(const struct seismogram_problem *problem, size_t n, struct seismogram *seismogram,
