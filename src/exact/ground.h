@@ -7,9 +7,6 @@
 /* Position relative to the free surface, in the body's frame; depths of rounding size are 0. */
 void ground_position(const struct scene *scene, const double deck[3], double position[3]);
 
-bool ground_load_moves(const struct load *load);
-bool ground_has_symmetry(const struct scene *scene);
-
 /* SELAS_BAD_SCENE with the reason, in the name of the reference, unless body, faces and start are those of a
  * half-space under loads. */
 selas_status ground_check(const struct scene *scene, const char *reference, struct messages *messages);

@@ -40,7 +40,7 @@ static selas_status check_load(const struct scene *scene, const struct load *loa
     if (load->face != FACE_Z_LOW) return refuse(messages, "loads must act on the free surface, face = 'z-'");
     if (load->shape == LOAD_FACE && scene->body.layers > 0)
         return refuse(messages, "a load of the whole face is not offered on layers");
-    if (ground_load_moves(load) && ground_has_symmetry(scene))
+    if (load_moves(load) && (scene_needs(scene) & CAN_MIRROR) != 0)
         return refuse(messages, "a moving patch is not offered with symmetry planes");
     return SELAS_OK;
 }
@@ -79,8 +79,8 @@ static void set_load(const struct scene *scene, const struct load *load, struct 
 static selas_status add_images(const struct scene *scene, int axis, struct lamb_load *load, size_t *count,
                                struct messages *messages)
 {
-    const bool low = scene->boundary[2 * axis].kind == BOUNDARY_SYMMETRY;
-    if (!low && scene->boundary[2 * axis + 1].kind != BOUNDARY_SYMMETRY) return SELAS_OK;
+    const bool low = boundary_mirrors(&scene->boundary[2 * axis]);
+    if (!low && !boundary_mirrors(&scene->boundary[2 * axis + 1])) return SELAS_OK;
     const double plane = low ? scene->body.low[axis] : scene->body.high[axis];
     const double size = scene->body.high[axis] - scene->body.low[axis];
     const size_t before = *count;
@@ -111,7 +111,7 @@ static selas_status set_loads(struct lamb *lamb, const struct scene *scene, stru
     size_t count = 0;
     for (size_t i = 0; i < scene->loads; i++) {
         const struct load *load = &scene->load[i];
-        if (ground_load_moves(load)) {
+        if (load_moves(load)) {
             struct moving_patch *patch = &lamb->patch[lamb->patches++];
             double velocity[3];
             set_load(scene, load, &patch->load);

@@ -65,8 +65,7 @@ static selas_status set_rocks(struct layered_ground *ground, const struct scene 
 
 static selas_status check_load(const struct scene *scene, const struct load *load, struct messages *messages)
 {
-    if (ground_load_moves(load))
-        return refuse(messages, "loads that move are not offered; take reference 'lamb'");
+    if (load_moves(load)) return refuse(messages, "loads that move are not offered; take reference 'lamb'");
     if (load->kind == LOAD_TRACTION && load->face != FACE_Z_LOW)
         return refuse(messages, "tractions must act on the free surface, face = 'z-'");
     if (load->shape == LOAD_FACE)
@@ -143,8 +142,8 @@ static void mirror(int axis, double plane, const struct seismogram_source *sourc
 static selas_status add_images(const struct scene *scene, int axis, struct seismogram_source *source,
                                size_t *count, struct messages *messages)
 {
-    const bool low = scene->boundary[2 * axis].kind == BOUNDARY_SYMMETRY;
-    if (!low && scene->boundary[2 * axis + 1].kind != BOUNDARY_SYMMETRY) return SELAS_OK;
+    const bool low = boundary_mirrors(&scene->boundary[2 * axis]);
+    if (!low && !boundary_mirrors(&scene->boundary[2 * axis + 1])) return SELAS_OK;
     const double plane = low ? scene->body.low[axis] : scene->body.high[axis];
     const double size = scene->body.high[axis] - scene->body.low[axis];
     const size_t before = *count;
@@ -221,7 +220,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     if (status != SELAS_OK) return status;
     struct layered_ground *ground = array_new(1, sizeof *ground);
     if (ground == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the reference 'layered'");
-    ground->exact = (struct exact){&exact_layered_ground, scene};
+    ground->exact = (struct exact){&exact_layered, scene};
     ground->problem.end_time = scene->end_time;
     ground->problem.tolerance = scene->reference.tolerance;
     ground->problem.stress = scene->reference.stress;
@@ -340,7 +339,7 @@ static void describe(const struct exact *exact,
     tell_number(tell, context, "exact decay", worst.decay);
 }
 
-const struct exact_class exact_layered_ground = {
+const struct exact_class exact_layered = {
     .kind = "layered",
     .damped = true,
     .create = create,

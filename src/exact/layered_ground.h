@@ -4,6 +4,6 @@
 
 #include "exact/exact.h"
 
-extern const struct exact_class exact_layered_ground;
+extern const struct exact_class exact_layered;
 
 #endif

@@ -19,6 +19,7 @@ static selas_status check_path(selas_simulation *simulation, const char *path)
 
 selas_status selas_save(selas_simulation *simulation, const char *path)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status != SELAS_OK) return status;
@@ -67,6 +68,7 @@ static selas_status prepare_restore(selas_simulation *simulation)
 
 selas_status selas_restore(selas_simulation *simulation, const char *path)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_prepare(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status == SELAS_OK) status = prepare_restore(simulation);

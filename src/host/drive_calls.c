@@ -74,18 +74,21 @@ static selas_status set_function(selas_simulation *simulation, const char *load,
 selas_status selas_set_traction(selas_simulation *simulation, const char *load,
                                 selas_vector_function traction, void *context)
 {
+    AT_THE_DOOR(simulation);
     return set_function(simulation, load, LOAD_TRACTION, traction, context);
 }
 
 selas_status selas_set_body_force(selas_simulation *simulation, const char *load, selas_vector_function force,
                                   void *context)
 {
+    AT_THE_DOOR(simulation);
     return set_function(simulation, load, LOAD_BODY_FORCE, force, context);
 }
 
 selas_status selas_set_motion(selas_simulation *simulation, const char *face,
                               selas_vector_function displacement, void *context)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (displacement == NULL) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the function is NULL");
@@ -95,8 +98,7 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
     if (index == FACES)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "there is no face '%.60s'; expected x-, x+, ... z+", face != NULL ? face : "(NULL)");
-    const enum boundary_kind kind = simulation->scene->boundary[index].kind;
-    if (kind != BOUNDARY_DISPLACEMENT && kind != BOUNDARY_VELOCITY)
+    if (!boundary_moves(&simulation->scene->boundary[index]))
         return fail(
             &simulation->messages, SELAS_BAD_ARGUMENT,
             "face '%s' has no &boundary of kind 'displacement' (its direction says which way it moves)",
@@ -108,6 +110,7 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
 
 selas_status selas_set_load(selas_simulation *simulation, const char *load, double value)
 {
+    AT_THE_DOOR(simulation);
     struct driven_load wanted = {.held = true, .value = value};
     selas_status status = simulation_scene(simulation);
     if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
@@ -139,6 +142,7 @@ static void translate(const struct model *model, const double direction[3], doub
 
 selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     size_t index = 0;
     if (status == SELAS_OK) status = find_load(simulation, load, &index);

@@ -40,8 +40,7 @@ static selas_status cut_of(const struct scene *scene, const struct load *load, s
     const struct body *body = &scene->body;
     *cut = (struct cut){.count = {1, 1, 1}};
     body_from_deck(body, load->centre, cut->middle);
-    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load->velocity[0] != 0 ||
-        load->velocity[1] != 0 || load->velocity[2] != 0)
+    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load_moves(load))
         return fail(
             messages, SELAS_UNSUPPORTED,
             "a function can give tractions on squares, whole faces and points at rest, and body forces");
@@ -201,7 +200,9 @@ static bool ask(selas_simulation *simulation, selas_vector_function function, vo
     value[0] = value[1] = value[2] = 0.0;
     if (host->answer < 0) return false;
     simulation->busy = true;
+    const locale_t own = uselocale(simulation->host_locale);
     int answer = function(context, time, position, value);
+    uselocale(own);
     simulation->busy = false;
     if (answer >= 0 && !isfinite(value[0] + value[1] + value[2])) answer = -1;
     if (answer != 0 && (host->answer == 0 || answer < 0)) {

@@ -2,6 +2,7 @@
 #ifndef SELAS_SIMULATION_H
 #define SELAS_SIMULATION_H
 
+#include "base/c_locale.h"
 #include "deck/deck.h"
 #include "exact/exact.h"
 #include "record/record.h"
@@ -58,11 +59,18 @@ struct selas_simulation {
     size_t *point_material;
     double *values; /* fields handed out: [values_room] */
     size_t values_room;
-    double *scratch; /* [state_size] */
-    double *lattice; /* [3 * points]: positions, once a host asks and the model does not store them */
-    char *results;   /* folder of the results in place of the deck's; NULL */
-    char *work;      /* folder of the checkpoint from which the run goes on; NULL */
+    double *scratch;      /* [state_size] */
+    double *lattice;      /* [3 * points]: positions, once a host asks and the model does not store them */
+    char *results;        /* folder of the results in place of the deck's; NULL */
+    char *work;           /* folder of the checkpoint from which the run goes on; NULL */
+    locale_t host_locale; /* of the host's thread: its functions are called in it */
 };
+
+/* First in every function of the library that may read or write a number, in a file or a message: until it
+ * returns the thread's locale is "C". `simulation` may be NULL. */
+#define AT_THE_DOOR(simulation)                                                                              \
+    __attribute__((cleanup(c_locale_end))) const struct c_locale at_the_door = door_enter(simulation)
+struct c_locale door_enter(selas_simulation *simulation);
 
 /* An empty handle. */
 selas_status simulation_new(selas_simulation **simulation);

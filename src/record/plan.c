@@ -2,8 +2,6 @@
 #include "advice/advice.h"
 #include "record/parts.h"
 
-#include "base/clock.h"
-#include "base/memory.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -83,13 +81,11 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     say(teller, "receivers", "%zu", scene->receivers);
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);
     if (scene->snapshots > 0) say(teller, "snapshot groups", "%zu", scene->snapshots);
-    static const char *const kind[] = {"free",         "fixed",    "roller",      "symmetry",
-                                       "transmitting", "velocity", "displacement"};
     for (size_t face = 0; face < FACES; face++)
         if (scene->boundary[face].given) {
             char key[32];
             snprintf(key, sizeof key, "face %s", face_name((enum face)face));
-            say(teller, key, "%s", kind[scene->boundary[face].kind]);
+            say(teller, key, "%s", boundary_meaning(&scene->boundary[face])->name);
         }
     if (scene->output.low_pass > 0.0)
         say(teller, "low-pass", "exp(-(omega/%.9g)^4), zero phase, on computed histories",
@@ -122,43 +118,14 @@ void plan_tell(const struct recorder *recorder,
     advice_tell(scene, recorder->stepper, tell, context);
 }
 
-/* Seconds of one operator call on a state at rest, the best of a few; negative if there is no room. */
-static double time_operator(struct recorder *recorder)
-{
-    struct model *model = recorder->stepper->model;
-    enum { TRIES = 3 };
-    double *y = array_new(model->state_size, sizeof *y);
-    double *result = array_new(model->state_size, sizeof *result);
-    double best = -1.0;
-    const unsigned long evaluations = model->evaluations;
-    if (y != NULL && result != NULL) {
-        if (model->core->initialise != NULL) model->core->initialise(model, y);
-        const struct drive drive = {0};
-        for (int i = 0; i < TRIES; i++) {
-            const double before = wall_seconds();
-            if (model->spatial->accelerate != NULL)
-                model->spatial->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
-            else
-                model->spatial->rate(model, &drive, y, result);
-            const double spent = wall_seconds() - before;
-            if (i == 0 || spent < best) best = spent;
-        }
-    }
-    model->evaluations = evaluations; /* these calls are not the run's */
-    array_free(y);
-    array_free(result);
-    return best;
-}
-
-void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
-                   void *context)
+void recorder_plan(struct recorder *recorder, struct stepper *stepper,
+                   void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     plan_tell(recorder, tell, context);
-    const struct stepper *stepper = recorder->stepper;
-    const double seconds = time_operator(recorder);
-    if (seconds < 0.0) return;
-    const double calls = operator_calls(stepper) * (double)(stepper->steps + stepper->extra);
+    if (stepper == NULL) return;
+    const double seconds = estimate_step(recorder, stepper),
+                 steps = (double)(stepper->steps + stepper->extra);
     const struct teller teller = {tell, context};
-    say(&teller, "estimated operator calls", "%.0f", calls);
-    say(&teller, "estimated stepping seconds", "%.3g", calls * seconds);
+    say(&teller, "estimated operator calls", "%.0f", operator_calls(stepper) * steps);
+    if (seconds >= 0.0) say(&teller, "estimated stepping seconds", "%.3g", seconds * steps);
 }

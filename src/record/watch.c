@@ -11,7 +11,6 @@
 #include <omp.h>
 #include <stdio.h>
 
-enum { EVERY = 50 };
 /* Energy of the state at a step may differ from the scheme's own conserved energy near the stability limit
  * (leapfrog: by up to 1 / (1 - (omega dt / 2)^2), 5 at nine tenths of the limit): growth beyond ten times the
  * work is no rounding and no such difference. */
@@ -27,15 +26,6 @@ static const double growth_of_faces = 100.0;
  * and its end. */
 static const double growth_unwatched = 1e4;
 
-static bool moved_by_faces(const struct scene *scene)
-{
-    for (size_t face = 0; face < FACES; face++) {
-        const enum boundary_kind kind = scene->boundary[face].kind;
-        if (kind == BOUNDARY_VELOCITY || kind == BOUNDARY_DISPLACEMENT) return true;
-    }
-    return false;
-}
-
 /* Largest way and speed of a moved face over the run, as the steps see them. */
 static void motion_of(const struct recorder *recorder, const struct boundary *boundary, double *way,
                       double *speed)
@@ -43,7 +33,7 @@ static void motion_of(const struct recorder *recorder, const struct boundary *bo
     const struct stepper *stepper = recorder->stepper;
     double before = 0.0;
     for (unsigned long step = 1; step <= stepper->steps; step++) {
-        const double now = motion_displacement(boundary, (double)step * stepper->dt, 0);
+        const double now = boundary_displacement(boundary, (double)step * stepper->dt, 0);
         *way = fmax(*way, fabs(boundary->amplitude * now));
         *speed = fmax(*speed, fabs(boundary->amplitude * (now - before)) / stepper->dt);
         before = now;
@@ -57,20 +47,17 @@ static void faces_can_give(struct recorder *recorder)
 {
     const struct scene *scene = recorder->scene;
     struct watch *watch = &recorder->watch;
-    double way = 0.0, speed = 0.0, density = 0.0, fastest = 0.0, shortest = INFINITY, mass;
+    double way = 0.0, speed = 0.0, density = 0.0, shortest = INFINITY, mass;
     for (size_t face = 0; face < FACES; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT)
-            motion_of(recorder, boundary, &way, &speed);
+        if (boundary_moves(boundary)) motion_of(recorder, boundary, &way, &speed);
     }
-    for (size_t m = 0; m < scene->materials; m++) {
+    for (size_t m = 0; m < scene->materials; m++)
         density = fmax(density, scene->material[m].density);
-        fastest = fmax(fastest, scene->material[m].p_speed);
-    }
     for (int axis = 0; axis < scene->dimension; axis++)
         shortest = fmin(shortest, scene->body.high[axis] - scene->body.low[axis]);
     mass = density * (double)recorder->model->points * pow(scene->body.spacing, scene->dimension);
-    watch->face_rate = shortest > 0.0 ? fastest / shortest : 0.0;
+    watch->face_rate = shortest > 0.0 ? scene_fastest(scene) / shortest : 0.0;
     watch->face_energy = mass * (speed * speed + pow(way * watch->face_rate, 2.0));
 }
 
@@ -78,18 +65,16 @@ void watch_start(struct recorder *recorder)
 {
     const struct scene *scene = recorder->scene;
     struct watch *watch = &recorder->watch;
+    const bool moved = (scene_needs(scene) & CAN_MOVE) != 0;
     *watch = (struct watch){0};
-    watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL &&
-                     !moved_by_faces(scene);
-    watch->with_faces =
-        moved_by_faces(scene) && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
+    watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL && !moved;
+    watch->with_faces = moved && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
     if (watch->with_faces) faces_can_give(recorder);
     watch->reference_until = 0.1 * scene->end_time;
     for (size_t k = 0; k < scene->loads; k++)
         watch->reference_until = fmax(watch->reference_until, history_end(&scene->load[k].history));
     for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
+        if (boundary_moves(&scene->boundary[face]))
             watch->reference_until =
                 fmax(watch->reference_until, history_end(&scene->boundary[face].history));
 }
@@ -166,7 +151,7 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
     const struct watch *watch = &recorder->watch;
     const double later = 1.0 + watch->face_rate * state->time;
     const double faces = watch->face_energy * later * later, given = watch->initial + watch->gross + faces;
-    if (state->step < EVERY) return false;
+    if (state->step < WATCH_EVERY) return false;
     if (watch->by_work && total > growth_allowed * given)
         snprintf(what, size, "the body has the energy %.3g, but was given only %.3g", total, given);
     else if (!watch->by_work && faces > 0.0 && total > growth_of_faces * given)
@@ -230,10 +215,10 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
 {
     struct watch *watch = &recorder->watch;
     if (watch->by_work || watch->with_faces) add_work(recorder, state);
-    if (state->step < watch->next) return glance(recorder, state, messages);
-    watch->next = state->step + EVERY;
-    const unsigned long end = recorder->stepper->steps; /* the balance at the end is wanted in any case */
-    if (state->step < end && watch->next > end) watch->next = end;
+    if ((double)state->step < watch->next) return glance(recorder, state, messages);
+    const unsigned long end = recorder->stepper->steps, next = state->step + WATCH_EVERY;
+    /* the balance at the end is wanted in any case */
+    watch->next = (double)(state->step < end && next > end ? end : next);
     const selas_status sound = watch_sound(recorder, state, messages);
     return sound != SELAS_OK ? sound : judge(recorder, state, true, messages);
 }

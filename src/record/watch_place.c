@@ -10,9 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* --- Where
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- Where --- */
 
 struct found {
     size_t spoiled;     /* points of the body whose values are not finite or overflow */
@@ -115,9 +113,7 @@ static void name_place(const struct recorder *recorder, const struct state *stat
         snprintf(text, size, "; fastest %s, speed %.3g", unseen.place, unseen.speed);
 }
 
-/* --- Why
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- Why --- */
 
 static const struct material *least_compressible(const struct scene *scene)
 {
@@ -125,13 +121,6 @@ static const struct material *least_compressible(const struct scene *scene)
     for (size_t m = 1; m < scene->materials; m++)
         if (scene->material[m].poisson > found->poisson) found = &scene->material[m];
     return found;
-}
-
-static bool absorbs(const struct scene *scene)
-{
-    for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING) return true;
-    return false;
 }
 
 static void say_step(const struct stepper *stepper, size_t size, char *text)
@@ -169,7 +158,7 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
         snprintf(text, size,
                  "this method's operator is not symmetric and may grow by itself; try a smaller time step, "
                  "method%%variant = 'consistent', or other options of the method");
-    else if (absorbs(scene))
+    else if ((scene_needs(scene) & (CAN_DAMP | CAN_ABSORB)) != 0)
         snprintf(text, size, "an absorbing face (nu = %.3g); try boundary%%layer = 'lysmer' or another box",
                  stiff->poisson);
     else
