@@ -1,5 +1,5 @@
-/* The deck: namelist text checked against the table of words (deck/words.c), kept as typed values with their
- * place in the file.
+/* The deck: namelist text checked against the table of words (deck/words.c), stored as typed values with
+ * their place in the file.
  *
  * Reading finds all errors of syntax, names, types, counts and ranges in one pass. What the words mean
  * together (a receiver outside the body, a material that nobody defines) is checked by scene/, with

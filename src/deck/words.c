@@ -136,8 +136,14 @@ static const struct word body_words[] = {
 
 /* What loads and boundaries with a prescribed motion share: their history. */
 #define HISTORY_WORDS                                                                                         \
-    {"amplitude", WORD_REAL, 1, "1", NULL, OPTIONAL, "factor on the history [stress, force, length, ...]"},   \
-        {"history", WORD_CHOICE, 1, NULL, CHOICES(HISTORY_KINDS), OPTIONAL, "how it varies in time"},         \
+    {"amplitude",                                                                                             \
+     WORD_REAL,                                                                                               \
+     1,                                                                                                       \
+     "1",                                                                                                     \
+     NULL,                                                                                                    \
+     OPTIONAL,                                                                                                \
+     "factor on the time function [stress, force, length, ...]"},                                             \
+        {"history", WORD_CHOICE, 1, NULL, CHOICES(HISTORY_KINDS), OPTIONAL, "time function"},                 \
         {"duration", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "length of the triangle [time]"},                \
         {"frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "frequency of ricker and sine-burst [1/time]"}, \
         {"delay",                                                                                             \
@@ -155,8 +161,8 @@ static const struct word body_words[] = {
          OPTIONAL,                                                                                            \
          "standard deviation of gaussian and of the rate of error-function, time constant of brune [time]"},  \
         {"cycles", WORD_REAL, 1, "5", POSITIVE, OPTIONAL, "cycles of the Hann-windowed sine-burst"},          \
-        {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the history: columns time, value"},            \
-        {"start", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL, "when the history begins [time]"},               \
+        {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the time function: columns time, value"},      \
+        {"start", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL, "when the time function begins [time]"},         \
     {                                                                                                         \
         "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,                                               \
             "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                    \
@@ -165,13 +171,14 @@ static const struct word body_words[] = {
 static const struct word boundary_words[] = {
     {"face", WORD_CHOICE, 8, NULL, &(FACE_NAMES(CHOICE_WORD) "|all")[1], OBLIGATORY, "faces"},
     {"kind", WORD_CHOICE, 1, NULL, &(BOUNDARY_KINDS(KIND_WORD))[1], OBLIGATORY, "what the faces do"},
-    {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL, "how a transmitting face absorbs"},
+    {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL,
+     "how a transmitting face absorbs: dampers, or an absorbing layer"},
     {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", OPTIONAL,
      "thickness of the absorbing layer [points]"},
     {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
-     "wanted reflection, in place of layer_points"},
+     "wanted reflection of the absorbing layer, in place of layer_points"},
     {"always", WORD_LOGICAL, 1, ".false.", NULL, EXPERT,
-     "keep layers whose reflections cannot be seen by end_time"},
+     "keep absorbing layers whose reflections cannot be seen by end_time"},
     {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the P impedance"},
     {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the S impedance"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the prescribed motion"},
@@ -210,9 +217,7 @@ static const struct word load_words[] = {
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, OPTIONAL, "moment tensor: xx yy zz xy yz zx [force length]"},
     {"sources", WORD_FILE, 1, NULL, NULL, OPTIONAL,
-     "file of point forces or moment tensors in place of centre and moment or direction, text or HDF5: "
-     "place, "
-     "values, amplitude, start"},
+     "file of point forces or moment tensors, text or HDF5: place, values, amplitude, start"},
     {"velocity", WORD_REAL, 3, NULL, NULL, OPTIONAL,
      "velocity of a moving patch [length/time]; else at rest"},
     HISTORY_WORDS,
@@ -229,15 +234,15 @@ static const struct word profile_words[] = {
     {"to", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "last point [length]"},
     {"points", WORD_INTEGER, 1, "101", "[2, 1000000]", OPTIONAL, "number of points"},
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time]; else at the end"},
-    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "what"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
 };
 
 static const struct word snapshot_words[] = {
     {"every", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "time between snapshots [time]"},
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
-    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "what"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
     {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
-     "lowest, then highest corner of the part that is kept [length]; else the whole body"},
+     "lowest, then highest corner of the part that is written [length]; else the whole body"},
 };
 
 static const struct word output_words[] = {
@@ -257,11 +262,9 @@ static const struct word reference_words[] = {
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
      "of kind 'file': the history of the one receiver, or the folder of a run with one of each"},
     {"tolerance", WORD_REAL, 1, NULL, "[1e-10, 0.1]", OPTIONAL,
-     "wanted error, relative L2 of velocity (lamb, layered: 1e-6); the report says what was reached"},
+     "wanted relative L2 error of velocity (lamb, layered; else 1e-6 of layered)"},
     {"spectrum", WORD_CHOICE, 1, NULL, "constant-q|scheme", OPTIONAL,
-     "damping of materials with q_p and q_s: constant Q, which is the default, or by the relaxation "
-     "mechanisms "
-     "of method%mechanisms (layered)"},
+     "damping by q_p and q_s: constant Q (default), or by the relaxation mechanisms of a run (layered)"},
     {"stress", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
      "write histories of stress too (layered, point sources)"},
 };
@@ -272,7 +275,7 @@ static const struct word reference_words[] = {
     }
 static const struct word_group groups[] = {
     GROUP(scene, GROUP_ALWAYS, "what is computed"),
-    GROUP(method, GROUP_ALWAYS, "how"),
+    GROUP(method, GROUP_ALWAYS, "how it is computed: method and its options"),
     GROUP(stepping, GROUP_ALWAYS, "time integration; one of time_step, courant and safety"),
     GROUP(material, GROUP_MANY,
           "one elastic material; one pair of lambda, mu / young, poisson / p_speed, s_speed / bulk, shear"),
@@ -281,7 +284,7 @@ static const struct word_group groups[] = {
     GROUP(layer, GROUP_MANY, "ground that varies with depth; below the last layer it goes on"),
     GROUP(initial, GROUP_ONCE, "state at t = 0"),
     GROUP(load, GROUP_MANY, "traction or other source"),
-    GROUP(receiver, GROUP_MANY, "a time history"),
+    GROUP(receiver, GROUP_MANY, "a place where histories are taken"),
     GROUP(profile, GROUP_MANY, "values along a line"),
     GROUP(snapshot, GROUP_MANY, "fields to HDF5 and XDMF"),
     GROUP(output, GROUP_ALWAYS, "where results go and what else is written"),

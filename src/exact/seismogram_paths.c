@@ -1,4 +1,4 @@
-/* From kernels to motions at a receiver: sources and motions are sums over azimuthal orders, and the integral
+/* From responses to motions at a receiver: sources and motions are sums over azimuthal orders, and the integral
  * over the direction phi of the wavenumber makes Bessel functions of them (doc/seismograms.md, Eqs 14-18):
  *   1/(2 pi) int exp(i k r cos phi) cos(n phi) dphi = i^n J_n(k r) = C_n.                            (16)
  * A source of cos(m phi) seen through cos(n phi) gives (C_(m-n) + C_(m+n))/2, sines (C_(m-n) - C_(m+n))/2. */
@@ -9,10 +9,10 @@
 
 enum { ORDERS = 5, HARMONICS = 3 };
 
-/* What a motion's kernel is seen through: component, kernel, order, factor; `sine`: through sin(order phi).
+/* What a motion's response is seen through: component, response, order, factor; `sine`: through sin(order phi).
  */
 struct view {
-    unsigned char component, kernel, order;
+    unsigned char component, response, order;
     bool sine;
     double complex factor;
 };
@@ -20,17 +20,18 @@ struct view {
 enum { RADIAL, TRANSVERSE, DOWN, S_RR, S_TT, S_ZZ, S_RT, S_TZ, S_ZR };
 
 static const struct view in_plane[] = {
-    {RADIAL, KERNEL_U, 1, false, I},         {TRANSVERSE, KERNEL_U, 1, true, I},
-    {DOWN, KERNEL_W, 0, false, 1},           {S_RR, KERNEL_MEAN, 0, false, 1},
-    {S_RR, KERNEL_DIFFERENCE, 2, false, 1},  {S_TT, KERNEL_MEAN, 0, false, 1},
-    {S_TT, KERNEL_DIFFERENCE, 2, false, -1}, {S_ZZ, KERNEL_Z, 0, false, -1},
-    {S_RT, KERNEL_DIFFERENCE, 2, true, 1},   {S_TZ, KERNEL_Q, 1, true, -I},
-    {S_ZR, KERNEL_Q, 1, false, -I},
+    {RADIAL, RESPONSE_U, 1, false, I},         {TRANSVERSE, RESPONSE_U, 1, true, I},
+    {DOWN, RESPONSE_W, 0, false, 1},           {S_RR, RESPONSE_MEAN, 0, false, 1},
+    {S_RR, RESPONSE_DIFFERENCE, 2, false, 1},  {S_TT, RESPONSE_MEAN, 0, false, 1},
+    {S_TT, RESPONSE_DIFFERENCE, 2, false, -1}, {S_ZZ, RESPONSE_Z, 0, false, -1},
+    {S_RT, RESPONSE_DIFFERENCE, 2, true, 1},   {S_TZ, RESPONSE_Q, 1, true, -I},
+    {S_ZR, RESPONSE_Q, 1, false, -I},
 };
 static const struct view across[] = {
-    {RADIAL, KERNEL_V, 1, true, -1}, {TRANSVERSE, KERNEL_V, 1, false, 1}, {S_RR, KERNEL_X, 2, true, -I},
-    {S_TT, KERNEL_X, 2, true, I},    {S_RT, KERNEL_X, 2, false, I},       {S_TZ, KERNEL_Y, 1, false, -1},
-    {S_ZR, KERNEL_Y, 1, true, 1},
+    {RADIAL, RESPONSE_V, 1, true, -1}, {TRANSVERSE, RESPONSE_V, 1, false, 1},
+    {S_RR, RESPONSE_X, 2, true, -I},   {S_TT, RESPONSE_X, 2, true, I},
+    {S_RT, RESPONSE_X, 2, false, I},   {S_TZ, RESPONSE_Y, 1, false, -1},
+    {S_ZR, RESPONSE_Y, 1, true, 1},
 };
 enum { IN_PLANE = sizeof in_plane / sizeof *in_plane, ACROSS = sizeof across / sizeof *across };
 
@@ -123,7 +124,7 @@ void path_set(struct path *path, const struct seismogram_source *source, const d
     path->moment[5] = c * m[5] + s * m[4];
 }
 
-/* Lines of a patch: component and static kernel. */
+/* Lines of a patch: component and static response. */
 static const struct {
     unsigned char component, statics;
 } of_patch[] = {{RADIAL, 1}, {TRANSVERSE, 1}, {RADIAL, 2}, {TRANSVERSE, 2},
@@ -211,7 +212,7 @@ static inline double dot(const double *a, const double *b, size_t n)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-void path_sum(const struct path *path, size_t count, const double *weight, const double *kernel,
+void path_sum(const struct path *path, size_t count, const double *weight, const double *response,
               double complex component[COMPONENTS])
 {
     for (size_t l = 0; l < path->lines; l++, weight += NODES) {
@@ -223,9 +224,9 @@ void path_sum(const struct path *path, size_t count, const double *weight, const
             enum strata_column column = COLUMN_VERTICAL;
             const struct view *view = view_of(path->line[l], &column);
             to = view->component;
-            from = (size_t)column * KERNELS + view->kernel;
+            from = (size_t)column * RESPONSES + view->response;
         }
-        const double *line = kernel + 2 * NODES * from;
+        const double *line = response + 2 * NODES * from;
         component[to] += dot(weight, line, count) + I * dot(weight, line + NODES, count);
     }
 }

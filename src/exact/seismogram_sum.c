@@ -1,5 +1,5 @@
 /* Sums over the wavenumbers of a band of frequencies (doc/seismograms.md, Eqs 19, 20): blocks of wavenumbers one
- * after the other, whose weights serve all frequencies, and kernels all paths between two depths. */
+ * after the other, whose weights serve all frequencies, and responses all paths between two depths. */
 #include "base/memory.h"
 #include "exact/half_space.h"
 #include "exact/lamb_fft.h"
@@ -168,60 +168,61 @@ static void rock_set(const struct seismogram_problem *problem, double complex s,
 struct bench {
     struct strata_work *work;
     struct rock_at *rock;
-    struct pair *kernel; /* of one wavenumber */
-    double *block;       /* [sources * receivers][COLUMNS * KERNELS][2][NODES] */
-    double *statics;     /* [receivers][STATIC_KERNELS][2][NODES] */
+    struct pair *response; /* of one wavenumber */
+    double *block;         /* [sources * receivers][COLUMNS * RESPONSES][2][NODES] */
+    double *statics;       /* [receivers][STATIC_RESPONSES][2][NODES] */
 };
 
 static void bench_free(struct bench *bench)
 {
     strata_work_free(&bench->work);
     array_free(bench->rock);
-    array_free(bench->kernel);
+    array_free(bench->response);
     array_free(bench->block);
     array_free(bench->statics);
 }
 
 static bool bench_new(const struct sums *sums, struct bench *bench)
 {
-    const size_t depths = sums->strata.sources * sums->strata.receivers, each = COLUMNS * KERNELS;
+    const size_t depths = sums->strata.sources * sums->strata.receivers, each = COLUMNS * RESPONSES;
     bench->work = strata_work_new(&sums->strata);
     bench->rock = array_new(sums->problem->rocks, sizeof *bench->rock);
-    bench->kernel = array_new(depths * each, sizeof *bench->kernel);
+    bench->response = array_new(depths * each, sizeof *bench->response);
     bench->block = array_new(depths * each * 2 * NODES, sizeof *bench->block);
-    bench->statics = array_new(sums->strata.receivers * STATIC_KERNELS * 2 * NODES, sizeof *bench->statics);
-    if (bench->work != NULL && bench->rock != NULL && bench->kernel != NULL && bench->block != NULL &&
+    bench->statics = array_new(sums->strata.receivers * STATIC_RESPONSES * 2 * NODES, sizeof *bench->statics);
+    if (bench->work != NULL && bench->rock != NULL && bench->response != NULL && bench->block != NULL &&
         bench->statics != NULL)
         return true;
     bench_free(bench);
     return false;
 }
 
-/* Kernels of a patch at one receiver depth less those of a half-space of the first rock at rest. */
-static void static_kernels(const struct strata *strata, const struct rock_at *rock, size_t receiver,
-                           size_t count, const double *k, struct bench *bench)
+/* Responses of a patch at one receiver depth less those of a half-space of the first rock at rest. */
+static void static_responses(const struct strata *strata, const struct rock_at *rock, size_t receiver,
+                             size_t count, const double *k, struct bench *bench)
 {
     static const struct {
-        int column, kernel;
+        int column, response;
         double sign;
-    } of[STATIC_KERNELS] = {{COLUMN_VERTICAL, KERNEL_W, 1},
-                            {COLUMN_VERTICAL, KERNEL_U, 1},
-                            {COLUMN_RADIAL, KERNEL_U, 1},
-                            {COLUMN_RADIAL, KERNEL_W, -1},
-                            {COLUMN_ACROSS, KERNEL_V, 1}};
+    } of[STATIC_RESPONSES] = {{COLUMN_VERTICAL, RESPONSE_W, 1},
+                              {COLUMN_VERTICAL, RESPONSE_U, 1},
+                              {COLUMN_RADIAL, RESPONSE_U, 1},
+                              {COLUMN_RADIAL, RESPONSE_W, -1},
+                              {COLUMN_ACROSS, RESPONSE_V, 1}};
     const double complex mu = rock->mu.re + I * rock->mu.im, axial = rock->axial.re + I * rock->axial.im;
     const double complex nu = .5 * (axial - 2 * mu) / (axial - mu);
     const double z = strata->depth[strata->receiver[receiver]];
-    double *out = bench->statics + receiver * STATIC_KERNELS * 2 * NODES;
-    const double *in = bench->block + receiver * COLUMNS * KERNELS * 2 * NODES; /* the surface comes first */
+    double *out = bench->statics + receiver * STATIC_RESPONSES * 2 * NODES;
+    const double *in =
+        bench->block + receiver * COLUMNS * RESPONSES * 2 * NODES; /* the surface comes first */
     for (size_t i = 0; i < count; i++) {
         const struct half_space none = {.poisson = 0}, quarter = {.poisson = .25};
-        double low[STATIC_KERNELS], high[STATIC_KERNELS];
+        double low[STATIC_RESPONSES], high[STATIC_RESPONSES];
         half_space_static(&none, z, k[i], low);
         half_space_static(&quarter, z, k[i], high);
-        for (int j = 0; j < STATIC_KERNELS; j++) {
+        for (int j = 0; j < STATIC_RESPONSES; j++) {
             const double complex rest = of[j].sign * (low[j] + 4 * nu * (high[j] - low[j])) / mu;
-            const size_t from = ((size_t)of[j].column * KERNELS + (size_t)of[j].kernel) * 2 * NODES;
+            const size_t from = ((size_t)of[j].column * RESPONSES + (size_t)of[j].response) * 2 * NODES;
             out[(2 * (size_t)j) * NODES + i] = in[from + i] - creal(rest);
             out[(2 * (size_t)j + 1) * NODES + i] = in[from + NODES + i] - cimag(rest);
         }
@@ -231,16 +232,16 @@ static void static_kernels(const struct strata *strata, const struct rock_at *ro
 static void fill_block(const struct sums *sums, size_t count, const double *k, struct bench *bench)
 {
     const struct strata *strata = &sums->strata;
-    const size_t all = strata->sources * strata->receivers * COLUMNS * KERNELS;
+    const size_t all = strata->sources * strata->receivers * COLUMNS * RESPONSES;
     for (size_t i = 0; i < count; i++) {
-        strata_kernels(strata, bench->rock, k[i], bench->work, bench->kernel);
+        strata_responses(strata, bench->rock, k[i], bench->work, bench->response);
         for (size_t j = 0; j < all; j++) {
-            bench->block[2 * j * NODES + i] = bench->kernel[j].re;
-            bench->block[(2 * j + 1) * NODES + i] = bench->kernel[j].im;
+            bench->block[2 * j * NODES + i] = bench->response[j].re;
+            bench->block[(2 * j + 1) * NODES + i] = bench->response[j].im;
         }
     }
     for (size_t r = 0; r < strata->receivers && sums->patches; r++)
-        static_kernels(strata, bench->rock, r, count, k, bench);
+        static_responses(strata, bench->rock, r, count, k, bench);
 }
 
 /* One block of wavenumbers at one frequency, all paths. */
@@ -252,11 +253,11 @@ static void add_block(const struct sums *sums, size_t count, const double *k, co
         const struct path *path = &sums->path[p];
         if (path->end <= k[0]) continue;
         const size_t depths = path->source_level * sums->strata.receivers + path->receiver_level;
-        const double *kernel = path->patch
-                                   ? bench->statics + path->receiver_level * STATIC_KERNELS * 2 * NODES
-                                   : bench->block + depths * COLUMNS * KERNELS * 2 * NODES;
+        const double *response = path->patch
+                                     ? bench->statics + path->receiver_level * STATIC_RESPONSES * 2 * NODES
+                                     : bench->block + depths * COLUMNS * RESPONSES * 2 * NODES;
         double complex component[COMPONENTS] = {0};
-        path_sum(path, count, weight[p], kernel, component);
+        path_sum(path, count, weight[p], response, component);
         path_turn(path, sums->problem->stress, component);
         double complex *to = value + path->receiver_index * stride;
         const double complex f = factor[path->source_index];

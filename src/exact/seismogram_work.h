@@ -1,5 +1,5 @@
 /* What the files of the seismograms share: paths from sources to receivers, wavenumbers of a band of
- * frequencies, the weights of kernels. Inside exact/ only. */
+ * frequencies, the weights of responses. Inside exact/ only. */
 #ifndef SELAS_SEISMOGRAM_WORK_H
 #define SELAS_SEISMOGRAM_WORK_H
 
@@ -7,10 +7,10 @@
 #include "exact/strata.h"
 
 enum {
-    NODES = 48,        /* wavenumbers of a block: 4 panels of 12 */
-    COMPONENTS = 9,    /* r theta z; stress rr tt zz rt tz zr */
-    MOST_LINES = 58,   /* pairs of a component and a kernel */
-    STATIC_KERNELS = 5 /* vertical, horizontal, radial, coupled, shear */
+    NODES = 48,          /* wavenumbers of a block: 4 panels of 12 */
+    COMPONENTS = 9,      /* r theta z; stress rr tt zz rt tz zr */
+    MOST_LINES = 58,     /* a column and what it is seen through */
+    STATIC_RESPONSES = 5 /* vertical, horizontal, radial, coupled, shear */
 };
 
 /* A source seen from a receiver. */
@@ -52,9 +52,9 @@ void path_find_lines(struct path *path, bool stress);
 /* Weights [lines][NODES] of `count` wavenumbers with their quadrature weights. */
 void path_weights(const struct path *path, size_t count, const double *k, const double *quadrature,
                   double *weight);
-/* Adds the sum over the nodes of weights and kernels ([COLUMNS * KERNELS][2][NODES], real and imaginary
- * parts; of a patch [STATIC_KERNELS][2][NODES]) to the components along and across the path. */
-void path_sum(const struct path *path, size_t count, const double *weight, const double *kernel,
+/* Adds the sum over the nodes of weights and responses ([COLUMNS * RESPONSES][2][NODES], real and imaginary
+ * parts; of a patch [STATIC_RESPONSES][2][NODES]) to the components along and across the path. */
+void path_sum(const struct path *path, size_t count, const double *weight, const double *response,
               double complex component[COMPONENTS]);
 /* Components along and across the path to x y z (and xx yy zz xy yz zx). */
 void path_turn(const struct path *path, bool stress, double complex component[COMPONENTS]);

@@ -178,30 +178,30 @@ static void start(const struct piece *piece, const struct rock_at *rock, double 
     out->across_below[1] = plus(out->across_above[1], slide);
 }
 
-/* Kernels of one P-SV column from motion u and traction t at a receiver in `rock`. */
+/* Responses of one P-SV column from motion u and traction t at a receiver in `rock`. */
 static void note(const struct rock_at *rock, double k, bool stress, struct vector2 u, struct vector2 t,
-                 struct pair *kernel)
+                 struct pair *response)
 {
-    kernel[KERNEL_U] = u.x;
-    kernel[KERNEL_W] = u.y;
+    response[RESPONSE_U] = u.x;
+    response[RESPONSE_W] = u.y;
     if (!stress) return;
     const struct pair lambda = minus(rock->axial, scaled(2, rock->mu)), part = over(lambda, rock->axial);
     const struct pair z = times(part, t.y), ku = scaled(k, times(rock->mu, u.x));
     /* sigma_nn = -4 mu (lambda + mu)/(lambda + 2 mu) k U - z, sigma_tt = -2 mu lambda/(lambda + 2 mu) k U - z
      */
-    kernel[KERNEL_Q] = t.x;
-    kernel[KERNEL_Z] = t.y;
-    kernel[KERNEL_MEAN] = scaled(-1, plus(plus(ku, scaled(2, times(part, ku))), z));
-    kernel[KERNEL_DIFFERENCE] = scaled(-1, ku);
+    response[RESPONSE_Q] = t.x;
+    response[RESPONSE_Z] = t.y;
+    response[RESPONSE_MEAN] = scaled(-1, plus(plus(ku, scaled(2, times(part, ku))), z));
+    response[RESPONSE_DIFFERENCE] = scaled(-1, ku);
 }
 
 static void note_across(const struct rock_at *rock, double k, bool stress, struct pair v, struct pair t,
-                        struct pair *kernel)
+                        struct pair *response)
 {
-    kernel[KERNEL_V] = v;
+    response[RESPONSE_V] = v;
     if (!stress) return;
-    kernel[KERNEL_Y] = t;
-    kernel[KERNEL_X] = scaled(k, times(rock->mu, v));
+    response[RESPONSE_Y] = t;
+    response[RESPONSE_X] = scaled(k, times(rock->mu, v));
 }
 
 static struct vector2 middle(struct vector2 a, struct vector2 b)
@@ -212,7 +212,7 @@ static struct vector2 middle(struct vector2 a, struct vector2 b)
 /* All columns at one receiver; side: -1 above the source, 0 level with it, 1 below. */
 static void note_all(const struct strata *strata, const struct rock_at *rock, double k, bool moments,
                      size_t level, int side, const struct piece *piece, const struct outgoing *out,
-                     struct pair *kernel)
+                     struct pair *response)
 {
     const struct rock_at *here = &rock[strata->rock[level]];
     for (int c = 0; c < 4; c++) {
@@ -224,7 +224,7 @@ static void note_all(const struct strata *strata, const struct rock_at *rock, do
                                  : side > 0 ? out->below[c]
                                             : middle(out->above[c], out->below[c]);
         const struct vector2 t = side < 0 ? above : side > 0 ? below : middle(above, below);
-        note(here, k, strata->stress, u, t, kernel + c * KERNELS);
+        note(here, k, strata->stress, u, t, response + c * RESPONSES);
     }
     for (int c = 0; c < (moments ? 2 : 1); c++) {
         const struct pair below = times(piece->across_below, out->across_below[c]);
@@ -233,7 +233,7 @@ static void note_all(const struct strata *strata, const struct rock_at *rock, do
                               : side > 0 ? out->across_below[c]
                                          : scaled(.5, plus(out->across_above[c], out->across_below[c]));
         const struct pair t = side < 0 ? above : side > 0 ? below : scaled(.5, plus(above, below));
-        note_across(here, k, strata->stress, u, t, kernel + (COLUMN_ACROSS + c) * KERNELS);
+        note_across(here, k, strata->stress, u, t, response + (COLUMN_ACROSS + c) * RESPONSES);
     }
 }
 
@@ -246,15 +246,15 @@ static void carry_on(struct matrix2 carry, struct pair across, bool moments, str
         v[c] = times(across, v[c]);
 }
 
-void strata_kernels(const struct strata *strata, const struct rock_at *rock, double k,
-                    struct strata_work *work, struct pair *kernel)
+void strata_responses(const struct strata *strata, const struct rock_at *rock, double k,
+                      struct strata_work *work, struct pair *response)
 {
     struct piece *piece = work->piece;
     sweep(strata, rock, k, piece);
     for (size_t s = 0; s < strata->sources; s++) {
         const size_t level = strata->source[s];
         const bool moments = strata->moments[s];
-        struct pair *own = kernel + s * strata->receivers * COLUMNS * KERNELS;
+        struct pair *own = response + s * strata->receivers * COLUMNS * RESPONSES;
         struct outgoing out;
         start(&piece[level], &rock[strata->rock[level]], k, moments, &out);
         size_t r = 0; /* receivers ascend */
@@ -265,14 +265,14 @@ void strata_kernels(const struct strata *strata, const struct rock_at *rock, dou
         for (size_t back = r; back-- > 0;) {
             for (; at > strata->receiver[back]; at--)
                 carry_on(piece[at - 1].up, piece[at - 1].across_up, moments, out.above, out.across_above);
-            note_all(strata, rock, k, moments, at, -1, &piece[at], &out, own + back * COLUMNS * KERNELS);
+            note_all(strata, rock, k, moments, at, -1, &piece[at], &out, own + back * COLUMNS * RESPONSES);
         }
         out = source;
         for (at = level; r < strata->receivers; r++) {
             for (; at < strata->receiver[r]; at++)
                 carry_on(piece[at].down, piece[at].across_down, moments, out.below, out.across_below);
             note_all(strata, rock, k, moments, at, at == level ? 0 : 1, &piece[at], &out,
-                     own + r * COLUMNS * KERNELS);
+                     own + r * COLUMNS * RESPONSES);
         }
     }
 }

@@ -15,7 +15,7 @@ struct rock_at {
     struct pair w_p, w_s;  /* s^2 / c_p^2, s^2 / c_s^2 */
 };
 
-/* Jumps at a source of P-SV motion, each with its own kernels. */
+/* Jumps at a source of P-SV motion, each with its own responses. */
 enum strata_column {
     COLUMN_VERTICAL, /* force down: Z = 1 */
     COLUMN_AXIAL,    /* M_zz: W = 1/(lambda + 2 mu), Q = k lambda/(lambda + 2 mu) */
@@ -29,8 +29,16 @@ enum strata_column {
 /* What a column moves at a receiver: u_r = i U, u_z = W, u_t = V, sigma_zz = -Z, sigma_nz = -i Q, sigma_tz =
  * -Y, (sigma_nn +- sigma_tt)/2 = MEAN, DIFFERENCE, sigma_nt = i TWIST. P-SV columns have U W Q Z and both
  * halves, SH columns V Y X in the places of U W Q. */
-enum strata_kernel { KERNEL_U, KERNEL_W, KERNEL_Q, KERNEL_Z, KERNEL_MEAN, KERNEL_DIFFERENCE, KERNELS };
-enum { KERNEL_V = KERNEL_U, KERNEL_Y = KERNEL_W, KERNEL_X = KERNEL_Q };
+enum strata_response {
+    RESPONSE_U,
+    RESPONSE_W,
+    RESPONSE_Q,
+    RESPONSE_Z,
+    RESPONSE_MEAN,
+    RESPONSE_DIFFERENCE,
+    RESPONSES
+};
+enum { RESPONSE_V = RESPONSE_U, RESPONSE_Y = RESPONSE_W, RESPONSE_X = RESPONSE_Q };
 
 struct strata {
     size_t levels; /* faces of pieces: the surface, interfaces, sources, receivers */
@@ -42,7 +50,7 @@ struct strata {
     bool *moments;    /* [sources] whether more than forces act there */
     size_t receivers; /* levels with receivers */
     size_t *receiver; /* [receivers] */
-    bool stress;      /* kernels of stress are wanted */
+    bool stress;      /* responses of stress are wanted */
 };
 
 /* Room for one wavenumber; each thread has its own. SELAS_NO_MEMORY gives NULL. */
@@ -50,10 +58,10 @@ struct strata_work;
 struct strata_work *strata_work_new(const struct strata *strata);
 void strata_work_free(struct strata_work **work);
 
-/* Kernels for a wavenumber k > 0 and materials rock[strata->rocks] at one frequency of Re s > 0, Im s >= 0:
- * kernel[((source * receivers + receiver) * COLUMNS + column) * KERNELS + kernel]; those that are not wanted
+/* Responses for a wavenumber k > 0 and materials rock[strata->rocks] at one frequency of Re s > 0, Im s >= 0:
+ * response[((source * receivers + receiver) * COLUMNS + column) * RESPONSES + response]; those that are not wanted
  * (no moments, no stress) are left alone. */
-void strata_kernels(const struct strata *strata, const struct rock_at *rock, double k,
-                    struct strata_work *work, struct pair *kernel);
+void strata_responses(const struct strata *strata, const struct rock_at *rock, double k,
+                      struct strata_work *work, struct pair *response);
 
 #endif

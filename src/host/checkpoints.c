@@ -2,7 +2,7 @@
  * deck in run.h5. */
 #include "host/simulation.h"
 
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/safe_file.h"
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -43,7 +43,7 @@ enum {
 struct boundary_meaning {
     const char *name; /* as in the deck */
     enum face_holds holds;
-    int motion; /* order of the time derivative of the displacement that the history gives, or NO_MOTION */
+    int motion; /* order of the time derivative of the displacement that its time function is, or NO_MOTION */
     unsigned needs; /* what a method must be able to do there, CAN_... */
 };
 

@@ -6,11 +6,11 @@
  * /watch and /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with
  * all defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
  * Numbers have 64 bits: what is read back is what was written. The head is head.c's. */
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
-#include "record/checkpoint/head.h"
+#include "record/checkpoint_head.h"
 #include "record/run_file.h"
 #include "record/sets.h"
 

@@ -1,9 +1,9 @@
 /* Decks that files keep (see the header). */
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include "base/crc64.h"
 #include "base/stored.h"
-#include "record/checkpoint/head.h"
+#include "record/checkpoint_head.h"
 #include "record/run_file.h"
 #include "record/sets.h"
 
