@@ -166,7 +166,7 @@ static void rock_set(const struct seismogram_problem *problem, double complex s,
 
 /* Room of one thread. */
 struct bench {
-    struct strata_work *work;
+    struct strata_piece *piece;
     struct rock_at *rock;
     struct pair *response; /* of one wavenumber */
     double *block;         /* [sources * receivers][COLUMNS * RESPONSES][2][NODES] */
@@ -175,7 +175,7 @@ struct bench {
 
 static void bench_free(struct bench *bench)
 {
-    strata_work_free(&bench->work);
+    array_free(bench->piece);
     array_free(bench->rock);
     array_free(bench->response);
     array_free(bench->block);
@@ -185,12 +185,12 @@ static void bench_free(struct bench *bench)
 static bool bench_new(const struct sums *sums, struct bench *bench)
 {
     const size_t depths = sums->strata.sources * sums->strata.receivers, each = COLUMNS * RESPONSES;
-    bench->work = strata_work_new(&sums->strata);
+    bench->piece = array_new(sums->strata.levels, sizeof *bench->piece);
     bench->rock = array_new(sums->problem->rocks, sizeof *bench->rock);
     bench->response = array_new(depths * each, sizeof *bench->response);
     bench->block = array_new(depths * each * 2 * NODES, sizeof *bench->block);
     bench->statics = array_new(sums->strata.receivers * STATIC_RESPONSES * 2 * NODES, sizeof *bench->statics);
-    if (bench->work != NULL && bench->rock != NULL && bench->response != NULL && bench->block != NULL &&
+    if (bench->piece != NULL && bench->rock != NULL && bench->response != NULL && bench->block != NULL &&
         bench->statics != NULL)
         return true;
     bench_free(bench);
@@ -234,7 +234,7 @@ static void fill_block(const struct sums *sums, size_t count, const double *k, s
     const struct strata *strata = &sums->strata;
     const size_t all = strata->sources * strata->receivers * COLUMNS * RESPONSES;
     for (size_t i = 0; i < count; i++) {
-        strata_responses(strata, bench->rock, k[i], bench->work, bench->response);
+        strata_responses(strata, bench->rock, k[i], bench->piece, bench->response);
         for (size_t j = 0; j < all; j++) {
             bench->block[2 * j * NODES + i] = bench->response[j].re;
             bench->block[(2 * j + 1) * NODES + i] = bench->response[j].im;

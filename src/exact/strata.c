@@ -14,37 +14,6 @@
  * A source with jumps (du, dtau): u_above = (B + T)^-1 (dtau - B du).              (13) */
 #include "exact/strata.h"
 
-#include "base/memory.h"
-#include "exact/matrix2.h"
-
-/* One piece of ground between two levels, or below the last one. */
-struct piece {
-    struct matrix2 below, above; /* impedances B, T of the ground below and above its upper level */
-    struct matrix2 down, up;     /* motions carried from the upper level to the lower one and back */
-    struct pair across_below, across_above, across_down, across_up;
-};
-
-struct strata_work {
-    struct piece *piece;
-};
-
-struct strata_work *strata_work_new(const struct strata *strata)
-{
-    struct strata_work *work = array_new(1, sizeof *work);
-    if (work == NULL) return NULL;
-    work->piece = array_new(strata->levels, sizeof *work->piece);
-    if (work->piece == NULL) strata_work_free(&work);
-    return work;
-}
-
-void strata_work_free(struct strata_work **work)
-{
-    if (*work == NULL) return;
-    array_free((*work)->piece);
-    array_free(*work);
-    *work = NULL;
-}
-
 /* What waves of one wavenumber are in one material. */
 struct wave {
     struct pair p, q, d;
@@ -113,7 +82,8 @@ static void reflect_across(struct pair s, struct pair e, struct pair end, struct
 }
 
 /* Impedances and carriers of all pieces, from the half-space up, then from the surface down. */
-static void sweep(const struct strata *strata, const struct rock_at *rock, double k, struct piece *piece)
+static void sweep(const struct strata *strata, const struct rock_at *rock, double k,
+                  struct strata_piece *piece)
 {
     const size_t last = strata->levels - 1;
     struct wave wave;
@@ -152,7 +122,7 @@ struct outgoing {
     struct pair across_above[2], across_below[2];
 };
 
-static void start(const struct piece *piece, const struct rock_at *rock, double k, bool moments,
+static void start(const struct strata_piece *piece, const struct rock_at *rock, double k, bool moments,
                   struct outgoing *out)
 {
     const struct pair one = {1, 0}, zero = {0, 0};
@@ -211,7 +181,7 @@ static struct vector2 middle(struct vector2 a, struct vector2 b)
 
 /* All columns at one receiver; side: -1 above the source, 0 level with it, 1 below. */
 static void note_all(const struct strata *strata, const struct rock_at *rock, double k, bool moments,
-                     size_t level, int side, const struct piece *piece, const struct outgoing *out,
+                     size_t level, int side, const struct strata_piece *piece, const struct outgoing *out,
                      struct pair *response)
 {
     const struct rock_at *here = &rock[strata->rock[level]];
@@ -247,9 +217,8 @@ static void carry_on(struct matrix2 carry, struct pair across, bool moments, str
 }
 
 void strata_responses(const struct strata *strata, const struct rock_at *rock, double k,
-                      struct strata_work *work, struct pair *response)
+                      struct strata_piece *piece, struct pair *response)
 {
-    struct piece *piece = work->piece;
     sweep(strata, rock, k, piece);
     for (size_t s = 0; s < strata->sources; s++) {
         const size_t level = strata->source[s];

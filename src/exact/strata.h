@@ -4,10 +4,11 @@
 #ifndef SELAS_STRATA_H
 #define SELAS_STRATA_H
 
-#include "base/messages.h"
+#include "exact/matrix2.h"
 #include "exact/pair.h"
 
-#include <complex.h>
+#include <stdbool.h>
+#include <stddef.h>
 
 /* One material at one Laplace frequency: moduli over a common one, s^2 over the squared speeds. */
 struct rock_at {
@@ -53,15 +54,17 @@ struct strata {
     bool stress;      /* responses of stress are wanted */
 };
 
-/* Room for one wavenumber; each thread has its own. SELAS_NO_MEMORY gives NULL. */
-struct strata_work;
-struct strata_work *strata_work_new(const struct strata *strata);
-void strata_work_free(struct strata_work **work);
+/* One piece of ground between two levels, or below the last one: what one wavenumber makes of it. */
+struct strata_piece {
+    struct matrix2 below, above; /* impedances of the ground below and above its upper level */
+    struct matrix2 down, up;     /* motions carried from the upper level to the lower one and back */
+    struct pair across_below, across_above, across_down, across_up;
+};
 
 /* Responses for a wavenumber k > 0 and materials rock[strata->rocks] at one frequency of Re s > 0, Im s >= 0:
  * response[((source * receivers + receiver) * COLUMNS + column) * RESPONSES + response]; those that are not wanted
- * (no moments, no stress) are left alone. */
+ * (no moments, no stress) are left alone. piece[levels]: scratch. */
 void strata_responses(const struct strata *strata, const struct rock_at *rock, double k,
-                      struct strata_work *work, struct pair *response);
+                      struct strata_piece *piece, struct pair *response);
 
 #endif
