@@ -52,6 +52,14 @@ for r in r deep; do
         sh -c "grep -v '^#' $out/two/$r.exact.dat >$out/a; grep -v '^#' $out/apart/$r.exact.dat | cmp -s $out/a -"
 done
 
+for turn in first second; do # the second one overwrites the first
+    "$selas" -q exact "$out/apart.nml" output%directory="$out/stress" reference%stress=T reference%tolerance=1e-3
+done
+check "stress vanishes on the surface and not below, in files that are overwritten" awk '/^#/ { next }
+    FILENAME ~ /r.exact/ { if ($4 * $4 + $6 * $6 + $7 * $7 > s) s = $4 * $4 + $6 * $6 + $7 * $7 }
+    FILENAME ~ /deep/ { if ($4 * $4 > d) d = $4 * $4 } END { exit !(d > 0 && s < 1e-12 * d) }' \
+    "$out/stress/r.exact.stress.dat" "$out/stress/deep.exact.stress.dat"
+
 refused() { # refused TITLE MESSAGE COMMAND...
     title=$1 message=$2
     shift 2
