@@ -295,7 +295,8 @@ static void describe(const struct exact *exact,
     }
     char text[128];
     tell(context, "exact", "infinite half-space under traction patches, by FFT (doc/lamb.md)");
-    if (lamb->problem.layers != NULL) tell(context, "exact layers", "by reflections (doc/layered.md, doc/seismograms.md)");
+    if (lamb->problem.layers != NULL)
+        tell(context, "exact layers", "by reflections (doc/layered.md, doc/seismograms.md)");
     if (lamb->patches > 0)
         tell(context, "exact moving patches", "by wavenumbers and directions (doc/sources.md)");
     if (lamb->signals == 0 || lamb->problem.loads == 0) return;

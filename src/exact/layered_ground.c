@@ -244,7 +244,8 @@ static selas_status find(const struct layered_ground *ground, const double posit
     ground_position(ground->exact.scene, position, own->position);
     for (size_t i = 0; i < ground->seismograms; i++) {
         const struct seismogram *seismogram = &ground->seismogram[i];
-        if (memcmp(seismogram->position, own->position, sizeof own->position) == 0 &&
+        const double *place = seismogram->position;
+        if (place[0] == own->position[0] && place[1] == own->position[1] && place[2] == own->position[2] &&
             until <= seismogram->end_time) {
             *found = seismogram;
             return SELAS_OK;

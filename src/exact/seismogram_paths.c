@@ -155,19 +155,19 @@ void path_find_lines(struct path *path, bool stress)
     if (path->patch) {
         const bool vertical = path->source->force[2] != 0;
         const bool horizontal = path->source->force[0] != 0 || path->source->force[1] != 0;
-        for (unsigned char l = 0; l < OF_PATCH; l++)
-            if (of_patch[l].statics < 2 ? vertical : horizontal) path->line[path->lines++] = l;
+        for (int l = 0; l < OF_PATCH; l++)
+            if (of_patch[l].statics < 2 ? vertical : horizontal) path->line[path->lines++] = (unsigned char)l;
         return;
     }
-    for (unsigned char l = 0; l < MOST_LINES; l++) {
+    for (int l = 0; l < MOST_LINES; l++) {
         enum strata_column column = COLUMN_VERTICAL;
-        const struct view *view = view_of(l, &column);
+        const struct view *view = view_of((size_t)l, &column);
         if (!stress && view->component > DOWN) continue;
         const struct jump jump = jump_of(path, column, 1);
         double size = 0;
         for (int m = 0; m < HARMONICS; m++)
             size += view->sine ? cabs(jump.odd[m]) : cabs(jump.even[m]);
-        if (size > 0) path->line[path->lines++] = l;
+        if (size > 0) path->line[path->lines++] = (unsigned char)l;
     }
 }
 
