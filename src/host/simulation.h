@@ -66,7 +66,7 @@ struct selas_simulation {
 /* First in every function of the library that may read or write a number, in a file or a message: until it
  * returns the thread's locale is "C". `simulation` may be NULL. */
 #define AT_THE_DOOR(simulation)                                                                              \
-    __attribute__((cleanup(c_locale_end))) const struct c_locale at_the_door = door_enter(simulation)
+    __attribute__((cleanup(c_locale_end), unused)) const struct c_locale at_the_door = door_enter(simulation)
 struct c_locale door_enter(selas_simulation *simulation);
 
 /* An empty handle. */
