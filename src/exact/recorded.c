@@ -50,7 +50,7 @@ static selas_status covers(const struct recorded *recorded, size_t i, double fro
                            struct messages *messages)
 {
     const struct history_file *here = &recorded->receiver[i];
-    if (here->time == NULL || here->rows == 0)
+    if (recorded->receiver == NULL || here->time == NULL || here->rows == 0)
         return fail(messages, SELAS_BAD_SCENE, "reference 'file' of receiver '%s' has no rows",
                     recorded->exact.scene->receiver[i].name);
     const double begin = here->time[0], end = here->time[here->rows - 1], room = 1e-9 * fabs(to);
@@ -111,7 +111,7 @@ static selas_status history(struct exact *exact, const double position[3], size_
     if (i == scene->receivers || n == 0)
         return fail(messages, SELAS_BAD_SCENE, "reference 'file' has histories at receivers only");
     const struct history_file *here = &recorded->receiver[i];
-    if (here->time == NULL || here->rows == 0)
+    if (recorded->receiver == NULL || here->time == NULL || here->rows == 0)
         return fail(messages, SELAS_BAD_SCENE, "reference 'file' of receiver '%s' has no rows",
                     recorded->exact.scene->receiver[i].name);
     const double begin = here->time[0], end = here->time[here->rows - 1];
