@@ -83,6 +83,7 @@ char *results_names(const struct scene *scene, const struct recorder *recorder, 
 /* The name that begins at *at, in `name`; false behind the last one. */
 static bool next_name(const char **at, char name[FILE_NAME_SIZE])
 {
+    if (*at == NULL) return false;
     *at += strspn(*at, "\n");
     const size_t length = strcspn(*at, "\n");
     snprintf(name, FILE_NAME_SIZE, "%.*s", (int)length, *at);
