@@ -160,7 +160,7 @@ struct scene {
     struct body body;
     struct boundary boundary[FACES];
     size_t loads;
-    struct load *load;
+    struct load *load; /* the deck's in its order; behind them the pieces of those that a host drives */
     size_t receivers;
     struct receiver *receiver;
     size_t profiles;
