@@ -13,15 +13,15 @@
 #define CHOICES(LIST) (&(LIST(CHOICE_WORD))[1])
 
 /* The table of methods: families, each followed by its variants, the first of which is its default;
- * method_SYMBOL is in a folder of its own. */
+ * method_SYMBOL is in a folder of its own. Of each: where its points may lie (enum point_places, scene.h). */
 #define METHODS(FAMILY, VARIANT)                                                                             \
     FAMILY("smoothed-point")                                                                                 \
-    VARIANT(consistent, "smoothed-point", "consistent")                                                      \
-    VARIANT(paper, "smoothed-point", "paper")                                                                \
-    VARIANT(cloud, "smoothed-point", "cloud")                                                                \
+    VARIANT(consistent, "smoothed-point", "consistent", POINTS_ON_FACES)                                     \
+    VARIANT(paper, "smoothed-point", "paper", POINTS_ON_FACES)                                               \
+    VARIANT(cloud, "smoothed-point", "cloud", POINTS_SCATTERED)                                              \
     FAMILY("sph")                                                                                            \
-    VARIANT(total_lagrangian, "sph", "total-lagrangian")                                                     \
-    VARIANT(updated_lagrangian, "sph", "updated-lagrangian")
+    VARIANT(total_lagrangian, "sph", "total-lagrangian", POINTS_IN_CELLS)                                    \
+    VARIANT(updated_lagrangian, "sph", "updated-lagrangian", POINTS_IN_CELLS)
 
 /* The table of time schemes: scheme_SYMBOL is in a file of its own in stepping/. */
 #define SCHEMES(X)                                                                                           \

@@ -5,9 +5,9 @@
 
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
 #define FAMILY_WORD(word) "|" word
-#define VARIANT_WORD(symbol, family, word) "|" word
+#define VARIANT_WORD(symbol, family, word, points) "|" word
 #define FAMILY_GLOSS(word) "; " word ":"
-#define VARIANT_GLOSS(symbol, family, word) " " word
+#define VARIANT_GLOSS(symbol, family, word, points) " " word
 #define KIND_WORD(symbol, word, holds, motion, needs) "|" word
 #define NOTHING(...)
 #define POSITIVE "(0, inf)"

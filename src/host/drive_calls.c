@@ -1,5 +1,5 @@
 /* What a host calls to drive loads and faces: by a function, or at a value that it holds; and the mean motion
- * under a load. How they are driven: drive.c. */
+ * under a load. How they are driven: driven_loads.c. */
 #include "host/simulation.h"
 
 #include "base/memory.h"
@@ -15,9 +15,8 @@ static selas_status find_load(selas_simulation *simulation, const char *name, si
     const struct scene *scene = simulation->scene;
     const size_t own = deck_count(simulation->deck, "load");
     for (size_t i = 0; name != NULL && i < own; i++) {
-        char number[32];
-        snprintf(number, sizeof number, "%zu", i + 1);
-        if (strcmp(scene->load[i].name[0] != '\0' ? scene->load[i].name : number, name) != 0) continue;
+        char number[LOAD_NUMBER_SIZE];
+        if (strcmp(load_name(scene, i, number), name) != 0) continue;
         *index = i;
         return SELAS_OK;
     }
@@ -111,7 +110,7 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
 selas_status selas_set_load(selas_simulation *simulation, const char *load, double value)
 {
     AT_THE_DOOR(simulation);
-    struct driven_load wanted = {.held = true, .value = value};
+    struct driven_load wanted = {.value = value};
     selas_status status = simulation_scene(simulation);
     if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
     if (status != SELAS_OK) return status;
@@ -119,7 +118,7 @@ selas_status selas_set_load(selas_simulation *simulation, const char *load, doub
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the value of load '%s' is not a finite number", load);
     struct driven_load *driven = driven_of(&simulation->host, wanted.load);
-    if (driven != NULL && !driven->held)
+    if (driven != NULL && driven->function != NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "load '%s' is given by a function of the host",
                     load);
     if (driven == NULL) return drive_new_load(simulation, &wanted);

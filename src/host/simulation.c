@@ -48,23 +48,6 @@ selas_status simulation_new(selas_simulation **simulation)
     return *simulation != NULL ? SELAS_OK : SELAS_NO_MEMORY;
 }
 
-/* Only the total-Lagrangian method carries materials point by point. */
-static selas_status check_points(selas_simulation *simulation)
-{
-    const struct scene *scene = simulation->scene;
-    if (scene->body.given == NULL || scene->body.given->material == NULL) return SELAS_OK;
-    for (size_t i = 0; i < scene->body.given->count; i++)
-        if (scene->body.given->material[i] >= scene->materials)
-            return fail(&simulation->messages, SELAS_BAD_SCENE, "point %zu has a material that is not there",
-                        i + 1);
-    if (strcmp(scene->method.variant, "total-lagrangian") == 0) return SELAS_OK;
-    return fail(
-        &simulation->messages, SELAS_UNSUPPORTED,
-        "method '%s', variant '%s', has no materials point by point, only &layer where it takes layers; "
-        "expected 'sph', 'total-lagrangian'",
-        scene->method.name, scene->method.variant);
-}
-
 /* A run that goes on writes where it began. */
 static selas_status place_results(selas_simulation *simulation)
 {
@@ -83,7 +66,6 @@ static selas_status build_scene(selas_simulation *simulation)
 {
     selas_status status = accuracy_build(simulation->deck, &simulation->scene, &simulation->messages);
     if (status == SELAS_OK) status = place_results(simulation);
-    if (status == SELAS_OK) status = check_points(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);
     if (status != SELAS_OK) scene_free(&simulation->scene);
     return status;
@@ -217,7 +199,7 @@ selas_status simulation_prepare(selas_simulation *simulation)
     if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
-    if (status == SELAS_OK && simulation->recorder == NULL) status = host_prepare_stepper(simulation);
+    if (status == SELAS_OK) host_prepare_stepper(simulation);
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);

@@ -34,8 +34,7 @@ static void say_resolution(const struct teller *teller, const struct scene *scen
 
 static double operator_calls(const struct stepper *stepper)
 {
-    const double each = stepper->scheme->evaluations;
-    return stepper->stages > 0 && !(each > 1.0) ? fmax(each, 1.0) * (double)stepper->stages : each;
+    return stepper->scheme->evaluations * (stepper->stages > 0 ? (double)stepper->stages : 1.0);
 }
 
 static void say_step(const struct teller *teller, const struct stepper *stepper)
@@ -60,9 +59,7 @@ static double memory_of(const struct recorder *recorder)
 {
     const struct stepper *stepper = recorder->stepper;
     const struct model *model = recorder->model;
-    double vectors = 1.0;
-    for (size_t i = 0; stepper->work != NULL && i < stepper->scheme->vectors; i++)
-        if (stepper->work[i] != NULL) vectors += 1.0; /* the state, and what the scheme works in */
+    const double vectors = 1.0 + (double)stepper->vectors; /* the state, and what the scheme works in */
     const double rows = (double)(stepper->steps + stepper->extra + 2);
     double bytes = (double)model->bytes +
                    8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +

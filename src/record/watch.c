@@ -68,9 +68,9 @@ void watch_start(struct recorder *recorder)
     const bool moved = (scene_needs(scene) & CAN_MOVE) != 0;
     *watch = (struct watch){0};
     watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL && !moved;
-    watch->with_faces = moved && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
+    watch->with_faces = moved && !scene_driven(scene) && recorder->model->core->power != NULL;
     if (watch->with_faces) faces_can_give(recorder);
-    watch->reference_until = 0.1 * scene->end_time;
+    watch->reference_until = scene_driven(scene) ? scene->end_time : 0.1 * scene->end_time;
     for (size_t k = 0; k < scene->loads; k++)
         watch->reference_until = fmax(watch->reference_until, history_end(&scene->load[k].history));
     for (size_t face = 0; face < FACES; face++)
@@ -82,7 +82,7 @@ void watch_start(struct recorder *recorder)
 static void add_work(struct recorder *recorder, const struct state *state)
 {
     struct watch *watch = &recorder->watch;
-    const struct drive drive = drive_last(recorder->stepper, state->time);
+    const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
     double load = 0.0, absorbed = 0.0;
     recorder->model->core->power(recorder->model, &drive, state->y, &load, &absorbed);
     if (recorder->started) {

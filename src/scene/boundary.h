@@ -11,6 +11,10 @@ enum boundary_kind { BOUNDARY_KINDS(BOUNDARY_KIND) };
 #undef BOUNDARY_KIND
 enum absorber { ABSORBERS(CHOICE_SYMBOL) };
 
+/* What gives the motion of a face or the amplitude of a load: its history, a function of the host, or the
+ * host holds a load at a value until it changes it. With a host the history is empty. */
+enum driven { BY_HISTORY, BY_HOST, HELD_BY_HOST };
+
 struct boundary {
     enum boundary_kind kind;
     enum absorber absorber;
@@ -22,6 +26,7 @@ struct boundary {
     double amplitude;
     bool slip; /* leave components across `direction` free (direction along an axis of the body) */
     struct history history;
+    enum driven driven;
     bool given;   /* false: nobody named this face, it is free */
     size_t group; /* occurrence of &boundary that named it */
 };
