@@ -47,7 +47,8 @@ static const char documentation[] =
     "\n"
     "Exit status: 0 done; 1 the run failed or A and B differ (an unstable run says\n"
     "where and when); 2 bad deck or usage.\n"
-    "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.";
+    "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.\n"
+    "SELAS_PROCESSOR=x86-64, x86-64-v3 or x86-64-v4 takes the loops for that kind of processor.";
 
 struct arguments {
     const char *command; /* "run", "check", "exact", "restart", "rerun" */
