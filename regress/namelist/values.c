@@ -2,8 +2,8 @@
  * that does the same with gfortran's read (nml=...), so that the two can be compared.
  *
  *   values fortran TABLE        prints the Fortran program
- *   values read TABLE FILE...   prints "== FILE", then per group "& NAME" and per value given "NAME(I)
- * VALUE", or "refused" and the messages
+ *   values read TABLE FILE...   prints "== FILE", then per group "& NAME" and per value given "NAME(I) VALUE",
+ *                               or "refused" and the messages
  *   values echo deck FILE       prints the echo of a deck
  *
  * TABLE is "sample" (a group of every type) or "deck". Reals and logicals are printed as bits. */

@@ -2,10 +2,14 @@
  *
  * The error at a receiver has, at each frequency, three parts relative to the exact velocity (measured,
  * regress/studies/accuracy/law.sh): that of the load's own field, of the source and the surface, and of the way,
+ *
  *   e^2 = (S n^-s (size/r)^q d)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c,          (1)
+ *
  * n the points along the load's shortest edge, r the distance, d and g 1 along the axes of the lattice and
  * less between them, c the speed of the surface wave. With V the exact velocity's spectrum the relative L2
- * error of the history is E(h)^2 = sum e^2 |V|^2 / sum |V|^2. (2) */
+ * error of the history is
+ *
+ *   E(h)^2 = sum e^2 |V|^2 / sum |V|^2.                                                                  (2) */
 #include "accuracy/surface.h"
 
 #include "exact/half_space.h"

@@ -2,10 +2,13 @@
  *
  * What the lattice and the scheme make of a wave of frequency omega is known (doc/consistent-method.md,
  * section 11): it travels as with the speed c (1 + e(omega)). To first order the error of a history is
- * therefore d = F^-1 [ e(omega) F q ],   q = dv / d ln c, (1) F the Fourier transform, v the exact velocity
- * at the receiver, q its change with the speed of waves at the same impedance: travel time times rate of
- * change, arrival by arrival. e is bounded where (1) would make more of a wave than sqrt(2), what it errs
- * when it arrives at any time. */
+ * therefore
+ *
+ *   d = F^-1 [ e(omega) F q ],   q = dv / d ln c,                                                        (1)
+ *
+ * F the Fourier transform, v the exact velocity at the receiver, q its change with the speed of waves at the
+ * same impedance: travel time times rate of change, arrival by arrival. e is bounded where (1) would make more
+ * of a wave than sqrt(2), what it errs when it arrives at any time. */
 #include "accuracy/arrivals.h"
 #include "accuracy/kinds.h"
 #include "base/memory.h"

@@ -26,8 +26,7 @@ bool host_drives(const selas_simulation *simulation)
     return any;
 }
 
-/* --- Cutting loads into pieces
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Cutting loads into pieces --- */
 
 /* How a load is cut: `count` pieces along each axis of the body's frame, about `middle`. */
 struct cut {
@@ -192,8 +191,7 @@ selas_status host_prepare_scene(selas_simulation *simulation)
     return status;
 }
 
-/* --- Asking the host
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Asking the host --- */
 
 static bool ask(selas_simulation *simulation, selas_vector_function function, void *context, double time,
                 const double *place, const char *name, double value[3])

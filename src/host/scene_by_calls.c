@@ -171,8 +171,7 @@ selas_status selas_add(selas_simulation *simulation, const char *group, size_t *
     return added;
 }
 
-/* --- Points of the host's own
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Points of the host's own --- */
 
 static void *copy_of(const void *from, size_t count, size_t size)
 {

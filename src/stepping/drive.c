@@ -34,8 +34,7 @@ struct drive drive_last(const struct stepper *stepper, double time)
                           .velocity = stepper->motion + FACES};
 }
 
-/* --- A host in the histories' place
- * ------------------------------------------------------------------------ */
+/* --- A host in the histories' place --- */
 
 static void deck_row(const struct stepper *stepper, double time, double *load, double *displacement)
 {

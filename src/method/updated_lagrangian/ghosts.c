@@ -1,10 +1,13 @@
 /* Ghost particles of updated-Lagrangian SPH (He & Seaid 2016, section 2.1 and Fig 3; stresses after Bui et
  * al. 2008) and the packing of particles and ghosts for the sums.
  *
- * Every particle closer to a wall than the kernel reaches has a mirror image behind it: three layers for h
- * = 1.5 spacings. With u, v, s of the particle and n the normal, the ghost has no slip         u_g = 2 u_wall
- * - u,       v_g = 2 v_wall - v,     s_g = s slip            the same along n only;    shear with n reversed
- *   given traction  u_g = u, v_g = v,         s_g . n = 2 t - s . n, the rest of s copied
+ * Every particle closer to a wall than the kernel reaches has a mirror image behind it: three layers for
+ * h = 1.5 spacings. With u, v, s of the particle and n the normal, the ghost has
+ *
+ *   no slip         u_g = 2 u_wall - u,  v_g = 2 v_wall - v,  s_g = s
+ *   slip            the same along n only;  shear with n reversed
+ *   given traction  u_g = u,  v_g = v,  s_g . n = 2 t - s . n,  the rest of s copied
+ *
  * so that the mean over the wall is what the wall prescribes. For a bar pressed with s0 the last line is
  * s_g = -2 s0 - s. A transmitting face is a traction t = -rho (c_p v_n + c_s v_t). Images are made face by
  * face, so that corners have images of images.
