@@ -146,23 +146,31 @@ static void amplitudes(void **unused)
 static void beam_shape(void **unused)
 {
     (void)unused;
-    const double length = .5, h = .01, k = BEAM_MODE_ROOT / length;
-    assert_near(cos(BEAM_MODE_ROOT) * cosh(BEAM_MODE_ROOT), -1, 1e-14);
-    assert_near(BEAM_MODE_ROOT, 1.875, 2e-4); /* as printed */
-    assert_near(beam_mode(0, length), 0, 1e-15);
-    assert_near(beam_mode(length, length), 1, 1e-14);
-    assert_near((beam_mode(h, length) - beam_mode(-h, length)) / (2 * h), 0, 1e-3);
+    const double length = .5, h = .01, k = beam_mode_root(BEAM_CLAMPED_FREE) / length;
+    assert_near(cos(beam_mode_root(BEAM_CLAMPED_FREE)) * cosh(beam_mode_root(BEAM_CLAMPED_FREE)), -1, 1e-14);
+    assert_near(beam_mode_root(BEAM_CLAMPED_FREE), 1.875, 2e-4); /* as printed */
+    assert_near(beam_mode(BEAM_CLAMPED_FREE, 0, length, 0), 0, 1e-15);
+    assert_near(beam_mode(BEAM_CLAMPED_FREE, length, length, 0), 1, 1e-14);
+    assert_near((beam_mode(BEAM_CLAMPED_FREE, h, length, 0) - beam_mode(BEAM_CLAMPED_FREE, -h, length, 0)) /
+                    (2 * h),
+                0, 1e-3);
     for (double x = .1; x < .5; x += .1) {
-        const double fourth =
-            (beam_mode(x + 2 * h, length) - 4 * beam_mode(x + h, length) + 6 * beam_mode(x, length) -
-             4 * beam_mode(x - h, length) + beam_mode(x - 2 * h, length)) /
-            (h * h * h * h);
-        assert_near(fourth / (k * k * k * k), beam_mode(x, length), 5e-4);
+        const double fourth = (beam_mode(BEAM_CLAMPED_FREE, x + 2 * h, length, 0) -
+                               4 * beam_mode(BEAM_CLAMPED_FREE, x + h, length, 0) +
+                               6 * beam_mode(BEAM_CLAMPED_FREE, x, length, 0) -
+                               4 * beam_mode(BEAM_CLAMPED_FREE, x - h, length, 0) +
+                               beam_mode(BEAM_CLAMPED_FREE, x - 2 * h, length, 0)) /
+                              (h * h * h * h);
+        assert_near(fourth / (k * k * k * k), beam_mode(BEAM_CLAMPED_FREE, x, length, 0), 5e-4);
     }
-    const double bending = (beam_mode(length + h, length) - 2 + beam_mode(length - h, length)) / (h * h);
+    const double bending = (beam_mode(BEAM_CLAMPED_FREE, length + h, length, 0) - 2 +
+                            beam_mode(BEAM_CLAMPED_FREE, length - h, length, 0)) /
+                           (h * h);
     assert_near(bending / (k * k), 0, 2e-4);
-    const double shear = (beam_mode(length + 2 * h, length) - 2 * beam_mode(length + h, length) +
-                          2 * beam_mode(length - h, length) - beam_mode(length - 2 * h, length)) /
+    const double shear = (beam_mode(BEAM_CLAMPED_FREE, length + 2 * h, length, 0) -
+                          2 * beam_mode(BEAM_CLAMPED_FREE, length + h, length, 0) +
+                          2 * beam_mode(BEAM_CLAMPED_FREE, length - h, length, 0) -
+                          beam_mode(BEAM_CLAMPED_FREE, length - 2 * h, length, 0)) /
                          (2 * h * h * h);
     assert_near(shear / (k * k * k), 0, 2e-3);
 }

@@ -149,6 +149,31 @@ static void look_at_speed(struct adviser *adviser, size_t k)
                k + 1, speed, ground.rayleigh_speed);
 }
 
+/* The exact ground goes on beyond the box, and a load that runs over it there sends waves into the box. */
+static void look_at_path(struct adviser *adviser, size_t k)
+{
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    double from[3], velocity[3];
+    body_from_deck(&scene->body, load->centre, from);
+    body_direction_from_deck(&scene->body, load->velocity, velocity);
+    if (load->kind != LOAD_TRACTION || strcmp(scene->reference.kind, "lamb") != 0) return;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double to = from[axis] + velocity[axis] * scene->end_time, half = half_size(load, axis);
+        if (axis == face_axis(load->face) || velocity[axis] == 0.0) continue;
+        if (fmin(from[axis], to) - half >= scene->body.low[axis] - 1e-9 * scene->body.spacing &&
+            fmax(from[axis], to) + half <= scene->body.high[axis] + 1e-9 * scene->body.spacing)
+            continue;
+        advise(
+            adviser,
+            "load %zu runs beyond the body, where nothing feels it; in the exact solution it runs on ground "
+            "there, too, so the error holds what it sends from there; a body from %.6g to %.6g along %c "
+            "would hold it",
+            k + 1, fmin(from[axis], to) - half, fmax(from[axis], to) + half, "xyz"[axis]);
+        return;
+    }
+}
+
 size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -164,6 +189,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
+        look_at_path(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, k);
     }
     return adviser.count;
