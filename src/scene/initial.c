@@ -76,12 +76,12 @@ double beam_mode_root(enum beam_ends ends)
     return root[ends];
 }
 
-static double clamped_free(double k, double kx, int derivative)
+static double clamped_free(double k, double kx, double slope, int derivative)
 {
     const double m = sin(k) + sinh(k), n = cos(k) + cosh(k);
     const double q = 2 * (cos(k) * sinh(k) - sin(k) * cosh(k));
     if (derivative == 0) return (m * (cos(kx) - cosh(kx)) - n * (sin(kx) - sinh(kx))) / q;
-    return (-m * (sin(kx) + sinh(kx)) - n * (cos(kx) - cosh(kx))) / q;
+    return slope * (-m * (sin(kx) + sinh(kx)) - n * (cos(kx) - cosh(kx))) / q;
 }
 
 /* cosh z - sign cos z - s (sinh z - sign sin z), or its derivative: sign 1 has clamped ends, -1 free ones. */
@@ -103,7 +103,7 @@ double beam_mode(enum beam_ends ends, double x, double length, int derivative)
     case BEAM_SIMPLY_SUPPORTED:
         return slope * (derivative == 0 ? sin(z) : cos(z));
     default:
-        return slope * clamped_free(k, z, derivative);
+        return clamped_free(k, z, slope, derivative);
     }
 }
 
