@@ -7,11 +7,12 @@ vpath %.c regress/unit regress/hardening/relations regress/hardening/stops regre
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 FUZZED   = $(patsubst regress/hardening/fuzz/%.c,%,$(wildcard regress/hardening/fuzz/fuzz_*.c))
 
-# EXTRA: further options; EXTRA_LIBS: further libraries. Files of dependencies only where there is one source.
+# EXTRA: further options; EXTRA_LIBS: further libraries. The compiler tells on which headers a program of one source depends;
+# those of several are made anew with any header of their folder.
 define program
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
-	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(LIBS) $(EXTRA_LIBS)
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.a,$^) $(LIBS) $(EXTRA_LIBS)
 endef
 $(BUILD)/test/%: %.c $(BUILD)/libselas.a
 	$(program)
@@ -23,14 +24,34 @@ $(BUILD)/replay/%: %.c regress/hardening/fuzz/replay.c $(BUILD)/libselas.a
 $(TESTS): private EXTRA_LIBS = -lcmocka
 $(BUILD)/test/bench: private EXTRA = -ffp-contract=fast
 $(FUZZED:%=$(BUILD)/fuzz/%): private EXTRA = -fsanitize=fuzzer
+$(FUZZED:%=$(BUILD)/replay/%): $(wildcard regress/hardening/fuzz/*.h)
 # The closed form of the half-space shares nothing with the library's
 $(patsubst %,$(BUILD)/test/%,test_lamb test_lamb_fast test_lamb_horizontal lamb_grid): regress/unit/lamb_closed.c \
-    regress/unit/lamb_closed_history.c
+    regress/unit/lamb_closed_history.c $(wildcard regress/unit/*.h)
 # The library's ways to memory go through regress/unit/allocation.c, where they can fail
 WRAPPED  = malloc calloc realloc free aligned_alloc strdup strndup open_memstream fftw_malloc fftw_alloc_real \
            fftw_alloc_complex fftw_free
-$(BUILD)/test/test_no_memory: regress/unit/allocation.c
+$(BUILD)/test/test_no_memory: regress/unit/allocation.c $(wildcard regress/unit/*.h)
 $(BUILD)/test/test_no_memory: private EXTRA = -fno-builtin $(WRAPPED:%=-Wl,--wrap=%)
+
+# The program with what regress/examples/ adds: its files, and its lines in the lists of src/deck/choices.h. What makes tables
+# of these lists is compiled anew; all else comes from the library.
+EXAMPLES = $(BUILD)/examples
+TABLES   = $(shell grep -rlwE 'METHODS|SCHEMES|EXACT_SOLUTIONS|KERNELS' src --include='*.c')
+ADDED    = $(TABLES:src/%.c=$(EXAMPLES)/%.o) $(patsubst regress/examples/%.c,$(EXAMPLES)/%.o,$(wildcard regress/examples/*.c))
+$(ADDED): private ALL_C := -I$(EXAMPLES)/src $(ALL_C)
+$(ADDED): $(EXAMPLES)/src/deck/choices.h
+$(EXAMPLES)/src/deck/choices.h: regress/examples/choices.awk regress/examples/lines src/deck/choices.h
+	@mkdir -p $(@D)
+	@awk -f $^ >$@
+$(EXAMPLES)/%.o: src/%.c
+	$(compile)
+$(EXAMPLES)/%.o: regress/examples/%.c
+	$(compile)
+$(EXAMPLES)/selas: $(ADDED) $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
+	$(link)
+$(EXAMPLES)/test_kernel: regress/unit/test_kernel.c $(ADDED) $(BUILD)/libselas.a
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(LDFLAGS) -o $@ $^ $(LIBS) -lcmocka
 
 # Scripts that call make begin a make of their own, with as many jobs as this one.
 ALONE    = env -u MFLAGS -u MAKELEVEL MAKEFLAGS='$(filter -j%,$(MAKEFLAGS))'
@@ -39,7 +60,7 @@ ALONE    = env -u MFLAGS -u MAKELEVEL MAKEFLAGS='$(filter -j%,$(MAKEFLAGS))'
 help-checks: ## this list
 	$(call listed,regress/rules.mk)
 
-unit: all $(TESTS) $(BUILD)/test/relations fuzz-replay ## run all tests without the set-up
+unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD)/test/relations fuzz-replay ## run all tests without the set-up
 	@$(ALONE) sh regress/run-tests $(BUILD)
 
 # Static checks

@@ -77,7 +77,7 @@ static void check_item(const struct deck *deck, const struct deck_group *group, 
             namelist_message(messages, deck->path, item->place, true, "value %zu of '%s' in &%s is missing%s",
                              i + 1, word->name, group->kind->name, item->comment_null ? COMMENT_NULL : "");
     deck_check_values(deck, group, index, messages);
-    if (word->obligatory && item->values == 0 && !item->wrong) {
+    if (word->need == OBLIGATORY && item->values == 0 && !item->wrong) {
         const struct place place = item->named ? item->place : group->place;
         namelist_message(messages, deck->path, place, true, "'%s' is missing in &%s: %s%s", word->name,
                          group->kind->name, word->gloss, item->comment_null ? COMMENT_NULL : "");

@@ -145,9 +145,9 @@ double beam_plane(const struct scene *scene)
 /* Does a face keep the beam from bending, or take energy from it? */
 static bool hinders(const struct scene *scene, int face)
 {
-    const enum boundary_kind kind = scene->boundary[face].kind;
-    if (face_axis((enum face)face) == 0 || kind == BOUNDARY_FREE) return false;
-    return face_axis((enum face)face) == 1 || (kind != BOUNDARY_ROLLER && kind != BOUNDARY_SYMMETRY);
+    const struct boundary *boundary = &scene->boundary[face];
+    const int axis = face_axis((enum face)face);
+    return axis > 0 && !boundary_is_free(boundary) && (axis == 1 || !boundary_slides(boundary));
 }
 
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)

@@ -41,7 +41,7 @@ static selas_status cut_of(const struct scene *scene, const struct load *load, s
     *cut = (struct cut){.count = {1, 1, 1}};
     body_from_deck(body, load->centre, cut->middle);
     if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load->face == FACE_HOLE ||
-        load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
+        load_moves(load))
         return fail(
             messages, SELAS_UNSUPPORTED,
             "a function can give tractions on squares, whole faces and points at rest, and body forces");

@@ -20,24 +20,15 @@ double layer_expected_reflection(size_t points)
     return measured_part * layer_profile_reflection(points);
 }
 
-static bool in_box(const struct scene *scene)
-{
-    return scene->body.shape == BODY_BOX || scene->body.shape == BODY_HALF_SPACE;
-}
-
 static bool layer_unneeded(const struct scene *scene, int face)
 {
-    double fastest = 0;
-    for (size_t m = 0; m < scene->materials; m++)
-        fastest = fmax(fastest, scene->material[m].p_speed);
     if (scene->boundary[face].always || scene->receivers + scene->profiles == 0) return false;
-    return echo_path(scene, face) - 4 * scene->body.spacing > 1.02 * fastest * scene->end_time;
+    return echo_path(scene, face) - 4 * scene->body.spacing > 1.02 * scene_fastest(scene) * scene->end_time;
 }
 
 static bool layer_asked(const struct scene *scene, int face)
 {
-    const struct boundary *boundary = &scene->boundary[face];
-    return in_box(scene) && boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML;
+    return body_is_box(&scene->body) && boundary_has_layer(&scene->boundary[face]);
 }
 
 size_t layer_points(const struct scene *scene, int face)

@@ -17,7 +17,7 @@ static double distance(const struct scene *scene, int face, const double positio
     const int opposite = face ^ 1, axis = face / 2;
     body_from_deck(&scene->body, position, place);
     const double direct = fabs(place[axis] - face_position(scene, face));
-    if (scene->boundary[opposite].kind != BOUNDARY_SYMMETRY) return direct;
+    if (!boundary_mirrors(&scene->boundary[opposite])) return direct;
     const double image = 2 * face_position(scene, opposite) - place[axis];
     return fmin(direct, fabs(image - face_position(scene, face)));
 }
@@ -25,15 +25,10 @@ static double distance(const struct scene *scene, int face, const double positio
 static double source_distance(const struct scene *scene, int face)
 {
     double nearest = INFINITY;
-    if (scene->initial.kind != INITIAL_REST) return 0;
-    for (int other = 0; other < BOX_FACES; other++)
-        if (scene->boundary[other].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[other].kind == BOUNDARY_DISPLACEMENT)
-            return 0;
+    if (scene->initial.kind != INITIAL_REST || (scene_needs(scene) & CAN_MOVE) != 0) return 0;
     for (size_t l = 0; l < scene->loads; l++) {
         const struct load *load = &scene->load[l];
-        const bool moves = load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
-        if (load->shape == LOAD_FACE || moves) return 0;
+        if (load->shape == LOAD_FACE || load_moves(load)) return 0;
         const double size = load->shape == LOAD_POINT ? 0 : fmax(load->size[0], load->size[1]) / 2;
         nearest = fmin(nearest, distance(scene, face, load->centre) - size);
     }

@@ -91,14 +91,6 @@ static struct extents find_extents(const struct builder *builder)
     return extents;
 }
 
-static double fastest_speed(const struct scene *scene)
-{
-    double speed = 0.0;
-    for (size_t i = 0; i < scene->materials; i++)
-        speed = fmax(speed, scene->material[i].p_speed);
-    return speed;
-}
-
 static double deepest_layer(const struct builder *builder)
 {
     double depth = 0.0;
@@ -114,7 +106,7 @@ static double fit(const struct builder *builder, const struct extents *extents, 
 {
     const struct scene *scene = builder->scene;
     const double dx = scene->body.spacing;
-    const double reach = fastest_speed(scene) * scene->end_time;
+    const double reach = scene_fastest(scene) * scene->end_time;
     const int down = scene->dimension - 1;
     double points = 1.0;
     double with_layers = 1.0;

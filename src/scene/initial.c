@@ -50,17 +50,17 @@ static bool supported(const struct scene *scene, enum face face)
 {
     const struct boundary *boundary = &scene->boundary[face];
     double own[3];
-    if (boundary->kind != BOUNDARY_DISPLACEMENT && boundary->kind != BOUNDARY_VELOCITY) return false;
+    if (!boundary_moves(boundary)) return false;
     body_direction_from_deck(&scene->body, boundary->direction, own);
     return boundary->slip && boundary->amplitude == 0 && fabs(fabs(own[1]) - 1) < 1e-9;
 }
 
 enum beam_ends beam_ends_of(const struct scene *scene)
 {
-    const enum boundary_kind low = scene->boundary[FACE_X_LOW].kind, high = scene->boundary[FACE_X_HIGH].kind;
-    if (low == BOUNDARY_FIXED && high == BOUNDARY_FREE) return BEAM_CLAMPED_FREE;
-    if (low == BOUNDARY_FIXED && high == BOUNDARY_FIXED) return BEAM_CLAMPED_CLAMPED;
-    if (low == BOUNDARY_FREE && high == BOUNDARY_FREE) return BEAM_FREE_FREE;
+    const struct boundary *low = &scene->boundary[FACE_X_LOW], *high = &scene->boundary[FACE_X_HIGH];
+    if (boundary_is_fixed(low) && boundary_is_free(high)) return BEAM_CLAMPED_FREE;
+    if (boundary_is_fixed(low) && boundary_is_fixed(high)) return BEAM_CLAMPED_CLAMPED;
+    if (boundary_is_free(low) && boundary_is_free(high)) return BEAM_FREE_FREE;
     return supported(scene, FACE_X_LOW) && supported(scene, FACE_X_HIGH) ? BEAM_SIMPLY_SUPPORTED : BEAM_ENDS;
 }
 

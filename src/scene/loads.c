@@ -80,7 +80,7 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
         beyond[i] = fmax(0, fmax(body->low[axes[i]] - place[axes[i]], place[axes[i]] - body->high[axes[i]]));
     const double tolerance = body_tolerance(body);
     bool misses = false;
-    if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
+    if (load_moves(load))
         misses = !comes_by(builder, load, place);
     else if (load->shape == LOAD_POINT)
         misses = hypot(beyond[0], beyond[1]) > tolerance;
@@ -93,9 +93,7 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
         complain(builder, group, "centre",
                  "the load lies beyond the face '%s'%s; no part of it acts on the body",
                  face_name(load->face),
-                 load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0
-                     ? " until the end of the run"
-                     : "");
+                 load_moves(load) ? " until the end of the run" : "");
 }
 
 static void read_velocity(struct builder *builder, const struct deck_group *group, struct load *load)
@@ -118,14 +116,14 @@ static void warn_of_held_face(struct builder *builder, const struct deck_group *
     double own[3];
     body_direction_from_deck(&builder->scene->body, load->direction, own);
     const double normal = fabs(own[face_axis(load->face)]);
-    const bool mirrored = boundary->kind == BOUNDARY_ROLLER || boundary->kind == BOUNDARY_SYMMETRY;
-    const bool moved = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-    if (boundary->kind == BOUNDARY_FIXED || (mirrored && normal > 0) || (moved && !boundary->slip))
+    const bool slides = boundary_slides(boundary);
+    if (boundary_is_fixed(boundary) || (slides && normal > 0) ||
+        (boundary_moves(boundary) && !boundary->slip))
         deck_warning(
             builder->deck, group, "face", builder->messages,
             "the load acts on the face '%s', whose motion &boundary %zu prescribes%s; it does nothing "
             "there",
-            face_name(load->face), boundary->group + 1, mirrored ? " along the normal" : "");
+            face_name(load->face), boundary->group + 1, slides ? " along the normal" : "");
 }
 
 static void read_traction(struct builder *builder, const struct deck_group *group, struct load *load)

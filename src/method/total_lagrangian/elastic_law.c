@@ -11,17 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const names[] = {"linear", "saint-venant-kirchhoff", "neo-hookean"};
-
-int elastic_law_find(const char *name)
-{
-    for (int law = 0; law < 3; law++)
-        if (strcmp(names[law], name) == 0) return law;
-    return -1;
-}
-
 const char *elastic_law_name(enum elastic_law law)
 {
+    static const char *const names[] = {ELASTIC_LAWS(CHOICE_NAME)};
     return names[law];
 }
 

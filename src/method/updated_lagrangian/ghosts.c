@@ -132,7 +132,7 @@ static void traction_at(const struct updated *updated, const struct updated_ghos
     const int axis = face_axis((enum face)face);
     for (int a = 0; a < 3; a++)
         traction[a] = 0;
-    if (boundary->kind == BOUNDARY_TRANSMITTING && !updated->velocities_displace)
+    if (boundary_damps(boundary) && !updated->velocities_displace)
         for (int a = 0; a < updated->dimension; a++)
             traction[a] -= updated->material->density * image->v[a] *
                            (a == axis ? boundary->normal_factor * updated->material->p_speed
@@ -317,7 +317,7 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
                        image.stress[updated_component[updated->dimension][axis][a]] *
                        updated->direction[face][a] * velocity;
         }
-        if (updated->model.scene->boundary[face].kind == BOUNDARY_TRANSMITTING)
+        if (boundary_damps(&updated->model.scene->boundary[face]))
             *absorbed -= area * sum;
         else
             power += area * sum;
