@@ -74,6 +74,11 @@ static void frequencies_are_fitted(void **state)
     assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, 2.2, &frequency, &messages), SELAS_OK);
     assert_near(frequency, 2.345, 2e-4);
     assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, .1, &frequency, &messages), SELAS_BAD_ARGUMENT);
+    /* none where there is none: far from the guess, or no motion at all */
+    assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, 5, &frequency, &messages), SELAS_NOT_CONVERGED);
+    memset(value, 0, sizeof value);
+    assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, 2.2, &frequency, &messages),
+                     SELAS_NOT_CONVERGED);
     messages_free(&messages);
 }
 

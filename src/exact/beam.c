@@ -234,9 +234,14 @@ static void judge(const struct exact *exact, const struct receiver *receiver, si
     const struct solution *solution = (const struct solution *)exact;
     struct messages messages = {0};
     double frequency = 0;
-    char key[NAME_SIZE + 32];
-    if (fit_frequency(rows, time, value + 1, 6, solution->frequency, &frequency, &messages) == SELAS_OK) {
-        snprintf(key, sizeof key, "frequency at %s", receiver->name);
+    char key[NAME_SIZE + 32], none[128];
+    snprintf(key, sizeof key, "frequency at %s", receiver->name);
+    if (fit_frequency(rows, time, value + 1, 6, solution->frequency, &frequency, &messages) != SELAS_OK) {
+        const char *why = messages.text != NULL ? strchr(messages.text, ' ') : NULL;
+        snprintf(none, sizeof none, "none:%.*s", why != NULL ? (int)strcspn(why, "\n") : 0,
+                 why != NULL ? why : "");
+        tell(context, key, none);
+    } else {
         tell_number(tell, context, key, frequency);
         snprintf(key, sizeof key, "frequency error at %s", receiver->name);
         tell_number(tell, context, key, frequency / solution->frequency - 1);

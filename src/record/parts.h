@@ -59,6 +59,8 @@ struct watch {
     double face_energy, face_rate;     /* ... of the order of that, times (1 + rate t)^2 */
     double sampled;        /* sum of squares of a sample of the velocities when they were last energetic */
     double largest_defect; /* largest |E - E0 - work + absorbed| */
+    double turn, strain;   /* largest rotation [rad] and strain at recorder->place */
+    double due, arrived;   /* energy that was given, about when it was most, and what the body had of it */
     struct energy last;
     double last_time;
     unsigned long next;
@@ -83,6 +85,9 @@ struct recorder {
     struct watch watch;
     struct watch before; /* as it was before the last step was seen */
     double before_time;  /* last_time then */
+    size_t places;       /* at which rotations are looked at */
+    struct probe *place;
+    bool looked_back; /* hindsight has told what it has to tell */
     unsigned long last_step;
     double last_time;
     bool started;

@@ -92,8 +92,7 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
     if (misses)
         complain(builder, group, "centre",
                  "the load lies beyond the face '%s'%s; no part of it acts on the body",
-                 face_name(load->face),
-                 load_moves(load) ? " until the end of the run" : "");
+                 face_name(load->face), load_moves(load) ? " until the end of the run" : "");
 }
 
 static void read_velocity(struct builder *builder, const struct deck_group *group, struct load *load)

@@ -36,7 +36,7 @@ enum figure {
     FILES_HIGH,
     FIGURES
 };
-enum { WATCH_NUMBERS = 15 };
+enum { WATCH_NUMBERS = 19 };
 
 /* One way through all arrays of a checkpoint. */
 struct walk {
@@ -74,7 +74,9 @@ static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
         &watch->power,        &watch->power_absorbed, &watch->initial,
         &watch->largest,      &watch->reference,      &watch->reference_until,
         &watch->last.kinetic, &watch->last.strain,    &watch->largest_defect,
-        &watch->last_time,    &watch->sampled,        &next};
+        &watch->last_time,    &watch->sampled,        &next,
+        &watch->turn,         &watch->strain,         &watch->due,
+        &watch->arrived};
     double number[WATCH_NUMBERS];
     for (size_t i = 0; i < WATCH_NUMBERS; i++)
         number[i] = *member[i];
