@@ -33,10 +33,12 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_rk3 = {
     .name = "rk3",
     .order = 3,
+    .can = SCHEME_WAVES | SCHEME_MOVING_LOADS,
     .evaluations = 3,
     .limit = limit,
     .vectors = 3,
     .start = runge_kutta_start,
+    .resume = runge_kutta_start,
     .step = step,
     .again = runge_kutta_start,
 };

@@ -16,7 +16,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static bool looks_like(const struct scene *scene)
 {
@@ -31,8 +30,6 @@ static bool looks_like(const struct scene *scene)
 
 static const char *refusal(const struct scene *scene)
 {
-    if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
-        return "method 'smoothed-point', variant 'consistent'";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     if (scene->initial.kind == INITIAL_PLANE_WAVE) {
         double direction[3];
@@ -276,4 +273,10 @@ static selas_status choose(const struct scene *scene, double accuracy, struct sc
     return status;
 }
 
-const struct accuracy_kind accuracy_wave = {looks_like, refusal, choose, false};
+const struct accuracy_kind accuracy_wave = {
+    .looks_like = looks_like,
+    .variant = "consistent",
+    .served = "method 'smoothed-point', variant 'consistent'",
+    .refusal = refusal,
+    .choose = choose,
+};

@@ -223,7 +223,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
         look_at_path(&adviser, k);
-        if (has_patch(&scene->load[k])) look_at_points(&adviser, k);
+        if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }
     return adviser.count;
 }

@@ -5,6 +5,7 @@
 
 selas_status selas_points(selas_simulation *simulation, size_t *count, const double **position)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
@@ -28,6 +29,7 @@ selas_status selas_points(selas_simulation *simulation, size_t *count, const dou
 selas_status selas_field_values(selas_simulation *simulation, selas_field field, size_t *count,
                                 size_t *components, const double **value)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
@@ -57,6 +59,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
 
 selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;

@@ -20,6 +20,7 @@ static selas_status find_receiver(selas_simulation *simulation, const char *name
 
 selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field, double *value)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
@@ -34,6 +35,7 @@ selas_status selas_receiver(selas_simulation *simulation, const char *name, sela
 selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows, const double **time,
                            const double **value)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
@@ -52,6 +54,7 @@ selas_status selas_history(selas_simulation *simulation, const char *name, size_
 
 selas_status selas_record(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     const selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
@@ -72,6 +75,7 @@ static selas_status make_exact(selas_simulation *simulation)
 
 selas_status selas_write(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
@@ -89,6 +93,7 @@ selas_status selas_write(selas_simulation *simulation)
 
 selas_status selas_write_exact(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
@@ -103,11 +108,14 @@ selas_status selas_write_exact(selas_simulation *simulation)
 selas_status selas_plan(selas_simulation *simulation,
                         void (*tell)(void *context, const char *key, const char *value), void *context)
 {
+    AT_THE_DOOR(simulation);
     simulation_call(simulation);
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     if (tell == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
-    const selas_status status = simulation_prepare(simulation);
-    if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
-    return status;
+    selas_status status = simulation_prepare(simulation);
+    if (status != SELAS_OK) return status;
+    recorder_plan(simulation->recorder, simulation->state.y == NULL ? simulation->stepper : NULL, tell,
+                  context);
+    return make_exact(simulation); /* what the run would refuse when it is over */
 }

@@ -2,16 +2,17 @@
  * profiles with absorbing layers around it, or the one so large that nothing comes back from its faces before
  * end_time, whichever has less to compute.
  *
- * Without layers the first wave back has gone from the load's edge to the face and on to the outermost
- * receiver: (X - load) + (X - receiver) >= c_p end_time, and likewise in depth. With layers the box ends
- * MARGIN points beyond what it has to hold. */
+ * Without absorbing layers the first wave back has gone from the load's edge to the face and on to the
+ * outermost receiver: (X - load) + (X - receiver) >= c_p end_time, and likewise in depth. With them the box
+ * ends MARGIN points beyond what it has to hold. */
 #include "scene/build.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* Points between what the box holds and a layer, depth of the box in points at least, and what a layer point
- * costs against one of the body (regress/studies/layer-cost; doc/performance.md, section 6). */
+/* Points between what the box holds and an absorbing layer, depth of the box in points at least, and what a
+ * point of such a layer costs against one of the body (regress/studies/layer-cost; doc/performance.md,
+ * section 6). */
 enum { MARGIN = 4, LEAST_DEPTH = 12, LAYER = 8 };
 static const double LAYER_COST = 2.8;
 
