@@ -239,7 +239,7 @@ static bool begins_smoothly(const struct scene *scene, double accuracy)
         const int axis = face / 2;
         if (fabs(direction[axis]) < .999) continue;
         const bool leaves = direction[axis] * face_sign((enum face)face) > 0;
-        const double end = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
+        const double end = face_plane(&scene->body, (enum face)face);
         const double slope = plane_wave_shape(initial, (end - centre[axis]) * direction[axis], 1);
         if (leaves && boundary_damps(&scene->boundary[face])) continue;
         if (fabs(slope) > little * accuracy * fabs(most)) return false;

@@ -93,11 +93,6 @@ static void look_at_step(struct adviser *adviser, const struct stepper *stepper)
                part, stepper->limit, 0.9 / part);
 }
 
-double plane_of(const struct body *body, enum face face)
-{
-    return face_sign(face) < 0 ? body->low[face_axis(face)] : body->high[face_axis(face)];
-}
-
 static void look_at_receivers(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
@@ -107,7 +102,7 @@ static void look_at_receivers(struct adviser *adviser)
             if (!boundary_absorbs(&scene->boundary[face])) continue;
             double place[3];
             body_from_deck(body, scene->receiver[r].position, place);
-            const double depth = fabs(place[face_axis((enum face)face)] - plane_of(body, (enum face)face));
+            const double depth = fabs(place[face_axis((enum face)face)] - face_plane(body, (enum face)face));
             if (depth < 0.999 * body->spacing)
                 advise(adviser,
                        "receiver '%s' lies at the absorbing face %s and sees what it does to waves; two "
@@ -146,7 +141,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     body_from_deck(&scene->body, load->centre, centre);
     for (int face = 0; face < 2 * scene->dimension && load->shape == LOAD_POINT; face++) {
         const double depth =
-            fabs(centre[face_axis((enum face)face)] - plane_of(&scene->body, (enum face)face));
+            fabs(centre[face_axis((enum face)face)] - face_plane(&scene->body, (enum face)face));
         if (boundary_absorbs(&scene->boundary[face]) && depth < 1.999 * scene->body.spacing)
             advise(adviser,
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "

@@ -50,7 +50,7 @@ static bool find_tension(struct solution *solution, const struct scene *scene)
         const struct boundary *boundary = &scene->boundary[face];
         if (!boundary_moves(boundary)) continue;
         const int axis = face_axis((enum face)face);
-        const double plane = face_sign((enum face)face) < 0 ? body->low[axis] : body->high[axis];
+        const double plane = face_plane(body, (enum face)face);
         const double modulus = scene->plane == PLANE_STRAIN
                                    ? material->young / (1 - material->poisson * material->poisson)
                                    : material->young;

@@ -198,9 +198,7 @@ static void drive_at_time(void *context, double time, double *load, double *disp
         double middle[3], place[3], value[3];
         for (size_t c = 0; c < 3; c++)
             middle[c] = 0.5 * (body->low[c] + body->high[c]);
-        const int axis = face_axis((enum face)face);
-        if (face < BOX_FACES)
-            middle[axis] = face_sign((enum face)face) < 0 ? body->low[axis] : body->high[axis];
+        if (face < BOX_FACES) middle[face_axis((enum face)face)] = face_plane(body, (enum face)face);
         body_to_deck(body, middle, place);
         ask(simulation, host->face[face].function, host->face[face].context, time, place,
             face_name((enum face)face), value);

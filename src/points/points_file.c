@@ -180,9 +180,8 @@ static int face_of(const struct body *body, int dimension, const struct face_ele
 {
     for (int face = 0; face < 2 * dimension; face++) {
         const int axis = face / 2;
-        const double plane = face % 2 == 0 ? body->low[axis] : body->high[axis];
-        if (element->normal[axis] * (face % 2 == 0 ? -1 : 1) > 0.99 &&
-            fabs(element->position[axis] - plane) < spacing)
+        if (element->normal[axis] * face_sign((enum face)face) > 0.99 &&
+            fabs(element->position[axis] - face_plane(body, (enum face)face)) < spacing)
             return face;
     }
     return FACES;

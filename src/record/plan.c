@@ -2,6 +2,7 @@
 #include "advice/advice.h"
 #include "record/parts.h"
 
+#include "base/processor.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -119,6 +120,8 @@ void plan_tell(const struct recorder *recorder,
     say(&teller, "dimension", "%d", scene->dimension);
     say(&teller, "method", "%s", model->method->name);
     say(&teller, "variant", "%s", model->method->variant);
+    say(&teller, "processor", "%s (vectors of %d bytes)", processor_name(processor_taken()),
+        processor_bytes(processor_taken()));
     say(&teller, "points", "%zu", model->points);
     say(&teller, "unknowns", "%zu", model->unknowns);
     if (model->grid[0] > 0)

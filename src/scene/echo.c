@@ -4,22 +4,18 @@
 
 #include <math.h>
 
-static double face_position(const struct scene *scene, int face)
-{
-    return face % 2 == 0 ? scene->body.low[face / 2] : scene->body.high[face / 2];
-}
-
 /* Distance of a place (deck coordinates) from a face, or of its mirror image where the opposite face is a
  * symmetry plane. */
 static double distance(const struct scene *scene, int face, const double position[3])
 {
     double place[3];
     const int opposite = face ^ 1, axis = face / 2;
+    const double plane = face_plane(&scene->body, (enum face)face);
     body_from_deck(&scene->body, position, place);
-    const double direct = fabs(place[axis] - face_position(scene, face));
+    const double direct = fabs(place[axis] - plane);
     if (!boundary_mirrors(&scene->boundary[opposite])) return direct;
-    const double image = 2 * face_position(scene, opposite) - place[axis];
-    return fmin(direct, fabs(image - face_position(scene, face)));
+    const double image = 2 * face_plane(&scene->body, (enum face)opposite) - place[axis];
+    return fmin(direct, fabs(image - plane));
 }
 
 static double source_distance(const struct scene *scene, int face)

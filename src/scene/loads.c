@@ -63,7 +63,7 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
 {
     const struct body *body = &builder->scene->body;
     const int axis = face_axis(load->face), dimension = builder->scene->dimension;
-    const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+    const double plane = face_plane(body, load->face);
     double place[3], beyond[2] = {0, 0};
     char text[VECTOR_TEXT_SIZE];
     int axes[2];
@@ -160,8 +160,7 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
         if (known && !hole) { /* for those who want one: the middle of the face */
             const struct body *body = &builder->scene->body;
             double middle[3] = {body->pivot[0], body->pivot[1], body->pivot[2]};
-            const int axis = face_axis(load->face);
-            middle[axis] = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+            middle[face_axis(load->face)] = face_plane(body, load->face);
             body_to_deck(body, middle, load->centre);
         }
     } else {

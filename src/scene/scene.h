@@ -209,6 +209,11 @@ static inline int face_sign(enum face face)
     return (int)face % 2 == 0 ? -1 : 1;
 }
 const char *face_name(enum face face); /* "x-" ... "hole" */
+/* Where the plane of a face of the box cuts its axis. */
+static inline double face_plane(const struct body *body, enum face face)
+{
+    return face_sign(face) < 0 ? body->low[face_axis(face)] : body->high[face_axis(face)];
+}
 
 static inline bool body_is_box(const struct body *body)
 {
@@ -235,7 +240,10 @@ selas_status scene_check_faces(const struct scene *scene, unsigned can, const ch
                                struct messages *messages);
 bool scene_loads_move(const struct scene *scene); /* any of them */
 bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
-double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
+/* Part of a point source at a place (body's frame) that the body carries: a half for each symmetry plane that it
+ * lies in. */
+double scene_carries(const struct scene *scene, const double place[3]);
+double scene_fastest(const struct scene *scene); /* speed of P waves in the fastest material */
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);

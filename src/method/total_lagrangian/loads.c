@@ -118,20 +118,6 @@ static selas_status add_at(struct tl_model *tl, const double place[3], const dou
     return SELAS_OK;
 }
 
-/* Part of a point source that the body carries: a half for each symmetry plane it lies in. */
-static double carried(const struct scene *scene, const double place[3])
-{
-    double part = 1;
-    for (int face = 0; face < 2 * scene->dimension; face++) {
-        const int axis = face / 2;
-        const double plane = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
-        if (boundary_mirrors(&scene->boundary[face]) &&
-            fabs(place[axis] - plane) < 1e-6 * scene->body.spacing)
-            part *= 0.5;
-    }
-    return part;
-}
-
 static void moment_in_body(const struct scene *scene, const struct load *load, double scale, double moment[9])
 {
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
@@ -198,7 +184,7 @@ static selas_status traction_on_box(struct tl_model *tl, const struct load *load
     const struct body *body = &tl->model.scene->body;
     const size_t d = (size_t)tl->cloud->dimension;
     const int axis = face_axis(load->face);
-    const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+    const double plane = face_plane(body, load->face);
     const double reach = fmin(2 * tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
     double sum = 0;
     const selas_status known = need_surface(tl, load->face, gather->messages);
@@ -251,7 +237,7 @@ static selas_status collect_load(struct tl_model *tl, const struct load *load, s
     double force[3];
     body_from_deck(&scene->body, load->centre, centre);
     body_direction_from_deck(&scene->body, load->direction, direction);
-    const double part = carried(scene, centre) * load->amplitude;
+    const double part = scene_carries(scene, centre) * load->amplitude;
     for (int c = 0; c < 3; c++)
         force[c] = direction[c] * part;
     if (load->kind == LOAD_MOMENT_TENSOR) {

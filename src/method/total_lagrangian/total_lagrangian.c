@@ -236,7 +236,7 @@ static selas_status allocate_numbers(struct tl_model *tl, struct messages *messa
     enum { PAGE = 512, APART = 72, ARRAYS = 5 };
     const size_t d = (size_t)tl->cloud->dimension;
     tl->plane =
-        ((d * tl->sites + VEC - 1) / PAGE + 1) * PAGE + APART; /* room to read a vector at the last point */
+        ((d * tl->sites + GROUP - 1) / PAGE + 1) * PAGE + APART; /* room to read a vector at the last point */
     const size_t counts[ARRAYS] = {tl->plane, tl->plane, tl->plane, d * tl->plane, d * tl->plane};
     double **const arrays[ARRAYS] = {&tl->site_u, &tl->force, &tl->extra, &tl->H, &tl->A};
     size_t total = 0;
