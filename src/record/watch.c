@@ -235,10 +235,16 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
 {
     struct watch *watch = &recorder->watch;
     if (watch->by_work || watch->with_faces) add_work(recorder, state);
-    if ((double)state->step < watch->next) return glance(recorder, state, messages);
+    if ((double)state->step < watch->next) {
+        const selas_status glanced = glance(recorder, state, messages);
+        if (glanced == SELAS_OK) hindsight_observe(recorder, state, false, messages);
+        return glanced;
+    }
     const unsigned long end = recorder->stepper->steps, next = state->step + WATCH_EVERY;
     /* the balance at the end is wanted in any case */
     watch->next = (double)(state->step < end && next > end ? end : next);
-    const selas_status sound = watch_sound(recorder, state, messages);
-    return sound != SELAS_OK ? sound : judge(recorder, state, true, messages);
+    selas_status status = watch_sound(recorder, state, messages);
+    if (status == SELAS_OK) status = judge(recorder, state, true, messages);
+    if (status == SELAS_OK) hindsight_observe(recorder, state, true, messages);
+    return status;
 }
