@@ -19,6 +19,8 @@ static double scale_of(const struct history *history)
 {
     switch (history->kind) {
     case HISTORY_GAUSSIAN:
+    case HISTORY_BRUNE:
+    case HISTORY_ERROR_FUNCTION:
         return history->width;
     case HISTORY_RICKER:
     case HISTORY_SINE_BURST:

@@ -48,6 +48,11 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     *model = NULL;
     selas_status status = processor_check(messages);
     if (status != SELAS_OK) return status;
+    for (size_t i = 0; i < scene->materials; i++)
+        if (scene->material[i].q_p > 0)
+            return deck_error(scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
+                              "runs are undamped; only 'selas exact' with reference 'layered' takes q_p and "
+                              "q_s");
     const struct method *method = method_find(scene->method.name, scene->method.variant);
     if (method == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,

@@ -164,17 +164,6 @@ static selas_status read_hdf5(const char *path, size_t d, struct table *table, s
         path, d, d);
 }
 
-static bool is_hdf5(const char *path)
-{
-    static const unsigned char signature[4] = {0x89, 'H', 'D', 'F'};
-    unsigned char start[4] = {0};
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) return false;
-    const size_t count = fread(start, 1, sizeof start, file);
-    fclose(file);
-    return count == sizeof start && memcmp(start, signature, sizeof start) == 0;
-}
-
 /* Face of the box that an element lies on, FACES if none. */
 static int face_of(const struct body *body, int dimension, const struct face_element *element, double spacing)
 {
@@ -241,7 +230,8 @@ selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct 
                      ? SELAS_OK
                      : fail(messages, SELAS_NO_MEMORY, "no memory for the points");
     else
-        status = is_hdf5(path) ? read_hdf5(path, d, &table, messages) : read_text(path, d, &table, messages);
+        status = stored_is_hdf5(path) ? read_hdf5(path, d, &table, messages)
+                                      : read_text(path, d, &table, messages);
     if (status == SELAS_OK && table.rows == 0)
         status = fail(messages, SELAS_FILE_ERROR, "'%s' has no points", path);
     if (status == SELAS_OK) status = cloud_allocate(scene->dimension, table.rows, cloud, messages);

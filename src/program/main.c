@@ -150,8 +150,10 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
     if (strcmp(arguments->command, "check") == 0) return selas_plan(simulation, print_line, stdout);
     if (strcmp(arguments->command, "exact") == 0) {
         const selas_status status = selas_write_exact(simulation);
-        if (status == SELAS_OK && !arguments->quiet)
+        if (status == SELAS_OK && !arguments->quiet) {
+            simulation->exact->class->describe(simulation->exact, print_line, stdout);
             printf("exact histories in %s/\n", selas_output_directory(simulation));
+        }
         return status;
     }
     const bool restart = strcmp(arguments->command, "restart") == 0;

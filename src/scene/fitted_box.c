@@ -28,7 +28,7 @@ static void widen(struct span *span, double low, double high)
 
 struct extents {
     struct span load[3], place[3]; /* of the loads; of receivers and profiles */
-    bool one_centre[3];            /* all loads have the same centre along this axis */
+    bool one_centre[3]; /* all loads have the same centre along this axis and are symmetric about it */
     double centre[3];
 };
 
@@ -45,17 +45,36 @@ static double half_size(const struct deck_group *group, int axis)
     return 0.5 * deck_real(group, "size", (size_t)axis < sizes ? (size_t)axis : sizes - 1);
 }
 
+/* Whether a load at its own centre is its mirror image across an axis of the surface. */
+static bool mirrored_across(const struct deck_group *group, int axis)
+{
+    static const int shear[2][2] = {{3, 5}, {3, 4}}; /* of xx yy zz xy yz zx */
+    if (axis > 1) return true;
+    if (deck_choice(group, "kind", 0) != LOAD_MOMENT_TENSOR)
+        return component(group, "direction", axis) == 0.0;
+    return component(group, "moment", shear[axis][0]) == 0.0 &&
+           component(group, "moment", shear[axis][1]) == 0.0;
+}
+
 static void add_loads(const struct builder *builder, struct extents *extents)
 {
     const int dimension = builder->scene->dimension;
     for (size_t k = 0; k < deck_count(builder->deck, "load"); k++) {
         const struct deck_group *group = deck_get(builder->deck, "load", k);
-        for (int c = 0; c < dimension; c++) {
+        double low[3], high[3];
+        const bool many = sources_span(builder, group, low, high);
+        for (int c = 0; c < dimension && many; c++) {
+            const double centre = .5 * (low[c] + high[c]);
+            extents->one_centre[c] = false;
+            extents->centre[c] = centre;
+            widen(&extents->load[c], low[c], high[c]);
+        }
+        for (int c = 0; c < dimension && !many; c++) {
             const double centre = component(group, "centre", c);
             const double path = component(group, "velocity", c) * builder->scene->end_time;
             const double half = c < dimension - 1 ? half_size(group, c) : 0.0;
             if (k > 0 && centre != extents->centre[c]) extents->one_centre[c] = false;
-            if (path != 0.0) extents->one_centre[c] = false;
+            if (path != 0.0 || !mirrored_across(group, c)) extents->one_centre[c] = false;
             extents->centre[c] = centre;
             widen(&extents->load[c], fmin(centre, centre + path) - half, fmax(centre, centre + path) + half);
         }

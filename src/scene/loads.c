@@ -1,4 +1,5 @@
 /* Loads: tractions on patches of faces, body forces, moment tensors. */
+#include "base/memory.h"
 #include "scene/build.h"
 
 #include <math.h>
@@ -233,7 +234,8 @@ static void read_moment(struct builder *builder, const struct deck_group *group,
     if (zero) complain(builder, group, "moment", "moment is zero; expected a component that is not");
 }
 
-static void read_load(struct builder *builder, size_t index, struct load *load)
+static void read_load(struct builder *builder, size_t index, const struct point_sources *sources,
+                      struct load *load)
 {
     static const char *const moment_words[] = {"moment", NULL};
     const struct deck_group *group = deck_get(builder->deck, "load", index);
@@ -241,6 +243,11 @@ static void read_load(struct builder *builder, size_t index, struct load *load)
     take_name(builder, group, "name", load->name);
     load->kind = (enum load_kind)deck_choice(group, "kind", 0);
     load->amplitude = deck_real(group, "amplitude", 0);
+    if (deck_given(group, "sources")) {
+        take_history(builder, group, kinds[load->kind], &load->history);
+        read_sources(builder, group, sources, load);
+        return;
+    }
     if (load->kind == LOAD_TRACTION) {
         refuse(builder, group, moment_words, kinds[load->kind]);
         read_traction(builder, group, load);
@@ -255,11 +262,22 @@ static void read_load(struct builder *builder, size_t index, struct load *load)
 void build_loads(struct builder *builder)
 {
     struct scene *scene = builder->scene;
-    const size_t count = deck_count(builder->deck, "load");
-    if (count == 0) return;
-    scene->load = scene_array(builder, count, sizeof *scene->load);
-    if (scene->load == NULL) return;
-    scene->loads = count;
-    for (size_t i = 0; i < count; i++)
-        read_load(builder, i, &scene->load[i]);
+    const size_t groups = deck_count(builder->deck, "load");
+    if (groups == 0) return;
+    struct point_sources *sources = scene_array(builder, groups, sizeof *sources);
+    size_t count = 0;
+    for (size_t i = 0; i < groups && sources != NULL; i++) {
+        const struct deck_group *group = deck_get(builder->deck, "load", i);
+        if (deck_given(group, "sources"))
+            sources[i] = take_sources(builder, group, (enum load_kind)deck_choice(group, "kind", 0));
+        count += sources[i].count > 0 ? sources[i].count : 1;
+    }
+    if (sources != NULL) scene->load = scene_array(builder, count, sizeof *scene->load);
+    if (scene->load != NULL) scene->loads = count;
+    for (size_t i = 0, at = 0; i < groups && sources != NULL; i++) {
+        if (scene->load != NULL) read_load(builder, i, &sources[i], &scene->load[at]);
+        at += sources[i].count > 0 ? sources[i].count : 1;
+        point_sources_free(&sources[i]);
+    }
+    array_free(sources);
 }

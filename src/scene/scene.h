@@ -19,7 +19,9 @@ enum plane { PLANES(CHOICE_SYMBOL) };
 struct material {
     char name[NAME_SIZE];
     double density;
-    double lambda, mu; /* of the solid in three dimensions */
+    double q_p, q_s;    /* quality of P and S waves; 0: undamped */
+    double q_frequency; /* where the moduli are meant [cycles/time] */
+    double lambda, mu;  /* of the solid in three dimensions */
     double young, poisson;
     double plane_lambda; /* lambda that enters the equations: in plane stress 2 lambda mu / (lambda + 2 mu),
                             in 1D stress such that plane_lambda + 2 mu = E; otherwise lambda */
@@ -146,6 +148,9 @@ struct output_choice {
 struct reference {
     char kind[NAME_SIZE]; /* "" if none */
     char *file;
+    double tolerance; /* wanted relative error; 0: the solution's own default */
+    bool scheme;      /* damping by relaxation mechanisms in place of constant Q */
+    bool stress;      /* histories of stress are wanted too */
     const struct deck_group *group;
 };
 

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *const history_words[] = {"history", "duration", "frequency", "delay",     "width",
-                                     "cycles",  "file",     "smoothing", "amplitude", NULL};
+const char *const history_words[] = {"history", "duration",  "frequency", "delay",     "width", "cycles",
+                                     "file",    "smoothing", "start",     "amplitude", NULL};
 
 enum { PARAMETERS = 6 };
 
@@ -22,6 +22,8 @@ static const struct {
     [HISTORY_GAUSSIAN] = {"history 'gaussian'", {false, false, true, true, false, false}},
     [HISTORY_SINE_BURST] = {"history 'sine-burst'", {false, true, false, false, true, false}},
     [HISTORY_TABLE] = {"history 'table'", {false, false, false, false, false, true}},
+    [HISTORY_BRUNE] = {"history 'brune'", {false, false, false, true, false, false}},
+    [HISTORY_ERROR_FUNCTION] = {"history 'error-function'", {false, false, true, true, false, false}},
 };
 static const char *const parameters[PARAMETERS] = {"duration", "frequency", "delay",
                                                    "width",    "cycles",    "file"};
@@ -75,9 +77,11 @@ static void warn_of_jumps(struct builder *builder, const struct deck_group *grou
                           const struct history *history)
 {
     if (history->kind == HISTORY_TABLE) warn_of_table(builder, group, history);
-    if (history->kind != HISTORY_RICKER && history->kind != HISTORY_GAUSSIAN) return;
+    if (history->kind != HISTORY_RICKER && history->kind != HISTORY_GAUSSIAN &&
+        history->kind != HISTORY_ERROR_FUNCTION)
+        return;
     struct history raw = *history;
-    raw.smoothing = 0;
+    raw.smoothing = raw.start = 0;
     const double start = 2 * fabs(history_value(&raw, 0, 0));
     if (start > 1e-3)
         deck_warning(
@@ -114,6 +118,7 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
         }
     }
     history->smoothing = deck_real(group, "smoothing", 0);
+    history->start = deck_real(group, "start", 0);
     if (right && history->kind == HISTORY_TABLE) right = take_table(builder, group, history);
     if (right)
         warn_of_jumps(builder, group, history);
