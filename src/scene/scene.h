@@ -59,6 +59,7 @@ struct body {
     struct layer *layer;
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
+    bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
@@ -78,8 +79,10 @@ enum absorber { ABSORBER_LYSMER, ABSORBER_PML };
 struct boundary {
     enum boundary_kind kind;
     enum absorber absorber;
-    long layer_points; /* 0: choose from layer_reflection */
-    double layer_reflection;
+    long layer_points;       /* the deck's; of the next two as well at most one is given: else 0 */
+    double layer_thickness;  /* length */
+    double layer_reflection; /* wanted */
+    long least_points;       /* of a layer of which the deck gives none of the three; 0: the default */
     bool always;                        /* keep the layer even where no reflection can be seen by end_time */
     double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
     double direction[3];                /* unit vector in the deck's coordinates (VELOCITY, DISPLACEMENT) */
@@ -211,7 +214,7 @@ struct scene {
 struct builder;
 struct scene_choice {
     double spacing;     /* 0: a first guess */
-    long layer_points;  /* of absorbing layers, where there are any; 0: the default */
+    long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
     int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
     const char *scheme; /* NULL: as without */
     double courant;     /* 0: the default step */

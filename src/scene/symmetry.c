@@ -123,6 +123,7 @@ static bool faces_are_symmetric(const struct scene *scene, int axis)
     if (low->kind != high->kind || is_motion(low)) return false;
     if (low->kind == BOUNDARY_TRANSMITTING &&
         (low->absorber != high->absorber || low->layer_points != high->layer_points ||
+         low->layer_thickness != high->layer_thickness ||
          low->layer_reflection != high->layer_reflection || low->always != high->always ||
          low->normal_factor != high->normal_factor || low->shear_factor != high->shear_factor))
         return false;
