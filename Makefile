@@ -102,7 +102,7 @@ $(BUILD)/selas.map:
 
 $(BUILD)/whole/selas.o: $(OBJECTS)
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(if $(findstring -flto,$(CFLAGS)),-flinker-output=nolto-rel) -r -nostdlib -Wl,-d -o $@ $^
+	$(Q)$(CC) $(CFLAGS) $(if $(findstring -flto,$(CFLAGS)),-flto-partition=one -flinker-output=nolto-rel) -r -nostdlib -Wl,-d -o $@ $^
 	$(Q)objcopy --wildcard --keep-global-symbol='selas_*' $@
 
 $(BUILD)/whole/libselas.a: $(BUILD)/whole/selas.o

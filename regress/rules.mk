@@ -7,11 +7,12 @@ vpath %.c regress/unit regress/hardening/relations regress/hardening/stops regre
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 FUZZED   = $(patsubst regress/hardening/fuzz/%.c,%,$(wildcard regress/hardening/fuzz/fuzz_*.c))
 
-# EXTRA: further options; EXTRA_LIBS: further libraries. Files of dependencies only where there is one source.
+# EXTRA: further options; EXTRA_LIBS: further libraries. The compiler tells on which headers a program of one source depends;
+# those of several are made anew with any header of their folder.
 define program
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
-	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(LIBS) $(EXTRA_LIBS)
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.a,$^) $(LIBS) $(EXTRA_LIBS)
 endef
 $(BUILD)/test/%: %.c $(BUILD)/libselas.a
 	$(program)
@@ -23,13 +24,14 @@ $(BUILD)/replay/%: %.c regress/hardening/fuzz/replay.c $(BUILD)/libselas.a
 $(TESTS): private EXTRA_LIBS = -lcmocka
 $(BUILD)/test/bench: private EXTRA = -ffp-contract=fast
 $(FUZZED:%=$(BUILD)/fuzz/%): private EXTRA = -fsanitize=fuzzer
+$(FUZZED:%=$(BUILD)/replay/%): $(wildcard regress/hardening/fuzz/*.h)
 # The closed form of the half-space shares nothing with the library's
 $(patsubst %,$(BUILD)/test/%,test_lamb test_lamb_fast test_lamb_horizontal lamb_grid): regress/unit/lamb_closed.c \
-    regress/unit/lamb_closed_history.c
+    regress/unit/lamb_closed_history.c $(wildcard regress/unit/*.h)
 # The library's ways to memory go through regress/unit/allocation.c, where they can fail
 WRAPPED  = malloc calloc realloc free aligned_alloc strdup strndup open_memstream fftw_malloc fftw_alloc_real \
            fftw_alloc_complex fftw_free
-$(BUILD)/test/test_no_memory: regress/unit/allocation.c
+$(BUILD)/test/test_no_memory: regress/unit/allocation.c $(wildcard regress/unit/*.h)
 $(BUILD)/test/test_no_memory: private EXTRA = -fno-builtin $(WRAPPED:%=-Wl,--wrap=%)
 
 # Scripts that call make begin a make of their own, with as many jobs as this one.

@@ -54,8 +54,7 @@ typedef enum {
 
 typedef struct selas_simulation selas_simulation;
 
-/* --- A simulation, from deck to results
- * ------------------------------------------------------------------------ */
+/* --- A simulation, from deck to results --- */
 
 /* Opens a simulation from a deck file (doc/deck.md). Reads and checks the deck and builds the scene; points
  * and operator are made by the first call that needs them. A failed open still sets *simulation to a handle
@@ -123,8 +122,8 @@ SELAS_API const char *selas_output_directory(selas_simulation *simulation);
 /* Ends a simulation and sets the handle to NULL; NULL or a pointer to NULL is fine. */
 SELAS_API void selas_close(selas_simulation **simulation);
 
-/* --- Building a scene by calls
- * ---------------------------------------------------------------------------------
+/* --- Building a scene by calls ---
+ *
  * A scene has the words of a deck (doc/deck.md), set one by one; what is not set has the deck's default. Each
  * call is checked as the deck is; what the words mean together is checked when the scene is first used, or by
  * selas_build. The calls also change a simulation that was opened from a deck. All of them, and the functions
@@ -154,8 +153,8 @@ SELAS_API selas_status selas_set_points(selas_simulation *simulation, size_t cou
 /* Checks the whole scene now. Errors: SELAS_BAD_DECK, SELAS_BAD_SCENE. */
 SELAS_API selas_status selas_build(selas_simulation *simulation);
 
-/* --- Loads that the host drives
- * ---------------------------------------------------------------------------------
+/* --- Loads that the host drives ---
+ *
  * A host that drives anything switches the time-dispersion transform off (stepping%unwarp), because that
  * needs histories known beforehand. A load is named by its word `name`, or by its number ("1", "2") if it has
  * none. */
@@ -192,8 +191,7 @@ SELAS_API selas_status selas_set_load(selas_simulation *simulation, const char *
 SELAS_API selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field,
                                        double *value);
 
-/* --- Whole fields
- * -------------------------------------------------------------------------------------------------- */
+/* --- Whole fields --- */
 
 /* The body's own points: mirror images included, points of absorbing layers left out; position[3 * i + c],
  * deck coordinates. The array belongs to the simulation and stays until it is closed or changed. */
@@ -205,8 +203,7 @@ SELAS_API selas_status selas_field_values(selas_simulation *simulation, selas_fi
 /* Kinetic and strain energy of the body at the step reached. Errors: SELAS_UNSUPPORTED. */
 SELAS_API selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain);
 
-/* --- Checkpoints
- * -------------------------------------------------------------------------------------------------- */
+/* --- Checkpoints --- */
 
 /* Saves state, time and histories in the file `path` (HDF5; it has its name only when it is complete, on the
  * disk, and read back). With result files the snapshots so far are kept in the folder `unfinished` of the
@@ -218,8 +215,7 @@ SELAS_API selas_status selas_save(selas_simulation *simulation, const char *path
  * scene, cut short, damaged, snapshots missing: no step can follow), SELAS_BAD_ARGUMENT. */
 SELAS_API selas_status selas_restore(selas_simulation *simulation, const char *path);
 
-/* --- Names
- * ----------------------------------------------------------------------------------------------------- */
+/* --- Names --- */
 
 /* Numbers that a field has at each place: 3, 6 or 1; 0 for no field. */
 SELAS_API int selas_field_components(selas_field field);

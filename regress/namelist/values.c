@@ -2,8 +2,8 @@
  * that does the same with gfortran's read (nml=...), so that the two can be compared.
  *
  *   values fortran TABLE        prints the Fortran program
- *   values read TABLE FILE...   prints "== FILE", then per group "& NAME" and per value given "NAME(I)
- * VALUE", or "refused" and the messages
+ *   values read TABLE FILE...   prints "== FILE", then per group "& NAME" and per value given "NAME(I) VALUE",
+ *                               or "refused" and the messages
  *   values echo deck FILE       prints the echo of a deck
  *
  * TABLE is "sample" (a group of every type) or "deck". Reals and logicals are printed as bits. */
@@ -16,13 +16,13 @@
 #include <string.h>
 
 static const struct word sample_words[] = {
-    {"x", WORD_REAL, 1, NULL, NULL, false, ""},     {"r", WORD_REAL, 5, NULL, NULL, false, ""},
-    {"k", WORD_INTEGER, 1, NULL, NULL, false, ""},  {"i", WORD_INTEGER, 5, NULL, NULL, false, ""},
-    {"b", WORD_LOGICAL, 1, NULL, NULL, false, ""},  {"l", WORD_LOGICAL, 5, NULL, NULL, false, ""},
-    {"s", WORD_TEXT, 1, NULL, NULL, false, ""},     {"c", WORD_TEXT, 5, NULL, NULL, false, ""},
-    {"table", WORD_REAL, 1, NULL, NULL, false, ""}, {"names", WORD_TEXT, 3, NULL, NULL, false, ""},
+    {"x", WORD_REAL, 1, NULL, NULL, OPTIONAL, ""},     {"r", WORD_REAL, 5, NULL, NULL, OPTIONAL, ""},
+    {"k", WORD_INTEGER, 1, NULL, NULL, OPTIONAL, ""},  {"i", WORD_INTEGER, 5, NULL, NULL, OPTIONAL, ""},
+    {"b", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL, ""},  {"l", WORD_LOGICAL, 5, NULL, NULL, OPTIONAL, ""},
+    {"s", WORD_TEXT, 1, NULL, NULL, OPTIONAL, ""},     {"c", WORD_TEXT, 5, NULL, NULL, OPTIONAL, ""},
+    {"table", WORD_REAL, 1, NULL, NULL, OPTIONAL, ""}, {"names", WORD_TEXT, 3, NULL, NULL, OPTIONAL, ""},
 };
-static const struct word other_words[] = {{"x", WORD_REAL, 3, NULL, NULL, false, ""}};
+static const struct word other_words[] = {{"x", WORD_REAL, 3, NULL, NULL, OPTIONAL, ""}};
 static const struct word_group sample_groups[] = {
     {"sample", GROUP_MANY, "", sample_words, sizeof sample_words / sizeof *sample_words},
     {"other", GROUP_MANY, "", other_words, 1},

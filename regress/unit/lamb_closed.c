@@ -1,16 +1,26 @@
 /* Closed form of Lamb's problem on the surface, any Poisson ratio: Pekeris (1955), Proc. Natl. Acad. Sci. 41,
  * 469-480; Mooney (1974), Bull. Seismol. Soc. Am. 64, 473-491; in the form of Kausel (2012), Proc. R. Soc. A
- * 468, 3751-3769. Integrated over the patch by its edge (doc/lamb.md, Eqs 41-50): step response = 1/(2 pi mu)
- * contour integral of d(theta) cs t W(r/(cs t)),  W(rho) = int_0^rho Z(1/r) dr,  (1) theta and r polar
- * coordinates about the receiver; horizontally with -cos(theta), -sin(theta) and X for Z. With a = (cs/cp)^2,
- * Q_j(c) = sqrt((y_j - c)/(y_j - tau^2)): Z = -[H(tau^2 > a) sum B_j (1 - Q_j(a)) + H(tau > 1) sum C_j (1 -
- * Q_j(1))],                              (2) P(y) = -(16 (1-a) y^3 - 8 (3-2a) y^2 + 8 y - 1) = 0,  B_j =
- * (1-2y_j)^2/P',  C_j = 4 y_j (y_j-a)/P',         (3) int Q_j(c) dr = (y_j r^2 - 1)/y_j sqrt((y_j - c)/(y_j
- * r^2 - 1))  at tau = 1/r,                           (4) where Q_j = 0 for the Rayleigh root beyond its
- * arrival, and X = -(2/pi) int q Im G tau/sqrt(tau^2-q^2) dq over [sqrt a, min(1,tau)] + C_R
- * tau/sqrt(tau^2-g^2) H(tau > g), (5) W = -(2/pi) int Im G asin(min(1, q rho)) dq over [sqrt a, 1] + (C_R/g)
- * asin(min(1, g rho)),                (6) Im G = -2 A B (1-2q^2)/[(1-2q^2)^4 + 16 q^4 A^2 B^2], A^2 = q^2 -
- * a, B^2 = 1 - q^2, g = cs/c_R.               (7) */
+ * 468, 3751-3769. Integrated over the patch by its edge (doc/lamb.md, Eqs 41-50), theta and r polar coordinates
+ * about the receiver:
+ *
+ *   step response = 1/(2 pi mu) contour integral of d(theta) cs t W(r/(cs t)),
+ *   W(rho) = int_0^rho Z(1/r) dr,                                                                        (1)
+ *
+ * horizontally with -cos(theta), -sin(theta) and X for Z. With a = (cs/cp)^2,
+ *
+ *   Q_j(c) = sqrt((y_j - c)/(y_j - tau^2)),
+ *   Z = -[H(tau^2 > a) sum B_j (1 - Q_j(a)) + H(tau > 1) sum C_j (1 - Q_j(1))],                          (2)
+ *   P(y) = -(16 (1-a) y^3 - 8 (3-2a) y^2 + 8 y - 1) = 0,
+ *   B_j = (1-2y_j)^2/P',  C_j = 4 y_j (y_j-a)/P',                                                        (3)
+ *   int Q_j(c) dr = (y_j r^2 - 1)/y_j sqrt((y_j - c)/(y_j r^2 - 1))  at tau = 1/r,                       (4)
+ *
+ * where Q_j = 0 for the Rayleigh root beyond its arrival, and
+ *
+ *   X = -(2/pi) int q Im G tau/sqrt(tau^2-q^2) dq over [sqrt a, min(1,tau)]
+ *       + C_R tau/sqrt(tau^2-g^2) H(tau > g),                                                            (5)
+ *   W = -(2/pi) int Im G asin(min(1, q rho)) dq over [sqrt a, 1] + (C_R/g) asin(min(1, g rho)),          (6)
+ *   Im G = -2 A B (1-2q^2)/[(1-2q^2)^4 + 16 q^4 A^2 B^2],
+ *   A^2 = q^2 - a,  B^2 = 1 - q^2,  g = cs/c_R.                                                          (7) */
 #include "lamb_closed.h"
 
 #include "base/gsl_errors.h"
@@ -192,8 +202,8 @@ selas_status lamb_closed_set(struct lamb_closed *closed, double density, double 
         closed->s[j] = 4 * y * (y - a) / slope;
         if (creal(y) > 1 && fabs(cimag(y)) < 1e-12) closed->rayleigh = j;
     }
-    /* C_R = -2 g N / R'(g), R = (1-2q^2)^2 - 4 q^2 sqrt((q^2-a)(q^2-1)), N = 1 - 2 g^2 + 2
-     * sqrt((g^2-a)(g^2-1)) */
+    /* C_R = -2 g N / R'(g), R = (1-2q^2)^2 - 4 q^2 sqrt((q^2-a)(q^2-1)),
+     * N = 1 - 2 g^2 + 2 sqrt((g^2-a)(g^2-1)) */
     const double y = creal(closed->root[closed->rayleigh]), g = sqrt(y);
     const double product = sqrt((y - a) * (y - 1));
     const double slope = -8 * g * (1 - 2 * y) - 8 * g * product - 4 * g * y * (2 * y - a - 1) / product;

@@ -181,8 +181,7 @@ static void test_callback_must_not_call_back(void **state)
     selas_close(&simulation);
 }
 
-/* --- Many simulations
- * ----------------------------------------------------------------------------------------------- */
+/* --- Many simulations --- */
 
 static long resident_pages(void)
 {

@@ -274,8 +274,7 @@ static void test_wrong_checkpoints(void **state)
     remove(path);
 }
 
-/* --- Nothing is printed
- * ---------------------------------------------------------------------------------------------- */
+/* --- Nothing is printed --- */
 
 static int kept[2];   /* standard output and error while they go to the file */
 static FILE *printed; /* what was written to them */

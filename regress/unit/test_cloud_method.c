@@ -206,29 +206,11 @@ static void held_points_rest(void **state)
     model_free(&model);
 }
 
-static void moving_faces_are_refused(void **state)
-{
-    (void)state;
-    struct box_scene box;
-    make(&box, 2, .125);
-    box.scene.boundary[FACE_X_LOW].kind = BOUNDARY_VELOCITY;
-    struct tl_options options = tl_default_options();
-    options.form = &cloud_form;
-    struct messages messages = {0};
-    struct model *model = NULL;
-    assert_int_equal(total_lagrangian_create(&box.scene, &options, &model, &messages), SELAS_UNSUPPORTED);
-    messages_free(&messages);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summation_by_parts),
-        cmocka_unit_test(uniform_stress),
-        cmocka_unit_test(patches),
-        cmocka_unit_test(spectrum_is_real),
-        cmocka_unit_test(held_points_rest),
-        cmocka_unit_test(moving_faces_are_refused),
+        cmocka_unit_test(summation_by_parts), cmocka_unit_test(uniform_stress),   cmocka_unit_test(patches),
+        cmocka_unit_test(spectrum_is_real),   cmocka_unit_test(held_points_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

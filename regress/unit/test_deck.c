@@ -359,7 +359,7 @@ static void table_is_sound(void **state)
             const struct word *word = &group->word[j];
             assert_int_equal(words_find(group, word->name, strlen(word->name)), j);
             assert_true(word->count >= 1 && *word->gloss != '\0');
-            assert_false(word->obligatory && word->defaults != NULL);
+            assert_false(word->need == OBLIGATORY && word->defaults != NULL);
             if (word->type == WORD_CHOICE) {
                 assert_non_null(word->range);
             } else if (word->range != NULL) {
@@ -384,11 +384,11 @@ static void table_is_sound(void **state)
 static void ranges_and_spellings(void **state)
 {
     (void)state;
-    const struct word half_open = {"a", WORD_REAL, 1, NULL, "(-1, 0.5]", false, ""};
+    const struct word half_open = {"a", WORD_REAL, 1, NULL, "(-1, 0.5]", OPTIONAL, ""};
     assert_false(word_in_range(&half_open, -1.0));
     assert_true(word_in_range(&half_open, 0.5));
     assert_false(word_in_range(&half_open, 0.5000001));
-    const struct word positive = {"a", WORD_REAL, 1, NULL, "(0, inf)", false, ""};
+    const struct word positive = {"a", WORD_REAL, 1, NULL, "(0, inf)", OPTIONAL, ""};
     assert_false(word_in_range(&positive, 0.0));
     assert_true(word_in_range(&positive, 1e300));
     assert_false(word_in_range(&positive, 1e300 * 1e300));

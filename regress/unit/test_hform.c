@@ -368,8 +368,12 @@ static void test_prescribed(void **state)
 }
 
 /* Along an axis P and S waves have omega^2 = c^2 N^ S^, with the 1-D symbols for p = 2
- *   M^ = (66 + 52 cos k + 2 cos 2k) / 120, S^ = 1 - (2/3) cos k - (1/3) cos 2k, N^ = (1 - (1 - M^)^(m+1)) /
- * M^. Three sweeps, worst of three directions at 10, 6, 4 points: 7.8e-5, 6.7e-4, 1.8e-2. */
+ *
+ *   M^ = (66 + 52 cos k + 2 cos 2k) / 120,
+ *   S^ = 1 - (2/3) cos k - (1/3) cos 2k,
+ *   N^ = (1 - (1 - M^)^(m+1)) / M^.
+ *
+ * Three sweeps, worst of three directions at 10, 6, 4 points: 7.8e-5, 6.7e-4, 1.8e-2. */
 static void test_dispersion(void **state)
 {
     (void)state;

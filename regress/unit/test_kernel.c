@@ -1,6 +1,10 @@
 /* Kernels: unit integral, plane integral (S_a), continuity, derivatives against differences of the value. */
+#include "deck/choices.h"
 #include "kernel/kernel.h"
 #include "near.h"
+
+#define NAME(symbol, word) word,
+static const char *const kernels[] = {KERNELS(NAME) NULL};
 
 /* Surface of the unit sphere in 1, 2, 3 dimensions (0: the point itself). */
 static const double sphere[4] = {1, 2, 2 * M_PI, 4 * M_PI};
@@ -31,9 +35,9 @@ static double integral(const struct kernel *kernel, int dimension, int space, do
 static void test_unit_integral(void **state)
 {
     (void)state;
-    for (int i = 0; kernel_name(i) != NULL; i++)
+    for (int i = 0; kernels[i] != NULL; i++)
         for (int dimension = 1; dimension <= 3; dimension++) {
-            const struct kernel *kernel = kernel_find(kernel_name(i));
+            const struct kernel *kernel = kernel_find(kernels[i]);
             assert_near(integral(kernel, dimension, dimension, .7), 1, 1e-13);
         }
 }
@@ -42,9 +46,9 @@ static void test_plane_factor(void **state)
 {
     (void)state;
     const double h = 1.3;
-    for (int i = 0; kernel_name(i) != NULL; i++)
+    for (int i = 0; kernels[i] != NULL; i++)
         for (int dimension = 1; dimension <= 3; dimension++) {
-            const struct kernel *kernel = kernel_find(kernel_name(i));
+            const struct kernel *kernel = kernel_find(kernels[i]);
             const double plane = integral(kernel, dimension, dimension - 1, h);
             assert_near(kernel_plane_factor(kernel, dimension, h) * plane, 1, 1e-13);
         }
@@ -72,9 +76,9 @@ static void test_derivatives(void **state)
 {
     (void)state;
     const double h = .8, step = 1e-5;
-    for (int i = 0; kernel_name(i) != NULL; i++)
+    for (int i = 0; kernels[i] != NULL; i++)
         for (int dimension = 1; dimension <= 3; dimension++) {
-            const struct kernel *kernel = kernel_find(kernel_name(i));
+            const struct kernel *kernel = kernel_find(kernels[i]);
             const double size = kernel_value(kernel, dimension, 0, h);
             for (int k = 0; .07 + .13 * k < kernel->support + .2; k++) {
                 const double r = (.07 + .13 * k) * h;
@@ -99,10 +103,10 @@ static void test_continuity(void **state)
 {
     (void)state;
     const double tiny = 1e-9;
-    for (int i = 0; kernel_name(i) != NULL; i++)
+    for (int i = 0; kernels[i] != NULL; i++)
         for (int dimension = 1; dimension <= 3; dimension++)
             for (int knot = 1; knot <= 3; knot++) {
-                const struct kernel *kernel = kernel_find(kernel_name(i));
+                const struct kernel *kernel = kernel_find(kernels[i]);
                 const double size = kernel_value(kernel, dimension, 0, 1);
                 assert_near(kernel_value(kernel, dimension, knot - tiny, 1),
                             kernel_value(kernel, dimension, knot + tiny, 1), 1e-7 * size);

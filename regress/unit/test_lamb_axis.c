@@ -1,8 +1,13 @@
 /* The half-space inside, straight below a point load, where Cagniard's inversion has a closed form: at r = 0
- * all of exp(-k eta(k) z) with k = s xi/cs arrives at t = z eta/cs, so that for a unit step (cs = mu = 1) 2
- * pi z^2 u/t = [P part at xi^2 = t^2/z^2 - a, t > z sqrt a] + [S part at xi^2 = t^2/z^2 - 1, t > z]   (1) of
- * the compliances without their exponentials (doc/lamb.md, Eqs 1-3; p^2 = xi^2 + a, q^2 = xi^2 + 1): u_z of
- * Tz: p (2 xi^2 + 1)/R,  -2 xi^2 p/R;   u_x of Tx, n_x^2 averaged: -xi^2 q/R, [(2 xi^2 + 1) q/R + 1/q]/2.
+ * all of exp(-k eta(k) z) with k = s xi/cs arrives at t = z eta/cs, so that for a unit step (cs = mu = 1)
+ *
+ *   2 pi z^2 u/t = [P part at xi^2 = t^2/z^2 - a, t > z sqrt a] + [S part at xi^2 = t^2/z^2 - 1, t > z]   (1)
+ *
+ * of the compliances without their exponentials (doc/lamb.md, Eqs 1-3; p^2 = xi^2 + a, q^2 = xi^2 + 1):
+ *
+ *   u_z of Tz:                  p (2 xi^2 + 1)/R,   -2 xi^2 p/R,
+ *   u_x of Tx, n_x^2 averaged:  -xi^2 q/R,          [(2 xi^2 + 1) q/R + 1/q]/2.
+ *
  * Velocity = f'' * u. Holds lamb_fft's compliances at depth and all that follows them. */
 #include "exact/gauss12.h"
 #include "exact/lamb_fft.h"

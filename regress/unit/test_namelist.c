@@ -10,10 +10,10 @@
 #include <cmocka.h>
 
 static const struct word words[] = {
-    {"x", WORD_REAL, 1, NULL, NULL, false, ""},
-    {"list", WORD_REAL, 6, "9, 8", NULL, false, ""},
-    {"text", WORD_TEXT, 2, "'default'", NULL, false, ""},
-    {"flag", WORD_LOGICAL, 1, NULL, NULL, false, ""},
+    {"x", WORD_REAL, 1, NULL, NULL, OPTIONAL, ""},
+    {"list", WORD_REAL, 6, "9, 8", NULL, OPTIONAL, ""},
+    {"text", WORD_TEXT, 2, "'default'", NULL, OPTIONAL, ""},
+    {"flag", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL, ""},
 };
 static const struct word_group groups[] = {
     {"one", GROUP_MANY, "", words, 4},

@@ -224,7 +224,7 @@ static void test_what_is_kept(void **state)
     with.scene.material = with.material;
     set_layer(&with, FACE_X_HIGH, 5);
     struct run bare = start(&plain), layered = start(&with);
-    assert_null(bare.model->memory->remember);
+    assert_null(bare.model->memory);
     assert_null(consistent_of(bare.model)->pml);
     assert_int_equal(bare.model->state_size, 2 * bare.model->unknowns);
     assert_int_equal(layered.model->points, bare.model->points);

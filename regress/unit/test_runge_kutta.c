@@ -6,7 +6,9 @@
 #include "near.h"
 
 /* y = [u | v] of two test problems, by the model's `unknowns` = 1:
- * pendulum  u' = v, v' = -sin u - v/2 + cos t,   and   decay  u' = rate u (v unused). */
+ *
+ *   pendulum  u' = v, v' = -sin u - v/2 + cos t
+ *   decay     u' = rate u (v unused) */
 static double decay_rate;
 
 static void pendulum(struct model *model, const struct drive *drive, const double *y, double *dydt)

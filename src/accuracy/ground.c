@@ -23,13 +23,11 @@ enum { ROWS = SURFACE_ROWS };
 static const char *faces_refusal(const struct scene *scene)
 {
     struct scene seen = *scene;
-    const enum boundary_kind surface = scene->boundary[FACE_Z_LOW].kind;
     seen.snapshots = 0; /* the error is that at the receivers */
-    if (surface != BOUNDARY_FREE) return "half-spaces with a free surface";
+    if (!boundary_is_free(&scene->boundary[FACE_Z_LOW])) return "half-spaces with a free surface";
     for (int face = 0; face < FACE_Z_HIGH + 1; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (face == FACE_Z_LOW || boundary->kind == BOUNDARY_SYMMETRY || has_absorbing_layer(boundary))
-            continue;
+        if (face == FACE_Z_LOW || boundary_mirrors(boundary) || boundary_has_layer(boundary)) continue;
         if (scene->body.absorbing && !boundary->given) continue;
         if (!scene->body.chosen && echo_seen(&seen, face, 0))
             return "boxes with faces that absorb by layers (layer = 'pml'), are symmetry planes, or stand so "
@@ -48,13 +46,12 @@ static const char *refusal(const struct scene *scene)
 {
     if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
         return "method 'smoothed-point', variant 'consistent'";
-    if (scene->body.shape != BODY_HALF_SPACE && scene->body.shape != BODY_BOX) return "half-spaces and boxes";
+    if (!body_is_box(&scene->body)) return "half-spaces and boxes";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     for (size_t k = 0; k < scene->loads; k++) {
-        const double *velocity = scene->load[k].velocity;
         if (scene->load[k].shape != LOAD_SQUARE && scene->load[k].shape != LOAD_DISC)
             return "loads on a square or a disc";
-        if (velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0) return "loads that do not move";
+        if (load_moves(&scene->load[k])) return "loads that do not move";
     }
     return faces_refusal(scene);
 }

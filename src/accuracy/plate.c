@@ -59,7 +59,7 @@ static bool pulled_slowly(const struct scene *scene)
     int pulls = 0;
     for (int face = 0; face < FACES; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (boundary->kind != BOUNDARY_DISPLACEMENT || !(boundary->amplitude != 0)) continue;
+        if (boundary_meaning(boundary)->motion != 0 || !(boundary->amplitude != 0)) continue;
         if (!slow(scene, &boundary->history)) return false;
         pulls++;
     }

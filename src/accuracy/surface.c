@@ -2,10 +2,14 @@
  *
  * The error at a receiver has, at each frequency, three parts relative to the exact velocity (measured,
  * regress/studies/accuracy/law.sh): that of the load's own field, of the source and the surface, and of the way,
+ *
  *   e^2 = (S n^-s (size/r)^q d)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c,          (1)
+ *
  * n the points along the load's shortest edge, r the distance, d and g 1 along the axes of the lattice and
  * less between them, c the speed of the surface wave. With V the exact velocity's spectrum the relative L2
- * error of the history is E(h)^2 = sum e^2 |V|^2 / sum |V|^2. (2) */
+ * error of the history is
+ *
+ *   E(h)^2 = sum e^2 |V|^2 / sum |V|^2.                                                                  (2) */
 #include "accuracy/surface.h"
 
 #include "exact/half_space.h"
@@ -16,9 +20,9 @@
 struct law {
     double near, near_order, near_distance, near_diagonal, source, source_order, way, way_order, diagonal;
 };
-/* Coefficients of (1), fitted by regress/studies/accuracy/law.sh to runs of the default method: nu .1 to .4, 3 to
- * 10 points along the load's edge, receivers up to two edges away; errors predicted within a factor of 1.36
- * (r.m.s.). */
+/* Coefficients of (1), fitted by regress/studies/accuracy/law.sh to runs of the default method: nu .1 to .4,
+ * 3 to 10 points along the load's edge, receivers up to two edges away; errors predicted within a factor
+ * of 1.36 (r.m.s.). */
 static const struct law plain = {16.3, 5.22, 2.54, 1, 0.0068, 5.95, 0.000861, 3.41, 0.29};
 /* The same for layered ground without absorbing layers, where splines of degree 4 are tuned; layers of
  * thickness .5 to 1, waves 1.5 and 2 times as fast below, 5 to 10 points along the edge; within a factor
@@ -30,11 +34,6 @@ static const double BURIED = 0.6; /* receivers in the ground err less (measured)
 /* A surface wave feels the ground down to some wavelengths: its slowness is the mean of the layers', each
  * weighted by exp(-depth / (FELT wavelength)) over its depth. */
 static const double FELT = 0.5;
-
-bool has_absorbing_layer(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML;
-}
 
 static void add_layer(struct surface_ground *ground, const struct material *material, double top)
 {
@@ -57,7 +56,7 @@ struct surface_ground surface_ground_of(const struct scene *scene, double spacin
     ground.tuned = ground.layers > 1;
     for (int face = 0; face <= FACE_Z_HIGH; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (!has_absorbing_layer(boundary)) continue;
+        if (!boundary_has_layer(boundary)) continue;
         if (boundary->always || echo_seen(scene, face, 4 * spacing)) ground.tuned = false;
     }
     return ground;

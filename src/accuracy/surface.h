@@ -24,7 +24,6 @@ struct surface_ground {
     double top[SURFACE_LAYERS], slowness[SURFACE_LAYERS]; /* of each layer's Rayleigh wave */
 };
 
-bool has_absorbing_layer(const struct boundary *boundary);
 /* Splines are tuned on layered ground without absorbing layers, that is, where no echo could be seen with
  * `spacing` or a smaller one. */
 struct surface_ground surface_ground_of(const struct scene *scene, double spacing);

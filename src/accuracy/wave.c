@@ -2,10 +2,13 @@
  *
  * What the lattice and the scheme make of a wave of frequency omega is known (doc/consistent-method.md,
  * section 11): it travels as with the speed c (1 + e(omega)). To first order the error of a history is
- * therefore d = F^-1 [ e(omega) F q ],   q = dv / d ln c, (1) F the Fourier transform, v the exact velocity
- * at the receiver, q its change with the speed of waves at the same impedance: travel time times rate of
- * change, arrival by arrival. e is bounded where (1) would make more of a wave than sqrt(2), what it errs
- * when it arrives at any time. */
+ * therefore
+ *
+ *   d = F^-1 [ e(omega) F q ],   q = dv / d ln c,                                                        (1)
+ *
+ * F the Fourier transform, v the exact velocity at the receiver, q its change with the speed of waves at the
+ * same impedance: travel time times rate of change, arrival by arrival. e is bounded where (1) would make more
+ * of a wave than sqrt(2), what it errs when it arrives at any time. */
 #include "accuracy/arrivals.h"
 #include "accuracy/kinds.h"
 #include "base/memory.h"
@@ -15,28 +18,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool moves(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-}
-
 static bool looks_like(const struct scene *scene)
 {
     if (scene->body.shape != BODY_BOX) return false;
     if (scene->initial.kind == INITIAL_PLANE_WAVE || scene->dimension == 1) return true;
     for (int face = 0; face < BOX_FACES; face++)
-        if (moves(&scene->boundary[face]) && scene->boundary[face].amplitude != 0) return true;
+        if (boundary_moves(&scene->boundary[face]) && scene->boundary[face].amplitude != 0) return true;
     for (size_t k = 0; k < scene->loads; k++)
         if (scene->load[k].shape == LOAD_FACE) return true;
-    return false;
-}
-
-static bool has_layer(const struct scene *scene)
-{
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING &&
-            scene->boundary[face].absorber == ABSORBER_PML)
-            return true;
     return false;
 }
 
@@ -52,7 +41,8 @@ static const char *refusal(const struct scene *scene)
         if (scene->initial.wavelength > 0 || most < 1 - 1e-9)
             return "plane pulses (width, not wavelength) along an axis of the body";
     }
-    if (has_layer(scene)) return "plane waves between faces without absorbing layers (layer = 'lysmer')";
+    if ((scene_needs(scene) & ~(unsigned)(CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP)) != 0)
+        return "plane waves between faces without absorbing layers (layer = 'lysmer')";
     return NULL;
 }
 
@@ -74,7 +64,7 @@ static void set_direction(const struct scene *scene, struct lattice_wave *wave)
         return;
     }
     for (int face = 0; face < 2 * scene->dimension && motion == NULL; face++)
-        if (moves(&scene->boundary[face]) && scene->boundary[face].amplitude != 0) {
+        if (boundary_moves(&scene->boundary[face]) && scene->boundary[face].amplitude != 0) {
             motion = scene->boundary[face].direction;
             axis = face / 2;
         }
@@ -99,8 +89,7 @@ static bool sees_damper(const struct lattice_wave *wave, const struct arrivals *
     body_from_deck(&scene->body, scene->initial.centre, centre);
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const int axis = face / 2;
-        if (scene->boundary[face].kind != BOUNDARY_TRANSMITTING || fabs(wave->direction[axis]) < .999)
-            continue;
+        if (!boundary_damps(&scene->boundary[face]) || fabs(wave->direction[axis]) < .999) continue;
         const double ends[2] = {scene->body.low[axis], scene->body.high[axis]}, end = ends[face % 2];
         const double start = scene->initial.kind == INITIAL_REST ? ends[1 - face % 2] : centre[axis];
         const double first = place->middle - fabs(place->position[axis] - start) / wave->speed;
@@ -119,11 +108,13 @@ static double held_ends(const struct lattice_wave *wave, const struct arrivals *
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const struct boundary *boundary = &scene->boundary[face];
         const int axis = face / 2;
-        const bool mirror = boundary->kind == BOUNDARY_ROLLER && fabs(wave->motion[axis]) > .5;
+        const bool roller = boundary_slides(boundary) && !boundary_mirrors(boundary);
         if (fabs(wave->direction[axis]) < .999) continue;
-        if (boundary->kind != BOUNDARY_FIXED && !moves(boundary) && !mirror) continue;
+        if (!boundary_is_fixed(boundary) && !boundary_moves(boundary) &&
+            !(roller && fabs(wave->motion[axis]) > .5))
+            continue;
         held += wave->speed * place->travel / (2 * (scene->body.high[axis] - scene->body.low[axis]));
-        if (moves(boundary) && boundary->amplitude != 0) held++;
+        if (boundary_moves(boundary) && boundary->amplitude != 0) held++;
     }
     return held;
 }
@@ -145,8 +136,8 @@ static double least_cells(const struct lattice_wave *wave)
 {
     enum { FEWEST = 3 };
     for (int c = 0; c < wave->scene->dimension; c++)
-        if (wave->scene->boundary[2 * c].kind == BOUNDARY_SYMMETRY &&
-            wave->scene->boundary[2 * c + 1].kind == BOUNDARY_SYMMETRY)
+        if (boundary_mirrors(&wave->scene->boundary[2 * c]) &&
+            boundary_mirrors(&wave->scene->boundary[2 * c + 1]))
             return 2 * wave->setting->degree + 1;
     return FEWEST;
 }
@@ -253,7 +244,7 @@ static bool begins_smoothly(const struct scene *scene, double accuracy)
         const bool leaves = direction[axis] * face_sign((enum face)face) > 0;
         const double end = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
         const double slope = plane_wave_shape(initial, (end - centre[axis]) * direction[axis], 1);
-        if (leaves && scene->boundary[face].kind == BOUNDARY_TRANSMITTING) continue;
+        if (leaves && boundary_damps(&scene->boundary[face])) continue;
         if (fabs(slope) > little * accuracy * fabs(most)) return false;
     }
     return true;

@@ -62,18 +62,13 @@ double plane_of(const struct body *body, enum face face)
     return face_sign(face) < 0 ? body->low[face_axis(face)] : body->high[face_axis(face)];
 }
 
-static bool is_box(const struct body *body)
-{
-    return body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
-}
-
 static void look_at_receivers(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     const struct body *body = &scene->body;
     for (size_t r = 0; r < scene->receivers; r++)
         for (int face = 0; face < 2 * scene->dimension; face++) {
-            if (scene->boundary[face].kind != BOUNDARY_TRANSMITTING) continue;
+            if (!boundary_absorbs(&scene->boundary[face])) continue;
             double place[3];
             body_from_deck(body, scene->receiver[r].position, place);
             const double depth = fabs(place[face_axis((enum face)face)] - plane_of(body, (enum face)face));
@@ -106,7 +101,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     const struct load *load = &scene->load[k];
     double centre[3];
     if (load->kind == LOAD_TRACTION) {
-        if ((int)load->face < BOX_FACES && scene->boundary[load->face].kind == BOUNDARY_TRANSMITTING)
+        if (boundary_absorbs(&scene->boundary[load->face]))
             advise(adviser,
                    "load %zu acts on the absorbing face %s, which takes up part of it; a free face would not",
                    k + 1, face_name(load->face));
@@ -116,7 +111,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     for (int face = 0; face < 2 * scene->dimension && load->shape == LOAD_POINT; face++) {
         const double depth =
             fabs(centre[face_axis((enum face)face)] - plane_of(&scene->body, (enum face)face));
-        if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING && depth < 1.999 * scene->body.spacing)
+        if (boundary_absorbs(&scene->boundary[face]) && depth < 1.999 * scene->body.spacing)
             advise(adviser,
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
                    "inside it "
@@ -157,7 +152,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_start(&adviser);
     look_at_step(&adviser, stepper);
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
-    if (!is_box(&scene->body)) return adviser.count;
+    if (!body_is_box(&scene->body)) return adviser.count;
     look_at_meetings(&adviser);
     look_at_receivers(&adviser);
     look_at_layers(&adviser, stepper);

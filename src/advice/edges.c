@@ -10,11 +10,9 @@ static bool prescribed(const struct scene *scene, int face, int component, doubl
     const struct boundary *boundary = &scene->boundary[face];
     double own[3];
     *amplitude = 0.0;
-    if (boundary->kind == BOUNDARY_FIXED) return true;
-    if (boundary->kind == BOUNDARY_ROLLER) return component == face / 2;
-    if (boundary->kind != BOUNDARY_VELOCITY && boundary->kind != BOUNDARY_DISPLACEMENT) return false;
+    if (!face_holds(scene, (enum face)face, component)) return false;
+    if (!boundary_moves(boundary)) return !boundary_mirrors(boundary);
     body_direction_from_deck(&scene->body, boundary->direction, own);
-    if (boundary->slip && fabs(own[component]) <= 1e-9) return false;
     *amplitude = boundary->amplitude * own[component];
     return true;
 }

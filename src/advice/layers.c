@@ -23,8 +23,8 @@ static bool lawful(const struct scene *scene, const struct stepper *stepper)
     const struct deck_group *group = scene->method.group;
     if (strcmp(scene->method.variant, "consistent") != 0 || scene->output.low_pass > 0.0) return false;
     if (deck_given(group, "degree") && deck_integer(group, "degree", 0) != 2) return false;
-    if (deck_given(group, "mass") && strcmp(deck_text(group, "mass", 0), "vc3") != 0) return false;
-    if (deck_given(group, "ends") && strcmp(deck_text(group, "ends", 0), "open") != 0) return false;
+    if (deck_given(group, "mass") && !deck_chosen(group, "mass", "vc3")) return false;
+    if (deck_chosen(group, "ends", "mapped")) return false;
     return stepper->unwarp || stepper->scheme->order >= 4;
 }
 

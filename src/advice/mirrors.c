@@ -67,8 +67,7 @@ static void look_at_motions(struct adviser *adviser, const struct mirror_plane *
     const struct scene *scene = adviser->scene;
     for (int face = 0; face < BOX_FACES; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        const bool moved = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-        if (!moved || face_axis((enum face)face) == plane->axis ||
+        if (!boundary_moves(boundary) || face_axis((enum face)face) == plane->axis ||
             !across(plane, &scene->body, boundary->direction))
             continue;
         advise(adviser,
@@ -109,7 +108,7 @@ void look_at_mirrors(struct adviser *adviser)
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const struct mirror_plane plane = {(enum face)face, face_axis((enum face)face),
                                            plane_of(&scene->body, (enum face)face)};
-        if (scene->boundary[face].kind != BOUNDARY_SYMMETRY) continue;
+        if (!boundary_mirrors(&scene->boundary[face])) continue;
         for (size_t k = 0; k < scene->loads; k++)
             look_at_load(adviser, &plane, k);
         look_at_motions(adviser, &plane);

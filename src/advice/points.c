@@ -92,8 +92,7 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
     enum { FEW = 10 };
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
-    const bool central = deck_values(scene->method.group, "gradient") > 0 &&
-                         strcmp(deck_text(scene->method.group, "gradient", 0), "central") == 0;
+    const bool central = deck_chosen(scene->method.group, "gradient", "central");
     double width = INFINITY;
     bool whole = true;
     for (int axis = 0; axis < scene->dimension; axis++) {

@@ -1,8 +1,11 @@
 /* Scaled complementary error function erfcx(z) = w(i z), w the Faddeeva function, by the modified trapezoidal
- * rules of Al Azah & Chandler-Wilde (2021), SIAM J. Numer. Anal. 59, 2346-2367 (their w_N, Eqs 1.6-1.8, N =
- * 11, relative error 2e-15): the trapezoidal or midpoint rule for w(z) = (2 i z / pi) integral over t > 0 of
- * exp(-t^2) / (z^2 - t^2) dt with the residue of the pole at t = z added where the pole lies within pi/h of
- * the real line. Which of the two rules is taken depends on which one has no abscissa near the pole. */
+ * rules of Al Azah & Chandler-Wilde (2021), SIAM J. Numer. Anal. 59, 2346-2367 (their w_N, Eqs 1.6-1.8, N = 11,
+ * relative error 2e-15): the trapezoidal or midpoint rule for
+ *
+ *   w(z) = (2 i z / pi) integral over t > 0 of exp(-t^2) / (z^2 - t^2) dt
+ *
+ * with the residue of the pole at t = z added where the pole lies within pi/h of the real line. Which of the
+ * two rules is taken depends on which one has no abscissa near the pole. */
 #include "base/faddeeva.h"
 
 #include <math.h>

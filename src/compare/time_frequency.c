@@ -2,7 +2,11 @@
  * quantitative comparison of seismograms, BSSA 96.
  *
  * Continuous wavelet transform with the Morlet wavelet psi(t) = pi^(-1/4) exp(i w0 t) exp(-t^2/2), w0 = 6, at
- * scale s = w0 / (2 pi f):  W(t, f) = sqrt(s) / (2 pi) integral S(w) conj(psi^(s w)) exp(i w t) dw. Then
+ * scale s = w0 / (2 pi f):
+ *
+ *   W(t, f) = sqrt(s) / (2 pi) integral S(w) conj(psi^(s w)) exp(i w t) dw.
+ *
+ * Then
  *
  *   EM = sqrt( sum (|W_b| - |W_a|)^2 / sum |W_a|^2 )
  *   PM = sqrt( sum |W_a|^2 (arg(W_b / W_a) / pi)^2 / sum |W_a|^2 )

@@ -130,12 +130,25 @@ const char *deck_text(const struct deck_group *group, const char *name, size_t i
     return typed_value(group, name, i, is_text)->as.text;
 }
 
-size_t deck_choice(const struct deck_group *group, const char *name, size_t i)
+/* The word that has the choices of a name. */
+static const struct word *choice_word(const struct deck_group *group, const char *name)
 {
     size_t word;
     group_item(group, name, &word);
     assert(group->kind->word[word].type == WORD_CHOICE);
-    return word_find_choice(&group->kind->word[word], deck_text(group, name, i));
+    return &group->kind->word[word];
+}
+
+size_t deck_choice(const struct deck_group *group, const char *name, size_t i)
+{
+    return word_find_choice(choice_word(group, name), deck_text(group, name, i));
+}
+
+bool deck_chosen(const struct deck_group *group, const char *name, const char *choice)
+{
+    if (group == NULL || deck_values(group, name) == 0) return false;
+    assert(word_find_choice(choice_word(group, name), choice) < word_choices(choice_word(group, name)));
+    return strcmp(deck_text(group, name, 0), choice) == 0;
 }
 
 const char *deck_name(const struct deck *deck)

@@ -62,7 +62,11 @@ double deck_real(const struct deck_group *group, const char *name, size_t i);
 long deck_integer(const struct deck_group *group, const char *name, size_t i);
 bool deck_logical(const struct deck_group *group, const char *name, size_t i);
 const char *deck_text(const struct deck_group *group, const char *name, size_t i); /* trimmed at the right */
-/* Index of a text value in the choices that the table lists for the name (checked at reading). */
+/* Is the value `choice`, one of those that the table lists for the name (asserted)? No without a group or a
+ * value. */
+bool deck_chosen(const struct deck_group *group, const char *name, const char *choice);
+/* Index of a text value in those choices, that is, the member of the enumeration made from the same list
+ * (deck/choices.h). */
 size_t deck_choice(const struct deck_group *group, const char *name, size_t i);
 
 /* Adds "FILE:LINE:COLUMN: error: ..." at the place where name stands in the group (or the group itself if

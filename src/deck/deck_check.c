@@ -71,7 +71,7 @@ static void check_item(const struct deck *deck, const struct deck_group *group, 
         else if (word->type != WORD_LOGICAL)
             check_range(deck, group, word, value, messages);
     }
-    if (word->obligatory && item->values == 0 && !item->wrong) {
+    if (word->need == OBLIGATORY && item->values == 0 && !item->wrong) {
         const struct place place = item->named ? item->place : group->place;
         namelist_message(messages, deck->path, place, true, "'%s' is missing in &%s: %s%s", word->name,
                          group->kind->name, word->gloss, item->comment_null ? COMMENT_NULL : "");

@@ -40,7 +40,7 @@ void deck_reference(FILE *file)
             fputs(" | ", file);
             write_values(word, file);
             fprintf(file, " | %s | %s |\n",
-                    word->obligatory         ? "**must be given**"
+                    word->need == OBLIGATORY ? "**must be given**"
                     : word->defaults == NULL ? ""
                                              : word->defaults,
                     word->gloss);

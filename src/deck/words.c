@@ -1,234 +1,239 @@
 /* The table of groups and names: the only place where a word of the deck is declared. */
 #include "deck/words.h"
 
+#include "deck/choices.h"
+
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
-#define FACES "x-|x+|y-|y+|z-|z+|hole|all"
-#define FIELDS "displacement|velocity|acceleration|stress|strain|pressure|energy"
-#define HISTORIES "triangle|step|ricker|gaussian|sine-burst|table"
+#define FAMILY_WORD(word) "|" word
+#define VARIANT_WORD(symbol, family, word) "|" word
+#define FAMILY_GLOSS(word) "; " word ":"
+#define VARIANT_GLOSS(symbol, family, word) " " word
+#define KIND_WORD(symbol, word, holds, motion, needs) "|" word
+#define NOTHING(...)
 #define POSITIVE "(0, inf)"
 #define NOT_NEGATIVE "[0, inf)"
 
-/* name, type, most values, default, range or choices, obligatory, gloss */
+/* name, type, most values, default, range or choices, need, gloss */
 static const struct word scene_words[] = {
-    {"title", WORD_TEXT, 1, "''", NULL, false, "heading of plots and reports"},
-    {"dimension", WORD_INTEGER, 1, "3", "[1, 3]", false, "dimensions of space"},
-    {"end_time", WORD_REAL, 1, NULL, POSITIVE, true, "end of the computation [time]"},
-    {"accuracy", WORD_REAL, 1, NULL, "(0, 1)", false,
+    {"title", WORD_TEXT, 1, "''", NULL, OPTIONAL, "heading of plots and reports"},
+    {"dimension", WORD_INTEGER, 1, "3", "[1, 3]", OPTIONAL, "dimensions of space"},
+    {"end_time", WORD_REAL, 1, NULL, POSITIVE, OBLIGATORY, "end of the computation [time]"},
+    {"accuracy", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
      "wanted relative error, in place of the spacing and of the method's options"},
-    {"plane", WORD_CHOICE, 1, "'strain'", "strain|stress", false,
+    {"plane", WORD_CHOICE, 1, "'strain'", CHOICES(PLANES), OPTIONAL,
      "what holds across the plane in 2D and 1D (1D stress: a thin bar)"},
 };
 
 static const struct word method_words[] = {
-    {"name", WORD_CHOICE, 1, "'smoothed-point'", "smoothed-point|sph", false, "family of methods"},
-    {"variant", WORD_CHOICE, 1, NULL, "consistent|paper|cloud|total-lagrangian|updated-lagrangian", false,
-     "form of the method: consistent, paper or cloud (smoothed-point), total-lagrangian or "
-     "updated-lagrangian "
-     "(sph)"},
-    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", false,
+    {"name", WORD_CHOICE, 1, "'smoothed-point'", &(METHODS(FAMILY_WORD, NOTHING))[1], OPTIONAL,
+     "family of methods"},
+    {"variant", WORD_CHOICE, 1, NULL, &(METHODS(NOTHING, VARIANT_WORD))[1], OPTIONAL,
+     "form of the method" METHODS(FAMILY_GLOSS, VARIANT_GLOSS)},
+    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", OPTIONAL,
      "degree of the B-splines (consistent; 2, and 4 on layered ground)"},
-    {"ends", WORD_CHOICE, 1, NULL, "open|mapped", false, "knots at the faces (consistent)"},
-    {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", false,
+    {"ends", WORD_CHOICE, 1, NULL, "open|mapped", EXPERT, "knots at the faces (consistent)"},
+    {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", OPTIONAL,
      "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
      "else vc3)"},
-    {"tuned", WORD_LOGICAL, 1, NULL, NULL, false,
+    {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "splines along the surface tuned for short waves (consistent, degree 4, exact mass; the default on "
      "layered "
      "ground)"},
-    {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", false,
+    {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", EXPERT,
      "mass in the stiffness over depth where the inverse is by sweeps: exact, or the same as elsewhere"},
-    {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,
+    {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, EXPERT,
      "damping rate of the shortest waves where the inverse is by sweeps [fastest speed / spacing]; else "
      "none"},
-    {"fused", WORD_LOGICAL, 1, NULL, NULL, false,
+    {"fused", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "passes of the operator fused where the scene allows it, which is the default (consistent)"},
-    {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", false,
+    {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", EXPERT,
      "where displacements are below this times the largest they move nothing and cost nothing; "
      "1e-12 by default, 0: all are computed (consistent, fused)"},
-    {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, false,
+    {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, EXPERT,
      "compute half or quarter of a body where the scene has mirror planes"},
-    {"precision", WORD_CHOICE, 1, "'double'", "double|single", false, "precision of the state"},
-    {"kernel", WORD_CHOICE, 1, NULL, "cubic|quintic|wendland", false, "smoothing kernel (paper, sph)"},
-    {"smoothing_length", WORD_REAL, 1, NULL, "(0, 10]", false, "smoothing length [spacings] (paper, sph)"},
-    {"filter", WORD_REAL, 1, NULL, "[0, 1]", false, "strength of the filter (paper: alpha of Eq 35)"},
-    {"filter_form", WORD_CHOICE, 1, NULL, "increment|displacement", false,
+    {"precision", WORD_CHOICE, 1, "'double'", "double|single", EXPERT, "precision of the state"},
+    {"kernel", WORD_CHOICE, 1, NULL, CHOICES(KERNELS), OPTIONAL, "smoothing kernel (paper, sph)"},
+    {"smoothing_length", WORD_REAL, 1, NULL, "(0, 10]", OPTIONAL, "smoothing length [spacings] (paper, sph)"},
+    {"filter", WORD_REAL, 1, NULL, "[0, 1]", OPTIONAL, "strength of the filter (paper: alpha of Eq 35)"},
+    {"filter_form", WORD_CHOICE, 1, NULL, "increment|displacement", EXPERT,
      "what the filter of Eq 35 acts on (paper)"},
-    {"deconvolution", WORD_LOGICAL, 1, NULL, NULL, false, "de-convolve the histories (paper: Eq 38)"},
-    {"row_sums", WORD_CHOICE, 1, NULL, "as-printed|zero", false,
+    {"deconvolution", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "de-convolve the histories (paper: Eq 38)"},
+    {"row_sums", WORD_CHOICE, 1, NULL, "as-printed|zero", EXPERT,
      "K u_b as printed, or K (u_b - u_a): constants give no force (paper)"},
-    {"volume_factors", WORD_LOGICAL, 1, NULL, NULL, false, "F^V of Eqs 24 and 25 (paper)"},
-    {"area_factors", WORD_LOGICAL, 1, NULL, NULL, false, "F^A of Eqs 26 and 27 (paper)"},
-    {"kernel_correction", WORD_LOGICAL, 1, NULL, NULL, false, "alpha of Eqs 28 and 29 (paper)"},
-    {"boundary_term", WORD_LOGICAL, 1, NULL, NULL, false, "Gamma of Eqs 15 and 22 (paper)"},
-    {"load_sum", WORD_CHOICE, 1, NULL, "distributed|local", false,
+    {"volume_factors", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "F^V of Eqs 24 and 25 (paper)"},
+    {"area_factors", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "F^A of Eqs 26 and 27 (paper)"},
+    {"kernel_correction", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "alpha of Eqs 28 and 29 (paper)"},
+    {"boundary_term", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "Gamma of Eqs 15 and 22 (paper)"},
+    {"load_sum", WORD_CHOICE, 1, NULL, "distributed|local", EXPERT,
      "Eq 19 as the sum of W_ab A_b T_b, or as printed T_a times the sum of W_ab A_b (paper)"},
-    {"patch_overlap", WORD_LOGICAL, 1, NULL, NULL, false,
+    {"patch_overlap", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "weigh the rim of a patch so that it carries exactly its area (paper)"},
-    {"viscosity_alpha", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "linear artificial viscosity (sph)"},
-    {"viscosity_beta", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "quadratic artificial viscosity (sph)"},
-    {"artificial_stress", WORD_REAL, 1, NULL, NOT_NEGATIVE, false,
+    {"viscosity_alpha", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "linear artificial viscosity (sph)"},
+    {"viscosity_beta", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "quadratic artificial viscosity (sph)"},
+    {"artificial_stress", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL,
      "artificial stress against clumping: epsilon of Eq 22, 0 = none (updated-lagrangian)"},
-    {"gradient_correction", WORD_LOGICAL, 1, NULL, NULL, false,
+    {"gradient_correction", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "kernel gradient correction L (updated-lagrangian)"},
-    {"jaumann", WORD_LOGICAL, 1, NULL, NULL, false, "Jaumann rate of the stress (updated-lagrangian)"},
-    {"forces", WORD_CHOICE, 1, NULL, "published|adjoint", false,
+    {"jaumann", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "Jaumann rate of the stress (updated-lagrangian)"},
+    {"forces", WORD_CHOICE, 1, NULL, "published|adjoint", EXPERT,
      "stress divergence of Eq 19 or the adjoint of the velocity gradient (updated-lagrangian)"},
-    {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, false, "hourglass control (sph, cloud)"},
-    {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", false,
+    {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "hourglass control (sph, cloud)"},
+    {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
      "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
-    {"law", WORD_CHOICE, 1, NULL, "linear|saint-venant-kirchhoff|neo-hookean", false,
-     "elastic law (total-lagrangian)"},
+    {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 
 static const struct word stepping_words[] = {
-    {"scheme", WORD_CHOICE, 1, NULL, "leapfrog|modified-equation|euler|pc2|rk4|rkc|lsrk54", false,
-     "time scheme"},
-    {"time_step", WORD_REAL, 1, NULL, POSITIVE, false, "time step [time]"},
-    {"courant", WORD_REAL, 1, NULL, POSITIVE, false, "time step [spacing over the fastest wave speed]"},
-    {"safety", WORD_REAL, 1, NULL, POSITIVE, false, "time step [fraction of the measured limit], else .9"},
-    {"stages", WORD_INTEGER, 1, NULL, "[2, 1000]", false, "stages of rkc; else chosen"},
-    {"max_stages", WORD_INTEGER, 1, NULL, "[2, 1000]", false, "most stages that rkc may choose"},
-    {"rule", WORD_CHOICE, 1, "'measured'", "measured|paper", false,
+    {"scheme", WORD_CHOICE, 1, NULL, CHOICES(SCHEMES), OPTIONAL, "time scheme"},
+    {"time_step", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "time step [time]"},
+    {"courant", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "time step [spacing over the fastest wave speed]"},
+    {"safety", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "time step [fraction of the measured limit], else .9"},
+    {"stages", WORD_INTEGER, 1, NULL, "[2, 1000]", OPTIONAL, "stages of rkc; else chosen"},
+    {"max_stages", WORD_INTEGER, 1, NULL, "[2, 1000]", EXPERT, "most stages that rkc may choose"},
+    {"rule", WORD_CHOICE, 1, "'measured'", "measured|paper", EXPERT,
      "stages of rkc: from the measured spectrum, or by Eq 28 of He & Seaid from the step alone"},
-    {"unwarp", WORD_LOGICAL, 1, NULL, NULL, false,
+    {"unwarp", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "time-dispersion transform: take the scheme's time error out of the histories"},
-    {"force", WORD_LOGICAL, 1, ".false.", NULL, false, "run beyond the stability limit all the same"},
+    {"force", WORD_LOGICAL, 1, ".false.", NULL, EXPERT, "run beyond the stability limit all the same"},
 };
 
 static const struct word material_words[] = {
-    {"name", WORD_TEXT, 1, NULL, NULL, true, "name that bodies and layers use"},
-    {"density", WORD_REAL, 1, NULL, POSITIVE, true, "density [mass/volume]"},
-    {"lambda", WORD_REAL, 1, NULL, NULL, false, "first Lame constant [stress]"},
-    {"mu", WORD_REAL, 1, NULL, POSITIVE, false, "second Lame constant [stress]"},
-    {"young", WORD_REAL, 1, NULL, POSITIVE, false, "Young's modulus [stress]"},
-    {"poisson", WORD_REAL, 1, NULL, NULL, false, "Poisson's ratio, between -1 and 0.5"},
-    {"p_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of P waves [length/time]"},
-    {"s_speed", WORD_REAL, 1, NULL, POSITIVE, false, "speed of S waves [length/time]"},
-    {"bulk", WORD_REAL, 1, NULL, POSITIVE, false, "bulk modulus [stress]"},
-    {"shear", WORD_REAL, 1, NULL, POSITIVE, false, "shear modulus [stress]"},
+    {"name", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name that bodies and layers use"},
+    {"density", WORD_REAL, 1, NULL, POSITIVE, OBLIGATORY, "density [mass/volume]"},
+    {"lambda", WORD_REAL, 1, NULL, NULL, OPTIONAL, "first Lame constant [stress]"},
+    {"mu", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "second Lame constant [stress]"},
+    {"young", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "Young's modulus [stress]"},
+    {"poisson", WORD_REAL, 1, NULL, NULL, OPTIONAL, "Poisson's ratio, between -1 and 0.5"},
+    {"p_speed", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "speed of P waves [length/time]"},
+    {"s_speed", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "speed of S waves [length/time]"},
+    {"bulk", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "bulk modulus [stress]"},
+    {"shear", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "shear modulus [stress]"},
 };
 
 static const struct word body_words[] = {
-    {"name", WORD_TEXT, 1, "'body'", NULL, false, "name that layers use"},
-    {"material", WORD_TEXT, 1, NULL, NULL, false, "name of a material; may be left out if all is layers"},
-    {"shape", WORD_CHOICE, 1, "'box'", "box|half-space|plate-with-hole|points", false, "shape"},
-    {"low", WORD_REAL, 3, NULL, NULL, false, "lowest corner [length]"},
-    {"high", WORD_REAL, 3, NULL, NULL, false, "highest corner [length]"},
-    {"hole_centre", WORD_REAL, 3, NULL, NULL, false, "centre of the hole [length]"},
-    {"hole_radius", WORD_REAL, 1, NULL, POSITIVE, false, "radius of the hole [length]"},
-    {"file", WORD_FILE, 1, NULL, NULL, false, "points of the body, HDF5 or text"},
-    {"spacing", WORD_REAL, 1, NULL, POSITIVE, false, "distance of neighbouring points [length]"},
-    {"arrangement", WORD_CHOICE, 1, "'lattice'", "lattice|radial|equally-radial|conformal", false,
+    {"name", WORD_TEXT, 1, "'body'", NULL, OPTIONAL, "name that layers use"},
+    {"material", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of a material; may be left out if all is layers"},
+    {"shape", WORD_CHOICE, 1, "'box'", CHOICES(BODY_SHAPES), OPTIONAL, "shape"},
+    {"low", WORD_REAL, 3, NULL, NULL, OPTIONAL, "lowest corner [length]"},
+    {"high", WORD_REAL, 3, NULL, NULL, OPTIONAL, "highest corner [length]"},
+    {"hole_centre", WORD_REAL, 3, NULL, NULL, OPTIONAL, "centre of the hole [length]"},
+    {"hole_radius", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "radius of the hole [length]"},
+    {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "points of the body, HDF5 or text"},
+    {"spacing", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "distance of neighbouring points [length]"},
+    {"arrangement", WORD_CHOICE, 1, "'lattice'", CHOICES(ARRANGEMENTS), OPTIONAL,
      "arrangement of the points"},
-    {"rotation", WORD_REAL, 3, "0, 0, 0", NULL, false, "turn about x, then y, then z [degrees]"},
-    {"jitter", WORD_REAL, 1, "0", "[0, 0.5]", false, "random shift of the points [spacings]"},
-    {"seed", WORD_INTEGER, 1, "1", "[0, 2147483647]", false, "seed of the random shift"},
+    {"rotation", WORD_REAL, 3, "0, 0, 0", NULL, OPTIONAL, "turn about x, then y, then z [degrees]"},
+    {"jitter", WORD_REAL, 1, "0", "[0, 0.5]", OPTIONAL, "random shift of the points [spacings]"},
+    {"seed", WORD_INTEGER, 1, "1", "[0, 2147483647]", OPTIONAL, "seed of the random shift"},
 };
 
 /* What loads and boundaries with a prescribed motion share: their history. */
-#define HISTORY_WORDS                                                                                        \
-    {"amplitude", WORD_REAL, 1, "1", NULL, false, "factor on the history [stress, force, length, ...]"},     \
-        {"history", WORD_CHOICE, 1, NULL, HISTORIES, false, "how it varies in time"},                        \
-        {"duration", WORD_REAL, 1, NULL, POSITIVE, false, "length of the triangle [time]"},                  \
-        {"frequency", WORD_REAL, 1, NULL, POSITIVE, false, "frequency of ricker and sine-burst [1/time]"},   \
-        {"delay", WORD_REAL, 1, NULL, NULL, false, "time of the peak of ricker and gaussian [time]"},        \
-        {"width", WORD_REAL, 1, NULL, POSITIVE, false, "standard deviation of the gaussian [time]"},         \
-        {"cycles", WORD_REAL, 1, "5", POSITIVE, false, "cycles of the Hann-windowed sine-burst"},            \
-        {"file", WORD_FILE, 1, NULL, NULL, false, "table of the history: columns time, value"},              \
-    {                                                                                                        \
-        "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, false,                                                 \
-            "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                   \
+#define HISTORY_WORDS                                                                                         \
+    {"amplitude", WORD_REAL, 1, "1", NULL, OPTIONAL, "factor on the history [stress, force, length, ...]"},   \
+        {"history", WORD_CHOICE, 1, NULL, CHOICES(HISTORY_KINDS), OPTIONAL, "how it varies in time"},         \
+        {"duration", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "length of the triangle [time]"},                \
+        {"frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "frequency of ricker and sine-burst [1/time]"}, \
+        {"delay", WORD_REAL, 1, NULL, NULL, OPTIONAL, "time of the peak of ricker and gaussian [time]"},      \
+        {"width", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "standard deviation of the gaussian [time]"},       \
+        {"cycles", WORD_REAL, 1, "5", POSITIVE, OPTIONAL, "cycles of the Hann-windowed sine-burst"},          \
+        {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the history: columns time, value"},            \
+    {                                                                                                         \
+        "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,                                               \
+            "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                    \
     }
 
 static const struct word boundary_words[] = {
-    {"face", WORD_CHOICE, 8, NULL, FACES, true, "faces"},
-    {"kind", WORD_CHOICE, 1, NULL, "free|fixed|roller|symmetry|transmitting|velocity|displacement", true,
-     "what the faces do"},
-    {"layer", WORD_CHOICE, 1, NULL, "lysmer|pml", false, "how a transmitting face absorbs: dampers or an absorbing layer; else a layer where the method has it"},
-    {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", false, "thickness of the absorbing layer [points]"},
-    {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, false,
+    {"face", WORD_CHOICE, 8, NULL, &(FACE_NAMES(CHOICE_WORD) "|all")[1], OBLIGATORY, "faces"},
+    {"kind", WORD_CHOICE, 1, NULL, &(BOUNDARY_KINDS(KIND_WORD))[1], OBLIGATORY, "what the faces do"},
+    {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL,
+     "how a transmitting face absorbs: dampers or a layer; else a layer where the method has it"},
+    {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", OPTIONAL,
+     "thickness of the absorbing layer [points]"},
+    {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
      "thickness of the absorbing layer, in place of layer_points [length]"},
-    {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", false, "wanted reflection, in place of layer_points"},
-    {"always", WORD_LOGICAL, 1, ".false.", NULL, false,
+    {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
+     "wanted reflection, in place of layer_points"},
+    {"always", WORD_LOGICAL, 1, ".false.", NULL, EXPERT,
      "keep layers whose reflections cannot be seen by end_time"},
-    {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, false, "Lysmer-Kuhlemeyer factor on the P impedance"},
-    {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, false, "Lysmer-Kuhlemeyer factor on the S impedance"},
-    {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the prescribed motion"},
-    {"slip", WORD_LOGICAL, 1, ".false.", NULL, false, "leave the other components free"},
+    {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the P impedance"},
+    {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the S impedance"},
+    {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the prescribed motion"},
+    {"slip", WORD_LOGICAL, 1, ".false.", NULL, OPTIONAL, "leave the other components free"},
     HISTORY_WORDS,
 };
 
 static const struct word layer_words[] = {
-    {"body", WORD_TEXT, 1, NULL, NULL, false, "name of the body"},
-    {"material", WORD_TEXT, 1, NULL, NULL, true, "name of a material"},
-    {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, true, "depth of the upper face [length]"},
+    {"body", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of the body"},
+    {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
+    {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, OBLIGATORY, "depth of the upper face [length]"},
 };
 
 static const struct word initial_words[] = {
-    {"kind", WORD_CHOICE, 1, "'rest'", "rest|uniform-velocity|beam-mode|plane-wave|gaussian", false,
-     "state at t = 0"},
-    {"velocity", WORD_REAL, 3, NULL, NULL, false, "of uniform-velocity [length/time]"},
-    {"amplitude", WORD_REAL, 1, NULL, NULL, false, "of beam-mode [c0], plane-wave, gaussian [length]"},
-    {"wave", WORD_CHOICE, 1, "'p'", "p|s", false, "kind of plane wave"},
-    {"direction", WORD_REAL, 3, NULL, NULL, false, "of propagation (plane-wave) or displacement (gaussian)"},
-    {"polarisation", WORD_REAL, 3, NULL, NULL, false, "direction of motion of an S wave"},
-    {"wavelength", WORD_REAL, 1, NULL, POSITIVE, false, "of a train of plane waves [length]"},
-    {"centre", WORD_REAL, 3, NULL, NULL, false,
+    {"kind", WORD_CHOICE, 1, "'rest'", CHOICES(INITIAL_KINDS), OPTIONAL, "state at t = 0"},
+    {"velocity", WORD_REAL, 3, NULL, NULL, OPTIONAL, "of uniform-velocity [length/time]"},
+    {"amplitude", WORD_REAL, 1, NULL, NULL, OPTIONAL, "of beam-mode [c0], plane-wave, gaussian [length]"},
+    {"wave", WORD_CHOICE, 1, "'p'", "p|s", OPTIONAL, "kind of plane wave"},
+    {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL,
+     "of propagation (plane-wave) or displacement (gaussian)"},
+    {"polarisation", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of motion of an S wave"},
+    {"wavelength", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "of a train of plane waves [length]"},
+    {"centre", WORD_REAL, 3, NULL, NULL, OPTIONAL,
      "of the gaussian or the pulse; phase 0 of the train [length]"},
-    {"width", WORD_REAL, 1, NULL, POSITIVE, false,
+    {"width", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
      "standard deviation of the gaussian or of a plane pulse [length]"},
 };
 
 static const struct word load_words[] = {
-    {"name", WORD_TEXT, 1, NULL, NULL, false, "name by which a host of the library speaks to it"},
-    {"kind", WORD_CHOICE, 1, "'traction'", "traction|body-force|moment-tensor", false, "kind of load"},
-    {"face", WORD_CHOICE, 1, NULL, "x-|x+|y-|y+|z-|z+|hole", false, "face on which a traction acts"},
-    {"shape", WORD_CHOICE, 1, NULL, "square|disc|face|point", false, "where it acts"},
-    {"centre", WORD_REAL, 3, NULL, NULL, false, "centre of the patch, or the point [length]"},
-    {"size", WORD_REAL, 2, NULL, POSITIVE, false, "edges of the square, or diameter of the disc [length]"},
-    {"direction", WORD_REAL, 3, NULL, NULL, false, "direction of the force"},
-    {"moment", WORD_REAL, 6, NULL, NULL, false, "moment tensor: xx yy zz xy yz zx [force length]"},
-    {"velocity", WORD_REAL, 3, NULL, NULL, false, "velocity of a moving patch [length/time]; else at rest"},
+    {"name", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name by which a host of the library speaks to it"},
+    {"kind", WORD_CHOICE, 1, "'traction'", CHOICES(LOAD_KINDS), OPTIONAL, "kind of load"},
+    {"face", WORD_CHOICE, 1, NULL, CHOICES(FACE_NAMES), OPTIONAL, "face on which a traction acts"},
+    {"shape", WORD_CHOICE, 1, NULL, CHOICES(LOAD_SHAPES), OPTIONAL, "where it acts"},
+    {"centre", WORD_REAL, 3, NULL, NULL, OPTIONAL, "centre of the patch, or the point [length]"},
+    {"size", WORD_REAL, 2, NULL, POSITIVE, OPTIONAL, "edges of the square, or diameter of the disc [length]"},
+    {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the force"},
+    {"moment", WORD_REAL, 6, NULL, NULL, OPTIONAL, "moment tensor: xx yy zz xy yz zx [force length]"},
+    {"velocity", WORD_REAL, 3, NULL, NULL, OPTIONAL,
+     "velocity of a moving patch [length/time]; else at rest"},
     HISTORY_WORDS,
 };
 
 static const struct word receiver_words[] = {
-    {"name", WORD_TEXT, 1, NULL, NULL, true, "name of the history's files"},
-    {"position", WORD_REAL, 3, NULL, NULL, true, "position [length]"},
+    {"name", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of the history's files"},
+    {"position", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "position [length]"},
 };
 
 static const struct word profile_words[] = {
-    {"name", WORD_TEXT, 1, NULL, NULL, true, "name of the profile's file"},
-    {"from", WORD_REAL, 3, NULL, NULL, true, "first point [length]"},
-    {"to", WORD_REAL, 3, NULL, NULL, true, "last point [length]"},
-    {"points", WORD_INTEGER, 1, "101", "[2, 1000000]", false, "number of points"},
-    {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, false, "when [time]; else at the end"},
-    {"fields", WORD_CHOICE, 7, "'velocity'", FIELDS, false, "what"},
+    {"name", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of the profile's file"},
+    {"from", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "first point [length]"},
+    {"to", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "last point [length]"},
+    {"points", WORD_INTEGER, 1, "101", "[2, 1000000]", OPTIONAL, "number of points"},
+    {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time]; else at the end"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "what"},
 };
 
 static const struct word snapshot_words[] = {
-    {"every", WORD_REAL, 1, NULL, POSITIVE, false, "time between snapshots [time]"},
-    {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, false, "when [time], in place of every"},
-    {"fields", WORD_CHOICE, 7, "'velocity'", FIELDS, false, "what"},
-    {"region", WORD_REAL, 6, NULL, NULL, false,
+    {"every", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "time between snapshots [time]"},
+    {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "what"},
+    {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
      "lowest, then highest corner of the part that is kept [length]; else the whole body"},
 };
 
 static const struct word output_words[] = {
-    {"directory", WORD_TEXT, 1, NULL, NULL, false, "folder of the results; else output/DECKNAME"},
-    {"checkpoint_every", WORD_INTEGER, 1, "0", NOT_NEGATIVE, false, "steps between checkpoints; 0: none"},
-    {"checkpoint_minutes", WORD_REAL, 1, "30", NOT_NEGATIVE, false,
+    {"directory", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "folder of the results; else output/DECKNAME"},
+    {"checkpoint_every", WORD_INTEGER, 1, "0", NOT_NEGATIVE, OPTIONAL, "steps between checkpoints; 0: none"},
+    {"checkpoint_minutes", WORD_REAL, 1, "30", NOT_NEGATIVE, OPTIONAL,
      "minutes by the clock between checkpoints; 0: none"},
-    {"plots", WORD_LOGICAL, 1, ".true.", NULL, false, "draw the PNGs"},
-    {"history_step", WORD_REAL, 1, "0", NOT_NEGATIVE, false,
+    {"plots", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL, "draw the PNGs"},
+    {"history_step", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "time between rows of the histories [time]; 0: every step"},
-    {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, false,
+    {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "zero-phase low-pass of the histories: exp(-(w/low_pass)^4) [angle/time]; 0: none"},
 };
 
 static const struct word reference_words[] = {
-    {"kind", WORD_CHOICE, 1, NULL, "lamb|stokes|bar|beam|hole|plane-wave|file", true, "exact solution"},
-    {"file", WORD_FILE, 1, NULL, NULL, false,
+    {"kind", WORD_CHOICE, 1, NULL, CHOICES(EXACT_SOLUTIONS), OBLIGATORY, "exact solution"},
+    {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
      "of kind 'file': the history of the one receiver, or the folder of a run with one of each"},
 };
 

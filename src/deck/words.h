@@ -21,6 +21,9 @@ enum {
     LIST_SIZE = 1000  /* most values of a list such as `times` */
 };
 
+/* Words of EXPERT are for experiments with a method: reference and help show them apart. */
+enum word_need { OPTIONAL, OBLIGATORY, EXPERT };
+
 struct word {
     const char *name;
     enum word_type type;
@@ -29,7 +32,7 @@ struct word {
         *defaults;     /* as written in a deck; NULL: none. To give a name its default is as not to give it */
     const char *range; /* numbers: an interval such as "(0, inf)" or "[0, 1)", NULL: any;
                           choices: "one|two|three" */
-    bool obligatory;
+    enum word_need need;
     const char *gloss; /* one line with the unit in brackets */
 };
 

@@ -35,6 +35,9 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     for (size_t k = 0; k < scene->loads; k++)
         if (scene->load[k].kind != LOAD_TRACTION || scene->load[k].shape != LOAD_FACE)
             return refuse(messages, "only tractions with shape = 'face' on the ends x- and x+");
+    if (scene_check_faces(scene, CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP | CAN_ABSORB, "reference 'bar'",
+                          messages) != SELAS_OK)
+        return SELAS_BAD_SCENE;
     struct bar *bar = array_new(1, sizeof *bar);
     if (bar == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the reference 'bar'");
     const struct material *material = &scene->material[scene->body.material];
@@ -65,13 +68,7 @@ static double traction(const struct scene *scene, enum face face, double t, int 
 /* Velocity (derivative 0) or displacement (-1) that a fixed or driven end has. */
 static double motion(const struct boundary *boundary, double t, int derivative)
 {
-    if (boundary->kind == BOUNDARY_VELOCITY)
-        return boundary->amplitude * boundary->direction[0] *
-               history_value(&boundary->history, t, derivative);
-    if (boundary->kind == BOUNDARY_DISPLACEMENT)
-        return boundary->amplitude * boundary->direction[0] *
-               history_value(&boundary->history, t, derivative + 1);
-    return 0;
+    return boundary->amplitude * boundary->direction[0] * boundary_displacement(boundary, t, derivative + 1);
 }
 
 /* f' (face x-) or g' (face x+) at time t, or f and g themselves (derivative -1). */
@@ -85,10 +82,9 @@ static double wave(const struct bar *bar, enum face face, double t, int derivati
     for (long k = 0; k < passages; k++) {
         t = first - (double)k * passage;
         const struct boundary *boundary = &scene->boundary[face];
-        const enum boundary_kind kind = boundary->kind;
         const double pushed = traction(scene, face, t, derivative) / bar->impedance;
-        if (kind == BOUNDARY_TRANSMITTING) return sum + sign * pushed / 2;
-        if (kind == BOUNDARY_FREE) {
+        if (boundary_absorbs(boundary)) return sum + sign * pushed / 2;
+        if (boundary_is_free(boundary)) {
             sum += sign * pushed;
         } else {
             sum += sign * motion(boundary, t, derivative);

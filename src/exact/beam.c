@@ -142,7 +142,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
 {
     *exact = NULL;
     if (scene->dimension == 1 || scene->body.shape != BODY_BOX || scene->initial.kind != INITIAL_BEAM_MODE ||
-        scene->boundary[FACE_X_LOW].kind != BOUNDARY_FIXED)
+        !boundary_is_fixed(&scene->boundary[FACE_X_LOW]))
         return fail(messages, SELAS_BAD_SCENE,
                     "reference 'beam' needs a box in 2D or 3D, fixed at 'x-', started by &initial kind = "
                     "'beam-mode'");

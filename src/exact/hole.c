@@ -46,7 +46,7 @@ static bool find_tension(struct solution *solution, const struct scene *scene)
     }
     for (int face = 0; face < 4; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (boundary->kind != BOUNDARY_VELOCITY && boundary->kind != BOUNDARY_DISPLACEMENT) continue;
+        if (!boundary_moves(boundary)) continue;
         const int axis = face_axis((enum face)face);
         const double plane = face_sign((enum face)face) < 0 ? body->low[axis] : body->high[axis];
         const double modulus = scene->plane == PLANE_STRAIN
@@ -56,7 +56,7 @@ static bool find_tension(struct solution *solution, const struct scene *scene)
         solution->far =
             modulus * boundary->amplitude * boundary->direction[axis] / (plane - body->hole_centre[axis]);
         solution->history = &boundary->history;
-        solution->velocity = boundary->kind == BOUNDARY_VELOCITY;
+        solution->velocity = boundary_meaning(boundary)->motion == 1;
         return true;
     }
     return false;

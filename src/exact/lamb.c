@@ -46,18 +46,6 @@ static selas_status refuse(struct messages *messages, const char *why)
     return fail(messages, SELAS_BAD_SCENE, "reference 'lamb': %s", why);
 }
 
-static bool moves(const struct load *load)
-{
-    return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
-}
-
-static bool has_symmetry(const struct scene *scene)
-{
-    for (int face = 0; face < BOX_FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY) return true;
-    return false;
-}
-
 static selas_status check_load(const struct scene *scene, const struct load *load, struct messages *messages)
 {
     if (load->kind != LOAD_TRACTION)
@@ -65,7 +53,7 @@ static selas_status check_load(const struct scene *scene, const struct load *loa
     if (load->face != FACE_Z_LOW) return refuse(messages, "loads must act on the free surface, face = 'z-'");
     if (load->shape == LOAD_FACE && scene->body.layers > 0)
         return refuse(messages, "a load of the whole face is not offered on layers");
-    if (moves(load) && has_symmetry(scene))
+    if (load_moves(load) && (scene_needs(scene) & CAN_MIRROR) != 0)
         return refuse(messages, "a moving patch is not offered with symmetry planes");
     return SELAS_OK;
 }
@@ -73,25 +61,23 @@ static selas_status check_load(const struct scene *scene, const struct load *loa
 static selas_status check_scene(const struct scene *scene, struct messages *messages)
 {
     if (scene->dimension != 3) return refuse(messages, "the half-space is three-dimensional, dimension = 3");
-    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+    if (!body_is_box(&scene->body))
         return refuse(messages, "the body must have shape = 'box' or 'half-space'");
     if (scene->initial.kind != INITIAL_REST) return refuse(messages, "the ground must start at rest");
     if (scene->loads == 0) return refuse(messages, "there is no &load");
     for (int face = 0; face < BOX_FACES; face++) {
-        const enum boundary_kind kind = scene->boundary[face].kind;
-        if (face == FACE_Z_LOW
-                ? kind != BOUNDARY_FREE
-                : kind != BOUNDARY_FREE && kind != BOUNDARY_TRANSMITTING && kind != BOUNDARY_SYMMETRY)
+        const struct boundary *boundary = &scene->boundary[face];
+        const bool open = boundary_absorbs(boundary) || boundary_mirrors(boundary);
+        if (!boundary_is_free(boundary) && (face == FACE_Z_LOW || !open))
             return fail(
                 messages, SELAS_BAD_SCENE, "reference 'lamb': face %s must be %s for an infinite half-space",
                 face_name((enum face)face),
                 face == FACE_Z_LOW ? "'free'" : "'transmitting', 'symmetry' (sides) or 'free' and far away");
-        if (kind == BOUNDARY_SYMMETRY && face == FACE_Z_HIGH)
+        if (boundary_mirrors(boundary) && face == FACE_Z_HIGH)
             return refuse(messages, "face z+ cannot be a symmetry plane of a half-space");
     }
     for (int axis = 0; axis < 2; axis++)
-        if (scene->boundary[2 * axis].kind == BOUNDARY_SYMMETRY &&
-            scene->boundary[2 * axis + 1].kind == BOUNDARY_SYMMETRY)
+        if (boundary_mirrors(&scene->boundary[2 * axis]) && boundary_mirrors(&scene->boundary[2 * axis + 1]))
             return refuse(messages, "opposite symmetry planes repeat the load without end; make one of them "
                                     "'transmitting'");
     for (size_t i = 0; i < scene->loads; i++) {
@@ -127,8 +113,8 @@ static void set_load(const struct scene *scene, const struct load *load, struct 
 static selas_status add_images(const struct scene *scene, int axis, struct lamb_load *load, size_t *count,
                                struct messages *messages)
 {
-    const bool low = scene->boundary[2 * axis].kind == BOUNDARY_SYMMETRY;
-    if (!low && scene->boundary[2 * axis + 1].kind != BOUNDARY_SYMMETRY) return SELAS_OK;
+    const bool low = boundary_mirrors(&scene->boundary[2 * axis]);
+    if (!low && !boundary_mirrors(&scene->boundary[2 * axis + 1])) return SELAS_OK;
     const double plane = low ? scene->body.low[axis] : scene->body.high[axis];
     const double size = scene->body.high[axis] - scene->body.low[axis];
     const size_t before = *count;
@@ -159,7 +145,7 @@ static selas_status set_loads(struct lamb *lamb, const struct scene *scene, stru
     size_t count = 0;
     for (size_t i = 0; i < scene->loads; i++) {
         const struct load *load = &scene->load[i];
-        if (moves(load)) {
+        if (load_moves(load)) {
             struct moving_patch *patch = &lamb->patch[lamb->patches++];
             double velocity[3];
             set_load(scene, load, &patch->load);

@@ -73,26 +73,16 @@ static double initial_wave(const void *context, bool rightward, double x, int de
     }
 }
 
-static bool moves(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-}
-
-static bool mirrors(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_ROLLER || boundary->kind == BOUNDARY_SYMMETRY;
-}
-
 /* True if a face beside the wave (its normal across the direction) leaves it as it is. */
 static bool lets_pass(const struct plane_wave *wave, enum face face)
 {
     const struct scene *scene = wave->exact.scene;
     const struct boundary *boundary = &scene->boundary[face];
     double sign;
-    if (!wave->shear) return mirrors(boundary);
+    if (!wave->shear) return boundary_slides(boundary);
     if (wave->motion < 0) return false;
-    if (face_axis(face) != wave->motion) return mirrors(boundary) || boundary->kind == BOUNDARY_FREE;
-    return moves(boundary) && boundary->slip && boundary->amplitude == 0 &&
+    if (face_axis(face) != wave->motion) return boundary_slides(boundary) || boundary_is_free(boundary);
+    return boundary_moves(boundary) && boundary->slip && boundary->amplitude == 0 &&
            axis_of(&scene->body, boundary->direction, &sign) == wave->axis;
 }
 
@@ -100,14 +90,15 @@ static bool lets_pass(const struct plane_wave *wave, enum face face)
  * of `factor` times the impedance (1 - factor) / (1 + factor). */
 static double damping(const struct plane_wave *wave, const struct boundary *boundary)
 {
-    if (boundary->kind != BOUNDARY_TRANSMITTING) return 0;
-    if (boundary->absorber == ABSORBER_PML) return 1;
+    if (boundary_has_layer(boundary)) return 1;
+    if (!boundary_damps(boundary)) return 0;
     return wave->shear ? boundary->shear_factor : boundary->normal_factor;
 }
 
 static bool holds(const struct plane_wave *wave, const struct boundary *boundary)
 {
-    return boundary->kind == BOUNDARY_FIXED || moves(boundary) || (mirrors(boundary) && !wave->shear);
+    return boundary_is_fixed(boundary) || boundary_moves(boundary) ||
+           (boundary_slides(boundary) && !wave->shear);
 }
 
 static selas_status fill_end(struct plane_wave *wave, enum face face, struct bar_end *end,
@@ -121,14 +112,14 @@ static selas_status fill_end(struct plane_wave *wave, enum face face, struct bar
     end->reflection = holds(wave, boundary) ? -1 : (1 - alpha) / (1 + alpha);
     end->source = array_new(scene->loads + 1, sizeof *end->source);
     if (end->source == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the exact solution");
-    if (moves(boundary)) {
+    if (boundary_moves(boundary)) {
         const double along = component(boundary->direction, wave->polarisation);
         if (boundary->amplitude != 0 && fabs(along) < 1 - 1e-9)
             return fail(messages, SELAS_BAD_SCENE,
                         "no plane wave: the face '%s' moves in another direction than the wave",
                         face_name(face));
         end->source[end->sources++] = (struct bar_source){&boundary->history, boundary->amplitude * along,
-                                                          boundary->kind == BOUNDARY_VELOCITY ? -1 : 0};
+                                                          -boundary_meaning(boundary)->motion};
     }
     if (holds(wave, boundary)) return SELAS_OK; /* a load on a held end does nothing */
     for (size_t i = 0; i < scene->loads; i++) {
@@ -167,7 +158,7 @@ static bool find_sender(struct plane_wave *wave)
     const double *direction = NULL;
     double sign = 1;
     for (int face = 0; face < 2 * scene->dimension && direction == NULL; face++)
-        if (moves(&scene->boundary[face]) && scene->boundary[face].amplitude != 0) {
+        if (boundary_moves(&scene->boundary[face]) && scene->boundary[face].amplitude != 0) {
             direction = scene->boundary[face].direction;
             wave->axis = face_axis((enum face)face);
         }
@@ -262,10 +253,13 @@ static void destroy(struct exact *exact)
 static selas_status prepare(struct plane_wave *wave, struct messages *messages)
 {
     const struct scene *scene = wave->exact.scene;
-    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+    if (!body_is_box(&scene->body))
         return fail(messages, SELAS_BAD_SCENE, "the exact plane wave needs a body of shape 'box'");
     if (scene->body.layers > 0)
         return fail(messages, SELAS_BAD_SCENE, "the exact plane wave needs a body without layers");
+    if (scene_check_faces(scene, CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP | CAN_ABSORB,
+                          "the exact plane wave", messages) != SELAS_OK)
+        return SELAS_BAD_SCENE;
     selas_status status = find_wave(wave, messages);
     if (status == SELAS_OK) status = check_loads(wave, messages);
     if (status != SELAS_OK) return status;

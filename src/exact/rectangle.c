@@ -1,11 +1,15 @@
 /* Potentials of a uniform rectangle at complex depth d, as sums over the corners: Love (1929), Phil. Trans.
  * R. Soc. A 228, 377-420 for 1/R; Nagy, Papp & Benedek (2000), J. Geodesy 74, 552-560 for the integral over
  * depth; the next one is derived in doc/lamb.md (Eqs 20-24). With u, v the distances from the receiver to the
- * corner's two edges and R = sqrt(u^2 + v^2 + d^2): plain  = u ln(v+R) + v ln(u+R) - d atan(u v / (d R)),
- * d(plain)/dd = -atan(u v / (d R)), once   = u v ln(d+R) + u d ln(v+R) + v d ln(u+R)
- *            - (u^2 atan(v d/(u R)) + v^2 atan(u d/(v R)) + d^2 atan(u v/(d R)))/2,
- *   once_u = v ln(d+R) + d ln(v+R) - u atan(v d/(u R)),
- *   twice_u = v d ln(d+R) + (d^2 - u^2)/2 ln(v+R) - u d atan(v d/(u R)) - v R/2.
+ * corner's two edges and R = sqrt(u^2 + v^2 + d^2):
+ *
+ *   plain       = u ln(v+R) + v ln(u+R) - d atan(u v / (d R)),
+ *   d(plain)/dd = -atan(u v / (d R)),
+ *   once        = u v ln(d+R) + u d ln(v+R) + v d ln(u+R)
+ *                 - (u^2 atan(v d/(u R)) + v^2 atan(u d/(v R)) + d^2 atan(u v/(d R)))/2,
+ *   once_u      = v ln(d+R) + d ln(v+R) - u atan(v d/(u R)),
+ *   twice_u     = v d ln(d+R) + (d^2 - u^2)/2 ln(v+R) - u d atan(v d/(u R)) - v R/2,
+ *
  * with atan(v d/(u R)) standing for atan(v d/(u R)) - atan(v/u), so that all gradients vanish at great depth.
  * They are analytic in Re d > 0 with principal branches; on Re d = 0 the limit from the right is meant. */
 #include "exact/patch.h"

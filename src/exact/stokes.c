@@ -153,7 +153,7 @@ static double valid_until(const struct scene *scene, const double position[3], d
         *direct = fmin(*direct, sqrt(away[0] * away[0] + away[1] * away[1] + away[2] * away[2]) / speed);
         for (int face = 0; face < BOX_FACES; face++) {
             const struct boundary *boundary = &scene->boundary[face];
-            if (boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML) continue;
+            if (boundary_has_layer(boundary)) continue;
             const int axis = face / 2;
             const double plane = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
             const double across = own[axis] + source[axis] - 2 * plane;
@@ -184,7 +184,7 @@ static selas_status check_scene(const struct scene *scene, struct messages *mess
     const char *why = NULL;
     if (scene->dimension != 3)
         why = "the solid is three-dimensional, dimension = 3";
-    else if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+    else if (!body_is_box(&scene->body))
         why = "the body must have shape = 'box'";
     else if (scene->body.layers > 0)
         why = "the solid must be homogeneous, without &layer";

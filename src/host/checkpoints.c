@@ -26,8 +26,7 @@ selas_status selas_save(selas_simulation *simulation, const char *path)
                             KEEP_NOTHING, &simulation->messages);
 }
 
-/* --- Going on
- * ------------------------------------------------------------------------------------------------- */
+/* --- Going on --- */
 
 /* The folder that holds a path; NULL without memory. */
 static char *folder_of(const char *path)
@@ -89,8 +88,7 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
     return SELAS_OK;
 }
 
-/* --- Runs of the program
- * --------------------------------------------------------------------------------------- */
+/* --- Runs of the program --- */
 
 static selas_status read_kept(selas_simulation *simulation, const struct kept_deck *kept, size_t count,
                               const char *const *overrides)

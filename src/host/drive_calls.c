@@ -95,8 +95,7 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
     if (index == FACES)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "there is no face '%.60s'; expected x-, x+, ... z+", face != NULL ? face : "(NULL)");
-    const enum boundary_kind kind = simulation->scene->boundary[index].kind;
-    if (kind != BOUNDARY_DISPLACEMENT && kind != BOUNDARY_VELOCITY)
+    if (!boundary_moves(&simulation->scene->boundary[index]))
         return fail(
             &simulation->messages, SELAS_BAD_ARGUMENT,
             "face '%s' has no &boundary of kind 'displacement' (its direction says which way it moves)",

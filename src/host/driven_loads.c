@@ -26,8 +26,7 @@ bool host_drives(const selas_simulation *simulation)
     return any;
 }
 
-/* --- Cutting loads into pieces
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Cutting loads into pieces --- */
 
 /* How a load is cut: `count` pieces along each axis of the body's frame, about `middle`. */
 struct cut {
@@ -41,8 +40,7 @@ static selas_status cut_of(const struct scene *scene, const struct load *load, s
     const struct body *body = &scene->body;
     *cut = (struct cut){.count = {1, 1, 1}};
     body_from_deck(body, load->centre, cut->middle);
-    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load->velocity[0] != 0 ||
-        load->velocity[1] != 0 || load->velocity[2] != 0)
+    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load_moves(load))
         return fail(
             messages, SELAS_UNSUPPORTED,
             "a function can give tractions on squares, whole faces and points at rest, and body forces");
@@ -192,8 +190,7 @@ selas_status host_prepare_scene(selas_simulation *simulation)
     return status;
 }
 
-/* --- Asking the host
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Asking the host --- */
 
 static bool ask(selas_simulation *simulation, selas_vector_function function, void *context, double time,
                 const double *place, const char *name, double value[3])

@@ -156,8 +156,7 @@ selas_status selas_add(selas_simulation *simulation, const char *group, size_t *
     return deck_add(simulation->deck, group, number, &simulation->messages);
 }
 
-/* --- Points of the host's own
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Points of the host's own --- */
 
 static void forget_points(selas_simulation *simulation)
 {

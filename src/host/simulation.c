@@ -31,8 +31,7 @@ static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
     *cpu += now.cpu - since.cpu;
 }
 
-/* --- Opening and closing
- * --------------------------------------------------------------------------------------- */
+/* --- Opening and closing --- */
 
 selas_status simulation_new(selas_simulation **simulation)
 {
@@ -156,8 +155,7 @@ void selas_close(selas_simulation **closed)
     *closed = NULL;
 }
 
-/* --- Building and stepping
- * ------------------------------------------------------------------------------------- */
+/* --- Building and stepping --- */
 
 selas_status simulation_check(selas_simulation *simulation)
 {

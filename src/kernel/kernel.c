@@ -6,9 +6,16 @@
  *                positive; 1/(120 pi) in 3D: the 3/(359 pi) often quoted gives an integral of 1.0028 */
 #include "kernel/kernel.h"
 
+#include "deck/choices.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
+
+#define DECLARE(symbol, word) extern const struct kernel kernel_##symbol;
+#define ENTRY(symbol, word) &kernel_##symbol,
+KERNELS(DECLARE)
+static const struct kernel *const kernels[] = {KERNELS(ENTRY) NULL};
 
 static double cubic_shape(int dimension, double q)
 {
@@ -86,42 +93,33 @@ static double quintic_slope_over_q(int dimension, double q)
     return -5 * quintic_sum(q, 4) / q;
 }
 
-static const struct kernel kernels[] = {
-    {"cubic",
-     2,
-     {1, 15 / (7 * M_PI), 3 / (2 * M_PI)},
-     {2.0 / 3, 15 / (7 * M_PI), 7.0 / 10},
-     cubic_shape,
-     cubic_slope_over_q,
-     cubic_curvature},
-    {"wendland",
-     2,
-     {5.0 / 8, 7 / (4 * M_PI), 21 / (16 * M_PI)},
-     {5.0 / 8, 7 / (3 * M_PI), 3.0 / 4},
-     wendland_shape,
-     wendland_slope_over_q,
-     wendland_curvature},
-    {"quintic",
-     3,
-     {1.0 / 120, 7 / (478 * M_PI), 1 / (120 * M_PI)},
-     {66.0 / 120, 420 / (239 * M_PI), 239.0 / 420},
-     quintic_shape,
-     quintic_slope_over_q,
-     quintic_curvature},
-};
-
-enum { KERNELS = sizeof kernels / sizeof kernels[0] };
+const struct kernel kernel_cubic = {"cubic",
+                                    2,
+                                    {1, 15 / (7 * M_PI), 3 / (2 * M_PI)},
+                                    {2.0 / 3, 15 / (7 * M_PI), 7.0 / 10},
+                                    cubic_shape,
+                                    cubic_slope_over_q,
+                                    cubic_curvature};
+const struct kernel kernel_wendland = {"wendland",
+                                       2,
+                                       {5.0 / 8, 7 / (4 * M_PI), 21 / (16 * M_PI)},
+                                       {5.0 / 8, 7 / (3 * M_PI), 3.0 / 4},
+                                       wendland_shape,
+                                       wendland_slope_over_q,
+                                       wendland_curvature};
+const struct kernel kernel_quintic = {"quintic",
+                                      3,
+                                      {1.0 / 120, 7 / (478 * M_PI), 1 / (120 * M_PI)},
+                                      {66.0 / 120, 420 / (239 * M_PI), 239.0 / 420},
+                                      quintic_shape,
+                                      quintic_slope_over_q,
+                                      quintic_curvature};
 
 const struct kernel *kernel_find(const char *name)
 {
-    for (int i = 0; i < KERNELS; i++)
-        if (strcmp(kernels[i].name, name) == 0) return &kernels[i];
+    for (size_t i = 0; kernels[i] != NULL; i++)
+        if (strcmp(kernels[i]->name, name) == 0) return kernels[i];
     return NULL;
-}
-
-const char *kernel_name(int i)
-{
-    return i >= 0 && i < KERNELS ? kernels[i].name : NULL;
 }
 
 /* c_d / h^(d + order) */

@@ -2,7 +2,7 @@
  *
  *   W(r, h) = c_d / h^d * w(q),   q = r / h,   W = 0 for r >= support * h
  *
- * A new kernel is one line in the table of kernel/kernel.c with its shape functions. */
+ * A new kernel is a file, kernel_SYMBOL with its shape functions, and a line in deck/choices.h. */
 #ifndef SELAS_KERNEL_H
 #define SELAS_KERNEL_H
 
@@ -18,8 +18,6 @@ struct kernel {
 
 /* NULL if there is no kernel of that name. */
 const struct kernel *kernel_find(const char *name);
-/* Name of the i-th kernel from 0; NULL after the last. */
-const char *kernel_name(int i);
 
 /* W, dW/dr, d2W/dr2 at distance r >= 0 for smoothing length h > 0; dimension 1, 2 or 3. */
 double kernel_value(const struct kernel *kernel, int dimension, double r, double h);

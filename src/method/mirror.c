@@ -22,8 +22,7 @@ bool mirrors_wanted(const struct scene *scene)
     return scene->method.group == NULL || deck_logical(scene->method.group, "symmetry", 0);
 }
 
-/* --- Reflection
- * ------------------------------------------------------------------------------------------------ */
+/* --- Reflection --- */
 
 static double middle(const struct mirror *mirror, int axis)
 {
@@ -89,8 +88,7 @@ static void reflect(double h[3][3], selas_field field, double *value)
     if (field_components(field) == 6) reflect_tensor(h, value);
 }
 
-/* --- The model's functions: those of the part
- * -------------------------------------------------------------------- */
+/* --- The model's functions: those of the part --- */
 
 static void unseen(struct model *model, const double *y, struct unseen *found)
 {
@@ -214,8 +212,7 @@ static void destroy(struct model *model)
     free(mirror);
 }
 
-/* --- Building
- * ---------------------------------------------------------------------------------------------------- */
+/* --- Building --- */
 
 static const struct model_core mirror_core = {
     .destroy = destroy,

@@ -64,12 +64,13 @@ struct unseen {
 
 struct model;
 
-/* An entry of the table of methods (method/methods.c): what a deck may ask for. */
+/* A method of the list in deck/choices.h: what a deck may ask for. */
 struct method {
     const char *name, *variant; /* as in the deck */
-    bool mirrors; /* exact on the half of a symmetric scene with symmetry on the middle plane: see
-                     method/mirror.h */
-    bool single;  /* some scenes may keep the state in single precision */
+    bool mirrors;   /* exact on the half of a symmetric scene with symmetry on the middle plane: see
+                       method/mirror.h */
+    unsigned faces; /* what it can do at faces: CAN_... (scene/boundary.h) */
+    bool single;    /* some scenes may keep the state in single precision */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
 };

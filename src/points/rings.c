@@ -4,10 +4,10 @@
  *   squared         lattice without the points in the hole
  *   radial          rings one spacing apart, the same number of points on each (rays)
  *   equally radial  rings one spacing apart, points one spacing apart on each
- *   conformal       rays that run straight from even places on the hole to even places on each edge, and
- * rings that blend from the circle to the edges, nearer to each other at the hole: a smooth map of a lattice,
- *                   cells about square. (Rings with as many points as fit on each have dislocations where the
- *                   number changes, which make noise in the stress.) */
+ *   conformal       rays that run straight from even places on the hole to even places on each edge, and rings
+ *                   that blend from the circle to the edges, nearer to each other at the hole: a smooth map of
+ *                   a lattice, cells about square. (Rings with as many points as fit on each have dislocations
+ *                   where the number changes, which make noise in the stress.) */
 #include "points/cloud.h"
 
 #include <math.h>

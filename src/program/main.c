@@ -109,8 +109,7 @@ static int exit_status(selas_status status)
     }
 }
 
-/* --- Commands
- * -------------------------------------------------------------------------------------------------- */
+/* --- Commands --- */
 
 static void print_line(void *context, const char *key, const char *value)
 {

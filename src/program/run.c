@@ -51,8 +51,7 @@ static void print_text(void *context, const char *text)
     fflush(context);
 }
 
-/* --- Checkpoints
- * -------------------------------------------------------------------------------------------------- */
+/* --- Checkpoints --- */
 
 static double minutes_between(const struct run *run)
 {
@@ -149,8 +148,7 @@ static void leave_histories(struct run *run)
                 (int)(strlen(run->path) - strlen("checkpoint.h5")), run->path);
 }
 
-/* --- Stepping
- * ----------------------------------------------------------------------------------------------------- */
+/* --- Stepping --- */
 
 static selas_status step_on(struct run *run, struct progress *progress, unsigned long needed)
 {

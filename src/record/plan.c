@@ -83,13 +83,11 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     say(teller, "receivers", "%zu", scene->receivers);
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);
     if (scene->snapshots > 0) say(teller, "snapshot groups", "%zu", scene->snapshots);
-    static const char *const kind[] = {"free",         "fixed",    "roller",      "symmetry",
-                                       "transmitting", "velocity", "displacement"};
     for (size_t face = 0; face < FACES; face++)
         if (scene->boundary[face].given) {
             char key[32];
             snprintf(key, sizeof key, "face %s", face_name((enum face)face));
-            say(teller, key, "%s", kind[scene->boundary[face].kind]);
+            say(teller, key, "%s", boundary_meaning(&scene->boundary[face])->name);
         }
     if (scene->output.low_pass > 0.0)
         say(teller, "low-pass", "exp(-(omega/%.9g)^4), zero phase, on computed histories",

@@ -23,8 +23,7 @@ static char *joined(const char *folder, const char *name)
     return path;
 }
 
-/* --- The lock
- * ------------------------------------------------------------------------------------------------------ */
+/* --- The lock --- */
 
 static selas_status refuse(int file, const char *folder, struct messages *messages)
 {
@@ -91,8 +90,7 @@ static void give_lock(struct unfinished *unfinished)
     unfinished->lock = -1;
 }
 
-/* --- The folder
- * ---------------------------------------------------------------------------------------------------- */
+/* --- The folder --- */
 
 static bool ends(const char *name, const char *ending)
 {

@@ -27,15 +27,6 @@ static const double growth_of_faces = 100.0;
  * and its end. */
 static const double growth_unwatched = 1e4;
 
-static bool moved_by_faces(const struct scene *scene)
-{
-    for (size_t face = 0; face < FACES; face++) {
-        const enum boundary_kind kind = scene->boundary[face].kind;
-        if (kind == BOUNDARY_VELOCITY || kind == BOUNDARY_DISPLACEMENT) return true;
-    }
-    return false;
-}
-
 /* Largest way and speed of a moved face over the run, as the steps see them. */
 static void motion_of(const struct recorder *recorder, const struct boundary *boundary, double *way,
                       double *speed)
@@ -43,7 +34,7 @@ static void motion_of(const struct recorder *recorder, const struct boundary *bo
     const struct stepper *stepper = recorder->stepper;
     double before = 0.0;
     for (unsigned long step = 1; step <= stepper->steps; step++) {
-        const double now = motion_displacement(boundary, (double)step * stepper->dt, 0);
+        const double now = boundary_displacement(boundary, (double)step * stepper->dt, 0);
         *way = fmax(*way, fabs(boundary->amplitude * now));
         *speed = fmax(*speed, fabs(boundary->amplitude * (now - before)) / stepper->dt);
         before = now;
@@ -57,20 +48,17 @@ static void faces_can_give(struct recorder *recorder)
 {
     const struct scene *scene = recorder->scene;
     struct watch *watch = &recorder->watch;
-    double way = 0.0, speed = 0.0, density = 0.0, fastest = 0.0, shortest = INFINITY, mass;
+    double way = 0.0, speed = 0.0, density = 0.0, shortest = INFINITY, mass;
     for (size_t face = 0; face < FACES; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT)
-            motion_of(recorder, boundary, &way, &speed);
+        if (boundary_moves(boundary)) motion_of(recorder, boundary, &way, &speed);
     }
-    for (size_t m = 0; m < scene->materials; m++) {
+    for (size_t m = 0; m < scene->materials; m++)
         density = fmax(density, scene->material[m].density);
-        fastest = fmax(fastest, scene->material[m].p_speed);
-    }
     for (int axis = 0; axis < scene->dimension; axis++)
         shortest = fmin(shortest, scene->body.high[axis] - scene->body.low[axis]);
     mass = density * (double)recorder->model->points * pow(scene->body.spacing, scene->dimension);
-    watch->face_rate = shortest > 0.0 ? fastest / shortest : 0.0;
+    watch->face_rate = shortest > 0.0 ? scene_fastest(scene) / shortest : 0.0;
     watch->face_energy = mass * (speed * speed + pow(way * watch->face_rate, 2.0));
 }
 
@@ -78,18 +66,16 @@ void watch_start(struct recorder *recorder)
 {
     const struct scene *scene = recorder->scene;
     struct watch *watch = &recorder->watch;
+    const bool moved = (scene_needs(scene) & CAN_MOVE) != 0;
     *watch = (struct watch){0};
-    watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL &&
-                     !moved_by_faces(scene);
-    watch->with_faces =
-        moved_by_faces(scene) && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
+    watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL && !moved;
+    watch->with_faces = moved && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
     if (watch->with_faces) faces_can_give(recorder);
     watch->reference_until = 0.1 * scene->end_time;
     for (size_t k = 0; k < scene->loads; k++)
         watch->reference_until = fmax(watch->reference_until, history_end(&scene->load[k].history));
     for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
+        if (boundary_moves(&scene->boundary[face]))
             watch->reference_until =
                 fmax(watch->reference_until, history_end(&scene->boundary[face].history));
 }

@@ -127,13 +127,6 @@ static const struct material *least_compressible(const struct scene *scene)
     return found;
 }
 
-static bool absorbs(const struct scene *scene)
-{
-    for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING) return true;
-    return false;
-}
-
 static void say_step(const struct stepper *stepper, size_t size, char *text)
 {
     if (stepper->limit > 0.0)
@@ -169,7 +162,7 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
         snprintf(text, size,
                  "this method's operator is not symmetric and may grow by itself; try a smaller time step, "
                  "method%%variant = 'consistent', or other options of the method");
-    else if (absorbs(scene))
+    else if ((scene_needs(scene) & (CAN_DAMP | CAN_ABSORB)) != 0)
         snprintf(text, size, "an absorbing face (nu = %.3g); try boundary%%layer = 'lysmer' or another box",
                  stiff->poisson);
     else

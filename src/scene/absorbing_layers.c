@@ -29,8 +29,7 @@ static bool given(const struct scene *scene, const char *word)
 const char *layers_refusal(const struct scene *scene)
 {
     if (strcmp(scene->method.variant, "consistent") != 0) return "this method has no absorbing layers";
-    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
-        return "only boxes and half-spaces have absorbing layers";
+    if (!body_is_box(&scene->body)) return "only boxes and half-spaces have absorbing layers";
     if (scene->dimension == 1) return "in one dimension they send nothing back";
     if (given(scene, "mass") && strcmp(deck_text(scene->method.group, "mass", 0), "exact") == 0)
         return "absorbing layers need method%mass = 'vc1', 'vc2' or 'vc3'";
@@ -41,11 +40,6 @@ const char *layers_refusal(const struct scene *scene)
     return NULL;
 }
 
-static bool in_box(const struct scene *scene)
-{
-    return scene->body.shape == BODY_BOX || scene->body.shape == BODY_HALF_SPACE;
-}
-
 static bool layer_unneeded(const struct scene *scene, int face)
 {
     return !scene->boundary[face].always && !echo_seen(scene, face, 4 * scene->body.spacing);
@@ -53,8 +47,7 @@ static bool layer_unneeded(const struct scene *scene, int face)
 
 static bool layer_asked(const struct scene *scene, int face)
 {
-    const struct boundary *boundary = &scene->boundary[face];
-    return in_box(scene) && boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_PML;
+    return body_is_box(&scene->body) && boundary_has_layer(&scene->boundary[face]);
 }
 
 static size_t within_limits(double points, size_t least)
@@ -72,7 +65,8 @@ size_t layer_points(const struct scene *scene, int face)
     if (boundary->layer_reflection > 0)
         return within_limits(ceil(log(measured_part / boundary->layer_reflection) / decay_per_point - 1e-9),
                              LEAST_POINTS);
-    return within_limits(fmax((double)echo_points(scene, face), (double)boundary->least_points), LAYER_POINTS);
+    return within_limits(fmax((double)echo_points(scene, face), (double)boundary->least_points),
+                         LAYER_POINTS);
 }
 
 bool layer_anywhere(const struct scene *scene)

@@ -182,10 +182,7 @@ bool take_spacing(const struct builder *builder, const struct deck_group *group,
     const struct scene *scene = builder->scene;
     if (builder->accurate &&
         !(builder->spacing > 0)) { /* a first guess: a sixteenth of what a P wave covers */
-        double fastest = 0;
-        for (size_t i = 0; i < scene->materials; i++)
-            fastest = fmax(fastest, scene->material[i].p_speed);
-        *spacing = fastest * scene->end_time / 16;
+        *spacing = scene_fastest(scene) * scene->end_time / 16;
         return *spacing > 0;
     }
     if (builder->accurate) {
@@ -263,7 +260,7 @@ void build_body(struct builder *builder)
     if (!right) return;
     body_set_frame(body);
     builder->body_known = true;
-    const bool lattice = body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
+    const bool lattice = body_is_box(body);
     if (spaced && check_memory(builder, group) && lattice && !builder->accurate)
         check_division(builder, group);
 }

@@ -8,14 +8,6 @@
 
 #include <math.h>
 
-static double fastest_speed(const struct scene *scene)
-{
-    double fastest = 0;
-    for (size_t m = 0; m < scene->materials; m++)
-        fastest = fmax(fastest, scene->material[m].p_speed);
-    return fastest;
-}
-
 /* Distance of an extent from a face, 0 where it reaches it; or of its mirror image where the opposite face is
  * a symmetry plane. */
 static double distance(const struct scene *scene, int face, const struct extent *extent)
@@ -26,13 +18,13 @@ static double distance(const struct scene *scene, int face, const struct extent 
     const double mirror = sign * (sign < 0 ? body->high[axis] : body->low[axis]);
     const double near = sign < 0 ? -extent->low[axis] : extent->high[axis];
     const double far = sign < 0 ? -extent->high[axis] : extent->low[axis];
-    const bool mirrored = scene->boundary[face ^ 1].kind == BOUNDARY_SYMMETRY;
+    const bool mirrored = boundary_mirrors(&scene->boundary[face ^ 1]);
     return fmax(0, plane - (mirrored ? fmax(near, 2 * mirror - far) : near));
 }
 
 bool echo_seen(const struct scene *scene, int face, double less)
 {
-    const double speed = 1.02 * fastest_speed(scene);
+    const double speed = 1.02 * scene_fastest(scene);
     struct extent seen, acts;
     bool looked = false;
     for (size_t i = 0; scene_extent(scene, i, &seen); i++) {
@@ -85,7 +77,7 @@ static double early_echo(const struct scene *scene, int face, const struct exten
     const double way = acts->plane ? 0 : way_along(scene, face, acts, seen);
     const double across = fmax(distance(scene, face, acts) + distance(scene, face, seen), h);
     const double felt = acts->plane ? INFINITY : fmax(way, across) * static_reach;
-    const double most = fmin(felt, fastest_speed(scene) * scene->end_time);
+    const double most = fmin(felt, scene_fastest(scene) * scene->end_time);
     return pow(fmax(1, fmin(acts->wavelength, most) / h), wavelength_power) *
            pow(fmax(1, way / across), grazing_power);
 }
@@ -106,7 +98,8 @@ static struct echo worst_echo(const struct scene *scene, int face)
         if (acts.role != EXTENT_ACTS) continue;
         worst.wavelength = fmax(worst.wavelength, acts.wavelength);
         for (size_t i = 0; scene_extent(scene, i, &seen); i++)
-            if (seen.role == EXTENT_SEEN) worst.early = fmax(worst.early, early_echo(scene, face, &acts, &seen));
+            if (seen.role == EXTENT_SEEN)
+                worst.early = fmax(worst.early, early_echo(scene, face, &acts, &seen));
     }
     return worst;
 }

@@ -10,14 +10,6 @@ static const double gaussian_end = 5;
 /* Root mean square frequency of a Gaussian's slope over that of the Gaussian itself. */
 static const double slope_over_value = 1.7320508075688772;
 
-static double fastest_speed(const struct scene *scene)
-{
-    double speed = 0;
-    for (size_t i = 0; i < scene->materials; i++)
-        speed = fmax(speed, scene->material[i].p_speed);
-    return speed;
-}
-
 /* Sets the place to nothing, for widen(). */
 static void begin_place(struct extent *extent)
 {
@@ -52,7 +44,7 @@ static double wavelength_of(const struct scene *scene, const struct history *his
         value += pow(history_value(history, (i + .5) * step, 0), 2);
         slope += pow(history_value(history, (i + .5) * step, 1), 2);
     }
-    return 2 * M_PI * fastest_speed(scene) * sqrt(value / slope) / slope_over_value;
+    return 2 * M_PI * scene_fastest(scene) * sqrt(value / slope) / slope_over_value;
 }
 
 /* --- What acts ------------------------------------------------------------------------------------------ */
@@ -112,23 +104,11 @@ static size_t count_faces(const struct scene *scene)
 static void state_face(const struct scene *scene, size_t index, struct extent *extent)
 {
     const struct boundary *boundary = &scene->boundary[index];
-    switch (boundary->kind) {
-    case BOUNDARY_VELOCITY:
-    case BOUNDARY_DISPLACEMENT:
-        extent->role = EXTENT_ACTS;
-        extent->index = boundary->group;
-        extent->wavelength = wavelength_of(scene, &boundary->history);
-        extent->plane =
-            is_surface(scene, (enum face)index) && along_normal(scene, boundary->direction);
-        return;
-    case BOUNDARY_FREE:
-    case BOUNDARY_FIXED:
-    case BOUNDARY_ROLLER:
-    case BOUNDARY_SYMMETRY:
-    case BOUNDARY_TRANSMITTING:
-        extent->role = EXTENT_IDLE;
-        return;
-    }
+    if (!boundary_moves(boundary)) return;
+    extent->role = EXTENT_ACTS;
+    extent->index = boundary->group;
+    extent->wavelength = wavelength_of(scene, &boundary->history);
+    extent->plane = is_surface(scene, (enum face)index) && along_normal(scene, boundary->direction);
 }
 
 static size_t count_initial(const struct scene *scene)

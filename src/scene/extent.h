@@ -14,8 +14,8 @@ struct extent {
     size_t index;
     double low[3], high[3]; /* body frame; -INFINITY and INFINITY: as far as the body goes */
     double from, until;     /* ACTS: no motion before `from`; SEEN: not looked at after `until` */
-    double wavelength;      /* ACTS: P waves at the root mean square frequency of the velocity; INFINITY: static */
-    bool plane;             /* ACTS: alike all over the surface, along its normal */
+    double wavelength; /* ACTS: P waves at the root mean square frequency of the velocity; INFINITY: static */
+    bool plane;        /* ACTS: alike all over the surface, along its normal */
 };
 
 /* Number `index` (from 0) of all extents of a scene, IDLE ones included; false past the last. Places need

@@ -10,9 +10,9 @@
 /* Index of 'all' among the choices of boundary%face; the others are those of enum face. */
 enum { FACE_ALL = FACES };
 
-static const char *const kinds[] = {"kind 'free'",        "kind 'fixed'",        "kind 'roller'",
-                                    "kind 'symmetry'",    "kind 'transmitting'", "kind 'velocity'",
-                                    "kind 'displacement'"};
+#define KIND(symbol, word, holds, motion, needs) [symbol] = "kind '" word "'",
+static const char *const kinds[] = {BOUNDARY_KINDS(KIND)};
+#undef KIND
 
 static bool has_face(const struct scene *scene, enum face face)
 {
@@ -61,7 +61,8 @@ static const char *dampers_purpose(const struct scene *scene, const struct deck_
 
 static void read_absorber(struct builder *builder, const struct deck_group *group, struct boundary *boundary)
 {
-    static const char *const layer_words[] = {"layer_points", "layer_thickness", "layer_reflection", "always", NULL};
+    static const char *const layer_words[] = {"layer_points", "layer_thickness", "layer_reflection", "always",
+                                              NULL};
     static const char *const factor_words[] = {"normal_factor", "shear_factor", NULL};
     char purpose[160];
     const bool factors = deck_given(group, "normal_factor") || deck_given(group, "shear_factor");
@@ -94,18 +95,18 @@ static void read_treatment(struct builder *builder, const struct deck_group *gro
 {
     static const char *const motion_words[] = {"direction", "slip", NULL};
     static const char *const absorber_words[] = {
-        "layer",        "layer_points", "layer_thickness", "layer_reflection", "normal_factor",
-        "shear_factor", "always",       NULL};
+        "layer",         "layer_points", "layer_thickness", "layer_reflection",
+        "normal_factor", "shear_factor", "always",          NULL};
     boundary->kind = (enum boundary_kind)deck_choice(group, "kind", 0);
     boundary->normal_factor = boundary->shear_factor = 1;
     const char *purpose = kinds[boundary->kind];
-    if (boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT) {
+    if (boundary_moves(boundary)) {
         read_motion(builder, group, boundary);
     } else {
         refuse(builder, group, motion_words, purpose);
         refuse(builder, group, history_words, purpose);
     }
-    if (boundary->kind == BOUNDARY_TRANSMITTING)
+    if (boundary_absorbs(boundary))
         read_absorber(builder, group, boundary);
     else
         refuse(builder, group, absorber_words, purpose);
@@ -139,7 +140,7 @@ static void set_face(struct builder *builder, const struct deck_group *group, en
                  boundary->group + 1);
         return;
     }
-    if (face == FACE_HOLE && treatment->kind != BOUNDARY_FREE) {
+    if (face == FACE_HOLE && !boundary_is_free(treatment)) {
         complain(builder, group, "kind", "the hole can only be free");
         return;
     }

@@ -30,17 +30,9 @@ struct held {
     struct span all[3], load[3];
     bool one_centre[3]; /* all that acts has the same centre along this axis */
     double centre[3];
-    bool plane, whole;   /* all moves along the depth alone; the whole body is looked at */
+    bool plane, whole; /* all moves along the depth alone; the whole body is looked at */
     size_t acts, seen;
 };
-
-static double fastest_speed(const struct scene *scene)
-{
-    double speed = 0.0;
-    for (size_t i = 0; i < scene->materials; i++)
-        speed = fmax(speed, scene->material[i].p_speed);
-    return speed;
-}
 
 static double deepest_layer(const struct builder *builder)
 {
@@ -66,7 +58,7 @@ static bool faces_fit(struct builder *builder, const struct scene *sketch, bool 
     const int top = 2 * sketch->dimension - 2;
     for (int face = 0; face < 2 * sketch->dimension; face++) {
         const struct boundary *boundary = &sketch->boundary[face];
-        if (face == top || !boundary->given || boundary->kind == BOUNDARY_TRANSMITTING) continue;
+        if (face == top || !boundary->given || boundary_absorbs(boundary)) continue;
         if (plane && face < top && boundary->kind == BOUNDARY_ROLLER) continue;
         char why[120];
         snprintf(why, sizeof why, "the place of face '%s' is not known, and what this one does depends on it",
@@ -83,13 +75,15 @@ static bool sources_fit(struct builder *builder, const struct scene *sketch, con
     for (size_t i = 0; scene_extent(sketch, i, &extent); i++) {
         if (extent.role != EXTENT_ACTS) continue;
         if (held->plane && !extent.plane)
-            return refuse_box(builder, extent.group, extent.index, NULL,
-                              "this one has a place, beside others that act all over the surface: no sides are "
-                              "right for both");
+            return refuse_box(
+                builder, extent.group, extent.index, NULL,
+                "this one has a place, beside others that act all over the surface: no sides are "
+                "right for both");
         if (!extent.plane && isinf(extent.low[0]))
-            return refuse_box(builder, extent.group, extent.index, NULL,
-                              "what acts here has no end, and is not alike all over the surface along its normal, "
-                              "where rollers at the sides would do");
+            return refuse_box(
+                builder, extent.group, extent.index, NULL,
+                "what acts here has no end, and is not alike all over the surface along its normal, "
+                "where rollers at the sides would do");
     }
     return true;
 }
@@ -167,7 +161,7 @@ static double cost(const struct scene *scene)
 /* So large that nothing comes back: (X - load) + (X - seen) >= c_p (until - from) for all pairs. */
 static void fit_large(const struct builder *builder, const struct held *held, struct scene *sketch)
 {
-    const double dx = sketch->body.spacing, speed = fastest_speed(sketch);
+    const double dx = sketch->body.spacing, speed = scene_fastest(sketch);
     const int down = sketch->dimension - 1;
     struct span want[3];
     struct extent seen, acts;
@@ -208,8 +202,8 @@ static double fit_small(const struct builder *builder, const struct held *held, 
             const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * dx;
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
         }
-        want[down].high = fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx),
-                               deepest_layer(builder) + MARGIN * dx);
+        want[down].high =
+            fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx), deepest_layer(builder) + MARGIN * dx);
         put(sketch, held, want, &sketch->body);
         const double here = cost(sketch);
         if (here < least) best = sketch->body;
@@ -242,8 +236,7 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
     }
     if (!faces_fit(builder, sketch, held.plane) || !sources_fit(builder, sketch, &held)) return false;
     for (int face = 0; face < 2 * sketch->dimension; face++)
-        if (sketch->boundary[face].given && sketch->boundary[face].kind == BOUNDARY_TRANSMITTING &&
-            sketch->boundary[face].absorber == ABSORBER_LYSMER)
+        if (sketch->boundary[face].given && boundary_damps(&sketch->boundary[face]))
             why = why != NULL ? why : "the deck asks for dampers";
     fit_large(builder, &held, sketch);
     const struct body large = sketch->body;
@@ -251,13 +244,15 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
     const double small_cost = why == NULL ? fit_small(builder, &held, sketch) : INFINITY;
     if (isinf(small_cost) && isinf(large_cost)) {
         char text[200];
-        snprintf(text, sizeof text, "the whole body is looked at, faces and all, and %s; give &snapshot a region", why);
+        snprintf(text, sizeof text,
+                 "the whole body is looked at, faces and all, and %s; give &snapshot a region", why);
         return refuse_box(builder, "body", 0, NULL, text);
     }
     keep(small_cost < large_cost ? &sketch->body : &large, &held, small_cost < large_cost, body);
     if (body->absorbing)
         snprintf(body->choice, sizeof body->choice,
-                 "absorbing layers around a small box: work as for %.3g points, against %.3g in a box so large that "
+                 "absorbing layers around a small box: work as for %.3g points, against %.3g in a box so "
+                 "large that "
                  "nothing returns before end_time",
                  small_cost, large_cost);
     else

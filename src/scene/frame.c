@@ -96,7 +96,7 @@ void body_to_deck(const struct body *body, const double body_position[3], double
 
 const char *face_name(enum face face)
 {
-    static const char *const names[FACES] = {"x-", "x+", "y-", "y+", "z-", "z+", "hole"};
+    static const char *const names[FACES] = {FACE_NAMES(CHOICE_NAME)};
     return names[face];
 }
 

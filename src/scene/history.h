@@ -6,17 +6,11 @@
 #define SELAS_HISTORY_H
 
 #include "base/messages.h"
+#include "deck/choices.h"
 
 #include <complex.h>
 
-enum history_kind {
-    HISTORY_TRIANGLE,   /* 0 -> 1 at duration/2 -> 0 at duration (Ding et al. 2006, Eq 43, for duration 2) */
-    HISTORY_STEP,       /* 1 for t >= 0 (1/2 at t = 0 where a value is asked for) */
-    HISTORY_RICKER,     /* (1 - 2 a) exp(-a), a = (pi frequency (t - delay))^2 */
-    HISTORY_GAUSSIAN,   /* exp(-(t - delay)^2 / (2 width^2)) */
-    HISTORY_SINE_BURST, /* sin(2 pi f t) (1 - cos(2 pi f t / cycles)) / 2 for 0 <= t <= cycles / f */
-    HISTORY_TABLE /* straight lines between the rows of a text file `t value`; its last value afterwards */
-};
+enum history_kind { HISTORY_KINDS(CHOICE_SYMBOL) };
 
 struct history {
     enum history_kind kind;

@@ -86,14 +86,14 @@ static void warn_of_held_face(struct builder *builder, const struct deck_group *
     double own[3];
     body_direction_from_deck(&builder->scene->body, load->direction, own);
     const double normal = fabs(own[face_axis(load->face)]);
-    const bool mirrored = boundary->kind == BOUNDARY_ROLLER || boundary->kind == BOUNDARY_SYMMETRY;
-    const bool moved = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-    if (boundary->kind == BOUNDARY_FIXED || (mirrored && normal > 0) || (moved && !boundary->slip))
+    const bool slides = boundary_slides(boundary);
+    if (boundary_is_fixed(boundary) || (slides && normal > 0) ||
+        (boundary_moves(boundary) && !boundary->slip))
         deck_warning(
             builder->deck, group, "face", builder->messages,
             "the load acts on the face '%s', whose motion &boundary %zu prescribes%s; it does nothing "
             "there",
-            face_name(load->face), boundary->group + 1, mirrored ? " along the normal" : "");
+            face_name(load->face), boundary->group + 1, slides ? " along the normal" : "");
 }
 
 static void read_traction(struct builder *builder, const struct deck_group *group, struct load *load)

@@ -8,8 +8,7 @@ double source_cutoff(const struct scene *scene)
     for (size_t k = 0; k < scene->loads; k++)
         omega = fmax(omega, history_cutoff(&scene->load[k].history, SOURCE_COUNTS));
     for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_VELOCITY ||
-            scene->boundary[face].kind == BOUNDARY_DISPLACEMENT)
+        if (boundary_moves(&scene->boundary[face]))
             omega = fmax(omega, history_cutoff(&scene->boundary[face].history, SOURCE_COUNTS));
     return omega;
 }

@@ -29,32 +29,52 @@ static bool scattered(const struct deck *deck)
     if (deck_count(deck, "body") == 0) return false;
     const struct deck_group *body = deck_get(deck, "body", 0);
     return (deck_values(body, "jitter") > 0 && deck_real(body, "jitter", 0) > 0) ||
-           strcmp(deck_text(body, "shape", 0), "points") == 0;
+           deck_chosen(body, "shape", "points");
 }
 
-/* The default of each family; a variant must belong to its family. */
+static const struct {
+    const char *family, *name;
+} variants[] = {
+#define NO_FAMILY(word)
+#define VARIANT(symbol, family, word) {family, word},
+    METHODS(NO_FAMILY, VARIANT)};
+enum { VARIANTS = sizeof variants / sizeof *variants };
+
+static void refuse_variant(struct builder *builder, const struct deck_group *group, const char *family)
+{
+    char expected[256] = "";
+    size_t used = 0, left = 0;
+    for (size_t i = 0; i < VARIANTS; i++)
+        left += strcmp(variants[i].family, family) == 0;
+    for (size_t i = 0; i < VARIANTS && used < sizeof expected; i++)
+        if (strcmp(variants[i].family, family) == 0)
+            used += (size_t)snprintf(expected + used, sizeof expected - used, "%s'%s'",
+                                     used == 0     ? ""
+                                     : --left == 1 ? " or "
+                                                   : ", ",
+                                     variants[i].name);
+    complain(builder, group, "variant", "method '%s' has no variant '%s'; expected %s", family,
+             deck_text(group, "variant", 0), expected);
+}
+
+/* The default of each family is its first variant, or the cloud; a variant must belong to its family. */
 static void build_method(struct builder *builder)
 {
-    static const char *const families[2] = {"smoothed-point", "sph"};
-    static const char *const variants[5] = {"consistent", "paper", "cloud", "total-lagrangian",
-                                            "updated-lagrangian"}; /* in the order of deck/words.c */
-    static const size_t first[3] = {0, 3, 5};                      /* of each family */
     struct method_choice *method = &builder->scene->method;
     const struct deck_group *group = deck_get(builder->deck, "method", 0);
-    const size_t family = deck_choice(group, "name", 0);
-    size_t choice = family == 0 && scattered(builder->deck) ? 2 : first[family];
-    method->group = group;
-    if (deck_given(group, "variant")) {
-        choice = deck_choice(group, "variant", 0);
-        if (choice < first[family] || choice >= first[family + 1]) {
-            complain(builder, group, "variant", "method '%s' has no variant '%s'; expected '%s'%s or '%s'",
-                     families[family], deck_text(group, "variant", 0), variants[first[family]],
-                     family == 0 ? ", 'paper'" : "", variants[first[family + 1] - 1]);
-            choice = first[family];
-        }
+    const char *family = deck_text(group, "name", 0);
+    const bool given = deck_given(group, "variant"), cloud = !given && scattered(builder->deck);
+    const char *wanted = given ? deck_text(group, "variant", 0) : cloud ? "cloud" : NULL;
+    size_t first = VARIANTS, found = VARIANTS;
+    for (size_t i = VARIANTS; i-- > 0;) {
+        if (strcmp(variants[i].family, family) != 0) continue;
+        first = i;
+        if (wanted != NULL && strcmp(variants[i].name, wanted) == 0) found = i;
     }
-    snprintf(method->name, sizeof method->name, "%s", families[family]);
-    snprintf(method->variant, sizeof method->variant, "%s", variants[choice]);
+    if (given && found == VARIANTS) refuse_variant(builder, group, family);
+    method->group = group;
+    snprintf(method->name, sizeof method->name, "%s", family);
+    snprintf(method->variant, sizeof method->variant, "%s", variants[found < VARIANTS ? found : first].name);
 }
 
 static void build_stepping(struct builder *builder)
@@ -78,7 +98,7 @@ static void build_stepping(struct builder *builder)
         snprintf(stepping->scheme, sizeof stepping->scheme, "%s", deck_text(group, "scheme", 0));
     if (deck_values(group, "stages") > 0) stepping->stages = deck_integer(group, "stages", 0);
     if (deck_values(group, "max_stages") > 0) stepping->max_stages = deck_integer(group, "max_stages", 0);
-    stepping->paper_rule = deck_choice(group, "rule", 0) == 1;
+    stepping->paper_rule = deck_chosen(group, "rule", "paper");
     if (stepping->stages > 0 && stepping->max_stages > 0)
         complain(builder, group, "max_stages", "give stages or max_stages, not both");
     stepping->unwarp_given = deck_given(group, "unwarp");

@@ -8,13 +8,13 @@
 
 #include "base/messages.h"
 #include "deck/deck.h"
-#include "scene/history.h"
+#include "scene/boundary.h"
 
 enum { NAME_SIZE = 64, FACES = 7, BOX_FACES = 6 };
 
-enum face { FACE_X_LOW, FACE_X_HIGH, FACE_Y_LOW, FACE_Y_HIGH, FACE_Z_LOW, FACE_Z_HIGH, FACE_HOLE };
+enum face { FACE_NAMES(CHOICE_SYMBOL) };
 
-enum plane { PLANE_STRAIN, PLANE_STRESS };
+enum plane { PLANES(CHOICE_SYMBOL) };
 
 struct material {
     char name[NAME_SIZE];
@@ -26,13 +26,8 @@ struct material {
     double p_speed, s_speed; /* with plane_lambda: the fastest waves of the scene's own dimension */
 };
 
-enum body_shape { BODY_BOX, BODY_HALF_SPACE, BODY_PLATE_WITH_HOLE, BODY_POINTS };
-enum arrangement {
-    ARRANGEMENT_LATTICE,
-    ARRANGEMENT_RADIAL,
-    ARRANGEMENT_EQUALLY_RADIAL,
-    ARRANGEMENT_CONFORMAL
-};
+enum body_shape { BODY_SHAPES(CHOICE_SYMBOL) };
+enum arrangement { ARRANGEMENTS(CHOICE_SYMBOL) };
 
 struct layer {
     size_t material; /* index into scene->materials */
@@ -64,37 +59,8 @@ struct body {
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
 
-enum boundary_kind {
-    BOUNDARY_FREE,
-    BOUNDARY_FIXED,    /* all components 0 */
-    BOUNDARY_ROLLER,   /* normal component 0, no shear traction */
-    BOUNDARY_SYMMETRY, /* mirror plane: as roller, and loads that the plane cuts are whole loads */
-    BOUNDARY_TRANSMITTING,
-    BOUNDARY_VELOCITY,
-    BOUNDARY_DISPLACEMENT
-};
-
-enum absorber { ABSORBER_LYSMER, ABSORBER_PML };
-
-struct boundary {
-    enum boundary_kind kind;
-    enum absorber absorber;
-    long layer_points;       /* the deck's; of the next two as well at most one is given: else 0 */
-    double layer_thickness;  /* length */
-    double layer_reflection; /* wanted */
-    long least_points;       /* of a layer of which the deck gives none of the three; 0: the default */
-    bool always;                        /* keep the layer even where no reflection can be seen by end_time */
-    double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
-    double direction[3];                /* unit vector in the deck's coordinates (VELOCITY, DISPLACEMENT) */
-    double amplitude;
-    bool slip; /* leave components across `direction` free (direction along an axis of the body) */
-    struct history history;
-    bool given;   /* false: nobody named this face, it is free */
-    size_t group; /* occurrence of &boundary that named it */
-};
-
-enum load_kind { LOAD_TRACTION, LOAD_BODY_FORCE, LOAD_MOMENT_TENSOR };
-enum load_shape { LOAD_SQUARE, LOAD_DISC, LOAD_FACE, LOAD_POINT };
+enum load_kind { LOAD_KINDS(CHOICE_SYMBOL) };
+enum load_shape { LOAD_SHAPES(CHOICE_SYMBOL) };
 
 struct load {
     char name[NAME_SIZE]; /* "" if it has none */
@@ -136,13 +102,7 @@ struct snapshot {
     bool whole;                           /* no region was given */
 };
 
-enum initial_kind {
-    INITIAL_REST,
-    INITIAL_UNIFORM_VELOCITY,
-    INITIAL_BEAM_MODE,
-    INITIAL_PLANE_WAVE,
-    INITIAL_GAUSSIAN
-};
+enum initial_kind { INITIAL_KINDS(CHOICE_SYMBOL) };
 
 struct initial {
     enum initial_kind kind;
@@ -245,6 +205,32 @@ static inline int face_sign(enum face face)
     return (int)face % 2 == 0 ? -1 : 1;
 }
 const char *face_name(enum face face); /* "x-" ... "hole" */
+
+static inline bool body_is_box(const struct body *body)
+{
+    return body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
+}
+/* More than one material over the depth. */
+static inline bool body_is_layered(const struct body *body)
+{
+    return body->layers > 1 || (body->layers == 1 && body->layer[0].top > 0);
+}
+/* Does the patch of a load move along its face? */
+static inline bool load_moves(const struct load *load)
+{
+    return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
+}
+
+/* questions.c. Is a component (0, 1, 2, of the body's frame) of the displacement at rest or moved on a face?
+ */
+bool face_holds(const struct scene *scene, enum face face, int component);
+/* CAN_... of all faces together. */
+unsigned scene_needs(const struct scene *scene);
+/* SELAS_UNSUPPORTED, with the face and its place in the deck, if a face needs more than `who` can do. */
+selas_status scene_check_faces(const struct scene *scene, unsigned can, const char *who,
+                               struct messages *messages);
+bool scene_loads_move(const struct scene *scene); /* any of them */
+double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);

@@ -111,24 +111,19 @@ static bool loads_are_symmetric(const struct scene *scene, int axis, double midd
     return true;
 }
 
-static bool is_motion(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-}
-
 static bool faces_are_symmetric(const struct scene *scene, int axis)
 {
     const struct boundary *low = &scene->boundary[2 * axis];
     const struct boundary *high = &scene->boundary[2 * axis + 1];
-    if (low->kind != high->kind || is_motion(low)) return false;
-    if (low->kind == BOUNDARY_TRANSMITTING &&
+    if (low->kind != high->kind || boundary_moves(low)) return false;
+    if (boundary_absorbs(low) &&
         (low->absorber != high->absorber || low->layer_points != high->layer_points ||
-         low->layer_thickness != high->layer_thickness ||
-         low->layer_reflection != high->layer_reflection || low->always != high->always ||
-         low->normal_factor != high->normal_factor || low->shear_factor != high->shear_factor))
+         low->layer_thickness != high->layer_thickness || low->layer_reflection != high->layer_reflection ||
+         low->always != high->always || low->normal_factor != high->normal_factor ||
+         low->shear_factor != high->shear_factor))
         return false;
     for (int face = 0; face < BOX_FACES; face++) {
-        if (!is_motion(&scene->boundary[face])) continue;
+        if (!boundary_moves(&scene->boundary[face])) continue;
         double direction[3];
         body_direction_from_deck(&scene->body, scene->boundary[face].direction, direction);
         if (fabs(direction[axis]) > 1e-12) return false;
@@ -152,7 +147,7 @@ static bool has_middle_points(const struct scene *scene, int axis)
 unsigned scene_mirror_axes(const struct scene *scene)
 {
     const struct body *body = &scene->body;
-    if (body->shape != BODY_BOX && body->shape != BODY_HALF_SPACE) return 0;
+    if (!body_is_box(body)) return 0;
     if (scene->initial.kind != INITIAL_REST || body->jitter != 0.0) return 0;
     unsigned axes = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {

@@ -65,7 +65,7 @@ static void take_plane_wave(struct builder *builder, const struct deck_group *gr
     const char *purpose = kinds[INITIAL_PLANE_WAVE].purpose;
     const bool train = deck_given(group, "wavelength"), pulse = deck_given(group, "width");
     const bool known = need_direction(builder, group, "direction", purpose, initial->direction);
-    initial->shear = deck_choice(group, "wave", 0) == 1;
+    initial->shear = deck_chosen(group, "wave", "s");
     need_real(builder, group, "amplitude", purpose, &initial->amplitude);
     take_polarisation(builder, group, initial, known);
     if (train == pulse)

@@ -5,18 +5,6 @@
 
 #include <string.h>
 
-static bool is_motion(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-}
-
-double motion_displacement(const struct boundary *boundary, double time, int derivative)
-{
-    if (!is_motion(boundary)) return 0.0;
-    const int integrated = boundary->kind == BOUNDARY_VELOCITY ? derivative - 1 : derivative;
-    return history_value(&boundary->history, time, integrated);
-}
-
 /* Histories begin at t = 0 and are 0 before; at t = 0 itself they give the mean of both sides. A body at rest
  * is driven by what comes after: twice that. */
 static double after_start(double value, bool at_start)
@@ -34,8 +22,7 @@ struct drive drive_last(const struct stepper *stepper, double time)
                           .velocity = stepper->motion + FACES};
 }
 
-/* --- A host in the histories' place
- * ------------------------------------------------------------------------ */
+/* --- A host in the histories' place --- */
 
 static void deck_row(const struct stepper *stepper, double time, double *load, double *displacement)
 {
@@ -43,7 +30,7 @@ static void deck_row(const struct stepper *stepper, double time, double *load, d
     for (size_t k = 0; k < scene->loads; k++)
         load[k] = after_start(history_value(&scene->load[k].history, time, 0), time == 0.0);
     for (size_t face = 0; face < FACES; face++)
-        displacement[face] = time > 0.0 ? motion_displacement(&scene->boundary[face], time, 0) : 0.0;
+        displacement[face] = time > 0.0 ? boundary_displacement(&scene->boundary[face], time, 0) : 0.0;
 }
 
 /* Amplitudes at step n: loads, then displacements of the faces; before the start everything is at rest. */
@@ -119,8 +106,9 @@ void drive_at(struct stepper *stepper, double time, struct drive *drive)
         stepper->load[k] = after_start(history_value(&scene->load[k].history, time, 0), time == 0.0);
     for (size_t face = 0; face < FACES; face++)
         for (int derivative = 0; derivative <= 2; derivative++)
-            stepper->motion[(size_t)derivative * FACES + face] = after_start(
-                motion_displacement(&scene->boundary[face], time, derivative), time == 0.0 && derivative > 0);
+            stepper->motion[(size_t)derivative * FACES + face] =
+                after_start(boundary_displacement(&scene->boundary[face], time, derivative),
+                            time == 0.0 && derivative > 0);
     if (stepper->host != NULL) host_at(stepper, time);
     *drive = drive_last(stepper, time);
 }
@@ -147,7 +135,7 @@ static double motion_amplitude(struct stepper *stepper, size_t face, long n)
     if (n <= 0) return 0.0; /* the body stands where it stands: a jump at t = 0 becomes the first step */
     if (stepper->host != NULL) return host_row(stepper, n)[stepper->model->scene->loads + face];
     if (stepper->unwarp) return warped(stepper->warped_motion, FACES, face, stepper->warped_rows, n);
-    return motion_displacement(&stepper->model->scene->boundary[face], (double)n * stepper->dt, 0);
+    return boundary_displacement(&stepper->model->scene->boundary[face], (double)n * stepper->dt, 0);
 }
 
 /* Differences at step 0 see the histories continued evenly to t < 0: the scheme's first step is u(1) = u(0) +
@@ -165,7 +153,7 @@ void drive_at_step(struct stepper *stepper, unsigned long step, bool corrected, 
         stepper->load[k] = amplitude;
     }
     for (size_t face = 0; face < FACES; face++) {
-        if (!is_motion(&scene->boundary[face])) continue;
+        if (!boundary_moves(&scene->boundary[face])) continue;
         const double dt = stepper->dt;
         const double before = motion_amplitude(stepper, face, n > 0 ? n - 1 : 1);
         const double now = motion_amplitude(stepper, face, n);

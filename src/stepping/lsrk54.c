@@ -1,5 +1,9 @@
 /* LSRK(5,4): the five-stage fourth-order Runge-Kutta scheme in two registers of Carpenter & Kennedy (1994,
- * NASA TM 109112, solution 3): dy_i = A_i dy_(i-1) + dt F(t + c_i dt, y_(i-1)),   y_i = y_(i-1) + B_i dy_i.
+ * NASA TM 109112, solution 3):
+ *
+ *   dy_i = A_i dy_(i-1) + dt F(t + c_i dt, y_(i-1)),
+ *   y_i  = y_(i-1) + B_i dy_i.
+ *
  * Five calls a step, imaginary limit 3.34, real limit 4.65. */
 #include "stepping/runge_kutta.h"
 #include "stepping/schemes.h"

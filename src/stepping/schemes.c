@@ -1,14 +1,10 @@
-/* The schemes: a table of names. A new scheme is one new file and one line here. */
+/* The schemes of the list in deck/choices.h: a new scheme is a file and a line there. */
 #include "stepping/schemes.h"
 
 #include <string.h>
 
-static const struct scheme_class *const schemes[] = {
-    &scheme_leapfrog, &scheme_modified_equation,
-    &scheme_euler,    &scheme_pc2,
-    &scheme_rk4,      &scheme_rkc,
-    &scheme_lsrk54,   NULL,
-};
+#define ENTRY(symbol, word) &scheme_##symbol,
+static const struct scheme_class *const schemes[] = {SCHEMES(ENTRY) NULL};
 
 const struct scheme_class *scheme_find(const char *name)
 {

@@ -4,13 +4,9 @@
 
 #include "stepping/stepping.h"
 
-extern const struct scheme_class scheme_leapfrog;
-extern const struct scheme_class scheme_modified_equation;
-extern const struct scheme_class scheme_euler;
-extern const struct scheme_class scheme_pc2;
-extern const struct scheme_class scheme_rk4;
-extern const struct scheme_class scheme_rkc;
-extern const struct scheme_class scheme_lsrk54;
+#define SCHEME_DECLARATION(symbol, word) extern const struct scheme_class scheme_##symbol;
+SCHEMES(SCHEME_DECLARATION)
+#undef SCHEME_DECLARATION
 
 /* v := v + dt/2 a, u := u + dt v, filter of the model if it has one, time and step move on. Needs work[0] if
  * the model filters. */

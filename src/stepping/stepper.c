@@ -8,14 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static double fastest_speed(const struct scene *scene)
-{
-    double speed = 0.0;
-    for (size_t i = 0; i < scene->materials; i++)
-        speed = fmax(speed, scene->material[i].p_speed);
-    return speed;
-}
-
 /* Largest frequency and damping rate about the body at rest. Dampers of linear models are implicit in
  * leapfrog and count only for schemes that take them explicitly. */
 static selas_status measure_spectrum(struct stepper *stepper, struct messages *messages)
@@ -29,7 +21,7 @@ static selas_status measure_spectrum(struct stepper *stepper, struct messages *m
     spectrum->dampers = model->damped;
     const bool explicit_damping = !stepper->scheme->needs_acceleration || spatial->linearise != NULL;
     if (status == SELAS_OK && model->damped && explicit_damping)
-        status = largest_damping(model, fastest_speed(model->scene), &spectrum->viscous, messages);
+        status = largest_damping(model, scene_fastest(model->scene), &spectrum->viscous, messages);
     spectrum->viscous += model->dissipation;
     return status;
 }
@@ -45,7 +37,7 @@ static double wanted_step(struct stepper *stepper)
     }
     if (choice->courant > 0.0) {
         snprintf(stepper->dt_reason, sizeof stepper->dt_reason, "courant number %g given", choice->courant);
-        return choice->courant * scene->body.spacing / fastest_speed(scene);
+        return choice->courant * scene->body.spacing / scene_fastest(scene);
     }
     return 0.0;
 }
@@ -144,22 +136,13 @@ static selas_status warp_drives(struct stepper *stepper, struct messages *messag
     }
     for (size_t face = 0; face < FACES; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        if (boundary->kind != BOUNDARY_VELOCITY && boundary->kind != BOUNDARY_DISPLACEMENT) continue;
+        if (!boundary_moves(boundary)) continue;
         const selas_status status =
-            time_dispersion_warp(&boundary->history, boundary->kind == BOUNDARY_VELOCITY, stepper->dt, rows,
+            time_dispersion_warp(&boundary->history, boundary_meaning(boundary)->motion, stepper->dt, rows,
                                  FACES, stepper->warped_motion + face, messages);
         if (status != SELAS_OK) return status;
     }
     return SELAS_OK;
-}
-
-static bool loads_move(const struct scene *scene)
-{
-    for (size_t k = 0; k < scene->loads; k++) {
-        const double *velocity = scene->load[k].velocity;
-        if (velocity[0] != 0.0 || velocity[1] != 0.0 || velocity[2] != 0.0) return true;
-    }
-    return false;
 }
 
 /* The transform is exact for linear models at rest at t = 0 that prescribed histories at fixed places drive;
@@ -169,7 +152,7 @@ static bool can_unwarp(const struct stepper *stepper)
     const struct model *model = stepper->model;
     return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->spatial->linearise == NULL &&
            model->spatial->after_step == NULL && model->scene->initial.kind == INITIAL_REST &&
-           !loads_move(model->scene);
+           !scene_loads_move(model->scene);
 }
 
 static selas_status choose_unwarp(struct stepper *stepper, struct messages *messages)
@@ -207,7 +190,7 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     if (stepper->scheme->needs_acceleration && spatial->accelerate == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
                     stepper->scheme->name, method->name, method->variant);
-    if (stepper->scheme->order == 4 && stepper->scheme->needs_acceleration && loads_move(scene))
+    if (stepper->scheme->order == 4 && stepper->scheme->needs_acceleration && scene_loads_move(scene))
         return fail(messages, SELAS_UNSUPPORTED,
                     "scheme '%s' knows how loads vary in time, not how they move; take scheme 'leapfrog'",
                     name);

@@ -103,8 +103,6 @@ selas_status drive_by_host(struct stepper *stepper, const struct host_drive *hos
 void drive_changed(struct stepper *stepper, unsigned long step);
 /* Makes the acceleration at the state's own time anew after a change of the loads there. */
 void drive_again(struct stepper *stepper, struct state *state);
-/* Displacement history of a prescribed face (per amplitude): the history or, for a velocity, its integral. */
-double motion_displacement(const struct boundary *boundary, double time, int derivative);
 
 /* stepping/spectrum.c: largest frequency (rad per time) of the undamped operator; *error gets a bound on its
  * relative error or 0. */

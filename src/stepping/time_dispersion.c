@@ -1,14 +1,24 @@
 /* The time-dispersion transform of stepping/time_dispersion.h.
  *
- * With z = exp(s' dt), leapfrog replaces s^2 by (z - 2 + 1/z) / dt^2 = S(s')^2, S(s') = (2/dt) sinh(s' dt/2).
- * So if the exact answer is u^(s) = G(s) f^(s), leapfrog driven by g gives u'^(s') = G(S(s')) g^(s'). (1)
- * Warp:    g^(s') = f^(S(s')),  g_i = (dt / 2 pi i) integral of g^(s') exp(s' i dt) ds' over one period, (2)
+ * With z = exp(s' dt), leapfrog replaces s^2 by
+ *
+ *   (z - 2 + 1/z) / dt^2 = S(s')^2,   S(s') = (2/dt) sinh(s' dt/2).
+ *
+ * So if the exact answer is u^(s) = G(s) f^(s), leapfrog driven by g gives
+ *
+ *   u'^(s') = G(S(s')) g^(s').                                                                          (1)
+ *
+ * Warp:    g^(s') = f^(S(s')),
+ *          g_i = (dt / 2 pi i) integral of g^(s') exp(s' i dt) ds' over one period,                     (2)
  *          on Re s' = eta > 0, by FFT; f^ is the analytic Laplace transform of the history.
- * Un-warp: u^(i omega) = u'^(i omega'), omega' = (2/dt) asin(omega dt/2), hence with d omega = cos(omega'
- * dt/2) d omega' u(t) = 1/(2 pi) integral over |omega'| < pi/dt of u'^(i omega') exp(i omega t) cos(omega'
- * dt/2) d omega'.   (3) Velocity and acceleration get the factors i omega and -omega^2. Waves of the record's
- * end come from later true times (group delay t / cos(omega' dt/2) >= t), so a cut record needs only padding,
- * not more steps. */
+ *
+ * Un-warp: u^(i omega) = u'^(i omega'),   omega' = (2/dt) asin(omega dt/2),
+ *          hence with d omega = cos(omega' dt/2) d omega'
+ *          u(t) = 1/(2 pi) integral over |omega'| < pi/dt of
+ *                 u'^(i omega') exp(i omega t) cos(omega' dt/2) d omega'.                               (3)
+ *
+ * Velocity and acceleration get the factors i omega and -omega^2. Waves of the record's end come from later
+ * true times (group delay t / cos(omega' dt/2) >= t), so a cut record needs only padding, not more steps. */
 #include "stepping/time_dispersion.h"
 
 #include "base/fft_room.h"

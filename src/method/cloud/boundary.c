@@ -10,19 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool holds(const struct boundary *boundary, size_t component, size_t axis)
-{
-    switch (boundary->kind) {
-    case BOUNDARY_FIXED:
-        return true;
-    case BOUNDARY_ROLLER:
-    case BOUNDARY_SYMMETRY:
-        return component == axis;
-    default:
-        return false;
-    }
-}
-
 selas_status cloud_hold(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
@@ -32,14 +19,9 @@ selas_status cloud_hold(struct tl_model *tl, struct messages *messages)
     selas_status status = SELAS_OK;
     for (size_t e = 0; e < tl->cloud->elements && status == SELAS_OK; e++) {
         const struct face_element *element = &tl->cloud->element[e];
-        const struct boundary *boundary = &scene->boundary[element->face];
-        if (boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT)
-            status = fail(messages, SELAS_UNSUPPORTED,
-                          "face '%s': method%%variant = 'cloud' takes no prescribed motion",
-                          face_name((enum face)element->face));
         const size_t i = neighbours_nearest(&tl->near, element->position);
         for (size_t c = 0; c < d; c++)
-            if (holds(boundary, c, (size_t)element->face / 2)) mark[d * i + c] = 1;
+            if (face_holds(scene, (enum face)element->face, (int)c)) mark[d * i + c] = 1;
     }
     size_t count = 0;
     for (size_t k = 0; k < d * tl->cloud->points; k++)

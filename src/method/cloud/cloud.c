@@ -25,4 +25,9 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     return total_lagrangian_create(scene, &options, model, messages);
 }
 
-const struct method method_cloud = {.name = "smoothed-point", .variant = "cloud", .create = create};
+const struct method method_cloud = {
+    .name = "smoothed-point",
+    .variant = "cloud",
+    .faces = CAN_HOLD | CAN_MIRROR | CAN_DAMP,
+    .create = create,
+};

@@ -276,6 +276,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_consistent = {
     .name = "smoothed-point",
     .variant = "consistent",
+    .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP | CAN_ABSORB,
     .mirrors = true,
     .single = true,
     .create = create,

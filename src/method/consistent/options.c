@@ -6,12 +6,6 @@
 
 #include <string.h>
 
-/* Ground that varies with depth. */
-static bool layered(const struct body *body)
-{
-    return body->layers > 1 || (body->layers == 1 && body->layer[0].top > 0);
-}
-
 static bool tunable(const struct scene *scene, const struct consistent_options *options)
 {
     return options->degree == TUNED_DEGREE && options->sweeps == 0 && !options->mapped &&
@@ -33,7 +27,7 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
             "method%%tuned needs method%%degree = %d, method%%mass = 'exact', method%%ends = 'open' and a "
             "body at rest",
             TUNED_DEGREE);
-    if (scene->body.shape != BODY_BOX && scene->body.shape != BODY_HALF_SPACE)
+    if (!body_is_box(&scene->body))
         return fail(messages, SELAS_UNSUPPORTED,
                     "the consistent smoothed point method needs a box or a half-space; for other bodies take "
                     "method%%variant = 'paper' or method%%name = 'sph'");
@@ -60,8 +54,8 @@ static bool given(const struct deck_group *group, const char *word)
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
-    struct consistent_options options = {.degree = 2, .sweeps = 3, .depth_exact = true};
-    if (layered(&scene->body) && !layer_anywhere(scene) && !given(group, "mass") &&
+    struct consistent_options options = {.degree = 2, .sweeps = 3};
+    if (body_is_layered(&scene->body) && !layer_anywhere(scene) && !given(group, "mass") &&
         !given(group, "depth_mass") && !given(group, "dissipation")) {
         options.degree = 4;
         options.sweeps = 0;
@@ -75,14 +69,13 @@ struct consistent_options consistent_options_of(const struct scene *scene)
         const char *mass = deck_text(group, "mass", 0);
         options.sweeps = strcmp(mass, "exact") == 0 ? 0 : mass[2] - '0'; /* vc1, vc2, vc3 */
     }
-    if (given(group, "depth_mass"))
-        options.depth_exact = strcmp(deck_text(group, "depth_mass", 0), "exact") == 0;
+    options.depth_exact = !deck_chosen(group, "depth_mass", "same");
     if (given(group, "dissipation")) options.dissipation = deck_real(group, "dissipation", 0);
     options.quiet = given(group, "quiet") ? deck_real(group, "quiet", 0) : 1e-12;
-    options.single = group != NULL && strcmp(deck_text(group, "precision", 0), "single") == 0;
+    options.single = deck_chosen(group, "precision", "single");
     if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
-    if (given(group, "ends")) options.mapped = strcmp(deck_text(group, "ends", 0), "mapped") == 0;
-    options.tuned = layered(&scene->body) && tunable(scene, &options);
+    options.mapped = deck_chosen(group, "ends", "mapped");
+    options.tuned = body_is_layered(&scene->body) && tunable(scene, &options);
     if (given(group, "tuned")) options.tuned = deck_logical(group, "tuned", 0);
     return options;
 }

@@ -40,7 +40,7 @@ static struct cells cells_of(const struct consistent *c, size_t longest)
  */
 static void cut_boundary(const struct consistent *c, int face, bool shorter, struct boundary *boundary)
 {
-    if (boundary->kind != BOUNDARY_TRANSMITTING || boundary->absorber != ABSORBER_PML) return;
+    if (!boundary_has_layer(boundary)) return;
     boundary->always = true;
     boundary->layer_points = (long)c->layer[face];
     if (c->layer[face] == 0)

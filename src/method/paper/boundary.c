@@ -14,22 +14,13 @@
 
 #include <math.h>
 
-static bool damps(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_TRANSMITTING;
-}
-
-static bool holds(const struct boundary *boundary)
-{
-    return boundary->kind != BOUNDARY_FREE && boundary->kind != BOUNDARY_TRANSMITTING;
-}
-
-/* Faces of a point whose boundaries pass a test. */
-static unsigned faces_that(const struct paper *paper, size_t point, bool (*test)(const struct boundary *))
+/* Faces of a point that need something of the method (CAN_...). */
+static unsigned faces_that(const struct paper *paper, size_t point, unsigned needs)
 {
     unsigned mask = 0;
     for (unsigned face = 0; face < BOX_FACES; face++)
-        if ((paper->set.faces[point] >> face & 1) != 0 && test(&paper->model.scene->boundary[face]))
+        if ((paper->set.faces[point] >> face & 1) != 0 &&
+            (boundary_needs(&paper->model.scene->boundary[face]) & needs) != 0)
             mask |= 1u << face;
     return mask;
 }
@@ -62,34 +53,17 @@ static void add_constraint(const struct paper *paper, enum face face, struct con
     const struct scene *scene = paper->model.scene;
     const struct boundary *boundary = &scene->boundary[face];
     double own[3] = {0};
-    switch (boundary->kind) {
-    case BOUNDARY_FREE:
-    case BOUNDARY_TRANSMITTING:
-        break;
-    case BOUNDARY_FIXED:
-        for (int axis = 0; axis < paper->dimension; axis++)
-            hold(constraint, axis, face, 0);
-        break;
-    case BOUNDARY_ROLLER:
-    case BOUNDARY_SYMMETRY:
-        hold(constraint, face_axis(face), face, 0);
-        break;
-    case BOUNDARY_VELOCITY:
-    case BOUNDARY_DISPLACEMENT:
-        body_direction_from_deck(&scene->body, boundary->direction, own);
-        for (int axis = 0; axis < paper->dimension; axis++)
-            if (!boundary->slip || fabs(own[axis]) > .5)
-                hold(constraint, axis, face, boundary->amplitude * own[axis]);
-        break;
-    }
+    if (boundary_moves(boundary)) body_direction_from_deck(&scene->body, boundary->direction, own);
+    for (int axis = 0; axis < paper->dimension; axis++)
+        if (face_holds(scene, face, axis)) hold(constraint, axis, face, boundary->amplitude * own[axis]);
 }
 
 selas_status paper_make_boundary(struct paper *paper, struct messages *messages)
 {
     const size_t points = paper->set.points;
     for (size_t i = 0; i < points; i++) {
-        paper->dampers += faces_that(paper, i, damps) != 0;
-        paper->constraints += faces_that(paper, i, holds) != 0;
+        paper->dampers += faces_that(paper, i, CAN_DAMP) != 0;
+        paper->constraints += faces_that(paper, i, CAN_HOLD) != 0;
     }
     paper->damper = array_new(paper->dampers, sizeof *paper->damper);
     paper->constraint = array_new(paper->constraints, sizeof *paper->constraint);
@@ -97,7 +71,7 @@ selas_status paper_make_boundary(struct paper *paper, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the boundary points");
     size_t damper = 0, constraint = 0;
     for (size_t i = 0; i < points; i++) {
-        const unsigned damping = faces_that(paper, i, damps), holding = faces_that(paper, i, holds);
+        const unsigned damping = faces_that(paper, i, CAN_DAMP), holding = faces_that(paper, i, CAN_HOLD);
         if (damping != 0) paper->damper[damper].point = i;
         if (holding != 0) paper->constraint[constraint].point = i;
         for (enum face face = FACE_X_LOW; (int)face < BOX_FACES; face++) {
@@ -109,14 +83,6 @@ selas_status paper_make_boundary(struct paper *paper, struct messages *messages)
     }
     paper->model.damped = paper->dampers > 0;
     return SELAS_OK;
-}
-
-/* Prescribed displacement (order 0) or velocity (order 1) of a face at t = 0 per amplitude. */
-static double motion_at_start(const struct boundary *boundary, int order)
-{
-    if (boundary->kind == BOUNDARY_VELOCITY) return history_value(&boundary->history, 0, order - 1);
-    if (boundary->kind == BOUNDARY_DISPLACEMENT) return history_value(&boundary->history, 0, order);
-    return 0;
 }
 
 void paper_hold(const struct paper *paper, const struct constraint *constraint, const double wanted[3],
@@ -153,8 +119,8 @@ void paper_initialise(struct model *model, double *y)
             double wanted[3] = {0};
             for (int c = 0; c < paper->dimension; c++)
                 if (constraint->held[c])
-                    wanted[c] =
-                        constraint->factor[c] * motion_at_start(&scene->boundary[constraint->face[c]], order);
+                    wanted[c] = constraint->factor[c] *
+                                boundary_displacement(&scene->boundary[constraint->face[c]], 0, order);
             paper_hold(paper, constraint, wanted, y + (size_t)order * model->unknowns);
         }
     }

@@ -197,7 +197,7 @@ static double force_scale(const struct paper *paper, const struct load *load, co
     for (enum face face = FACE_X_LOW; (int)face < 2 * paper->dimension; face++) {
         const int axis = face_axis(face);
         const double plane = face_sign(face) < 0 ? scene->body.low[axis] : scene->body.high[axis];
-        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY &&
+        if (boundary_mirrors(&scene->boundary[face]) &&
             fabs(own[axis] - plane) < 1e-6 * paper->set.spacing[axis])
             wanted /= 2;
     }
@@ -302,11 +302,6 @@ void paper_free_loads(struct paper *paper)
     array_free(paper->load_value);
 }
 
-static bool moves(const struct load *load)
-{
-    return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
-}
-
 bool paper_tractions(struct paper *paper, const struct drive *drive)
 {
     const struct scene *scene = paper->model.scene;
@@ -321,7 +316,7 @@ bool paper_tractions(struct paper *paper, const struct drive *drive)
         const struct load *load = &scene->load[k];
         struct paper_load *ready = &paper->load[k];
         if (load->kind != LOAD_TRACTION || drive->load[k] == 0) continue;
-        if (moves(load)) set_shares(paper, load, drive->time, ready);
+        if (load_moves(load)) set_shares(paper, load, drive->time, ready);
         for (size_t i = 0; i < ready->elements; i++)
             for (size_t c = 0; c < 3; c++)
                 paper->traction[3 * ready->element[i] + c] +=

@@ -11,10 +11,10 @@ static void read_real(const struct deck_group *group, const char *name, double *
     if (deck_given(group, name)) *value = deck_real(group, name, 0);
 }
 
-/* True for the second of two choices. */
-static void read_second(const struct deck_group *group, const char *name, bool *second)
+/* True for one of two choices. */
+static void read_choice(const struct deck_group *group, const char *name, const char *choice, bool *chosen)
 {
-    if (deck_given(group, name)) *second = deck_choice(group, name, 0) == 1;
+    if (deck_given(group, name)) *chosen = deck_chosen(group, name, choice);
 }
 
 selas_status paper_options_read(const struct scene *scene, struct paper_options *options,
@@ -23,7 +23,6 @@ selas_status paper_options_read(const struct scene *scene, struct paper_options 
     const struct deck_group *group = scene->method.group;
     *options = paper_options_default();
     if (group == NULL) return SELAS_OK;
-    bool local = !options->load_distributed, displacement = !options->filter_increment;
     read_real(group, "smoothing_length", &options->smoothing_length);
     read_real(group, "filter", &options->filter);
     read_logical(group, "volume_factors", &options->volume_factors);
@@ -32,11 +31,9 @@ selas_status paper_options_read(const struct scene *scene, struct paper_options 
     read_logical(group, "boundary_term", &options->boundary_term);
     read_logical(group, "patch_overlap", &options->patch_overlap);
     read_logical(group, "deconvolution", &options->deconvolution);
-    read_second(group, "row_sums", &options->zero_row_sums); /* as-printed, zero */
-    read_second(group, "load_sum", &local);                  /* distributed, local */
-    read_second(group, "filter_form", &displacement);        /* increment, displacement */
-    options->load_distributed = !local;
-    options->filter_increment = !displacement;
+    read_choice(group, "row_sums", "zero", &options->zero_row_sums);
+    read_choice(group, "load_sum", "distributed", &options->load_distributed);
+    read_choice(group, "filter_form", "increment", &options->filter_increment);
     if (deck_given(group, "kernel")) options->kernel = kernel_find(deck_text(group, "kernel", 0));
     if (options->kernel == NULL)
         return deck_error(scene->deck, group, "kernel", messages, "unknown kernel '%s'",

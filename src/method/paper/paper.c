@@ -202,13 +202,7 @@ static selas_status check(const struct scene *scene, const struct paper_options 
             "method%%variant = 'paper' computes boxes of one material (body%%shape = 'box' or 'points' "
             "that fill a box, no &layer)");
     for (int face = 0; face < BOX_FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_TRANSMITTING &&
-            scene->boundary[face].absorber != ABSORBER_LYSMER)
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "method%%variant = 'paper' has no absorbing layer: boundary%%layer = 'lysmer' (%s)",
-                        face_name((enum face)face));
-    for (int face = 0; face < BOX_FACES; face++)
-        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY)
+        if (boundary_mirrors(&scene->boundary[face]))
             warn(
                 messages,
                 "method%%variant = 'paper' only holds the normal component on the symmetry face %s, its sums "
@@ -314,4 +308,9 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     return status != SELAS_OK ? status : paper_create(scene, &options, model, messages);
 }
 
-const struct method method_paper = {.name = "smoothed-point", .variant = "paper", .create = create};
+const struct method method_paper = {
+    .name = "smoothed-point",
+    .variant = "paper",
+    .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
+    .create = create,
+};

@@ -1,7 +1,9 @@
 /* Tuned splines (doc/consistent-method.md, section 14): with t = (2 sin(theta / 2))^2, theta = k dx,
  *
- *   M' = dx [M + sum over q of m_q B_q^T B_q],  S' = [S + sum of s_q B_q^T B_q] / dx, (U1) G' = G + sum of
- * g_q B_q^T A B_q,            F = 1 + sum of f_q B_q^T B_q,                              (U2)
+ *   M' = dx [M + sum over q of m_q B_q^T B_q],
+ *   S' = [S + sum of s_q B_q^T B_q] / dx,                                                               (U1)
+ *   G' = G + sum of g_q B_q^T A B_q,
+ *   F  = 1 + sum of f_q B_q^T B_q,                                                                      (U2)
  *
  * B_q the q-th differences of evenly spaced control values (symbol of B_q^T B_q: t^q), A half the difference
  * of the next row and the last one (symbol i sin(theta)). The numbers are those of regress/studies/tuned-splines.

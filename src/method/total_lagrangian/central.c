@@ -72,9 +72,8 @@ bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis)
 {
     const struct scene *scene = tl->model.scene;
     for (int side = 0; side < 2; side++) {
-        const enum boundary_kind kind = scene->boundary[2 * axis + side].kind;
         const double plane = side == 0 ? scene->body.low[axis] : scene->body.high[axis];
-        if ((kind == BOUNDARY_SYMMETRY || kind == BOUNDARY_ROLLER) &&
+        if (boundary_slides(&scene->boundary[2 * axis + side]) &&
             fabs(place[axis] - plane) < 1e-6 * scene->body.spacing)
             return true;
     }

@@ -1,25 +1,19 @@
 /* Hyperelastic laws.
  *
- * Hooke: sigma = l tr(e) I + 2 mu e, e = (H + H^T)/2. Saint Venant-Kirchhoff: S = l tr(E) I + 2 mu E, E = (H
- * + H^T + H^T H)/2, P = F S. Here l is plane_lambda, which makes the stress across a thin plate or bar vanish
- * (exactly: S is linear in E). Neo-Hooke (Bonet & Wood 2008, Eq 6.28): psi = mu/2 (tr C - 3) - mu ln J +
- * lambda/2 (ln J)^2; in thin bodies the stretch f across follows from lambda ln J + mu (f^2 - 1) = 0. */
+ *   Hooke                    sigma = l tr(e) I + 2 mu e,   e = (H + H^T)/2
+ *   Saint Venant-Kirchhoff   S = l tr(E) I + 2 mu E,   E = (H + H^T + H^T H)/2,   P = F S
+ *   Neo-Hooke                psi = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2   (Bonet & Wood 2008, Eq 6.28)
+ *
+ * Here l is plane_lambda, which makes the stress across a thin plate or bar vanish (exactly: S is linear in E).
+ * Neo-Hooke in thin bodies: the stretch f across follows from lambda ln J + mu (f^2 - 1) = 0. */
 #include "method/total_lagrangian/elastic_law.h"
 
 #include <math.h>
 #include <string.h>
 
-static const char *const names[] = {"linear", "saint-venant-kirchhoff", "neo-hookean"};
-
-int elastic_law_find(const char *name)
-{
-    for (int law = 0; law < 3; law++)
-        if (strcmp(names[law], name) == 0) return law;
-    return -1;
-}
-
 const char *elastic_law_name(enum elastic_law law)
 {
+    static const char *const names[] = {ELASTIC_LAWS(CHOICE_NAME)};
     return names[law];
 }
 

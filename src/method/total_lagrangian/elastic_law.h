@@ -4,11 +4,7 @@
 
 #include "scene/scene.h"
 
-enum elastic_law {
-    LAW_LINEAR,                 /* Hooke, small strain: P = sigma */
-    LAW_SAINT_VENANT_KIRCHHOFF, /* S = lambda tr(E) I + 2 mu E, any rotation, moderate strain */
-    LAW_NEO_HOOKEAN             /* P = mu (F - F^-T) + lambda ln(J) F^-T, large strain */
-};
+enum elastic_law { ELASTIC_LAWS(CHOICE_SYMBOL) };
 
 struct elastic {
     enum elastic_law law;
@@ -28,8 +24,6 @@ double elastic_energy(const struct elastic *elastic, const double *H);
  * components included. */
 void elastic_observe(const struct elastic *elastic, const double *H, double stress[6], double strain[6]);
 
-/* Index of the law in 'linear', 'saint-venant-kirchhoff', 'neo-hookean'; -1 if unknown. */
-int elastic_law_find(const char *name);
 const char *elastic_law_name(enum elastic_law law);
 
 #endif

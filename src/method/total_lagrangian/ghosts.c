@@ -23,11 +23,6 @@ struct ghosts {
     struct tl_ghost *ghost;
 };
 
-static bool moves(const struct boundary *boundary)
-{
-    return boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-}
-
 static selas_status treatment_of(const struct tl_model *tl, int face, enum treatment *treatment,
                                  struct messages *messages)
 {
@@ -36,19 +31,15 @@ static selas_status treatment_of(const struct tl_model *tl, int face, enum treat
     *treatment = LEAVE;
     if (tl->options.form != NULL) return SELAS_OK; /* its points on the faces are held */
     if (face < BOX_FACES && face / 2 >= scene->dimension) return SELAS_OK;
-    bool slips = boundary->kind == BOUNDARY_SYMMETRY || boundary->kind == BOUNDARY_ROLLER;
-    if (boundary->kind == BOUNDARY_FIXED) *treatment = HOLD;
-    if (moves(boundary)) {
-        *treatment = HOLD;
-        slips = boundary->slip;
-    }
+    const bool slips = boundary_slides(boundary) || (boundary_moves(boundary) && boundary->slip);
+    if (boundary_meaning(boundary)->holds != HOLDS_NOTHING) *treatment = HOLD;
     if (!slips) return SELAS_OK;
     *treatment = SLIP;
     if (face == FACE_HOLE)
         return fail(messages, SELAS_UNSUPPORTED, "face 'hole' cannot slip with total-Lagrangian points");
     double along[3];
     body_direction_from_deck(&scene->body, boundary->direction, along);
-    if (moves(boundary) && fabs(fabs(along[face / 2]) - 1) > 1e-9)
+    if (boundary_moves(boundary) && fabs(fabs(along[face / 2]) - 1) > 1e-9)
         return fail(messages, SELAS_UNSUPPORTED,
                     "face '%s': slip = .true. needs a direction along the face's normal",
                     face_name((enum face)face));
@@ -76,7 +67,7 @@ static void face_motion(const struct scene *scene, int face, double motion[3])
 {
     const struct boundary *boundary = &scene->boundary[face];
     memset(motion, 0, sizeof(double[3]));
-    if (!moves(boundary)) return;
+    if (!boundary_moves(boundary)) return;
     body_direction_from_deck(&scene->body, boundary->direction, motion);
     for (int c = 0; c < 3; c++)
         motion[c] *= boundary->amplitude;
@@ -160,7 +151,7 @@ selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages 
     bool room = true;
     for (int face = 0; face < FACES && status == SELAS_OK; face++) {
         status = treatment_of(tl, face, &treatment[face], messages);
-        tl->moving = tl->moving || moves(&tl->model.scene->boundary[face]);
+        tl->moving = tl->moving || boundary_moves(&tl->model.scene->boundary[face]);
     }
     for (int face = 0; face < FACES && status == SELAS_OK && room; face++)
         if (treatment[face] != LEAVE) room = add_mirror(tl, &ghosts, face, treatment[face] == SLIP, radius);

@@ -125,7 +125,7 @@ static double carried(const struct scene *scene, const double place[3])
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const int axis = face / 2;
         const double plane = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
-        if (scene->boundary[face].kind == BOUNDARY_SYMMETRY &&
+        if (boundary_mirrors(&scene->boundary[face]) &&
             fabs(place[axis] - plane) < 1e-6 * scene->body.spacing)
             part *= 0.5;
     }
@@ -296,7 +296,7 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for loads");
     for (size_t k = 0; k < scene->loads && status == SELAS_OK; k++) {
         const struct load *load = &scene->load[k];
-        if (load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0)
+        if (load_moves(load))
             status = fail(messages, SELAS_UNSUPPORTED, "total-Lagrangian points take no moving loads");
         if (status != SELAS_OK || gather.force == NULL) break;
         memset(gather.force, 0, n * sizeof(double));
@@ -316,10 +316,7 @@ selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
         const struct face_element *element = &tl->cloud->element[e];
         if (element->face >= FACES) continue;
         const struct boundary *boundary = &scene->boundary[element->face];
-        if (boundary->kind != BOUNDARY_TRANSMITTING) continue;
-        if (boundary->absorber == ABSORBER_PML)
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "total-Lagrangian points have no perfectly matched layer; say layer = 'lysmer'");
+        if (!boundary_damps(boundary)) continue;
         if (tl->damper == NULL) tl->damper = array_new(d * tl->cloud->points, sizeof(double));
         if (tl->damper == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for dampers");
         const size_t i = neighbours_nearest(&tl->near, element->position);

@@ -291,12 +291,10 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     const struct deck_group *group = scene->method.group;
     if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
     if (deck_values(group, "gradient") > 0)
-        options.degree = strcmp(deck_text(group, "gradient", 0), "quadratic") == 0 ? 2 : 1;
-    if (deck_values(group, "gradient") > 0)
-        options.central = strcmp(deck_text(group, "gradient", 0), "central") == 0;
+        options.degree = deck_chosen(group, "gradient", "quadratic") ? 2 : 1;
+    options.central = deck_chosen(group, "gradient", "central");
     if (options.central) options.hourglass = 0.5; /* doc/sph-total-lagrangian.md, section 11 */
-    if (deck_values(group, "law") > 0)
-        options.law = (enum elastic_law)elastic_law_find(deck_text(group, "law", 0));
+    if (deck_values(group, "law") > 0) options.law = (enum elastic_law)deck_choice(group, "law", 0);
     read_real(group, "smoothing_length", &options.smoothing_length);
     read_real(group, "hourglass", &options.hourglass);
     read_real(group, "viscosity_alpha", &options.viscosity_alpha);
@@ -307,5 +305,6 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_total_lagrangian = {
     .name = "sph",
     .variant = "total-lagrangian",
+    .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,
 };

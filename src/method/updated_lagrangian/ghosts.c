@@ -1,10 +1,13 @@
 /* Ghost particles of updated-Lagrangian SPH (He & Seaid 2016, section 2.1 and Fig 3; stresses after Bui et
  * al. 2008) and the packing of particles and ghosts for the sums.
  *
- * Every particle closer to a wall than the kernel reaches has a mirror image behind it: three layers for h
- * = 1.5 spacings. With u, v, s of the particle and n the normal, the ghost has no slip         u_g = 2 u_wall
- * - u,       v_g = 2 v_wall - v,     s_g = s slip            the same along n only;    shear with n reversed
- *   given traction  u_g = u, v_g = v,         s_g . n = 2 t - s . n, the rest of s copied
+ * Every particle closer to a wall than the kernel reaches has a mirror image behind it: three layers for
+ * h = 1.5 spacings. With u, v, s of the particle and n the normal, the ghost has
+ *
+ *   no slip         u_g = 2 u_wall - u,  v_g = 2 v_wall - v,  s_g = s
+ *   slip            the same along n only;  shear with n reversed
+ *   given traction  u_g = u,  v_g = v,  s_g . n = 2 t - s . n,  the rest of s copied
+ *
  * so that the mean over the wall is what the wall prescribes. For a bar pressed with s0 the last line is
  * s_g = -2 s0 - s. A transmitting face is a traction t = -rho (c_p v_n + c_s v_t). Images are made face by
  * face, so that corners have images of images.
@@ -129,7 +132,7 @@ static void traction_at(const struct updated *updated, const struct updated_ghos
     const int axis = face_axis((enum face)face);
     for (int a = 0; a < 3; a++)
         traction[a] = 0;
-    if (boundary->kind == BOUNDARY_TRANSMITTING && !updated->velocities_displace)
+    if (boundary_damps(boundary) && !updated->velocities_displace)
         for (int a = 0; a < updated->dimension; a++)
             traction[a] -= updated->material->density * image->v[a] *
                            (a == axis ? boundary->normal_factor * updated->material->p_speed
@@ -314,7 +317,7 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
                        image.stress[updated_component[updated->dimension][axis][a]] *
                        updated->direction[face][a] * velocity;
         }
-        if (updated->model.scene->boundary[face].kind == BOUNDARY_TRANSMITTING)
+        if (boundary_damps(&updated->model.scene->boundary[face]))
             *absorbed -= area * sum;
         else
             power += area * sum;

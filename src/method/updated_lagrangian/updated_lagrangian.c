@@ -15,10 +15,9 @@ static selas_status check_loads(const struct scene *scene, struct messages *mess
         return fail(messages, SELAS_UNSUPPORTED, "%s takes at most 64 loads, not %zu", NAME, scene->loads);
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
-        const bool moves = load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
         const bool body_force = load->kind == LOAD_BODY_FORCE && load->shape == LOAD_FACE;
-        const bool traction =
-            load->kind == LOAD_TRACTION && load->shape != LOAD_POINT && load->face != FACE_HOLE && !moves;
+        const bool traction = load->kind == LOAD_TRACTION && load->shape != LOAD_POINT &&
+                              load->face != FACE_HOLE && !load_moves(load);
         if (!body_force && !traction)
             return fail(
                 messages, SELAS_UNSUPPORTED,
@@ -38,29 +37,12 @@ static selas_status choose_wall(struct updated *updated, enum face face, struct 
     for (size_t k = 0; k < scene->loads; k++)
         loaded = loaded || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].face == face);
     body_direction_from_deck(&scene->body, boundary->direction, updated->direction[face]);
-    enum updated_wall wall = WALL_NONE;
-    switch (boundary->kind) {
-    case BOUNDARY_FREE:
-        wall = loaded ? WALL_TRACTION : WALL_NONE;
-        break;
-    case BOUNDARY_TRANSMITTING:
-        if (boundary->absorber != ABSORBER_LYSMER)
-            return fail(messages, SELAS_UNSUPPORTED, "%s has no absorbing layers, only layer = 'lysmer'",
-                        NAME);
-        wall = WALL_TRACTION;
-        break;
-    case BOUNDARY_FIXED:
-        wall = WALL_STICK;
-        break;
-    case BOUNDARY_ROLLER:
-    case BOUNDARY_SYMMETRY:
-        wall = WALL_SLIP;
-        break;
-    case BOUNDARY_VELOCITY:
-    case BOUNDARY_DISPLACEMENT:
-        wall = boundary->slip ? WALL_SLIP : WALL_STICK;
-        break;
-    }
+    const bool slips = boundary_slides(boundary) || (boundary_moves(boundary) && boundary->slip);
+    const bool held = boundary_meaning(boundary)->holds != HOLDS_NOTHING;
+    const enum updated_wall wall = slips                                ? WALL_SLIP
+                                   : held                               ? WALL_STICK
+                                   : loaded || boundary_damps(boundary) ? WALL_TRACTION
+                                                                        : WALL_NONE;
     if (wall == WALL_SLIP && boundary->slip &&
         fabs(fabs(updated->direction[face][face_axis(face)]) - 1) > 1e-9)
         return fail(messages, SELAS_UNSUPPORTED,
@@ -315,8 +297,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
         options.beta = real_or(group, "viscosity_beta", options.beta);
         options.artificial_stress = real_or(group, "artificial_stress", options.artificial_stress);
         options.correction = logical_or(group, "gradient_correction", options.correction);
-        options.adjoint =
-            deck_values(group, "forces") > 0 && strcmp(deck_text(group, "forces", 0), "adjoint") == 0;
+        options.adjoint = deck_chosen(group, "forces", "adjoint");
         options.hourglass = real_or(group, "hourglass", options.hourglass);
         options.jaumann = logical_or(group, "jaumann", options.jaumann);
     }
@@ -329,5 +310,6 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_updated_lagrangian = {
     .name = "sph",
     .variant = "updated-lagrangian",
+    .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,
 };

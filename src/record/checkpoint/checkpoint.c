@@ -64,8 +64,7 @@ static void pass_real(struct walk *walk, const char *name, size_t number, const 
     pass(walk, full, H5T_NATIVE_DOUBLE, data, count);
 }
 
-/* --- The parts of the recorder
- * ------------------------------------------------------------------------------------- */
+/* --- The parts of the recorder --- */
 
 static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
 {
@@ -162,8 +161,7 @@ static bool same_deck(hid_t file, const char *text)
     return set_compare(file, "deck", H5T_NATIVE_CHAR, text, strlen(text) + 1);
 }
 
-/* --- Writing
- * ----------------------------------------------------------------------------------------------- */
+/* --- Writing --- */
 
 struct text_piece {
     const char *name, *text;
@@ -284,8 +282,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
     return status;
 }
 
-/* --- Reading
- * ----------------------------------------------------------------------------------------------- */
+/* --- Reading --- */
 
 /* A count that a double holds exactly. */
 static bool is_count(double figure, double below)

@@ -2,11 +2,17 @@
  * the H-form (doc/absorbing-faces.md).
  *
  * The body goes on behind a face for some points; along the axis j across the face d/dx_j becomes
- * (1 / s_j) d/dx_j, s_j = 1 + d_j(x_j) / (alpha + i omega). With F_j = 1 / s_j - 1 = -d_j / (i omega + alpha
- * + d_j), that is f = F_j[g] <=> f' = -(alpha + d_j) f - d_j g, the layer keeps
  *
- *   psi_ij = F_j[C_j u_i]   and   phi_ij = F_j[T_ij],   T_ij: terms of rho a_i whose outer derivative is
- *                                                             along j (Eqs 6 to 9 of the manual).
+ *   (1 / s_j) d/dx_j,   s_j = 1 + d_j(x_j) / (alpha + i omega).
+ *
+ * With F_j = 1 / s_j - 1 = -d_j / (i omega + alpha + d_j), that is
+ *
+ *   f = F_j[g]   <=>   f' = -(alpha + d_j) f - d_j g,
+ *
+ * the layer keeps
+ *
+ *   psi_ij = F_j[C_j u_i],
+ *   phi_ij = F_j[T_ij],   T_ij: terms of rho a_i whose outer derivative is along j (Eqs 6 to 9 of the manual).
  *
  * These memory variables are the extra part of the state; only slabs of layer points have them. */
 #ifndef SELAS_METHOD_CONSISTENT_ABSORBING_PML_H

@@ -8,10 +8,12 @@
  * B = N M over depth (the identity in slabs across depth), j the slab's axis, m = psi at the middle of the
  * step, k the other axes and terms as in Eqs 6 to 8 (factors with them):
  *
- *   g_i  = C_j u_i,                                         psi_ij moved on, m_ij (L1) T'_i = A_j u_i + C_j
- * m_ij,                  i != j T'_j = A_j u_j + C_j m_jj + C1_f (C2_j u_f) (L2) T_i  = B T'_i, i != j T_j  =
- * B (T'_j + C2_j m_ff) + C1_b (C2_j u_b) + C2_j m_bb,   phi_ij moved on                            (L3) a_i
- * += C_j B psi_ij + phi_ij + (C2_f B psi_jj if i = f; C2_b psi_jj if i = b)                           (L4)
+ *   g_i  = C_j u_i,   psi_ij moved on, m_ij                                                             (L1)
+ *   T'_i = A_j u_i + C_j m_ij,   i != j
+ *   T'_j = A_j u_j + C_j m_jj + C1_f (C2_j u_f)                                                         (L2)
+ *   T_i  = B T'_i,   i != j
+ *   T_j  = B (T'_j + C2_j m_ff) + C1_b (C2_j u_b) + C2_j m_bb,   phi_ij moved on                        (L3)
+ *   a_i += C_j B psi_ij + phi_ij + (C2_f B psi_jj if i = f; C2_b psi_jj if i = b)                       (L4)
  *
  * m_ff, m_bb: those of the slabs across f and b. (Across depth, where b = y: m_bb with B, which is the
  * identity there.) */

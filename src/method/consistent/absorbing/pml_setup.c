@@ -20,9 +20,9 @@ static double drag_share(const struct consistent *c)
     for (int axis = 0; axis < c->dimension; axis++) {
         int mirrors = 0, ways_out = 0;
         for (int end = 0; end < 2; end++) {
-            const enum boundary_kind kind = c->model.scene->boundary[2 * axis + end].kind;
-            mirrors += kind == BOUNDARY_SYMMETRY || kind == BOUNDARY_ROLLER;
-            ways_out += kind == BOUNDARY_TRANSMITTING;
+            const struct boundary *boundary = &c->model.scene->boundary[2 * axis + end];
+            mirrors += boundary_slides(boundary);
+            ways_out += boundary_absorbs(boundary);
         }
         if (ways_out == 0 && mirrors < 2) return plate;
     }

@@ -3,8 +3,8 @@
  * With b = B_z u (N M over depth, or the identity), each line one pass over rows that stay in the cache,
  *
  *   a_x = A_z u_x + N_x [p S_x b_x + q G_x (N_y G_y b_y + C_z u_z)] + N_y m S_y b_x
- *   a_y = A_z u_y + N_y [p S_y b_y + q G_y (N_x G_x b_x + C_z u_z)] + N_x m S_x b_y (F1) a_z = A_z u_z + N_x
- * [m S_x b_z + G_x q C_z u_x] + N_y [m S_y b_z + G_y q C_z u_y]
+ *   a_y = A_z u_y + N_y [p S_y b_y + q G_y (N_x G_x b_x + C_z u_z)] + N_x m S_x b_y                     (F1)
+ *   a_z = A_z u_z + N_x [m S_x b_z + G_x q C_z u_x] + N_y [m S_y b_z + G_y q C_z u_y]
  *
  * p = -(lambda + 2 mu) / rho, m = -mu / rho, q = (lambda + mu) / rho, G with its share of the boundary terms
  * (Eq 17 of the manual). Edges, loads, dampers and layers are added by others. */

@@ -15,23 +15,19 @@ static void lay_faces(struct consistent *c)
     const struct scene *scene = c->model.scene;
     for (int face = 0; face < 2 * c->dimension; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        const int axis = face / 2;
-        const struct spline *spline = c->spline[axis];
+        const struct spline *spline = c->spline[face / 2];
+        const bool even =
+            boundary_mirrors(boundary) && spline->mirror[face % 2] && !spline->centred[face % 2];
         double direction[3];
         memcpy(direction, boundary->direction, sizeof direction);
         if (scene->body.rotated) body_direction_from_deck(&scene->body, boundary->direction, direction);
-        c->moving[face] = boundary->kind == BOUNDARY_VELOCITY || boundary->kind == BOUNDARY_DISPLACEMENT;
-        c->damped[face] = boundary->kind == BOUNDARY_TRANSMITTING && boundary->absorber == ABSORBER_LYSMER;
+        c->moving[face] = boundary_moves(boundary);
+        c->damped[face] = boundary_damps(boundary);
         c->model.damped = c->model.damped || c->damped[face];
         for (int component = 0; component < c->dimension; component++) {
-            const bool normal = component == axis;
-            bool *held = &c->held[component][face];
             c->motion[face][component] = boundary->amplitude * direction[component];
-            if (boundary->kind == BOUNDARY_FIXED || c->layer[face] > 0) *held = true;
-            if (boundary->kind == BOUNDARY_ROLLER) *held = normal;
-            if (boundary->kind == BOUNDARY_SYMMETRY)
-                *held = normal && (!spline->mirror[face % 2] || spline->centred[face % 2]);
-            if (c->moving[face]) *held = !boundary->slip || fabs(direction[component]) > 1e-9;
+            c->held[component][face] =
+                c->layer[face] > 0 || (face_holds(scene, (enum face)face, component) && !even);
         }
     }
 }
@@ -73,7 +69,7 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
         if (c->slot[axis] == DEPTH) choice.interfaces = interfaces(body, axis, interface);
         const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
         for (int end = 0; end < 2; end++)
-            choice.mirror[end] = boundary[end].kind == BOUNDARY_SYMMETRY;
+            choice.mirror[end] = boundary_mirrors(&boundary[end]);
         if (choice.mirror[0] && choice.mirror[1] && cells <= 2 * choice.degree)
             choice.mirror[0] = choice.mirror[1] = false; /* too thin: the normal component is held instead */
         c->spline[axis] = spline_new(&choice, messages);

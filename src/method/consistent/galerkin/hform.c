@@ -1,9 +1,15 @@
 /* The H-form (manual, sections 8 and 9): making (accelerate.c uses it).
  *
- *   N = sum over j <= m of (I - D^-1 M)^j D^-1,  D = row sums of M,  H = N^-1 in place of M everywhere:
- *   rho a_i = -[(lambda + 2 mu) A_i + mu sum A_j] u_i + (lambda + mu) sum over j != i of C2_i C1_j u_j -
- * edges, A = N S,  C1 = N (G - mu / (lambda + mu) E),  C2 = N (G - lambda / (lambda + mu) E),  E = G + G^T.
- */
+ *   N = sum over j <= m of (I - D^-1 M)^j D^-1,   D = row sums of M,
+ *
+ *   rho a_i = -[(lambda + 2 mu) A_i + mu sum A_j] u_i + (lambda + mu) sum over j != i of C2_i C1_j u_j - edges,
+ *
+ *   A  = N S,
+ *   C1 = N (G - mu / (lambda + mu) E),
+ *   C2 = N (G - lambda / (lambda + mu) E),
+ *   E  = G + G^T,
+ *
+ * and H = N^-1 in place of M everywhere. */
 #include "method/consistent/galerkin/hform.h"
 
 #include "base/memory.h"

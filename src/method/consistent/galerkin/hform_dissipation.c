@@ -73,12 +73,10 @@ bool hform_dissipation_create(struct consistent *c)
     struct hform *h = c->hform;
     struct tensor_term terms[9];
     size_t count = 0;
-    double speed = 0, largest = 0;
+    double largest = 0;
     if (!(c->options.dissipation > 0)) return true;
     const struct scene *scene = c->model.scene;
-    for (size_t i = 0; i < scene->materials; i++)
-        speed = fmax(speed, scene->material[i].p_speed);
-    const double rate = c->options.dissipation * speed / scene->body.spacing;
+    const double rate = c->options.dissipation * scene_fastest(scene) / scene->body.spacing;
     for (int component = 0; component < c->dimension; component++) {
         double bound = 0;
         for (int axis = 0; axis < c->dimension; axis++) {

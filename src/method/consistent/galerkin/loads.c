@@ -128,8 +128,8 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
     const struct spline *spline = c->spline[axis];
     const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
     const double small = 1e-9 * (spline->high - spline->low); /* no layer lies behind a symmetry plane */
-    const bool cut = (boundary[0].kind == BOUNDARY_SYMMETRY && fabs(x - spline->low) < small) ||
-                     (boundary[1].kind == BOUNDARY_SYMMETRY && fabs(x - spline->high) < small);
+    const bool cut = (boundary_mirrors(&boundary[0]) && fabs(x - spline->low) < small) ||
+                     (boundary_mirrors(&boundary[1]) && fabs(x - spline->high) < small);
     const int sides = slope && spline->degree == 1 ? 2 : 1;
     memset(line, 0, spline->count * sizeof *line);
     for (int side = 0; side < sides; side++) {

@@ -10,11 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-bool load_moves(const struct load *load)
-{
-    return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
-}
-
 static selas_status create(struct consistent *c, size_t index, struct moving_load *moving,
                            struct messages *messages)
 {

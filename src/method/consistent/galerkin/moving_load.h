@@ -18,7 +18,6 @@ struct moving_load {
     double *work;                                /* longest axis */
 };
 
-bool load_moves(const struct load *load);
 /* All loads of the scene that move. SELAS_UNSUPPORTED: neither squares nor points. */
 selas_status moving_loads_create(struct consistent *c, struct messages *messages);
 void moving_loads_free(struct consistent *c);
