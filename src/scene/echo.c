@@ -50,8 +50,8 @@ static const double in_plane = .012, in_space = .0025;
 /* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
 static const double static_reach = 4;
 /* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
- * spacing, so this falls too, as far as a layer so near to load and receiver can go. */
-static const double most_wanted = 1e-3, least_wanted = 2e-4, coarse = 12;
+ * spacing, so this falls too, and a finer scene is never a worse one. */
+static const double most_wanted = 1e-3, coarse = 12;
 enum { MOST = 40 };
 
 /* Longest distance between two extents along the face, as far as the box goes. */
@@ -121,7 +121,7 @@ size_t echo_points(const struct scene *scene, int face)
 {
     const struct echo echo = worst_echo(scene, face);
     const double finer = coarse * scene->body.spacing / echo.wavelength;
-    const double wanted = fmax(least_wanted, most_wanted * fmin(1, finer));
+    const double wanted = most_wanted * fmin(1, finer);
     size_t points = 0;
     while (points < MOST && of_points(scene, &echo, points) > wanted)
         points++;
