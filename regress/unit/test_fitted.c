@@ -237,9 +237,10 @@ static void layers_follow_the_spacing(void **unused)
         assert_non_null(d.scene);
         assert_true(d.scene->body.absorbing);
         double worst = 0;
-        for (int face = 0; face < BOX_FACES; face++)
-            if (face != FACE_Z_LOW)
-                worst = fmax(worst, echo_of_layer(d.scene, face, layer_points(d.scene, face)));
+        for (int face = 0; face < BOX_FACES; face++) {
+            const size_t points = layer_points(d.scene, face);
+            if (points > 0) worst = fmax(worst, echo_of_layer(d.scene, face, points));
+        }
         assert_true(worst > 0 && worst < before && worst <= 1e-3);
         before = worst;
         from_deck_free(&d);
