@@ -44,6 +44,7 @@ static double wavelength_of(const struct scene *scene, const struct history *his
         value += pow(history_value(history, (i + .5) * step, 0), 2);
         slope += pow(history_value(history, (i + .5) * step, 1), 2);
     }
+    if (!(value > 0 && slope > 0)) return INFINITY; /* a host's, or one that never changes */
     return 2 * M_PI * scene_fastest(scene) * sqrt(value / slope) / slope_over_value;
 }
 
