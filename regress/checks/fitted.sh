@@ -62,6 +62,7 @@ ok "dampers that are asked for stand where nothing comes back" \
 sed "s/shape = 'square', centre = 0, 0, 0, size = 1, 1/shape = 'face'/; s/'lamb'/'plane-wave'/" "$out/f.nml" >"$out/face.nml"
 run face face
 ok "a pressure all over the surface: error $(largest face)" below "$(largest face)" 0.02
+refused "layers beside a pressure all over the surface" 'only a roller' face boundary%face=x- boundary%kind=transmitting
 refused "a shear all over the surface has no box" 'has no end' face load%direction=1,0,0 reference%kind=file
 sed "/^&reference/d; s/^&load.*/\&load kind = 'body-force', $pulse \//" "$out/f.nml" >"$out/body.nml"
 refused "a force all over the body has no box" 'has no end' body

@@ -52,16 +52,22 @@ static bool refuse_box(struct builder *builder, const char *group, size_t index,
     return false;
 }
 
-/* Faces of a box that the program chooses stand anywhere: only those that let waves out may be named. */
+/* Faces of a box that the program chooses stand anywhere: only those that let waves out may be named, and beside
+ * what acts alike all over the surface, whose waves run along the sides, rollers. */
 static bool faces_fit(struct builder *builder, const struct scene *sketch, bool plane)
 {
     const int top = 2 * sketch->dimension - 2;
     for (int face = 0; face < 2 * sketch->dimension; face++) {
         const struct boundary *boundary = &sketch->boundary[face];
-        if (face == top || !boundary->given || boundary_absorbs(boundary)) continue;
-        if (plane && face < top && boundary->kind == BOUNDARY_ROLLER) continue;
-        char why[120];
-        snprintf(why, sizeof why, "the place of face '%s' is not known, and what this one does depends on it",
+        const bool beside = plane && face < top;
+        if (face == top || !boundary->given) continue;
+        if (beside ? boundary->kind == BOUNDARY_ROLLER : boundary_absorbs(boundary)) continue;
+        char why[160];
+        snprintf(why, sizeof why,
+                 beside
+                     ? "what acts all over the surface sends waves along face '%s', where only a roller lets "
+                       "them pass"
+                     : "the place of face '%s' is not known, and what this one does depends on it",
                  face_name((enum face)face));
         return refuse_box(builder, "boundary", boundary->group, "kind", why);
     }
