@@ -34,6 +34,25 @@ WRAPPED  = malloc calloc realloc free aligned_alloc strdup strndup open_memstrea
 $(BUILD)/test/test_no_memory: regress/unit/allocation.c $(wildcard regress/unit/*.h)
 $(BUILD)/test/test_no_memory: private EXTRA = -fno-builtin $(WRAPPED:%=-Wl,--wrap=%)
 
+# The program with what regress/examples/ adds: its files, and its lines in the lists of src/deck/choices.h. What makes tables
+# of these lists is compiled anew; all else comes from the library.
+EXAMPLES = $(BUILD)/examples
+TABLES   = $(shell grep -rlwE 'METHODS|SCHEMES|EXACT_SOLUTIONS|KERNELS' src --include='*.c')
+ADDED    = $(TABLES:src/%.c=$(EXAMPLES)/%.o) $(patsubst regress/examples/%.c,$(EXAMPLES)/%.o,$(wildcard regress/examples/*.c))
+$(ADDED): private ALL_C := -I$(EXAMPLES)/src $(ALL_C)
+$(ADDED): $(EXAMPLES)/src/deck/choices.h
+$(EXAMPLES)/src/deck/choices.h: regress/examples/choices.awk regress/examples/lines src/deck/choices.h
+	@mkdir -p $(@D)
+	@awk -f $^ >$@
+$(EXAMPLES)/%.o: src/%.c
+	$(compile)
+$(EXAMPLES)/%.o: regress/examples/%.c
+	$(compile)
+$(EXAMPLES)/selas: $(ADDED) $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
+	$(link)
+$(EXAMPLES)/test_kernel: regress/unit/test_kernel.c $(ADDED) $(BUILD)/libselas.a
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(LDFLAGS) -o $@ $^ $(LIBS) -lcmocka
+
 # Scripts that call make begin a make of their own, with as many jobs as this one.
 ALONE    = env -u MFLAGS -u MAKELEVEL MAKEFLAGS='$(filter -j%,$(MAKEFLAGS))'
 
@@ -41,7 +60,7 @@ ALONE    = env -u MFLAGS -u MAKELEVEL MAKEFLAGS='$(filter -j%,$(MAKEFLAGS))'
 help-checks: ## this list
 	$(call listed,regress/rules.mk)
 
-unit: all $(TESTS) $(BUILD)/test/relations fuzz-replay ## run all tests without the set-up
+unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD)/test/relations fuzz-replay ## run all tests without the set-up
 	@$(ALONE) sh regress/run-tests $(BUILD)
 
 # Static checks

@@ -66,6 +66,13 @@ check "run.xdmf closes what it opens" awk '
 check "the profile has two blocks of 11 rows of 4 + 3 + 6 columns" awk '
     !/^#/ && NF { rows++; if (NF != 13) bad = 1 } /^# t = / { blocks++ } END { exit !(rows == 22 && blocks == 2 && !bad) }' out/depth.dat
 check "report.txt has a key and a value on every line" awk '!/^[^:]+: ./ { print; bad = 1 } END { exit bad }' out/report.txt
+own_memory() { # started by a process of 300 MB the report tells of the run's own memory
+    big=$(head -c 300000000 /dev/zero | tr '\0' x)
+    "$selas" small.nml output%directory=of_large || return 1
+    big=${big%%x*}
+    awk -F': ' '$1 == "peak memory bytes" { seen = 1; large = $2 > 2e8 } END { exit large || !seen }' of_large/report.txt
+}
+check "the peak memory is the run's own" own_memory
 check "the energy balance closes" awk -F': ' '$1 == "energy balance defect" { seen = 1; split($2, w, " "); if (w[1] > 0.02) exit 1 } END { if (!seen) exit 1 }' out/report.txt
 check "the echoed deck runs" "$selas" out/deck.nml output%directory=again
 grep -v '^#' out/side.dat >first
@@ -83,16 +90,54 @@ check "a run is compared with another one's histories" "$selas" compared.nml out
 check "... and is the same" awk '/^error largest:/ { found = 1; if ($3 > 1e-12) exit 1 } END { exit !found }' compared/report.txt
 check "with histories that end too early it is told, exit 2" sh -c \
     '"$0" compared.nml scene%end_time=4 output%directory=longer 2>said_longer; test $? -eq 2 && grep -q "goes from t = 0 to 3, the run from 0 to 4" said_longer' "$selas"
+sed 's/kind = .file.*/kind = "bar" \//' compared.nml >wrong.nml
+refuses() { # refuses WORDS DECK [OVERRIDE]...: `selas check` exits 2 with the words, behind the plan
+    words=$1
+    shift
+    "$selas" check "$@" >plan 2>said
+    test $? -eq 2 && grep -q "$words" said && grep -q '^steps: ' plan
+}
+check "selas check refuses them, too" refuses 'goes from t = 0 to 3, the run from 0 to 4' compared.nml scene%end_time=4
+check "... and takes what the run takes" "$selas" check compared.nml
+check "... and refuses an exact solution that there is not" refuses "reference 'bar': the bar is one-dimensional" \
+    wrong.nml
 check "... and the results are there" test -s longer/run.h5 -a -s longer/centre.dat -a ! -e longer/centre.exact.dat
-mkdir killed
-echo older >killed/run.h5
+# a second run into a folder
+sed 's/side/far/; s/depth/deep/; s/^&snapshot.*//' small.nml >second.nml
+cp -r out both
+echo mine >both/notes.dat
+check "another run into the same folder" "$selas" second.nml output%directory=both
+check "... takes away what the first one left and it does not write" sh -c \
+    '! ls both/side.dat both/depth.dat both/run.xdmf both/run_2.xdmf 2>/dev/null | grep -q .'
+check "... leaves what is not selas's" grep -qx mine both/notes.dat
+check "... and has all of its own" test -s both/centre.dat -a -s both/far.dat -a -s both/deep.dat -a -s both/run.h5
+check "selas diff compares the receivers of run.h5" sh -c \
+    'cp -r out more && cp out/side.dat more/stranger.dat && "$0" diff out more && "$0" diff more out' "$selas"
+check "... and misses one that is not there" sh -c \
+    'rm more/side.dat; "$0" diff out more >said; test $? -eq 1 && grep -q "side .*is not in more" said' "$selas"
+refused() { # refused WORDS DECK [OVERRIDE]...: exit 1, with the words
+    words=$1
+    shift
+    "$selas" "$@" 2>said
+    test $? -eq 1 && grep -q "$words" said
+}
+mkdir own theirs
+cp small.nml own/deck.nml
+check "a run does not overwrite its deck" refused "own/deck.nml', which the deck is read from" own/deck.nml output%directory=own
+check "... the deck is as it was" cmp small.nml own/deck.nml
+check "... nor one that an earlier run has left" refused "out/deck.nml', which the deck is read from" out/deck.nml output%directory=out
+echo mine | tee theirs/report.txt >theirs/centre.exact.dat
+check "a run does not overwrite what is no result" refused "'theirs/report.txt' is no result of selas" small.nml output%directory=theirs
+check "... nor do exact histories" refused "'theirs/centre.exact.dat' is no result of selas" exact compared.nml output%directory=theirs
+check "... it is as it was" grep -qx mine theirs/report.txt theirs/centre.exact.dat
+cp -r out killed
 "$selas" small.nml output%directory=killed body%spacing=0.25 scene%end_time=6000 >/dev/null 2>&1 &
 run=$!
 sleep 1
 kill -9 $run 2>/dev/null
 wait $run 2>/dev/null
-check "a killed run leaves the older run.h5" grep -qx older killed/run.h5
-check "... and no half files" sh -c '! ls killed | grep -qE "\.(dat|png|xdmf|txt)$"'
+check "a killed run leaves the older run.h5" cmp out/run.h5 killed/run.h5
+check "... and no half files" sh -c '! ls killed | grep -q "\.part$"'
 touch file
 check "a folder that cannot be made is told, exit 1" sh -c '"$0" small.nml output%directory=file/out; test $? -eq 1' "$selas"
 exit $((failures > 0))

@@ -103,12 +103,11 @@ static void driven_end(void **unused)
  *
  *   v = v0/2 erfc((x - c t) / (2 sqrt(D t))),  L1 = 2 sqrt(D t / pi) / (c t),
  *   L2^2 = (2 - sqrt(2)) sqrt(D t / pi) / (c t) */
-static void front_errors(double alpha, double smoothing_length, double speed, double time, double *l1,
-                         double *l2)
+static void front_errors(double alpha, double smoothing_length, double c, double time, double *l1, double *l2)
 {
-    const double width = sqrt(alpha * speed * smoothing_length / 4 * time);
-    *l1 = 2 * width / (sqrt(M_PI) * speed * time);
-    *l2 = sqrt((2 - sqrt(2)) * width / (sqrt(M_PI) * speed * time));
+    const double width = sqrt(alpha * c * smoothing_length / 4 * time);
+    *l1 = 2 * width / (sqrt(M_PI) * c * time);
+    *l2 = sqrt((2 - sqrt(2)) * width / (sqrt(M_PI) * c * time));
 }
 
 /* L1 and L2 by summing the smeared front itself; the values of the design notes for 250 particles. */

@@ -85,7 +85,9 @@ static void gives_values_and_defaults(void **state)
     const struct deck_group *load = deck_get(r.deck, "load", 0);
     assert_int_equal(deck_choice(load, "kind", 0), 0);
     assert_string_equal(deck_name(r.deck), "case");
-    assert_string_equal(deck_directory(r.deck), "folder");
+    char *file = deck_resolve(r.deck, "points.txt");
+    assert_string_equal(file, "folder/points.txt");
+    array_free(file);
     release(&r);
 }
 
@@ -399,6 +401,25 @@ static void ranges_and_spellings(void **state)
     assert_int_equal(words_distance("", "abc"), 3);
 }
 
+/* Words for experts are suggested only where no other word is as near. */
+static void suggestions(void **state)
+{
+    (void)state;
+    static const struct word words[] = {{"quiet", WORD_REAL, 1, NULL, NULL, EXPERT, ""},
+                                        {"quint", WORD_REAL, 1, NULL, NULL, OPTIONAL, ""},
+                                        {"force", WORD_CHOICE, 1, NULL, "push|pull", EXPERT, ""}};
+    static const struct word_group group = {"group", GROUP_ONCE, "", words, 3};
+    static const struct word_table table = {&group, 1};
+    char text[SUGGESTION_SIZE];
+    assert_string_equal(suggest_word(&group, "quit", text), "; did you mean 'quint'?");  /* both 1 away */
+    assert_string_equal(suggest_word(&group, "quite", text), "; did you mean 'quiet'?"); /* 1 against 2 */
+    assert_string_equal(suggest_word(&group, "forec", text), "; did you mean 'force'?");
+    assert_string_equal(suggest_word(&group, "spacing", text), "");
+    assert_string_equal(suggest_group(&table, "gruop", "&", text), "; did you mean '&group'?");
+    assert_string_equal(suggest_group(&table, "body", "&", text), "");
+    assert_string_equal(suggest_choice(&words[2], "pul", text), "; did you mean 'pull'?");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -414,6 +435,7 @@ int main(void)
         cmocka_unit_test(junk_ends_quickly),
         cmocka_unit_test(table_is_sound),
         cmocka_unit_test(ranges_and_spellings),
+        cmocka_unit_test(suggestions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

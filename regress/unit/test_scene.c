@@ -350,7 +350,7 @@ static void warnings(void **unused)
              "history='step' /\n",
          "t.nml:5:7: warning: the load acts on the face 'z-', whose motion &boundary 1 prescribes"},
         {BOX "&load face='z-', shape='face', direction=0,0,1, history='gaussian', delay=.1, width=.3 /\n",
-         "warning: the history is cut at t = 0"},
+         "warning: the time function is cut at t = 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct from_deck d = right_scene(cases[i].deck);

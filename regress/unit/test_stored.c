@@ -4,8 +4,8 @@
 #include "base/stored.h"
 #include "box_scene.h"
 #include "points/cloud.h"
-#include "record/checkpoint/head.h"
-#include "record/checkpoint/kept.h"
+#include "record/checkpoint_head.h"
+#include "record/kept.h"
 #include "record/run_file.h"
 #include "record/sets.h"
 

@@ -159,7 +159,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
-        if (has_patch(&scene->load[k])) look_at_points(&adviser, k);
+        if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }
     return adviser.count;
 }

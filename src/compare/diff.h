@@ -19,6 +19,14 @@ struct history_file {
 selas_status history_file_read(const char *path, struct history_file *history, struct messages *messages);
 void history_file_free(struct history_file *history);
 
+/* The receivers of a run, as their files are named without ".dat". False if `path` is no run.h5. */
+struct run_receivers {
+    size_t count;
+    char **name;
+};
+bool run_receivers_read(const char *path, struct run_receivers *receivers);
+void run_receivers_free(struct run_receivers *receivers);
+
 /* |b - a| <= absolute * (range of the channel in a) + relative * |a| passes. */
 struct tolerance {
     double relative, absolute;

@@ -1,6 +1,8 @@
 /* Comparing two files or two run folders, with a table and plots. */
 #include "compare/diff.h"
 
+#include "base/safe_file.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
@@ -96,46 +98,65 @@ static bool has_ending(const char *name, const char *ending)
     return length > tail && strcmp(name + length - tail, ending) == 0;
 }
 
-/* What folder `a` has is compared with its namesake in `b`, or (with `only_missing`) just looked for. */
+/* Receiver `name` of folder `a` is compared with its namesake in `b`, or (with `only_missing`) just looked
+ * for. */
 static selas_status diff_one(struct comparison *c, const char *a, const char *b, const char *name,
                              bool only_missing)
 {
-    if (!has_ending(name, ".dat") || has_ending(name, ".exact.dat")) return SELAS_OK;
-    char *here = path_in(a, name), *there = path_in(b, name);
+    char file[FILE_NAME_SIZE];
+    snprintf(file, sizeof file, "%s.dat", name);
+    char *here = path_in(a, file), *there = path_in(b, file);
     selas_status status = SELAS_OK;
+    struct stat about;
+    c->compared++;
     if (here == NULL || there == NULL) {
         status = fail(c->messages, SELAS_NO_MEMORY, "no memory for the name of a file");
-    } else if (is_history(here)) {
-        const int length = (int)strlen(name) - (int)strlen(".dat");
-        struct stat about;
-        c->compared++;
-        if (stat(there, &about) != 0) {
-            c->report->differences++;
-            if (c->report->table != NULL)
-                fprintf(c->report->table, "%-20.*s is not in %s\n", length, name, b);
-        } else if (!only_missing) {
-            char receiver[128];
-            snprintf(receiver, sizeof receiver, "%.*s", length, name);
-            status = diff_files(c, here, there, receiver);
-        }
+    } else if (stat(there, &about) != 0) {
+        c->report->differences++;
+        if (c->report->table != NULL) fprintf(c->report->table, "%-20s is not in %s\n", name, b);
+    } else if (!only_missing) {
+        status = diff_files(c, here, there, name);
     }
     free(here);
     free(there);
     return status;
 }
 
-static selas_status diff_folder(struct comparison *c, const char *a, const char *b, bool only_missing)
+/* Receivers of a folder without run.h5: its files that are histories. */
+static selas_status find_receivers(const char *folder, struct run_receivers *receivers,
+                                   struct messages *messages)
 {
     struct dirent **entry = NULL;
-    const int count = scandir(a, &entry, NULL, alphasort);
+    const int count = scandir(folder, &entry, NULL, alphasort);
     if (count < 0)
-        return fail(c->messages, SELAS_FILE_ERROR, "cannot read the folder '%s': %s", a, strerror(errno));
-    selas_status status = SELAS_OK;
+        return fail(messages, SELAS_FILE_ERROR, "cannot read the folder '%s': %s", folder, strerror(errno));
+    receivers->name = calloc((size_t)count + 1, sizeof *receivers->name);
     for (int i = 0; i < count; i++) {
-        if (status == SELAS_OK) status = diff_one(c, a, b, entry[i]->d_name, only_missing);
+        char *name = entry[i]->d_name, *path = path_in(folder, name);
+        if (receivers->name != NULL && path != NULL && has_ending(name, ".dat") &&
+            !has_ending(name, ".exact.dat") && is_history(path)) {
+            name[strlen(name) - strlen(".dat")] = '\0';
+            receivers->name[receivers->count] = strdup(name);
+            if (receivers->name[receivers->count] != NULL) receivers->count++;
+        }
+        free(path);
         free(entry[i]);
     }
     free(entry);
+    return SELAS_OK;
+}
+
+static selas_status diff_folder(struct comparison *c, const char *a, const char *b, bool only_missing)
+{
+    struct run_receivers receivers = {0};
+    char *run = path_in(a, "run.h5");
+    selas_status status = SELAS_OK;
+    if (run == NULL || !run_receivers_read(run, &receivers))
+        status = find_receivers(a, &receivers, c->messages);
+    for (size_t r = 0; r < receivers.count && status == SELAS_OK; r++)
+        status = diff_one(c, a, b, receivers.name[r], only_missing);
+    run_receivers_free(&receivers);
+    free(run);
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* Assignments of namelist text: the name, its subscript and the values, kept in the group's items. */
+/* Assignments of namelist text: the name, its subscript and the values, stored in the group's items. */
 #include "deck/assignment.h"
 #include "base/memory.h"
 
@@ -159,13 +159,10 @@ static bool read_subscripts(struct scanner *scanner, struct target *target)
 
 static void unknown_word(struct scanner *scanner, const struct word_group *kind, size_t at, size_t length)
 {
-    char quoted[QUOTED_SIZE];
+    char quoted[QUOTED_SIZE], suggestion[SUGGESTION_SIZE];
     scan_quote(scanner, at, length, quoted);
-    const char *nearest = words_nearest(kind, quoted);
-    if (*nearest != '\0')
-        scan_error(scanner, at, "unknown name '%s' in &%s; did you mean '%s'?", quoted, kind->name, nearest);
-    else
-        scan_error(scanner, at, "unknown name '%s' in &%s", quoted, kind->name);
+    scan_error(scanner, at, "unknown name '%s' in &%s%s", quoted, kind->name,
+               suggest_word(kind, quoted, suggestion));
 }
 
 bool scan_assignment(struct scanner *scanner, struct deck_group *group)

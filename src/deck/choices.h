@@ -4,22 +4,24 @@
 #ifndef SELAS_DECK_CHOICES_H
 #define SELAS_DECK_CHOICES_H
 
-/* What becomes of a list: its symbols, its words, the range of a word of type WORD_CHOICE. */
+/* What becomes of a list: its symbols, its words by symbol, its words in a message, the range of a word of
+ * type WORD_CHOICE. */
 #define CHOICE_SYMBOL(symbol, word) symbol,
 #define CHOICE_NAME(symbol, word) [symbol] = word,
+#define CHOICE_QUOTED(symbol, word) " '" word "'"
 #define CHOICE_WORD(symbol, word) "|" word
 #define CHOICES(LIST) (&(LIST(CHOICE_WORD))[1])
 
 /* The table of methods: families, each followed by its variants, the first of which is its default;
- * method_SYMBOL is in a folder of its own. */
+ * method_SYMBOL is in a folder of its own. Of each: where its points may lie (enum point_places, scene.h). */
 #define METHODS(FAMILY, VARIANT)                                                                             \
     FAMILY("smoothed-point")                                                                                 \
-    VARIANT(consistent, "smoothed-point", "consistent")                                                      \
-    VARIANT(paper, "smoothed-point", "paper")                                                                \
-    VARIANT(cloud, "smoothed-point", "cloud")                                                                \
+    VARIANT(consistent, "smoothed-point", "consistent", POINTS_ON_FACES)                                     \
+    VARIANT(paper, "smoothed-point", "paper", POINTS_ON_FACES)                                               \
+    VARIANT(cloud, "smoothed-point", "cloud", POINTS_SCATTERED)                                              \
     FAMILY("sph")                                                                                            \
-    VARIANT(total_lagrangian, "sph", "total-lagrangian")                                                     \
-    VARIANT(updated_lagrangian, "sph", "updated-lagrangian")
+    VARIANT(total_lagrangian, "sph", "total-lagrangian", POINTS_IN_CELLS)                                    \
+    VARIANT(updated_lagrangian, "sph", "updated-lagrangian", POINTS_IN_CELLS)
 
 /* The table of time schemes: scheme_SYMBOL is in a file of its own in stepping/. */
 #define SCHEMES(X)                                                                                           \
@@ -80,8 +82,8 @@
     X(ARRANGEMENT_CONFORMAL, "conformal")
 
 /* Kinds of boundaries and what they mean (struct boundary_meaning, scene/boundary.h): what is held, which
- * time derivative of the displacement the history gives (NO_MOTION: none), what a method must be able to do.
- * A kind with an ability of its own is refused by all methods that do not have it. */
+ * time derivative of the displacement the time function is (NO_MOTION: none), what a method must be able to
+ * do. A kind with an ability of its own is refused by all methods that do not have it. */
 #define BOUNDARY_KINDS(X)                                                                                    \
     X(BOUNDARY_FREE, "free", HOLDS_NOTHING, NO_MOTION, 0)                                                    \
     X(BOUNDARY_FIXED, "fixed", HOLDS_ALL, NO_MOTION, CAN_HOLD)                                               \
@@ -107,6 +109,7 @@
     X(LOAD_FACE, "face")                                                                                     \
     X(LOAD_POINT, "point")
 
+/* Time functions of loads and moved faces. */
 #define HISTORY_KINDS(X)                                                                                     \
     X(HISTORY_TRIANGLE, "triangle") /* 0 -> 1 at duration/2 -> 0 at duration (Ding et al. 2006, Eq 43) */    \
     X(HISTORY_STEP, "step")         /* 1 for t >= 0 (1/2 at t = 0 where a value is asked for) */             \

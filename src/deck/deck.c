@@ -151,14 +151,14 @@ bool deck_chosen(const struct deck_group *group, const char *name, const char *c
     return strcmp(deck_text(group, name, 0), choice) == 0;
 }
 
+const char *deck_source_path(const struct deck *deck)
+{
+    return deck->path;
+}
+
 const char *deck_name(const struct deck *deck)
 {
     return deck->name;
-}
-
-const char *deck_directory(const struct deck *deck)
-{
-    return deck->directory;
 }
 
 const char *deck_source(const struct deck *deck)

@@ -1,5 +1,5 @@
-/* The deck: namelist text checked against the table of words (deck/words.c), kept as typed values with their
- * place in the file.
+/* The deck: namelist text checked against the table of words (deck/words.c), stored as typed values with
+ * their place in the file.
  *
  * Reading finds all errors of syntax, names, types, counts and ranges in one pass. What the words mean
  * together (a receiver outside the body, a material that nobody defines) is checked by scene/, with
@@ -77,11 +77,16 @@ selas_status deck_error(const struct deck *deck, const struct deck_group *group,
 void deck_warning(const struct deck *deck, const struct deck_group *group, const char *name,
                   struct messages *messages, const char *format, ...) __attribute__((format(printf, 5, 6)));
 
-const char *deck_name(const struct deck *deck);      /* file name without folder and ".nml" */
-const char *deck_directory(const struct deck *deck); /* folder of the file, "." if none */
+const char *deck_source_path(const struct deck *deck); /* of the file, as given */
+const char *deck_name(const struct deck *deck);        /* file name without folder and ".nml" */
 /* Path of a file that the deck names (a word of type WORD_FILE), relative to the deck's folder unless it is
  * absolute; new memory (array_free), NULL if there is none. */
 char *deck_resolve(const struct deck *deck, const char *file);
+/* The same from the root, wherever the program stands. */
+char *deck_absolute(const struct deck *deck, const char *file);
+/* The paths of all files that the deck names, one call each, until one returns false: then, and without
+ * memory, false. */
+bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context);
 const char *deck_source(const struct deck *deck); /* the text as read, without overrides */
 /* Gives a deck that was made from an echo the text that it came from. */
 selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages);
@@ -93,5 +98,7 @@ void deck_reference(FILE *file);
  * (%.17g); a file that gfortran's namelist reading takes and that runs to the same bits. Paths are written so
  * that the echo, which lies in another folder, still finds them. */
 selas_status deck_write(const struct deck *deck, FILE *file, struct messages *messages);
+/* The same in new memory (free it), "" without a deck; NULL if that failed. */
+char *deck_echo(const struct deck *deck, struct messages *messages);
 
 #endif

@@ -10,12 +10,10 @@ selas_status deck_add(struct deck *deck, const char *group, size_t *number, stru
 {
     const struct word_table *table = deck->list.table;
     const size_t kind = words_find_group(table, group, strlen(group));
-    if (kind == table->groups) {
-        const char *nearest = words_nearest_group(table, group);
-        const bool near = *nearest != '\0';
-        return fail(messages, SELAS_BAD_DECK, "unknown group '%.60s'%s%s%s", group,
-                    near ? "; did you mean '" : "", nearest, near ? "'?" : "");
-    }
+    char suggestion[SUGGESTION_SIZE];
+    if (kind == table->groups)
+        return fail(messages, SELAS_BAD_DECK, "unknown group '%.60s'%s", group,
+                    suggest_group(table, group, "", suggestion));
     const size_t count = deck->first[kind + 1] - deck->first[kind];
     if (table->group[kind].occurrence != GROUP_MANY && count > 0)
         return fail(messages, SELAS_BAD_DECK, "&%s is there already and may occur once",

@@ -9,17 +9,16 @@ static void check_choice(const struct deck *deck, const struct deck_group *group
 {
     const size_t count = word_choices(word);
     if (word_find_choice(word, value->as.text) < count) return;
-    char list[512], choice[64];
+    char list[512], choice[64], suggestion[SUGGESTION_SIZE];
     size_t used = 0;
     for (size_t i = 0; i < count; i++) {
         word_choice(word, i, choice, sizeof choice);
         if (used < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", i > 0 ? ", " : "", choice);
     }
-    const bool near = *word_nearest_choice(word, value->as.text, choice, sizeof choice) != '\0';
-    namelist_message(messages, deck->path, value->place, true, "'%.60s' for '%s' in &%s; expected %s%s%s%s%s",
+    namelist_message(messages, deck->path, value->place, true, "'%.60s' for '%s' in &%s; expected %s%s%s",
                      value->as.text, word->name, group->kind->name, count > 1 ? "one of " : "", list,
-                     near ? "; did you mean '" : "", choice, near ? "'?" : "");
+                     suggest_choice(word, value->as.text, suggestion));
 }
 
 static void check_range(const struct deck *deck, const struct deck_group *group, const struct word *word,

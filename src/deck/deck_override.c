@@ -86,12 +86,10 @@ static void assign(struct deck_group *group, const char *name, const char *equal
 
 static void unknown_group(const struct deck *deck, const char *text, size_t length, struct messages *messages)
 {
-    char name[64];
+    char name[64], suggestion[SUGGESTION_SIZE];
     snprintf(name, sizeof name, "%.*s", length < 60 ? (int)length : 60, text);
-    const char *nearest = words_nearest_group(deck->list.table, name);
-    const bool near = *nearest != '\0';
-    namelist_message(messages, NULL, (struct place){0, 0}, true, "unknown group '%s'%s%s%s", name,
-                     near ? "; did you mean '" : "", nearest, near ? "'?" : "");
+    namelist_message(messages, NULL, (struct place){0, 0}, true, "unknown group '%s'%s", name,
+                     suggest_group(deck->list.table, name, "", suggestion));
 }
 
 /* The group that "group" or "group(2)" means, made if there is none; NULL after an error. */

@@ -4,7 +4,6 @@
 #include "deck/deck_private.h"
 
 #include <errno.h>
-#include <locale.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -114,14 +113,7 @@ static selas_status read_text(const char *name, const char *text, size_t length,
     if (made->path == NULL || made->name == NULL || made->directory == NULL || made->source == NULL) {
         status = fail(messages, status, "not enough memory for the deck");
     } else {
-        /* numbers have a decimal point whatever the locale of the host */
-        const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-        const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
         status = read_all(made, overrides, override, check, messages);
-        if (plain != (locale_t)0) {
-            uselocale(host);
-            freelocale(plain);
-        }
     }
     if (status == SELAS_OK)
         *deck = made;

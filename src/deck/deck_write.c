@@ -4,7 +4,6 @@
 #include "deck/deck_private.h"
 
 #include <errno.h>
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -28,7 +27,22 @@ char *deck_resolve(const struct deck *deck, const char *file)
     return path;
 }
 
-static char *absolute(const struct deck *deck, const char *file)
+bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context)
+{
+    for (size_t g = 0; g < deck->list.groups; g++) {
+        const struct deck_group *group = &deck->list.group[g];
+        for (size_t w = 0; w < group->kind->words; w++) {
+            if (group->kind->word[w].type != WORD_FILE || group_values(group, w) == 0) continue;
+            char *path = deck_resolve(deck, group_value(group, w, 0)->as.text);
+            const bool good = path != NULL && visit(context, path);
+            array_free(path);
+            if (!good) return false;
+        }
+    }
+    return true;
+}
+
+char *deck_absolute(const struct deck *deck, const char *file)
 {
     char *path = deck_resolve(deck, file);
     if (path == NULL || *path == '/') return path;
@@ -63,7 +77,7 @@ static bool write_value(const struct deck *deck, enum word_type type, const stru
         fputs(value->as.logical ? ".true." : ".false.", file);
         break;
     case WORD_FILE:
-        path = absolute(deck, value->as.text);
+        path = deck_absolute(deck, value->as.text);
         if (path == NULL) return false;
         write_text(path, file);
         array_free(path);
@@ -97,16 +111,23 @@ static bool write_group(const struct deck *deck, const struct deck_group *group,
 
 selas_status deck_write(const struct deck *deck, FILE *file, struct messages *messages)
 {
-    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
     bool good = true;
     for (size_t i = 0; i < deck->list.groups && good; i++)
         good = write_group(deck, &deck->list.group[i], file);
-    if (plain != (locale_t)0) {
-        uselocale(host);
-        freelocale(plain);
-    }
     if (!good) return fail(messages, SELAS_NO_MEMORY, "not enough memory to write the deck");
     if (ferror(file) != 0) return fail(messages, SELAS_FILE_ERROR, "the deck's echo: %s", strerror(errno));
     return SELAS_OK;
+}
+
+char *deck_echo(const struct deck *deck, struct messages *messages)
+{
+    char *text = NULL;
+    size_t size = 0;
+    if (deck == NULL) return strdup("");
+    FILE *file = open_memstream(&text, &size);
+    if (file == NULL) return NULL;
+    const selas_status status = deck_write(deck, file, messages);
+    if (fclose(file) == 0 && status == SELAS_OK) return text;
+    free(text);
+    return NULL;
 }

@@ -156,13 +156,12 @@ static void unknown_group(struct scanner *scanner, const struct word_table *tabl
     char quoted[QUOTED_SIZE];
     const size_t length = scan_name_length(scanner, at + 1);
     scan_quote(scanner, at + 1, length, quoted);
-    const char *nearest = words_nearest_group(table, quoted);
+    char suggestion[SUGGESTION_SIZE];
     if (words_find_group(table, quoted, length) < table->groups)
         scan_error(scanner, at, "expected a blank after '&%s'", quoted);
-    else if (*nearest != '\0')
-        scan_error(scanner, at, "unknown group '&%s'; did you mean '&%s'?", quoted, nearest);
     else
-        scan_error(scanner, at, "unknown group '&%s'", quoted);
+        scan_error(scanner, at, "unknown group '&%s'%s", quoted,
+                   suggest_group(table, quoted, "&", suggestion));
 }
 
 /* Skips a group that nobody knows. */

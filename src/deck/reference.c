@@ -1,50 +1,121 @@
-/* The deck reference: the table of words as Markdown. */
+/* The table of words for those who read: as Markdown for the manual, as text for `selas words`. */
 #include "deck/deck.h"
 #include "deck/words.h"
 
 #include <string.h>
 
-static void write_type(const struct word *word, FILE *file)
+enum { WIDTH = 80, INDENT = 6, GROUP_INDENT = 13, LINE_SIZE = 1024 };
+
+static const char *const types[] = {"real", "integer", "logical", "text", "file", "text"};
+static const char *const occurrences[] = {"always there, at most once in a deck", "at most once",
+                                          "as often as wanted"};
+
+/* "real", "real, up to 3" */
+static const char *type_text(const struct word *word, char text[LINE_SIZE])
 {
-    static const char *const types[] = {"real", "integer", "logical", "text", "file", "text"};
-    fputs(types[word->type], file);
-    if (word->count > 1) fprintf(file, ", up to %zu", word->count);
+    const int used = snprintf(text, LINE_SIZE, "%s", types[word->type]);
+    if (word->count > 1) snprintf(text + used, (size_t)(LINE_SIZE - used), ", up to %zu", word->count);
+    return text;
 }
 
-static void write_values(const struct word *word, FILE *file)
+/* "[0, inf)", "'exact', 'same'", or "" */
+static const char *values_text(const struct word *word, char text[LINE_SIZE])
 {
-    if (word->type == WORD_CHOICE) {
-        char choice[64];
-        for (size_t i = 0; i < word_choices(word); i++) {
-            word_choice(word, i, choice, sizeof choice);
-            fprintf(file, "%s'%s'", i > 0 ? ", " : "", choice);
-        }
-    } else if (word->range != NULL) {
-        fputs(word->range, file);
+    char choice[TEXT_SIZE];
+    int used =
+        snprintf(text, LINE_SIZE, "%s", word->type == WORD_CHOICE || word->range == NULL ? "" : word->range);
+    for (size_t i = 0; word->type == WORD_CHOICE && i < word_choices(word) && used < LINE_SIZE; i++) {
+        word_choice(word, i, choice, sizeof choice);
+        used += snprintf(text + used, (size_t)(LINE_SIZE - used), "%s'%s'", i > 0 ? ", " : "", choice);
     }
+    return text;
+}
+
+static bool has_experts(const struct word_group *group)
+{
+    size_t i = 0;
+    while (i < group->words && group->word[i].need != EXPERT)
+        i++;
+    return i < group->words;
+}
+
+static void write_table(const struct word_group *group, bool expert, FILE *file)
+{
+    char type[LINE_SIZE], values[LINE_SIZE];
+    fputs("| name | type | values | default | meaning [unit] |\n|---|---|---|---|---|\n", file);
+    for (size_t j = 0; j < group->words; j++) {
+        const struct word *word = &group->word[j];
+        if ((word->need == EXPERT) != expert) continue;
+        fprintf(file, "| `%s` | %s | %s | %s | %s |\n", word->name, type_text(word, type),
+                values_text(word, values),
+                word->need == OBLIGATORY ? "**must be given**"
+                : word->defaults == NULL ? ""
+                                         : word->defaults,
+                word->gloss);
+    }
+    putc('\n', file);
 }
 
 void deck_reference(FILE *file)
 {
-    static const char *const occurrences[] = {"always there, at most once in a deck", "at most once",
-                                              "as often as wanted"};
     const struct word_table *table = deck_words();
     for (size_t i = 0; i < table->groups; i++) {
         const struct word_group *group = &table->group[i];
         fprintf(file, "### `&%s`\n\n%s; %s.\n\n", group->name, group->gloss, occurrences[group->occurrence]);
-        fputs("| name | type | values | default | meaning [unit] |\n|---|---|---|---|---|\n", file);
-        for (size_t j = 0; j < group->words; j++) {
-            const struct word *word = &group->word[j];
-            fprintf(file, "| `%s` | ", word->name);
-            write_type(word, file);
-            fputs(" | ", file);
-            write_values(word, file);
-            fprintf(file, " | %s | %s |\n",
-                    word->need == OBLIGATORY ? "**must be given**"
-                    : word->defaults == NULL ? ""
-                                             : word->defaults,
-                    word->gloss);
+        write_table(group, false, file);
+        if (!has_experts(group)) continue;
+        fprintf(file, "For experts, in `&%s`:\n\n", group->name);
+        write_table(group, true, file);
+    }
+}
+
+/* Writes a text in lines of at most WIDTH columns, each behind `indent` blanks but the first, which goes on
+ * at `column`. */
+static void write_wrapped(const char *text, int indent, int column, FILE *file)
+{
+    bool first = true;
+    while (*text != '\0') {
+        const int length = (int)strcspn(text, " ");
+        if (!first && column + 1 + length > WIDTH) {
+            fprintf(file, "\n%*s", indent, "");
+            column = indent;
+            first = true;
         }
-        putc('\n', file);
+        column += fprintf(file, "%s%.*s", first ? "" : " ", length, text);
+        first = false;
+        text += length + (int)strspn(text + length, " ");
+    }
+    putc('\n', file);
+}
+
+/* "name (type): values; default" and the gloss */
+static void write_word(const struct word *word, FILE *file)
+{
+    char head[4 * LINE_SIZE], type[LINE_SIZE], values[LINE_SIZE];
+    values_text(word, values);
+    const char *defaults = word->need == OBLIGATORY ? "must be given" : word->defaults;
+    snprintf(head, sizeof head, "(%s)%s%s%s%s%s", type_text(word, type), *values != '\0' ? ": " : "", values,
+             defaults != NULL ? "; " : "", defaults != NULL && word->need != OBLIGATORY ? "default " : "",
+             defaults != NULL ? defaults : "");
+    write_wrapped(head, INDENT, fprintf(file, "  %s ", word->name), file);
+    write_wrapped(word->gloss, INDENT, fprintf(file, "%*s", INDENT, ""), file);
+}
+
+void words_write_groups(const struct word_table *table, FILE *file)
+{
+    for (size_t i = 0; i < table->groups; i++)
+        write_wrapped(table->group[i].gloss, GROUP_INDENT,
+                      fprintf(file, "  %-*s", GROUP_INDENT - 2, table->group[i].name), file);
+}
+
+void words_write(const struct word_group *group, FILE *file)
+{
+    fprintf(file, "&%s (%s)\n", group->name, occurrences[group->occurrence]);
+    write_wrapped(group->gloss, INDENT, fprintf(file, "%*s", INDENT, ""), file);
+    putc('\n', file);
+    for (int expert = 0; expert < 2; expert++) {
+        if (expert && has_experts(group)) fputs("\nFor experts:\n\n", file);
+        for (size_t j = 0; j < group->words; j++)
+            if ((group->word[j].need == EXPERT) == expert) write_word(&group->word[j], file);
     }
 }

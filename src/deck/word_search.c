@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -103,43 +104,54 @@ size_t words_distance(const char *one, const char *other)
     return cost[rows % 3][columns];
 }
 
+struct nearest {
+    char name[64];
+    size_t distance;
+};
+
 /* Keeps the nearer of two spellings; what differs in more than half of its letters is not near. */
-static void keep_nearest(const char *word, const char *name, const char **nearest, size_t *least_distance)
+static void keep_nearest(const char *word, const char *name, struct nearest *nearest)
 {
     const size_t distance = words_distance(word, name);
-    if (distance >= *least_distance || 2 * distance > strlen(name) || 2 * distance > strlen(word) + 1) return;
-    *least_distance = distance;
-    *nearest = name;
+    if (distance >= nearest->distance || 2 * distance > strlen(name) || 2 * distance > strlen(word) + 1)
+        return;
+    nearest->distance = distance;
+    snprintf(nearest->name, sizeof nearest->name, "%s", name);
 }
 
-const char *words_nearest_group(const struct word_table *table, const char *word)
+static const char *suggestion(const struct nearest *nearest, const char *mark, char text[SUGGESTION_SIZE])
 {
-    const char *nearest = "";
-    size_t least_distance = SIZE_MAX;
+    const bool near = nearest->name[0] != '\0';
+    snprintf(text, SUGGESTION_SIZE, "%s%s%s%s", near ? "; did you mean '" : "", near ? mark : "",
+             nearest->name, near ? "'?" : "");
+    return text;
+}
+
+const char *suggest_group(const struct word_table *table, const char *word, const char *mark,
+                          char text[SUGGESTION_SIZE])
+{
+    struct nearest nearest = {"", SIZE_MAX};
     for (size_t i = 0; i < table->groups; i++)
-        keep_nearest(word, table->group[i].name, &nearest, &least_distance);
-    return nearest;
+        keep_nearest(word, table->group[i].name, &nearest);
+    return suggestion(&nearest, mark, text);
 }
 
-const char *words_nearest(const struct word_group *group, const char *word)
+const char *suggest_word(const struct word_group *group, const char *word, char text[SUGGESTION_SIZE])
 {
-    const char *nearest = "";
-    size_t least_distance = SIZE_MAX;
-    for (size_t i = 0; i < group->words; i++)
-        keep_nearest(word, group->word[i].name, &nearest, &least_distance);
-    return nearest;
+    struct nearest nearest = {"", SIZE_MAX};
+    for (int expert = 0; expert < 2; expert++)
+        for (size_t i = 0; i < group->words; i++)
+            if ((group->word[i].need == EXPERT) == expert) keep_nearest(word, group->word[i].name, &nearest);
+    return suggestion(&nearest, "", text);
 }
 
-const char *word_nearest_choice(const struct word *word, const char *text, char *choice, size_t size)
+const char *suggest_choice(const struct word *word, const char *choice, char text[SUGGESTION_SIZE])
 {
-    const char *nearest = "";
-    size_t least_distance = SIZE_MAX, found = SIZE_MAX;
+    struct nearest nearest = {"", SIZE_MAX};
+    char name[sizeof nearest.name];
     for (size_t i = 0; i < word_choices(word); i++) {
-        const size_t before = least_distance;
-        word_choice(word, i, choice, size);
-        keep_nearest(text, choice, &nearest, &least_distance);
-        if (least_distance != before) found = i;
+        word_choice(word, i, name, sizeof name);
+        keep_nearest(choice, name, &nearest);
     }
-    word_choice(word, found, choice, size);
-    return choice;
+    return suggestion(&nearest, "", text);
 }

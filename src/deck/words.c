@@ -5,9 +5,9 @@
 
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
 #define FAMILY_WORD(word) "|" word
-#define VARIANT_WORD(symbol, family, word) "|" word
+#define VARIANT_WORD(symbol, family, word, points) "|" word
 #define FAMILY_GLOSS(word) "; " word ":"
-#define VARIANT_GLOSS(symbol, family, word) " " word
+#define VARIANT_GLOSS(symbol, family, word, points) " " word
 #define KIND_WORD(symbol, word, holds, motion, needs) "|" word
 #define NOTHING(...)
 #define POSITIVE "(0, inf)"
@@ -129,14 +129,20 @@ static const struct word body_words[] = {
 
 /* What loads and boundaries with a prescribed motion share: their history. */
 #define HISTORY_WORDS                                                                                         \
-    {"amplitude", WORD_REAL, 1, "1", NULL, OPTIONAL, "factor on the history [stress, force, length, ...]"},   \
-        {"history", WORD_CHOICE, 1, NULL, CHOICES(HISTORY_KINDS), OPTIONAL, "how it varies in time"},         \
+    {"amplitude",                                                                                             \
+     WORD_REAL,                                                                                               \
+     1,                                                                                                       \
+     "1",                                                                                                     \
+     NULL,                                                                                                    \
+     OPTIONAL,                                                                                                \
+     "factor on the time function [stress, force, length, ...]"},                                             \
+        {"history", WORD_CHOICE, 1, NULL, CHOICES(HISTORY_KINDS), OPTIONAL, "time function"},                 \
         {"duration", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "length of the triangle [time]"},                \
         {"frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "frequency of ricker and sine-burst [1/time]"}, \
         {"delay", WORD_REAL, 1, NULL, NULL, OPTIONAL, "time of the peak of ricker and gaussian [time]"},      \
         {"width", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "standard deviation of the gaussian [time]"},       \
         {"cycles", WORD_REAL, 1, "5", POSITIVE, OPTIONAL, "cycles of the Hann-windowed sine-burst"},          \
-        {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the history: columns time, value"},            \
+        {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the time function: columns time, value"},      \
     {                                                                                                         \
         "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,                                               \
             "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                    \
@@ -146,15 +152,16 @@ static const struct word boundary_words[] = {
     {"face", WORD_CHOICE, 8, NULL, &(FACE_NAMES(CHOICE_WORD) "|all")[1], OBLIGATORY, "faces"},
     {"kind", WORD_CHOICE, 1, NULL, &(BOUNDARY_KINDS(KIND_WORD))[1], OBLIGATORY, "what the faces do"},
     {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL,
-     "how a transmitting face absorbs: dampers or a layer; else a layer where the method has it"},
+     "how a transmitting face absorbs: dampers or an absorbing layer; else the layer where the method has "
+     "it"},
     {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", OPTIONAL,
      "thickness of the absorbing layer [points]"},
     {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
      "thickness of the absorbing layer, in place of layer_points [length]"},
     {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
-     "wanted reflection, in place of layer_points"},
+     "wanted reflection of the absorbing layer, in place of layer_points"},
     {"always", WORD_LOGICAL, 1, ".false.", NULL, EXPERT,
-     "keep layers whose reflections cannot be seen by end_time"},
+     "keep absorbing layers whose reflections cannot be seen by end_time"},
     {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the P impedance"},
     {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the S impedance"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the prescribed motion"},
@@ -208,15 +215,15 @@ static const struct word profile_words[] = {
     {"to", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "last point [length]"},
     {"points", WORD_INTEGER, 1, "101", "[2, 1000000]", OPTIONAL, "number of points"},
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time]; else at the end"},
-    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "what"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
 };
 
 static const struct word snapshot_words[] = {
     {"every", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "time between snapshots [time]"},
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
-    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "what"},
+    {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
     {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
-     "lowest, then highest corner of the part that is kept [length]; else the whole body"},
+     "lowest, then highest corner of the part that is written [length]; else the whole body"},
 };
 
 static const struct word output_words[] = {
@@ -243,7 +250,7 @@ static const struct word reference_words[] = {
     }
 static const struct word_group groups[] = {
     GROUP(scene, GROUP_ALWAYS, "what is computed"),
-    GROUP(method, GROUP_ALWAYS, "how"),
+    GROUP(method, GROUP_ALWAYS, "how it is computed: method and its options"),
     GROUP(stepping, GROUP_ALWAYS, "time integration; one of time_step, courant and safety"),
     GROUP(material, GROUP_MANY,
           "one elastic material; one pair of lambda, mu / young, poisson / p_speed, s_speed / bulk, shear"),
@@ -252,7 +259,7 @@ static const struct word_group groups[] = {
     GROUP(layer, GROUP_MANY, "ground that varies with depth; below the last layer it goes on"),
     GROUP(initial, GROUP_ONCE, "state at t = 0"),
     GROUP(load, GROUP_MANY, "traction or other source"),
-    GROUP(receiver, GROUP_MANY, "a time history"),
+    GROUP(receiver, GROUP_MANY, "a place where histories are taken"),
     GROUP(profile, GROUP_MANY, "values along a line"),
     GROUP(snapshot, GROUP_MANY, "fields to HDF5 and XDMF"),
     GROUP(output, GROUP_ALWAYS, "where results go and what else is written"),

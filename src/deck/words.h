@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 enum word_type {
     WORD_REAL,
@@ -58,6 +59,10 @@ struct word_table {
 
 const struct word_table *deck_words(void);
 
+/* As text of at most 80 columns: the groups of a table; the words of a group, those for experts apart. */
+void words_write_groups(const struct word_table *table, FILE *file);
+void words_write(const struct word_group *group, FILE *file);
+
 /* Index of a name (case-free, `length` bytes), or the number of groups or words if there is none. */
 size_t words_find_group(const struct word_table *table, const char *name, size_t length);
 size_t words_find(const struct word_group *group, const char *name, size_t length);
@@ -75,10 +80,13 @@ bool word_in_range(const struct word *word, double value);
 /* Number of single-character changes, insertions, deletions and swaps of neighbours from one word to another
  * (optimal string alignment), case-free. Words of more than 63 characters count as infinitely far. */
 size_t words_distance(const char *one, const char *other);
-/* What a word may have been meant to be: the nearest name (of a group in the table, of a word in the group,
- * of a choice, copied to text[size]), or "" if none is near. */
-const char *words_nearest_group(const struct word_table *table, const char *word);
-const char *words_nearest(const struct word_group *group, const char *word);
-const char *word_nearest_choice(const struct word *word, const char *text, char *choice, size_t size);
+/* "; did you mean 'NAME'?" with the nearest name (of a group in the table, behind the mark; of a word in the
+ * group, words for experts only where no other one is as near; of a choice), or "" if none is near. Returns
+ * text. */
+enum { SUGGESTION_SIZE = 96 };
+const char *suggest_group(const struct word_table *table, const char *word, const char *mark,
+                          char text[SUGGESTION_SIZE]);
+const char *suggest_word(const struct word_group *group, const char *word, char text[SUGGESTION_SIZE]);
+const char *suggest_choice(const struct word *word, const char *choice, char text[SUGGESTION_SIZE]);
 
 #endif

@@ -45,6 +45,27 @@ static selas_status read_one(struct recorded *recorded, size_t i, struct message
     return status;
 }
 
+/* What is recorded at receiver i covers the times wanted. */
+static selas_status covers(const struct recorded *recorded, size_t i, double from, double to,
+                           struct messages *messages)
+{
+    const struct history_file *here = &recorded->receiver[i];
+    const double begin = here->time[0], end = here->time[here->rows - 1], room = 1e-9 * fabs(to);
+    if (from >= begin - room && to <= end + room) return SELAS_OK;
+    return fail(messages, SELAS_BAD_SCENE,
+                "reference 'file' of receiver '%s' goes from t = %.6g to %.6g, the run from %.6g to %.6g",
+                recorded->exact.scene->receiver[i].name, begin, end, from, to);
+}
+
+/* Time of the last row that a run makes, as far as it is known beforehand. */
+static double last_row(const struct scene *scene)
+{
+    const double step =
+        scene->output.history_step > 0 ? scene->output.history_step : scene->stepping.time_step;
+    if (step > 0) return floor(scene->end_time / step * (1 + 1e-12) + 1e-9) * step;
+    return scene->stepping.courant > 0 ? 0 : scene->end_time;
+}
+
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
 {
     if (scene->reference.file == NULL || (scene->receivers != 1 && !is_folder(scene->reference.file)))
@@ -61,6 +82,8 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     if (recorded->receiver == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for histories");
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
         status = read_one(recorded, i, messages);
+    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
+        status = covers(recorded, i, 0, last_row(scene), messages);
     if (status == SELAS_FILE_ERROR) status = SELAS_BAD_SCENE; /* the results can be written all the same */
     if (status == SELAS_OK)
         *exact = &recorded->exact;
@@ -85,14 +108,11 @@ static selas_status history(struct exact *exact, const double position[3], size_
     if (i == scene->receivers || n == 0)
         return fail(messages, SELAS_BAD_SCENE, "reference 'file' has histories at receivers only");
     const struct history_file *here = &recorded->receiver[i];
-    const double begin = here->time[0], end = here->time[here->rows - 1], room = 1e-9 * fabs(time[n - 1]);
-    if (time[0] < begin - room || time[n - 1] > end + room)
-        return fail(messages, SELAS_BAD_SCENE,
-                    "reference 'file' of receiver '%s' goes from t = %.6g to %.6g, the run from %.6g to %.6g",
-                    scene->receiver[i].name, begin, end, time[0], time[n - 1]);
-    for (size_t k = 0; k < n; k++)
+    const double begin = here->time[0], end = here->time[here->rows - 1];
+    const selas_status status = covers(recorded, i, time[0], time[n - 1], messages);
+    for (size_t k = 0; k < n && status == SELAS_OK; k++)
         history_at(here, fmin(fmax(time[k], begin), end), &row, value + 6 * k);
-    return SELAS_OK;
+    return status;
 }
 
 static void describe(const struct exact *exact,

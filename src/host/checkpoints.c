@@ -2,7 +2,7 @@
  * deck in run.h5. */
 #include "host/simulation.h"
 
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,6 +19,7 @@ static selas_status check_path(selas_simulation *simulation, const char *path)
 
 selas_status selas_save(selas_simulation *simulation, const char *path)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status != SELAS_OK) return status;
@@ -67,6 +68,7 @@ static selas_status prepare_restore(selas_simulation *simulation)
 
 selas_status selas_restore(selas_simulation *simulation, const char *path)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_prepare(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status == SELAS_OK) status = prepare_restore(simulation);
@@ -75,16 +77,11 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
                                          &simulation->messages);
     struct stepper *stepper = simulation->stepper;
     if (simulation->failed != SELAS_OK) return simulation->failed;
-    if (stepper->host != NULL) drive_changed(stepper, 0);
+    driver_changed(&stepper->driver, 0);
     simulation->dirty = false;
-    /* the Runge-Kutta family keeps the rate at the start of a step; leapfrog's acceleration is in the file */
     const unsigned long evaluations = model_computed(simulation->model)->evaluations;
-    if (!stepper->scheme->needs_acceleration) stepper->scheme->start(stepper, &simulation->state);
+    if (stepper->scheme->resume != NULL) stepper->scheme->resume(stepper, &simulation->state);
     model_computed(simulation->model)->evaluations = evaluations;
-    if (stepper->one_pass) { /* what settles the state */
-        struct drive drive;
-        drive_at_step(stepper, simulation->state.step, false, &drive);
-    }
     return SELAS_OK;
 }
 

@@ -1,5 +1,5 @@
 /* What a host calls to drive loads and faces: by a function, or at a value that it holds; and the mean motion
- * under a load. How they are driven: drive.c. */
+ * under a load. How they are driven: driven_loads.c. */
 #include "host/simulation.h"
 
 #include "base/memory.h"
@@ -15,9 +15,8 @@ static selas_status find_load(selas_simulation *simulation, const char *name, si
     const struct scene *scene = simulation->scene;
     const size_t own = deck_count(simulation->deck, "load");
     for (size_t i = 0; name != NULL && i < own; i++) {
-        char number[32];
-        snprintf(number, sizeof number, "%zu", i + 1);
-        if (strcmp(scene->load[i].name[0] != '\0' ? scene->load[i].name : number, name) != 0) continue;
+        char number[LOAD_NUMBER_SIZE];
+        if (strcmp(load_name(scene, i, number), name) != 0) continue;
         *index = i;
         return SELAS_OK;
     }
@@ -74,18 +73,21 @@ static selas_status set_function(selas_simulation *simulation, const char *load,
 selas_status selas_set_traction(selas_simulation *simulation, const char *load,
                                 selas_vector_function traction, void *context)
 {
+    AT_THE_DOOR(simulation);
     return set_function(simulation, load, LOAD_TRACTION, traction, context);
 }
 
 selas_status selas_set_body_force(selas_simulation *simulation, const char *load, selas_vector_function force,
                                   void *context)
 {
+    AT_THE_DOOR(simulation);
     return set_function(simulation, load, LOAD_BODY_FORCE, force, context);
 }
 
 selas_status selas_set_motion(selas_simulation *simulation, const char *face,
                               selas_vector_function displacement, void *context)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (displacement == NULL) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the function is NULL");
@@ -107,7 +109,8 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
 
 selas_status selas_set_load(selas_simulation *simulation, const char *load, double value)
 {
-    struct driven_load wanted = {.held = true, .value = value};
+    AT_THE_DOOR(simulation);
+    struct driven_load wanted = {.value = value};
     selas_status status = simulation_scene(simulation);
     if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
     if (status != SELAS_OK) return status;
@@ -115,7 +118,7 @@ selas_status selas_set_load(selas_simulation *simulation, const char *load, doub
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the value of load '%s' is not a finite number", load);
     struct driven_load *driven = driven_of(&simulation->host, wanted.load);
-    if (driven != NULL && !driven->held)
+    if (driven != NULL && driven->function != NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "load '%s' is given by a function of the host",
                     load);
     if (driven == NULL) return drive_new_load(simulation, &wanted);
@@ -138,6 +141,7 @@ static void translate(const struct model *model, const double direction[3], doub
 
 selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     size_t index = 0;
     if (status == SELAS_OK) status = find_load(simulation, load, &index);

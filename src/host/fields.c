@@ -5,6 +5,7 @@
 
 selas_status selas_points(selas_simulation *simulation, size_t *count, const double **position)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (count == NULL || position == NULL)
@@ -27,6 +28,7 @@ selas_status selas_points(selas_simulation *simulation, size_t *count, const dou
 selas_status selas_field_values(selas_simulation *simulation, selas_field field, size_t *count,
                                 size_t *components, const double **value)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     const size_t width = (size_t)field_components(field);
@@ -55,6 +57,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
 
 selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (kinetic == NULL || strain == NULL)

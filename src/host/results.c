@@ -20,6 +20,7 @@ static selas_status find_receiver(selas_simulation *simulation, const char *name
 
 selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field, double *value)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ENERGY)
@@ -33,6 +34,7 @@ selas_status selas_receiver(selas_simulation *simulation, const char *name, sela
 selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows, const double **time,
                            const double **value)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (!simulation->finished || rows == NULL || time == NULL || value == NULL)
@@ -50,6 +52,7 @@ selas_status selas_history(selas_simulation *simulation, const char *name, size_
 
 selas_status selas_record(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->state.y != NULL && !simulation->recording)
@@ -69,6 +72,7 @@ static selas_status make_exact(selas_simulation *simulation)
 
 selas_status selas_write(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (!simulation->recording)
@@ -85,6 +89,7 @@ selas_status selas_write(selas_simulation *simulation)
 
 selas_status selas_write_exact(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->scene->reference.kind[0] == '\0')
@@ -98,10 +103,13 @@ selas_status selas_write_exact(selas_simulation *simulation)
 selas_status selas_plan(selas_simulation *simulation,
                         void (*tell)(void *context, const char *key, const char *value), void *context)
 {
+    AT_THE_DOOR(simulation);
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     if (tell == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
-    const selas_status status = simulation_prepare(simulation);
-    if (status == SELAS_OK) recorder_plan(simulation->recorder, tell, context);
-    return status;
+    selas_status status = simulation_prepare(simulation);
+    if (status != SELAS_OK) return status;
+    recorder_plan(simulation->recorder, simulation->state.y == NULL ? simulation->stepper : NULL, tell,
+                  context);
+    return make_exact(simulation); /* what the run would refuse when it is over */
 }

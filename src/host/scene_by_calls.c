@@ -5,7 +5,6 @@
 #include "base/memory.h"
 
 #include <ctype.h>
-#include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -84,10 +83,9 @@ static selas_status end_word(selas_simulation *simulation, struct text *text)
 selas_status selas_set_real(selas_simulation *simulation, const char *word, size_t count,
                             const double *values)
 {
+    AT_THE_DOOR(simulation);
     struct text text = {0};
     selas_status status = begin_word(simulation, word, count, values, &text);
-    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    const locale_t host = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
     for (size_t i = 0; status == SELAS_OK && i < count; i++) {
         if (i > 0) put(&text, ",", 1);
         put_number(&text, values[i]);
@@ -96,16 +94,13 @@ selas_status selas_set_real(selas_simulation *simulation, const char *word, size
                           "value %zu of '%.60s' is not a finite number", i + 1, word);
     }
     if (status == SELAS_OK) status = end_word(simulation, &text);
-    if (plain != (locale_t)0) {
-        uselocale(host);
-        freelocale(plain);
-    }
     free(text.start);
     return status;
 }
 
 selas_status selas_set_integer(selas_simulation *simulation, const char *word, long value)
 {
+    AT_THE_DOOR(simulation);
     struct text text = {0};
     char piece[40];
     selas_status status = begin_word(simulation, word, 1, &value, &text);
@@ -118,6 +113,7 @@ selas_status selas_set_integer(selas_simulation *simulation, const char *word, l
 
 selas_status selas_set_logical(selas_simulation *simulation, const char *word, bool value)
 {
+    AT_THE_DOOR(simulation);
     struct text text = {0};
     selas_status status = begin_word(simulation, word, 1, &value, &text);
     put(&text, value ? ".true." : ".false.", value ? 6 : 7);
@@ -129,6 +125,7 @@ selas_status selas_set_logical(selas_simulation *simulation, const char *word, b
 selas_status selas_set_text(selas_simulation *simulation, const char *word, size_t count,
                             const char *const *values)
 {
+    AT_THE_DOOR(simulation);
     struct text text = {0};
     selas_status status = begin_word(simulation, word, count, values, &text);
     for (size_t i = 0; status == SELAS_OK && i < count; i++) {
@@ -147,6 +144,7 @@ selas_status selas_set_text(selas_simulation *simulation, const char *word, size
 
 selas_status selas_add(selas_simulation *simulation, const char *group, size_t *number)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_change(simulation);
     if (status != SELAS_OK) return status;
     if (group == NULL || number == NULL)
@@ -186,6 +184,7 @@ static selas_status check_points(selas_simulation *simulation, size_t count, con
 selas_status selas_set_points(selas_simulation *simulation, size_t count, const double *position,
                               const double *volume, const size_t *material)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_change(simulation);
     if (status == SELAS_OK) status = check_points(simulation, count, position, volume);
     if (status != SELAS_OK) return status;

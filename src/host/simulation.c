@@ -31,6 +31,14 @@ static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
     *cpu += now.cpu - since.cpu;
 }
 
+struct c_locale door_enter(selas_simulation *simulation)
+{
+    const struct c_locale locale = c_locale_begin();
+    const bool outermost = locale.host != locale.own; /* the functions of the library call each other */
+    if (simulation != NULL && outermost) simulation->host_locale = locale.host;
+    return locale;
+}
+
 /* --- Opening and closing --- */
 
 selas_status simulation_new(selas_simulation **simulation)
@@ -38,23 +46,6 @@ selas_status simulation_new(selas_simulation **simulation)
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     *simulation = calloc(1, sizeof **simulation);
     return *simulation != NULL ? SELAS_OK : SELAS_NO_MEMORY;
-}
-
-/* Only the total-Lagrangian method carries materials point by point. */
-static selas_status check_points(selas_simulation *simulation)
-{
-    const struct scene *scene = simulation->scene;
-    if (scene->body.given == NULL || scene->body.given->material == NULL) return SELAS_OK;
-    for (size_t i = 0; i < scene->body.given->count; i++)
-        if (scene->body.given->material[i] >= scene->materials)
-            return fail(&simulation->messages, SELAS_BAD_SCENE, "point %zu has a material that is not there",
-                        i + 1);
-    if (strcmp(scene->method.variant, "total-lagrangian") == 0) return SELAS_OK;
-    return fail(
-        &simulation->messages, SELAS_UNSUPPORTED,
-        "method '%s', variant '%s', has no materials point by point, only &layer where it takes layers; "
-        "expected 'sph', 'total-lagrangian'",
-        scene->method.name, scene->method.variant);
 }
 
 /* A run that goes on writes where it began. */
@@ -75,7 +66,6 @@ static selas_status build_scene(selas_simulation *simulation)
 {
     selas_status status = accuracy_build(simulation->deck, &simulation->scene, &simulation->messages);
     if (status == SELAS_OK) status = place_results(simulation);
-    if (status == SELAS_OK) status = check_points(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);
     if (status != SELAS_OK) scene_free(&simulation->scene);
     return status;
@@ -84,6 +74,7 @@ static selas_status build_scene(selas_simulation *simulation)
 selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
                                   selas_simulation **opened)
 {
+    AT_THE_DOOR(NULL);
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
@@ -101,6 +92,7 @@ selas_status selas_open_deck(const char *path, selas_simulation **simulation)
 
 selas_status selas_open_text(const char *name, const char *text, selas_simulation **opened)
 {
+    AT_THE_DOOR(NULL);
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
@@ -113,6 +105,7 @@ selas_status selas_open_text(const char *name, const char *text, selas_simulatio
 
 selas_status selas_open_new(const char *name, selas_simulation **opened)
 {
+    AT_THE_DOOR(NULL);
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
@@ -193,6 +186,7 @@ selas_status simulation_scene(selas_simulation *simulation)
 
 selas_status selas_build(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_scene(simulation);
 }
 
@@ -201,17 +195,17 @@ selas_status simulation_prepare(selas_simulation *simulation)
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK || simulation->prepared) return status;
     struct messages *messages = &simulation->messages;
-    const struct stopwatch watch = start_watch();
+    const struct stopwatch begun = start_watch();
     if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
-    if (status == SELAS_OK && simulation->recorder == NULL) status = host_prepare_stepper(simulation);
+    if (status == SELAS_OK) host_prepare_stepper(simulation);
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
     simulation->prepared = status == SELAS_OK;
     simulation->figures.threads = omp_get_max_threads();
-    add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
+    add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
 
@@ -220,7 +214,7 @@ static selas_status start(selas_simulation *simulation)
 {
     selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
-    const struct stopwatch watch = start_watch();
+    const struct stopwatch begun = start_watch();
     model_computed(simulation->model)->evaluations = 0;
     status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
     if (status == SELAS_OK && simulation->recording)
@@ -229,7 +223,7 @@ static selas_status start(selas_simulation *simulation)
         status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
     if (status == SELAS_OK) status = host_answer(simulation);
     if (status != SELAS_STOPPED) simulation->failed = status;
-    add_elapsed(watch, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
+    add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
 
@@ -248,7 +242,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
         return fail(messages, simulation->failed, "the simulation has failed before; no step can follow");
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
-    const struct stopwatch watch = start_watch();
+    const struct stopwatch begun = start_watch();
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
         simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
         status = host_answer(simulation);
@@ -258,17 +252,19 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
         if (status == SELAS_OK && stopped) status = SELAS_STOPPED;
     }
     if (status != SELAS_STOPPED) simulation->failed = status;
-    add_elapsed(watch, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
+    add_elapsed(begun, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
     return status;
 }
 
 selas_status selas_step(selas_simulation *simulation, unsigned long steps)
 {
+    AT_THE_DOOR(simulation);
     return run_steps(simulation, steps);
 }
 
 selas_status selas_advance(selas_simulation *simulation, double time)
 {
+    AT_THE_DOOR(simulation);
     const selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK) return status;
     if (!isfinite(time))
@@ -286,11 +282,13 @@ double selas_time(const selas_simulation *simulation)
 
 double selas_end_time(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_scene(simulation) == SELAS_OK ? simulation->scene->end_time : (double)NAN;
 }
 
 double selas_time_step(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_prepare(simulation) == SELAS_OK ? simulation->stepper->dt : 0.0;
 }
 
@@ -301,12 +299,14 @@ unsigned long selas_steps(const selas_simulation *simulation)
 
 unsigned long selas_steps_needed(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     if (simulation_prepare(simulation) != SELAS_OK) return 0;
     return simulation->stepper->steps + simulation->stepper->extra;
 }
 
 selas_status selas_finish(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK || simulation->finished) return status;
     const unsigned long needed = simulation->stepper->steps + simulation->stepper->extra;
@@ -324,5 +324,6 @@ const char *selas_message(const selas_simulation *simulation)
 
 const char *selas_output_directory(selas_simulation *simulation)
 {
+    AT_THE_DOOR(simulation);
     return simulation_scene(simulation) == SELAS_OK ? simulation->scene->output.directory : "";
 }

@@ -2,6 +2,7 @@
 #ifndef SELAS_SIMULATION_H
 #define SELAS_SIMULATION_H
 
+#include "base/c_locale.h"
 #include "deck/deck.h"
 #include "exact/exact.h"
 #include "record/record.h"
@@ -9,14 +10,14 @@
 #include "selas.h"
 #include "stepping/stepping.h"
 
-/* A load whose traction, force or body force a function of the host gives, piece by piece. */
+/* A load whose traction, force or body force the host gives. */
 struct driven_load {
-    size_t load; /* in the scene; the pieces are loads of their own behind the deck's */
-    selas_vector_function function;
+    size_t load;                    /* in the scene */
+    selas_vector_function function; /* NULL: the host holds the load at `value` along its direction */
     void *context;
-    bool held;    /* no function: the host holds it at `value` */
-    double value; /* along the load's direction */
-    size_t first, pieces;
+    double value;
+    size_t first,
+        pieces; /* with a function: its pieces, loads of their own along each axis, behind the deck's */
 };
 
 /* A face whose motion a function of the host gives. */
@@ -29,9 +30,6 @@ struct host {
     size_t loads, room;
     struct driven_load *load;
     struct driven_face face[FACES];
-    size_t pieces;
-    double *centre; /* [3 * pieces] deck coordinates */
-    bool *held;     /* [scene->loads] */
     struct host_drive drive;
     int answer;              /* what the callbacks returned since this was last looked at: the worst */
     char refused[NAME_SIZE]; /* the load or face whose callback it was */
@@ -58,11 +56,18 @@ struct selas_simulation {
     size_t *point_material;
     double *values; /* fields handed out: [values_room] */
     size_t values_room;
-    double *scratch; /* [state_size] */
-    double *lattice; /* [3 * points]: positions, once a host asks and the model does not store them */
-    char *results;   /* folder of the results in place of the deck's; NULL */
-    char *work;      /* folder of the checkpoint from which the run goes on; NULL */
+    double *scratch;      /* [state_size] */
+    double *lattice;      /* [3 * points]: positions, once a host asks and the model does not store them */
+    char *results;        /* folder of the results in place of the deck's; NULL */
+    char *work;           /* folder of the checkpoint from which the run goes on; NULL */
+    locale_t host_locale; /* of the host's thread: its functions are called in it */
 };
+
+/* First in every function of the library that may read or write a number, in a file or a message: until it
+ * returns the thread's locale is "C". `simulation` may be NULL. */
+#define AT_THE_DOOR(simulation)                                                                              \
+    __attribute__((cleanup(c_locale_end))) const struct c_locale at_the_door = door_enter(simulation)
+struct c_locale door_enter(selas_simulation *simulation);
 
 /* An empty handle. */
 selas_status simulation_new(selas_simulation **simulation);
@@ -93,14 +98,15 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 /* host/driven_loads.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */
 selas_status host_prepare_scene(selas_simulation *simulation);
-/* Puts the host in the histories' place: after the stepper is made. */
-selas_status host_prepare_stepper(selas_simulation *simulation);
+/* Puts the host behind the driver: after the stepper is made. */
+void host_prepare_stepper(selas_simulation *simulation);
 /* What the callbacks said since the last call: SELAS_OK, SELAS_STOPPED or SELAS_CALLBACK_FAILED. */
 selas_status host_answer(selas_simulation *simulation);
-/* True if the host drives anything. */
-bool host_drives(const selas_simulation *simulation);
 /* Makes the state's acceleration that of the loads as they are now. */
 selas_status host_refresh(selas_simulation *simulation);
+/* Name of a load, or its number from 1 if it has none. */
+enum { LOAD_NUMBER_SIZE = 32 };
+const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE]);
 /* SELAS_OK if a function can give this load, or the reason why not. */
 selas_status host_can_drive(const struct scene *scene, const struct load *load, struct messages *messages);
 void host_free(selas_simulation *simulation);

@@ -49,23 +49,8 @@ int field_components(selas_field field)
 
 const char *field_name(selas_field field)
 {
-    switch (field) {
-    case SELAS_DISPLACEMENT:
-        return "displacement";
-    case SELAS_VELOCITY:
-        return "velocity";
-    case SELAS_ACCELERATION:
-        return "acceleration";
-    case SELAS_STRESS:
-        return "stress";
-    case SELAS_STRAIN:
-        return "strain";
-    case SELAS_PRESSURE:
-        return "pressure";
-    case SELAS_ENERGY:
-        return "energy";
-    }
-    return "";
+    static const char *const names[] = {FIELDS(CHOICE_NAME)};
+    return names[field];
 }
 
 /* Row and column of the components xx yy zz xy yz zx. */

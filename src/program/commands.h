@@ -6,7 +6,10 @@
 
 enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
-/* selas diff A B [--atol=X] [--rtol=X] [--plots=FOLDER]; words[0] is "diff"; returns the exit status. */
+/* selas words [GROUP]; words[0] is "words"; returns the exit status, as the next one. */
+int words_command(int count, char **words);
+
+/* selas diff A B [--atol=X] [--rtol=X] [--plots=FOLDER]; words[0] is "diff". */
 int diff_command(int count, char **words);
 
 /* A deck as the command line names it. */

@@ -86,17 +86,29 @@ static double expected_at_worst(const struct scene *scene)
     return worst;
 }
 
+/* Sum of squares of a receiver's velocities, or of the differences of two runs (other not NULL). */
+static double squares(const double *values, const double *other, size_t rows, size_t receivers, size_t r)
+{
+    double sum = 0;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const size_t at = (i * receivers + r) * 3 + c;
+            sum += pow(values[at] - (other != NULL ? other[at] : 0), 2);
+        }
+    return sum;
+}
+
+/* Relative to the velocity there, or to a hundredth of the largest where hardly anything has arrived. */
 static void tell(const struct scene *scene, const double *small, const double *large, size_t rows)
 {
+    static const double hardly = 0.01;
     const size_t receivers = scene->receivers;
+    double largest = 0;
+    for (size_t r = 0; r < receivers; r++)
+        largest = fmax(largest, squares(large, NULL, rows, receivers, r));
     for (size_t r = 0; r < receivers; r++) {
-        double off = 0, whole = 0;
-        for (size_t i = 0; i < rows; i++)
-            for (size_t c = 0; c < 3; c++) {
-                const size_t at = (i * receivers + r) * 3 + c;
-                off += pow(small[at] - large[at], 2);
-                whole += pow(large[at], 2);
-            }
+        const double whole = fmax(squares(large, NULL, rows, receivers, r), hardly * hardly * largest);
+        const double off = squares(small, large, rows, receivers, r);
         printf("echo %s: %.2e (of the velocity, L2, spacing %g)\n", scene->receiver[r].name,
                whole > 0 ? sqrt(off / whole) : 0, scene->body.spacing);
     }

@@ -21,7 +21,8 @@ static const char usage[] = "DECK [GROUP%NAME=VALUE ...]\n"
                             "exact DECK [GROUP%NAME=VALUE ...]\n"
                             "restart CHECKPOINT\n"
                             "rerun RUN.H5 [GROUP%NAME=VALUE ...]\n"
-                            "diff A B";
+                            "diff A B\n"
+                            "words [GROUP]";
 
 static const char documentation[] =
     "Computes elastic waves in solids on points instead of a mesh.\n"
@@ -31,9 +32,12 @@ static const char documentation[] =
     "  selas check DECK  prints the plan: points, memory, time step, resolution\n"
     "  selas exact DECK  writes just the exact histories (&reference)\n"
     "  selas restart C   goes on with an unfinished run from its checkpoint C\n"
-    "  selas rerun R     runs the deck kept in R (run.h5) again, in\n"
+    "  selas rerun R     runs the deck stored in R (run.h5) again, in\n"
     "                    output/DECKNAME-rerun/\n"
     "  selas diff A B    compares two histories or two run folders\n"
+    "  selas words       lists the groups of a deck; selas words GROUP the words of\n"
+    "                    one: types, values, defaults, meaning; those for experts\n"
+    "                    (numerics of a method, switches of a paper) come last\n"
     "\v"
     "Overrides change any name of the deck: body%spacing=0.25, load(2)%amplitude=3,\n"
     "method%variant=paper. The deck is explained in doc/deck.md.\n"
@@ -166,6 +170,7 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
 int main(int count, char **words)
 {
     if (count > 1 && strcmp(words[1], "diff") == 0) return diff_command(count - 1, words + 1);
+    if (count > 1 && strcmp(words[1], "words") == 0) return words_command(count - 1, words + 1);
     const struct argp parser = {options, parse_option, usage, documentation, NULL, NULL, NULL};
     struct arguments arguments = {.command = ""};
     arguments.override = calloc((size_t)count + 1, sizeof *arguments.override);

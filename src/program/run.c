@@ -184,7 +184,7 @@ static selas_status run_with_progress(struct run *run, const char *from)
     if (status != SELAS_OK) return status;
     const unsigned long needed = selas_steps_needed(simulation);
     tell_messages(simulation, run->told);
-    signals_watch();
+    signals_catch();
     progress_start(&progress, selas_end_time(simulation), isatty(STDERR_FILENO) != 0, print_text, stderr);
     status = step_on(run, &progress, needed);
     const bool stopped = status == SELAS_OK && selas_steps(simulation) < needed;
@@ -207,23 +207,6 @@ static selas_status run_with_progress(struct run *run, const char *from)
     return status;
 }
 
-/* The report's last part, speed against error, for the eye. */
-static void print_summary(selas_simulation *simulation)
-{
-    char path[4096];
-    char line[1024];
-    snprintf(path, sizeof path, "%s/report.txt", selas_output_directory(simulation));
-    FILE *report = fopen(path, "r");
-    if (report == NULL) return;
-    while (fgets(line, sizeof line, report) != NULL)
-        if (strncmp(line, "point-steps", 11) == 0 || strncmp(line, "CPU seconds", 11) == 0 ||
-            (strncmp(line, "error", 5) == 0 &&
-             (strstr(line, "velocity") != NULL || strstr(line, " vz:") != NULL)))
-            fputs(line, stdout);
-    fclose(report);
-    printf("results in %s/\n", selas_output_directory(simulation));
-}
-
 selas_status run_program(selas_simulation *simulation, const char *from, bool quiet, size_t *told)
 {
     struct run run = {.simulation = simulation, .quiet = quiet, .told = told};
@@ -233,7 +216,10 @@ selas_status run_program(selas_simulation *simulation, const char *from, bool qu
         if (status == SELAS_FILE_ERROR || status == SELAS_NO_MEMORY)
             keep_state(&run, "the results could not be written");
     }
-    if (status == SELAS_OK && !quiet) print_summary(simulation);
+    if (status == SELAS_OK && !quiet) {
+        recorder_summary(simulation->recorder, &simulation->figures, stdout);
+        printf("results in %s/\n", selas_output_directory(simulation));
+    }
     free(run.path);
     return status;
 }

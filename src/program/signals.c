@@ -21,7 +21,7 @@ static void on(int number, void (*handler)(int), int flags)
     sigaction(number, &action, NULL);
 }
 
-void signals_watch(void)
+void signals_catch(void)
 {
     on(SIGINT, note, SA_RESTART | (int)SA_RESETHAND);
     on(SIGTERM, note, SA_RESTART | (int)SA_RESETHAND);

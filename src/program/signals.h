@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 /* From now on signals are remembered; a second SIGINT or SIGTERM ends the program at once. */
-void signals_watch(void);
+void signals_catch(void);
 /* From now on a file that becomes too long is an error, not a signal that ends the program. */
 void signals_no_size_limit(void);
 /* Name of the signal that asked to stop, NULL if none did. */

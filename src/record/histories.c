@@ -1,11 +1,12 @@
 /* NAME.dat and NAME.exact.dat: columns t ux uy uz vx vy vz with a header. Numbers have 17 digits: what is
  * read back is what was written. */
-#include "record/parts.h"
+#include "record/results.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { ROWS_WITHOUT_STEP = 600 };
 
@@ -85,6 +86,11 @@ selas_status record_exact(const struct scene *scene, struct exact *exact, struct
     size_t rows = 0;
     selas_status status = row_count(scene->end_time, step, &rows, messages);
     if (status == SELAS_OK) status = make_folder(scene->output.directory, messages);
+    if (status != SELAS_OK) return status;
+    char *names = results_names(scene, NULL, true);
+    status = results_claim(scene, names, messages);
+    if (status == SELAS_OK) status = results_list(scene, names, messages);
+    free(names);
     if (status != SELAS_OK) return status;
     double *time = array_new(rows, sizeof *time);
     double *value = array_new(6 * rows, sizeof *value);

@@ -4,6 +4,7 @@
 
 #include "record/record.h"
 
+#include <stddef.h>
 #include <stdio.h>
 
 /* One receiver: what every step showed, and the finished rows. */
@@ -48,21 +49,24 @@ struct snapshot_entry {
 
 struct run_file;
 
-/* Energy over time. */
+/* The watch over the energy of a run. */
 struct watch {
-    bool by_work;                      /* the model tells the power of loads and dampers */
+    /* numbers that go on with a run: a checkpoint holds them all, in this order */
     double work, gross, absorbed;      /* trapezoid sums; gross: of positive power only */
     double power, power_absorbed;      /* at the last step */
     double initial, largest;           /* energy: at the start, largest so far */
     double reference, reference_until; /* without work: largest energy up to this time */
-    bool with_faces;                   /* moved faces do work besides: ... */
-    double face_energy, face_rate;     /* ... of the order of that, times (1 + rate t)^2 */
-    double sampled;        /* sum of squares of a sample of the velocities when they were last energetic */
-    double largest_defect; /* largest |E - E0 - work + absorbed| */
     struct energy last;
+    double largest_defect; /* largest |E - E0 - work + absorbed| */
     double last_time;
-    unsigned long next;
+    double sampled; /* sum of squares of a sample of the velocities when they were last energetic */
+    double next;    /* step of the next look at the whole state */
+    /* what watch_start() makes anew */
+    double face_energy, face_rate; /* moved faces do work of the order of face_energy (1 + face_rate t)^2 */
+    bool with_faces;               /* there are such */
+    bool by_work;                  /* the model tells the power of loads and dampers */
 };
+enum { WATCH_NUMBERS = offsetof(struct watch, face_energy) / sizeof(double) };
 
 struct recorder {
     const struct scene *scene;
@@ -137,13 +141,6 @@ selas_status run_file_read(const struct recorder *recorder, size_t number, selas
                            size_t stride, size_t count, size_t block, double *value,
                            struct messages *messages);
 
-/* settings.c: every setting of the deck as text, one call each: group "load", occurrence from 1; false
- * without memory */
-bool settings_walk(const struct deck *deck,
-                   void (*tell)(void *context, const char *group, size_t occurrence, const char *name,
-                                const char *value),
-                   void *context, struct messages *messages);
-
 /* xdmf.c: run.xdmf */
 selas_status xdmf_write(const struct recorder *recorder, struct messages *messages);
 
@@ -164,6 +161,10 @@ void histories_note(FILE *out, const struct recorder *recorder);
 /* plan.c: the plan without timing anything */
 void plan_tell(const struct recorder *recorder,
                void (*tell)(void *context, const char *key, const char *value), void *context);
+
+/* estimate.c: wall-clock seconds of a step and its record, measured; negative without memory. To be called
+ * before the state of the run is made. */
+double estimate_step(const struct recorder *recorder, struct stepper *stepper);
 
 /* report.c: report.txt */
 selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,

@@ -2,8 +2,6 @@
 #include "advice/advice.h"
 #include "record/parts.h"
 
-#include "base/clock.h"
-#include "base/memory.h"
 #include "scene/absorbing_layers.h"
 #include "scene/resolution.h"
 
@@ -37,8 +35,7 @@ static void say_resolution(const struct teller *teller, const struct scene *scen
 
 static double operator_calls(const struct stepper *stepper)
 {
-    const double each = stepper->scheme->evaluations;
-    return stepper->stages > 0 && !(each > 1.0) ? fmax(each, 1.0) * (double)stepper->stages : each;
+    return stepper->scheme->evaluations * (stepper->stages > 0 ? (double)stepper->stages : 1.0);
 }
 
 static void say_step(const struct teller *teller, const struct stepper *stepper)
@@ -63,9 +60,7 @@ static double memory_of(const struct recorder *recorder)
 {
     const struct stepper *stepper = recorder->stepper;
     const struct model *model = recorder->model;
-    double vectors = 1.0;
-    for (size_t i = 0; stepper->work != NULL && i < stepper->scheme->vectors; i++)
-        if (stepper->work[i] != NULL) vectors += 1.0; /* the state, and what the scheme works in */
+    const double vectors = 1.0 + (double)stepper->vectors; /* the state, and what the scheme works in */
     const double rows = (double)(stepper->steps + stepper->extra + 2);
     double bytes = (double)model->bytes +
                    8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +
@@ -129,43 +124,14 @@ void plan_tell(const struct recorder *recorder,
     advice_tell(scene, recorder->stepper, tell, context);
 }
 
-/* Seconds of one operator call on a state at rest, the best of a few; negative if there is no room. */
-static double time_operator(struct recorder *recorder)
-{
-    struct model *model = recorder->stepper->model;
-    enum { TRIES = 3 };
-    double *y = array_new(model->state_size, sizeof *y);
-    double *result = array_new(model->state_size, sizeof *result);
-    double best = -1.0;
-    const unsigned long evaluations = model->evaluations;
-    if (y != NULL && result != NULL) {
-        if (model->core->initialise != NULL) model->core->initialise(model, y);
-        const struct drive drive = {0};
-        for (int i = 0; i < TRIES; i++) {
-            const double before = wall_seconds();
-            if (model->spatial->accelerate != NULL)
-                model->spatial->accelerate(model, &drive, 0.0, y, y + model->unknowns, result);
-            else
-                model->spatial->rate(model, &drive, y, result);
-            const double spent = wall_seconds() - before;
-            if (i == 0 || spent < best) best = spent;
-        }
-    }
-    model->evaluations = evaluations; /* these calls are not the run's */
-    array_free(y);
-    array_free(result);
-    return best;
-}
-
-void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
-                   void *context)
+void recorder_plan(struct recorder *recorder, struct stepper *stepper,
+                   void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     plan_tell(recorder, tell, context);
-    const struct stepper *stepper = recorder->stepper;
-    const double seconds = time_operator(recorder);
-    if (seconds < 0.0) return;
-    const double calls = operator_calls(stepper) * (double)(stepper->steps + stepper->extra);
+    if (stepper == NULL) return;
+    const double seconds = estimate_step(recorder, stepper),
+                 steps = (double)(stepper->steps + stepper->extra);
     const struct teller teller = {tell, context};
-    say(&teller, "estimated operator calls", "%.0f", calls);
-    say(&teller, "estimated stepping seconds", "%.3g", calls * seconds);
+    say(&teller, "estimated operator calls", "%.0f", operator_calls(stepper) * steps);
+    if (seconds >= 0.0) say(&teller, "estimated stepping seconds", "%.3g", seconds * steps);
 }

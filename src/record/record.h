@@ -6,6 +6,8 @@
 #include "exact/exact.h"
 #include "stepping/stepping.h"
 
+#include <stdio.h>
+
 struct recorder;
 
 /* History of one receiver, finished (corrected by the scheme, low-passed, on the rows of history_step). */
@@ -45,6 +47,8 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
  * report.txt, and with output%plots the PNGs. */
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages);
+/* After recorder_write: the last lines of the report, with the errors of the velocity alone. */
+void recorder_summary(const struct recorder *recorder, const struct run_figures *figures, FILE *out);
 /* Of a run that was stopped: RECEIVER.dat and, with output%plots, their pictures, and PROFILE.dat, as far as
  * it came, marked unfinished, into the folder of what is not finished; they go when the run is over. */
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages);
@@ -53,10 +57,11 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
                     double *value);
 /* The plan that `selas check` prints and report.txt begins with, one key and value after the other: points,
  * unknowns, lattice, method, scheme, time step and how it was chosen, steps, memory and bytes per point,
- * points per wavelength of the slowest wave at the loads' cutoff (history_cutoff), estimated time (a few
- * operator calls are timed), which parts are on, model's describe. */
-void recorder_plan(struct recorder *recorder, void (*tell)(void *context, const char *key, const char *value),
-                   void *context);
+ * points per wavelength of the slowest wave at the loads' cutoff (history_cutoff), which parts are on,
+ * model's describe, estimated time (some steps are timed; `stepper` is NULL once the run has begun: no time).
+ */
+void recorder_plan(struct recorder *recorder, struct stepper *stepper,
+                   void (*tell)(void *context, const char *key, const char *value), void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
 /* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it

@@ -1,5 +1,5 @@
 /* The recorder: what a run leaves, gathered step by step and written at the end. */
-#include "record/parts.h"
+#include "record/results.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
@@ -31,7 +31,11 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
 selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
 {
     if (recorder->file != NULL) return SELAS_OK;
-    const selas_status status = make_folder(recorder->scene->output.directory, messages);
+    selas_status status = make_folder(recorder->scene->output.directory, messages);
+    if (status != SELAS_OK) return status;
+    char *names = results_names(recorder->scene, recorder, false);
+    status = results_claim(recorder->scene, names, messages);
+    free(names);
     return status == SELAS_OK ? run_file_open(recorder, work, messages) : status;
 }
 
@@ -112,22 +116,33 @@ static selas_status write_deck(const struct recorder *recorder, struct messages 
     return safe_file_close(&file, status, messages);
 }
 
+/* All but the pictures. */
+static selas_status write_texts(struct recorder *recorder, struct exact *exact,
+                                const struct run_figures *figures, struct messages *messages)
+{
+    selas_status status = write_deck(recorder, messages);
+    if (status == SELAS_OK) status = histories_write(recorder, messages);
+    if (status == SELAS_OK) status = profile_write(recorder, messages);
+    if (status == SELAS_OK) status = run_file_finish(recorder, figures, messages);
+    if (status == SELAS_OK) status = xdmf_write(recorder, messages);
+    return status == SELAS_OK ? report_write(recorder, exact, figures, messages) : status;
+}
+
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages)
 {
     if (recorder->written) return SELAS_OK;
     selas_status status = recorder_open(recorder, NULL, messages);
     if (status == SELAS_OK) status = recorder_finish(recorder, messages);
-    if (status == SELAS_OK) status = write_deck(recorder, messages);
     if (status != SELAS_OK) return status;
     /* what was computed is written, whether there is something to compare it with or not */
     const selas_status compared = exact != NULL ? histories_compare(recorder, exact, messages) : SELAS_OK;
-    if (compared != SELAS_OK) exact = NULL;
-    status = histories_write(recorder, messages);
-    if (status == SELAS_OK) status = profile_write(recorder, messages);
-    if (status == SELAS_OK) status = run_file_finish(recorder, figures, messages);
-    if (status == SELAS_OK) status = xdmf_write(recorder, messages);
-    if (status == SELAS_OK) status = report_write(recorder, exact, figures, messages);
+    char *names = results_names(recorder->scene, recorder, true);
+    status = results_list(recorder->scene, names, messages);
+    if (status == SELAS_OK)
+        status = write_texts(recorder, compared == SELAS_OK ? exact : NULL, figures, messages);
+    if (status == SELAS_OK) status = results_tidy(recorder->scene, names, messages);
+    free(names);
     if (status != SELAS_OK) return status;
     if (recorder->scene->output.plots) {
         plot_histories(recorder, messages);

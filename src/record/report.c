@@ -6,6 +6,7 @@
 #include "base/safe_file.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -19,10 +20,19 @@ static double per(double amount, double whole)
     return whole == 0.0 ? 0.0 : amount / whole; /* what is not finite has to show */
 }
 
+/* Of this program since it began: what getrusage() tells is that of the process that started it, if that was
+ * larger. */
 static double peak_memory(void)
 {
+    char line[256];
+    double kibibytes = 0.0;
+    FILE *status = fopen("/proc/self/status", "r");
+    while (status != NULL && kibibytes == 0.0 && fgets(line, sizeof line, status) != NULL)
+        if (strncmp(line, "VmHWM:", 6) == 0) kibibytes = strtod(line + 6, NULL);
+    if (status != NULL) fclose(status);
     struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0.0;
+    if (kibibytes == 0.0 && getrusage(RUSAGE_SELF, &usage) == 0) kibibytes = (double)usage.ru_maxrss;
+    return 1024.0 * kibibytes;
 }
 
 static void write_energy(FILE *out, const struct recorder *recorder)
@@ -71,16 +81,17 @@ static void write_misfit(FILE *out, const char *receiver, const char *component,
             per(misfit->linf, largest->linf_of));
 }
 
-static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r)
+/* Of all components, or (`brief`) of vz; and of both vectors, or of the velocity. */
+static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r, bool brief)
 {
     static const char *const name[6] = {"ux", "uy", "uz", "vx", "vy", "vz"};
     const double *value = recorder->trace[r].value;
     const double *exact = recorder->exact + r * recorder->rows * 6;
     const char *receiver = recorder->scene->receiver[r].name;
-    for (size_t kind = 0; kind < 2; kind++) { /* displacement, velocity */
+    for (size_t kind = brief ? 1 : 0; kind < 2; kind++) { /* displacement, velocity */
         struct misfit misfit[3], largest;
         misfits_of(recorder->rows, recorder->time, value + 3 * kind, exact + 3 * kind, misfit, &largest);
-        for (size_t c = 0; c < (size_t)recorder->scene->dimension; c++)
+        for (size_t c = brief ? 2 : 0; c < (size_t)recorder->scene->dimension; c++)
             write_misfit(out, receiver, name[3 * kind + c], &misfit[c], &largest);
         const struct misfit vector =
             misfit_of(recorder->rows, recorder->time, value + 3 * kind, exact + 3 * kind, 6, 3);
@@ -134,7 +145,7 @@ static void write_floor(FILE *out, const struct recorder *recorder)
 }
 
 static void write_speed_against_error(FILE *out, const struct recorder *recorder,
-                                      const struct run_figures *figures)
+                                      const struct run_figures *figures, bool brief)
 {
     if (figures != NULL) {
         const double work = (double)recorder->model->points * (double)recorder->last_step;
@@ -142,12 +153,12 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
                 figures->cpu_seconds);
     }
     if (recorder->exact == NULL) return;
-    if (recorder->rows > 0)
+    if (recorder->rows > 0 && !brief)
         fprintf(out, "error window: 0 to %.9g, %zu rows\n", recorder->time[recorder->rows - 1],
                 recorder->rows);
     double worst = 0.0;
     for (size_t r = 0; r < recorder->scene->receivers; r++) {
-        write_errors_at(out, recorder, r);
+        write_errors_at(out, recorder, r, brief);
         const struct misfit vector = misfit_of(recorder->rows, recorder->time, recorder->trace[r].value + 3,
                                                recorder->exact + r * recorder->rows * 6 + 3, 6, 3);
         const double error = per(vector.l2, vector.l2_of);
@@ -155,6 +166,11 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
     }
     write_floor(out, recorder);
     fprintf(out, "error largest: %.4e (L2 of the velocity vector, worst receiver)\n", worst);
+}
+
+void recorder_summary(const struct recorder *recorder, const struct run_figures *figures, FILE *out)
+{
+    write_speed_against_error(out, recorder, figures, true);
 }
 
 selas_status report_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
@@ -178,6 +194,6 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     write_energy(out, recorder);
     write_precision(out, recorder);
     write_cost(out, recorder, figures);
-    write_speed_against_error(out, recorder, figures);
+    write_speed_against_error(out, recorder, figures, false);
     return safe_file_close(&file, SELAS_OK, messages);
 }

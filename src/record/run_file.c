@@ -12,20 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct quiet quiet_begin(void)
-{
-    struct quiet quiet = {0};
-    errno = 0;
-    H5Eget_auto2(H5E_DEFAULT, &quiet.function, &quiet.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return quiet;
-}
-
-void quiet_end(struct quiet quiet)
-{
-    H5Eset_auto2(H5E_DEFAULT, quiet.function, quiet.data);
-}
-
 /* HDF5 tells only that it failed; what the system said is still in errno, if it was the system. */
 selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages)
 {
@@ -67,14 +53,18 @@ hid_t hdf_open_file(const char *path)
     return file;
 }
 
+/* Attributes are kept in the object header, which holds at most 64 KiB. */
 bool hdf_text(hid_t place, const char *name, const char *text)
 {
-    const hid_t type = H5Tcopy(H5T_C_S1);
+    enum { LONG = 32000 };
+    const bool set = strlen(text) >= LONG;
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
     H5Tset_size(type, strlen(text) + 1);
-    const hid_t space = H5Screate(H5S_SCALAR);
-    const hid_t attribute = H5Acreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    const bool good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
-    if (attribute >= 0) H5Aclose(attribute);
+    const hid_t to = set ? H5Dcreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
+                         : H5Acreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = to >= 0 && (set ? H5Dwrite(to, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)
+                                      : H5Awrite(to, type, text)) >= 0;
+    if (to >= 0) (void)(set ? H5Dclose(to) : H5Aclose(to));
     H5Sclose(space);
     H5Tclose(type);
     return good;
@@ -140,7 +130,8 @@ static bool write_all(const struct recorder *recorder, const struct run_figures 
     const hid_t file = hdf_create_file(path, 0);
     if (file < 0) return false;
     const bool good = hdf_points(recorder, file) && snapshots_gather(recorder, file) &&
-                      write_histories(recorder, file) && write_provenance(recorder, file, figures, messages);
+                      write_histories(recorder, file) && write_settings(recorder->scene->deck, file) &&
+                      write_provenance(recorder, file, figures, messages);
     return H5Fclose(file) >= 0 && good;
 }
 

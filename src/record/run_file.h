@@ -3,6 +3,7 @@
 #ifndef SELAS_RUN_FILE_H
 #define SELAS_RUN_FILE_H
 
+#include "base/hdf_quiet.h"
 #include "record/parts.h"
 #include "record/unfinished.h"
 
@@ -14,19 +15,12 @@ struct run_file {
     size_t synced;                /* snapshots whose files are known to be on the disk */
 };
 
-/* HDF5 prints its errors unless it is told not to; the library prints nothing. errno is 0 from then on. */
-struct quiet {
-    H5E_auto2_t function;
-    void *data;
-};
-struct quiet quiet_begin(void);
-void quiet_end(struct quiet quiet);
-
 /* "cannot WHAT 'PATH': ..." with the system's reason, if `error` (errno after the failure) is one. */
 selas_status hdf_cannot(const char *what, const char *path, int error, struct messages *messages);
 /* New file with `head` bytes before HDF5's own (0, 512, 1024, ...); negative on failure. */
 hid_t hdf_create_file(const char *path, size_t head);
 hid_t hdf_open_file(const char *path); /* for reading */
+/* An attribute, or a data set where the text is too long for one. */
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);
 bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value);
@@ -40,7 +34,8 @@ bool snapshot_file_there(const struct recorder *recorder, size_t number, double 
 /* Brings the files of all snapshots so far on the disk. */
 void snapshot_files_sync(const struct recorder *recorder);
 
-/* provenance.c: groups /settings and /provenance */
+/* settings.c: group /settings; provenance.c: group /provenance */
+bool write_settings(const struct deck *deck, hid_t file);
 bool write_provenance(const struct recorder *recorder, hid_t file, const struct run_figures *figures,
                       struct messages *messages);
 

@@ -1,127 +1,89 @@
-/* Every setting of the deck, one call each: taken from the echo, which has all names with their values. */
-#include "record/parts.h"
+/* /settings in run.h5: every name of the deck that has a value, by the table of words. */
+#include "record/run_file.h"
 
-#include <ctype.h>
+#include "base/memory.h"
+#include "deck/words.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_GROUPS = 64 };
-
-/* Counts the occurrences of groups by name. */
-struct tally {
-    size_t groups;
-    char name[MOST_GROUPS][NAME_SIZE];
-    size_t count[MOST_GROUPS];
-};
-
-static size_t occurrence_of(struct tally *tally, const char *name)
+/* One text as it is, several as 'one', 'other'; new memory (free it). */
+static char *texts_of(const struct deck_group *group, const char *name, size_t count)
 {
-    for (size_t g = 0; g < tally->groups; g++)
-        if (strcmp(tally->name[g], name) == 0) return ++tally->count[g];
-    if (tally->groups == MOST_GROUPS) return 0;
-    snprintf(tally->name[tally->groups], NAME_SIZE, "%s", name);
-    tally->count[tally->groups] = 1;
-    tally->groups++;
-    return 1;
-}
-
-static const char *skip_blank(const char *at)
-{
-    while (isspace((unsigned char)*at) || *at == ',')
-        at++;
-    return at;
-}
-
-static const char *read_word(const char *at, char *word)
-{
-    size_t length = 0;
-    while (isalnum((unsigned char)*at) || *at == '_') {
-        if (length + 1 < NAME_SIZE) word[length++] = *at;
-        at++;
-    }
-    word[length] = '\0';
-    return at;
-}
-
-/* End of a list of values: where the next `name =`, the group's `/` or a comment begins; strings are skipped.
- */
-static const char *end_of_values(const char *at)
-{
-    bool fresh = true; /* at the beginning of a word */
-    while (*at != '\0' && *at != '/' && *at != '!') {
-        if (*at == '\'' || *at == '"') {
-            const char *close = strchr(at + 1, *at);
-            at = close != NULL ? close + 1 : at + strlen(at);
-            fresh = true;
-            continue;
-        }
-        if (fresh && isalpha((unsigned char)*at)) {
-            char word[NAME_SIZE];
-            const char *after = read_word(at, word);
-            if (*skip_blank(after) == '=') break;
-            at = after;
-            continue;
-        }
-        fresh = isspace((unsigned char)*at) || *at == ',';
-        at++;
-    }
-    return at;
-}
-
-typedef void tell_setting(void *context, const char *group, size_t occurrence, const char *name,
-                          const char *value);
-
-/* Behind the group; NULL without memory. */
-static const char *walk_group(const char *at, const char *group, size_t occurrence, tell_setting *tell,
-                              void *context)
-{
-    for (at = skip_blank(at); *at != '\0' && *at != '/'; at = skip_blank(at)) {
-        if (*at == '!') {
-            at += strcspn(at, "\n");
-            continue;
-        }
-        char name[NAME_SIZE];
-        const char *after = read_word(at, name);
-        const char *equals = skip_blank(after);
-        if (after == at || *equals != '=') break; /* not a form that the echo has */
-        const char *value = skip_blank(equals + 1);
-        const char *end = end_of_values(value);
-        at = end;
-        while (end > value && (isspace((unsigned char)end[-1]) || end[-1] == ','))
-            end--;
-        char *text = strndup(value, (size_t)(end - value));
-        if (text == NULL) return NULL;
-        tell(context, group, occurrence, name, text);
-        free(text);
-    }
-    while (*at != '\0' && *at != '/')
-        at++;
-    return *at == '/' ? at + 1 : at;
-}
-
-bool settings_walk(const struct deck *deck, tell_setting *tell, void *context, struct messages *messages)
-{
-    if (deck == NULL) return true;
-    char *echo = NULL;
+    char *text = NULL;
     size_t size = 0;
-    FILE *memory = open_memstream(&echo, &size);
-    if (memory == NULL) return false;
-    const selas_status status = deck_write(deck, memory, messages);
-    const bool good = fclose(memory) == 0 && status == SELAS_OK;
-    const char *at = good ? echo : NULL;
-    if (good) {
-        struct tally tally = {0};
-        while (at != NULL && *at != '\0') {
-            at += strspn(at, " \t\r\n");
-            if (*at != '&') { /* comments between groups */
-                at += strcspn(at, "\n");
-                continue;
-            }
-            char group[NAME_SIZE];
-            at = read_word(at + 1, group);
-            at = walk_group(at, group, occurrence_of(&tally, group), tell, context);
-        }
+    if (count == 1) return strdup(deck_text(group, name, 0));
+    FILE *memory = open_memstream(&text, &size);
+    if (memory == NULL) return NULL;
+    for (size_t i = 0; i < count; i++)
+        fprintf(memory, "%s'%s'", i > 0 ? ", " : "", deck_text(group, name, i));
+    if (fclose(memory) == 0) return text;
+    free(text);
+    return NULL;
+}
+
+static bool write_texts(const struct deck_group *group, const char *name, size_t count, hid_t place)
+{
+    char *text = texts_of(group, name, count);
+    const bool good = text != NULL && hdf_text(place, name, text);
+    free(text);
+    return good;
+}
+
+static bool write_numbers(const struct deck_group *group, const struct word *word, size_t count, hid_t place)
+{
+    double number[LIST_SIZE];
+    for (size_t i = 0; i < count; i++)
+        number[i] = word->type == WORD_REAL ? deck_real(group, word->name, i)
+                                            : (double)deck_integer(group, word->name, i);
+    return hdf_numbers(place, word->name, count, number);
+}
+
+static bool write_setting(const struct deck *deck, const struct deck_group *group, const struct word *word,
+                          hid_t place)
+{
+    const size_t count = deck_values(group, word->name);
+    if (count == 0) return true;
+    char *path;
+    bool good;
+    switch (word->type) {
+    case WORD_LOGICAL:
+        return hdf_text(place, word->name, deck_logical(group, word->name, 0) ? ".true." : ".false.");
+    case WORD_FILE:
+        path = deck_absolute(deck, deck_text(group, word->name, 0));
+        good = path != NULL && hdf_text(place, word->name, path);
+        array_free(path);
+        return good;
+    case WORD_TEXT:
+    case WORD_CHOICE:
+        return write_texts(group, word->name, count, place);
+    case WORD_REAL:
+    case WORD_INTEGER:
+        break;
     }
-    free(echo);
-    return at != NULL;
+    return write_numbers(group, word, count, place);
+}
+
+static bool write_group(const struct deck *deck, const struct word_group *kind, size_t number, hid_t settings)
+{
+    char name[NAME_SIZE + 24];
+    snprintf(name, sizeof name, "%s_%zu", kind->name, number + 1);
+    const hid_t place = hdf_group(settings, name);
+    bool good = place >= 0;
+    for (size_t w = 0; good && w < kind->words; w++)
+        good = write_setting(deck, deck_get(deck, kind->name, number), &kind->word[w], place);
+    if (place >= 0) H5Gclose(place);
+    return good;
+}
+
+bool write_settings(const struct deck *deck, hid_t file)
+{
+    const struct word_table *table = deck_words();
+    const hid_t settings = hdf_group(file, "settings");
+    bool good = settings >= 0;
+    for (size_t g = 0; deck != NULL && g < table->groups; g++)
+        for (size_t i = 0; good && i < deck_count(deck, table->group[g].name); i++)
+            good = write_group(deck, &table->group[g], i, settings);
+    if (settings >= 0) H5Gclose(settings);
+    return good;
 }

@@ -75,7 +75,8 @@ selas_status trace_observe(struct recorder *recorder, const struct state *state,
             finite = finite && three_finite(value);
         }
         trace->rows++;
-        if (!finite) recorder->watch.next = state->step; /* the watch looks at the whole state and tells */
+        if (!finite)
+            recorder->watch.next = (double)state->step; /* the watch looks at the whole state and tells */
     }
     return SELAS_OK;
 }

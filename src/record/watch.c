@@ -11,7 +11,6 @@
 #include <omp.h>
 #include <stdio.h>
 
-enum { EVERY = 50 };
 /* Energy of the state at a step may differ from the scheme's own conserved energy near the stability limit
  * (leapfrog: by up to 1 / (1 - (omega dt / 2)^2), 5 at nine tenths of the limit): growth beyond ten times the
  * work is no rounding and no such difference. */
@@ -69,9 +68,9 @@ void watch_start(struct recorder *recorder)
     const bool moved = (scene_needs(scene) & CAN_MOVE) != 0;
     *watch = (struct watch){0};
     watch->by_work = recorder->model->core->power != NULL && recorder->model->core->energy != NULL && !moved;
-    watch->with_faces = moved && recorder->stepper->host == NULL && recorder->model->core->power != NULL;
+    watch->with_faces = moved && !scene_driven(scene) && recorder->model->core->power != NULL;
     if (watch->with_faces) faces_can_give(recorder);
-    watch->reference_until = 0.1 * scene->end_time;
+    watch->reference_until = scene_driven(scene) ? scene->end_time : 0.1 * scene->end_time;
     for (size_t k = 0; k < scene->loads; k++)
         watch->reference_until = fmax(watch->reference_until, history_end(&scene->load[k].history));
     for (size_t face = 0; face < FACES; face++)
@@ -83,7 +82,7 @@ void watch_start(struct recorder *recorder)
 static void add_work(struct recorder *recorder, const struct state *state)
 {
     struct watch *watch = &recorder->watch;
-    const struct drive drive = drive_last(recorder->stepper, state->time);
+    const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
     double load = 0.0, absorbed = 0.0;
     recorder->model->core->power(recorder->model, &drive, state->y, &load, &absorbed);
     if (recorder->started) {
@@ -152,7 +151,7 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
     const struct watch *watch = &recorder->watch;
     const double later = 1.0 + watch->face_rate * state->time;
     const double faces = watch->face_energy * later * later, given = watch->initial + watch->gross + faces;
-    if (state->step < EVERY) return false;
+    if (state->step < WATCH_EVERY) return false;
     if (watch->by_work && total > growth_allowed * given)
         snprintf(what, size, "the body has the energy %.3g, but was given only %.3g", total, given);
     else if (!watch->by_work && faces > 0.0 && total > growth_of_faces * given)
@@ -216,10 +215,10 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
 {
     struct watch *watch = &recorder->watch;
     if (watch->by_work || watch->with_faces) add_work(recorder, state);
-    if (state->step < watch->next) return glance(recorder, state, messages);
-    watch->next = state->step + EVERY;
-    const unsigned long end = recorder->stepper->steps; /* the balance at the end is wanted in any case */
-    if (state->step < end && watch->next > end) watch->next = end;
+    if ((double)state->step < watch->next) return glance(recorder, state, messages);
+    const unsigned long end = recorder->stepper->steps, next = state->step + WATCH_EVERY;
+    /* the balance at the end is wanted in any case */
+    watch->next = (double)(state->step < end && next > end ? end : next);
     const selas_status sound = watch_sound(recorder, state, messages);
     return sound != SELAS_OK ? sound : judge(recorder, state, true, messages);
 }

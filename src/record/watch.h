@@ -4,6 +4,9 @@
 
 #include "record/parts.h"
 
+/* Steps from one look at the whole state to the next. */
+enum { WATCH_EVERY = 50 };
+
 /* Fails with time, place and likely cause; `what` is wrong: "the state is not finite". */
 selas_status watch_tell(const struct recorder *recorder, const struct state *state, const char *what,
                         struct messages *messages);

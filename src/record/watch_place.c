@@ -10,9 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* --- Where
- * ---------------------------------------------------------------------------------------------------------
- */
+/* --- Where --- */
 
 struct found {
     size_t spoiled;     /* points of the body whose values are not finite or overflow */
@@ -115,9 +113,7 @@ static void name_place(const struct recorder *recorder, const struct state *stat
         snprintf(text, size, "; fastest %s, speed %.3g", unseen.place, unseen.speed);
 }
 
-/* --- Why
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- Why --- */
 
 static const struct material *least_compressible(const struct scene *scene)
 {

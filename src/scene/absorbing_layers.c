@@ -9,7 +9,8 @@
 
 /* The reflection that a profile is made for falls with the number of points by this factor a point; then what
  * comes back from the outer end and what the lattice makes of the profile are about equal (measured). A pulse
- * that meets the layer at right angles sees twice that (measured); waves along a surface far less. */
+ * that meets the absorbing layer at right angles sees twice that (measured); waves along a surface far less.
+ */
 static const double decay_per_point = .78, measured_part = 2;
 double layer_profile_reflection(size_t points)
 {

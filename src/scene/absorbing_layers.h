@@ -10,16 +10,16 @@ const char *layers_refusal(const struct scene *scene);
 
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
-/* Points of the layer behind a face, 0 if it has none. */
+/* Points of the absorbing layer behind a face, 0 if it has none. */
 size_t layer_points(const struct scene *scene, int face);
 /* Has any face one? */
 bool layer_anywhere(const struct scene *scene);
-/* Reflection at normal incidence that the profile of a layer of so many points is made for, and the one to be
- * expected by measurement. */
+/* Reflection at normal incidence that the profile of an absorbing layer of so many points is made for, and
+ * the one to be expected by measurement. */
 double layer_profile_reflection(size_t points);
 double layer_expected_reflection(size_t points);
-/* Is a layer that the scene asks for left out, since no wave that the face sends back is seen by receivers
- * and profiles within end_time? */
+/* Is an absorbing layer that the scene asks for left out, since no wave that the face sends back is seen by
+ * receivers and profiles within end_time? */
 bool layer_left_out(const struct scene *scene, int face);
 
 #endif

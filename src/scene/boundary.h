@@ -11,6 +11,10 @@ enum boundary_kind { BOUNDARY_KINDS(BOUNDARY_KIND) };
 #undef BOUNDARY_KIND
 enum absorber { ABSORBERS(CHOICE_SYMBOL) };
 
+/* What gives the motion of a face or the amplitude of a load: its history, a function of the host, or the
+ * host holds a load at a value until it changes it. With a host the history is empty. */
+enum driven { BY_HISTORY, BY_HOST, HELD_BY_HOST };
+
 struct boundary {
     enum boundary_kind kind;
     enum absorber absorber;
@@ -24,6 +28,7 @@ struct boundary {
     double amplitude;
     bool slip; /* leave components across `direction` free (direction along an axis of the body) */
     struct history history;
+    enum driven driven;
     bool given;   /* false: nobody named this face, it is free */
     size_t group; /* occurrence of &boundary that named it */
 };
@@ -45,7 +50,7 @@ enum {
 struct boundary_meaning {
     const char *name; /* as in the deck */
     enum face_holds holds;
-    int motion; /* order of the time derivative of the displacement that the history gives, or NO_MOTION */
+    int motion; /* order of the time derivative of the displacement that its time function is, or NO_MOTION */
     unsigned needs; /* what a method must be able to do there, CAN_... */
 };
 

@@ -1,5 +1,5 @@
 /* What the files that build a scene from its deck share: where they build, how they complain, how they read
- * vectors and histories. */
+ * vectors and time functions. */
 #ifndef SELAS_SCENE_BUILD_H
 #define SELAS_SCENE_BUILD_H
 
@@ -42,10 +42,10 @@ bool need_real(struct builder *builder, const struct deck_group *group, const ch
 /* Complains of each given name of the list (ended by NULL): it does not belong to `purpose`. */
 void refuse(struct builder *builder, const struct deck_group *group, const char *const *names,
             const char *purpose);
-/* The words of a history; on an error the history is empty. */
+/* The words of a time function; on an error it is empty. */
 bool take_history(struct builder *builder, const struct deck_group *group, const char *purpose,
                   struct history *history);
-/* The words of a history, for refuse(). */
+/* The words of a time function, for refuse(). */
 extern const char *const history_words[];
 
 /* Path of a file that the deck names, relative to the deck's folder; free with array_free. */

@@ -1,10 +1,10 @@
-/* Histories f(t) of loads and motions: values, derivatives, integrals, smoothing, kinks.
+/* Time functions f(t) of loads and motions: values, derivatives, integrals, smoothing, kinks.
  *
  * Smoothing S: f * B with the cubic B-spline B of knots 0, h, 2h, 3h, 4h (h = S/4) and unit area,
  *   (f * B)(t) = integral over [0, S] of B(x) f(t - x) dx,                                            (1)
  * by 8-point Gauss panels between the knots of B and the kinks of f: exact to rounding, since both are
  * polynomials there (or vary over history_plain_scale()). A derivative goes to f where f is smooth in the
- * window, otherwise to B, whose first two derivatives are continuous, so that jumps of f are kept. */
+ * window, otherwise to B, whose first two derivatives are continuous, so that jumps of f remain. */
 #include "scene/history.h"
 #include "scene/history_kinds.h"
 

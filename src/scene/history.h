@@ -1,5 +1,6 @@
-/* Histories of loads and prescribed motions: f(t), dimensionless, zero for t < 0 (the Gaussian and the Ricker
- * wavelet are cut at t = 0: choose the delay so that this does not matter; scene/ warns otherwise).
+/* Time functions of loads and prescribed motions, which the word `history` names: f(t), dimensionless, zero
+ * for t < 0 (the Gaussian and the Ricker wavelet are cut at t = 0: choose the delay so that this does not
+ * matter; scene/ warns otherwise).
  *
  * With smoothing S > 0 the history is convolved with the unit-area cubic B-spline supported on [0, S]. */
 #ifndef SELAS_HISTORY_H

@@ -1,4 +1,4 @@
-/* Laplace transforms F(s) = integral of f(t) exp(-s t) dt of the histories, and their cutoff frequencies.
+/* Laplace transforms F(s) = integral of f(t) exp(-s t) dt of time functions, and their cutoff frequencies.
  *
  * Smoothing by the cubic B-spline on [0, S] multiplies by ((1 - exp(-s S/4)) / (s S/4))^4. The Gaussian and
  * the Ricker wavelet are cut at t = 0, which needs the error function of a complex argument. */

@@ -1,4 +1,4 @@
-/* The history given as a table: straight lines between rows, zero before the first row, the last value
+/* The time function given as a table: straight lines between rows, zero before the first row, the last value
  * afterwards. */
 #include "base/lines.h"
 #include "base/memory.h"

@@ -3,7 +3,9 @@
 
 #include <math.h>
 
-static const char *const kinds[] = {"a traction", "a body force", "a moment tensor"};
+static const char *const kinds[] = {[LOAD_TRACTION] = "a traction",
+                                    [LOAD_BODY_FORCE] = "a body force",
+                                    [LOAD_MOMENT_TENSOR] = "a moment tensor"};
 
 /* The two axes of a box face in the order of the axes (one in 2D, none in 1D); how many there are. */
 static int axes_of_face(enum face face, int dimension, int axes[2])
@@ -113,7 +115,7 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
         return;
     }
     if (deck_values(group, "shape") == 0 && dimension > 1) {
-        complain(builder, group, NULL, "a traction needs shape: 'square', 'disc', 'face' or 'point'");
+        complain(builder, group, NULL, "a traction needs shape; expected one of" LOAD_SHAPES(CHOICE_QUOTED));
         return;
     }
     load->shape = LOAD_FACE; /* the end of a bar in 1D is a whole face whatever the shape */

@@ -82,3 +82,13 @@ double scene_fastest(const struct scene *scene)
         speed = fmax(speed, scene->material[i].p_speed);
     return speed;
 }
+
+bool scene_driven(const struct scene *scene)
+{
+    bool driven = false;
+    for (size_t k = 0; k < scene->loads; k++)
+        driven = driven || scene->load[k].driven != BY_HISTORY;
+    for (size_t face = 0; face < FACES; face++)
+        driven = driven || scene->boundary[face].driven != BY_HISTORY;
+    return driven;
+}

@@ -108,9 +108,10 @@ static double *read_times(struct builder *builder, const struct deck_group *grou
 
 static unsigned read_fields(const struct deck_group *group)
 {
+    static const selas_field field[] = {FIELDS(CHOICE_SYMBOL)};
     unsigned fields = 0;
     for (size_t i = 0; i < deck_values(group, "fields"); i++)
-        fields |= 1U << deck_choice(group, "fields", i);
+        fields |= 1U << field[deck_choice(group, "fields", i)];
     return fields;
 }
 

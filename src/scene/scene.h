@@ -76,6 +76,7 @@ struct load {
     double moment[6];    /* xx yy zz xy yz zx */
     double velocity[3];  /* of a moving patch; 0 = at rest */
     struct history history;
+    enum driven driven;
     size_t group; /* occurrence of &load */
 };
 
@@ -115,9 +116,13 @@ struct initial {
     double centre[3], width;
 };
 
+/* Where the points of a method lie: on the faces of a box, whose spacing must divide every edge; there too, or
+ * scattered; in the middles of cells that fit edge by edge. */
+enum point_places { POINTS_ON_FACES, POINTS_SCATTERED, POINTS_IN_CELLS };
+
 struct method_choice {
-    char name[NAME_SIZE];           /* 'smoothed-point', 'sph' */
-    char variant[NAME_SIZE];        /* 'consistent', 'paper'; 'total-lagrangian', 'updated-lagrangian' */
+    char name[NAME_SIZE], variant[NAME_SIZE]; /* as in deck/choices.h */
+    enum point_places points;
     const struct deck_group *group; /* further options: each method reads its own with deck_*() */
     int degree, sweeps; /* of the consistent method, chosen by scene%accuracy; degree 0: by group */
 };
@@ -230,6 +235,7 @@ unsigned scene_needs(const struct scene *scene);
 selas_status scene_check_faces(const struct scene *scene, unsigned can, const char *who,
                                struct messages *messages);
 bool scene_loads_move(const struct scene *scene); /* any of them */
+bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
 double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */

@@ -93,7 +93,8 @@ static bool same_load(const struct load *a, const struct load *b, double length)
            history_same(&a->history, &b->history);
 }
 
-/* Each load's image must be among the loads as often as the load itself (two equal loads add). */
+/* Each load's image must be among the loads as often as the load itself (two equal loads add). What a host
+ * gives is like nothing but itself. */
 static bool loads_are_symmetric(const struct scene *scene, int axis, double middle, double length)
 {
     for (size_t i = 0; i < scene->loads; i++) {
@@ -102,6 +103,7 @@ static bool loads_are_symmetric(const struct scene *scene, int axis, double midd
         size_t equals = 0;
         size_t images = 0;
         for (size_t j = 0; j < scene->loads; j++) {
+            if (i != j && (load.driven != BY_HISTORY || scene->load[j].driven != BY_HISTORY)) continue;
             const struct load other = in_body_frame(&scene->body, &scene->load[j]);
             equals += same_load(&load, &other, length);
             images += same_load(&image, &other, length);

@@ -1,4 +1,4 @@
-/* The words of a history (&load, &boundary): each kind has its own parameters, and takes no others. */
+/* The words of a time function (&load, &boundary): each kind has its own parameters, and takes no others. */
 #include "base/memory.h"
 #include "scene/build.h"
 
@@ -11,17 +11,17 @@ const char *const history_words[] = {"history", "duration", "frequency", "delay"
 
 enum { PARAMETERS = 6 };
 
-/* Which parameters a kind takes, in the order of enum history_kind. */
+/* Which parameters a kind takes. */
 static const struct {
     const char *kind;
     bool takes[PARAMETERS];
 } kinds[] = {
-    {"history 'triangle'", {true, false, false, false, false, false}},
-    {"history 'step'", {false, false, false, false, false, false}},
-    {"history 'ricker'", {false, true, true, false, false, false}},
-    {"history 'gaussian'", {false, false, true, true, false, false}},
-    {"history 'sine-burst'", {false, true, false, false, true, false}},
-    {"history 'table'", {false, false, false, false, false, true}},
+    [HISTORY_TRIANGLE] = {"history 'triangle'", {true, false, false, false, false, false}},
+    [HISTORY_STEP] = {"history 'step'", {false, false, false, false, false, false}},
+    [HISTORY_RICKER] = {"history 'ricker'", {false, true, true, false, false, false}},
+    [HISTORY_GAUSSIAN] = {"history 'gaussian'", {false, false, true, true, false, false}},
+    [HISTORY_SINE_BURST] = {"history 'sine-burst'", {false, true, false, false, true, false}},
+    [HISTORY_TABLE] = {"history 'table'", {false, false, false, false, false, true}},
 };
 static const char *const parameters[PARAMETERS] = {"duration", "frequency", "delay",
                                                    "width",    "cycles",    "file"};
@@ -54,10 +54,11 @@ static void warn_of_cut(struct builder *builder, const struct deck_group *group,
     raw.smoothing = 0;
     const double start = fabs(history_value(&raw, 0, 0));
     if (start > 1e-3)
-        deck_warning(builder->deck, group, "delay", builder->messages,
-                     "the history is cut at t = 0, where it is %.3g of its peak; a longer delay would let it "
-                     "begin smoothly",
-                     start);
+        deck_warning(
+            builder->deck, group, "delay", builder->messages,
+            "the time function is cut at t = 0, where it is %.3g of its peak; a longer delay would let it "
+            "begin smoothly",
+            start);
 }
 
 bool take_history(struct builder *builder, const struct deck_group *group, const char *purpose,
@@ -66,8 +67,7 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
     *history = (struct history){0};
     if (deck_values(group, "history") == 0) {
         complain(builder, group, NULL,
-                 "%s needs history: 'triangle', 'step', 'ricker', 'gaussian', "
-                 "'sine-burst' or 'table'",
+                 "%s needs history, the time function; expected one of" HISTORY_KINDS(CHOICE_QUOTED),
                  purpose);
         return false;
     }

@@ -8,16 +8,15 @@ enum { PARAMETERS = 8 };
 static const char *const parameters[PARAMETERS] = {"velocity",     "amplitude",  "wave",   "direction",
                                                    "polarisation", "wavelength", "centre", "width"};
 
-/* In the order of enum initial_kind. */
 static const struct {
     const char *purpose;
     bool takes[PARAMETERS];
 } kinds[] = {
-    {"initial kind 'rest'", {false}},
-    {"initial kind 'uniform-velocity'", {true}},
-    {"initial kind 'beam-mode'", {false, true}},
-    {"initial kind 'plane-wave'", {false, true, true, true, true, true, true, true}},
-    {"initial kind 'gaussian'", {false, true, false, true, false, false, true, true}},
+    [INITIAL_REST] = {"initial kind 'rest'", {false}},
+    [INITIAL_UNIFORM_VELOCITY] = {"initial kind 'uniform-velocity'", {true}},
+    [INITIAL_BEAM_MODE] = {"initial kind 'beam-mode'", {false, true}},
+    [INITIAL_PLANE_WAVE] = {"initial kind 'plane-wave'", {false, true, true, true, true, true, true, true}},
+    [INITIAL_GAUSSIAN] = {"initial kind 'gaussian'", {false, true, false, true, false, false, true, true}},
 };
 
 /* P waves move along the direction, S waves across it: in 2D there is just one way, in 3D it must be said. */

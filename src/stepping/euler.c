@@ -24,10 +24,12 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_euler = {
     .name = "euler",
     .order = 1,
+    .can = SCHEME_MOVING_LOADS,
     .evaluations = 1,
     .limit = limit,
     .vectors = 1,
     .start = runge_kutta_start,
+    .resume = runge_kutta_start,
     .step = step,
     .again = runge_kutta_start,
 };

@@ -58,10 +58,12 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_lsrk54 = {
     .name = "lsrk54",
     .order = 4,
+    .can = SCHEME_WAVES | SCHEME_MOVING_LOADS,
     .evaluations = STAGES,
     .limit = limit,
     .vectors = 2,
     .start = runge_kutta_start,
+    .resume = runge_kutta_start,
     .step = step,
     .again = runge_kutta_start,
 };

@@ -30,10 +30,12 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_pc2 = {
     .name = "pc2",
     .order = 2,
+    .can = SCHEME_MOVING_LOADS,
     .evaluations = 2,
     .limit = limit,
     .vectors = 2,
     .start = runge_kutta_start,
+    .resume = runge_kutta_start,
     .step = step,
     .again = runge_kutta_start,
 };

@@ -38,10 +38,13 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_rk4 = {
     .name = "rk4",
     .order = 4,
+    .can = SCHEME_WAVES | SCHEME_MOVING_LOADS,
+    .default_for = DEFAULT_FOR_UNDAMPED,
     .evaluations = 4,
     .limit = limit,
     .vectors = 3,
     .start = runge_kutta_start,
+    .resume = runge_kutta_start,
     .step = step,
     .again = runge_kutta_start,
 };

@@ -189,11 +189,14 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_rkc = {
     .name = "rkc",
     .order = 2,
+    .can = SCHEME_MOVING_LOADS,
+    .default_for = DEFAULT_FOR_DAMPED,
     .evaluations = 1,
     .limit = limit,
     .choose_stages = choose_stages,
     .vectors = 5,
     .start = runge_kutta_start,
+    .resume = runge_kutta_start,
     .step = step,
     .again = runge_kutta_start,
 };

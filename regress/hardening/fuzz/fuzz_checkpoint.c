@@ -2,8 +2,8 @@
  * sets are changed as the bytes say and which is sealed again, so that only what stands in it can tell. */
 #include "fuzz_hdf5.h"
 
-#include "record/checkpoint/head.h"
-#include "record/checkpoint/kept.h"
+#include "record/checkpoint_head.h"
+#include "record/kept.h"
 
 static const char deck[] = "&scene dimension = 1, end_time = 4.0 /\n"
                            "&material name = 'm', density = 1.0, young = 1.0, poisson = 0.0 /\n"

@@ -5,7 +5,7 @@
 
 #include "compare/diff.h"
 #include "host/simulation.h"
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include <math.h>
 #include <sys/stat.h>

@@ -283,6 +283,7 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->material = &scene->material[scene->body.material];
     paper->model.method = &method_paper;
     paper->model.core = &core;
+    paper->model.patch = PATCH_BY_POINTS;
     paper->model.spatial = options->filter > 0 ? &filtering : &plain;
     paper->model.scene = scene;
     status = fill(paper, messages);

@@ -9,7 +9,7 @@
  *   head 0123456789abcdef     CRC-64 of the lines before this one
  *
  * and zeros up to 512 bytes. */
-#include "record/checkpoint/head.h"
+#include "record/checkpoint_head.h"
 #include "record/run_file.h"
 
 #include "base/crc64.h"

@@ -6,11 +6,11 @@
  * /watch and /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with
  * all defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
  * Numbers have 64 bits: what is read back is what was written. The head is head.c's. */
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
-#include "record/checkpoint/head.h"
+#include "record/checkpoint_head.h"
 #include "record/run_file.h"
 #include "record/sets.h"
 
@@ -36,7 +36,6 @@ enum figure {
     FILES_HIGH,
     FIGURES
 };
-enum { WATCH_NUMBERS = 15 };
 
 /* One way through all arrays of a checkpoint. */
 struct walk {
@@ -65,25 +64,6 @@ static void pass_real(struct walk *walk, const char *name, size_t number, const 
 }
 
 /* --- The parts of the recorder --- */
-
-static void pass_watch(struct walk *walk, const char *name, struct watch *watch)
-{
-    double next = (double)watch->next;
-    double *const member[WATCH_NUMBERS] = {
-        &watch->work,         &watch->gross,          &watch->absorbed,
-        &watch->power,        &watch->power_absorbed, &watch->initial,
-        &watch->largest,      &watch->reference,      &watch->reference_until,
-        &watch->last.kinetic, &watch->last.strain,    &watch->largest_defect,
-        &watch->last_time,    &watch->sampled,        &next};
-    double number[WATCH_NUMBERS];
-    for (size_t i = 0; i < WATCH_NUMBERS; i++)
-        number[i] = *member[i];
-    pass_real(walk, name, 0, "", number, WATCH_NUMBERS);
-    if (walk->mode != WALK_READ || !walk->good) return;
-    for (size_t i = 0; i < WATCH_NUMBERS; i++)
-        *member[i] = number[i];
-    watch->next = next >= 0.0 && next < 9e15 ? (unsigned long)next : 0;
-}
 
 static void pass_traces(struct walk *walk, struct recorder *recorder, size_t rows)
 {
@@ -148,8 +128,8 @@ static void pass_all(struct walk *walk, struct recorder *recorder, struct state 
         void *kept = model->one_pass->kept(model, &bytes);
         pass(walk, "kept", H5T_NATIVE_UCHAR, kept, bytes);
     }
-    pass_watch(walk, "watch", &recorder->watch);
-    pass_watch(walk, "before", &recorder->before);
+    pass(walk, "watch", H5T_NATIVE_DOUBLE, &recorder->watch, WATCH_NUMBERS);
+    pass(walk, "before", H5T_NATIVE_DOUBLE, &recorder->before, WATCH_NUMBERS);
     pass_traces(walk, recorder, (size_t)figures[STEP] + 1);
     pass_profiles(walk, recorder);
     pass_entries(walk, recorder, (size_t)figures[ENTRIES]);
@@ -261,7 +241,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
                                [CPU_SECONDS] = spent->cpu_seconds,
                                [FILES_LOW] = (double)(files & UINT32_MAX),
                                [FILES_HIGH] = (double)(files >> 32)};
-    char *text = kept_text_of(recorder->scene, messages);
+    char *text = deck_echo(recorder->scene->deck, messages);
     const size_t room = strlen(path) + 8;
     char *temporary = malloc(room);
     selas_status status = watch_sound(recorder, state, messages);
@@ -363,7 +343,7 @@ static const char *read_all(hid_t file, struct recorder *recorder, struct state 
 selas_status checkpoint_read(struct recorder *recorder, struct state *state, struct run_figures *spent,
                              const char *path, struct messages *messages)
 {
-    char *text = kept_text_of(recorder->scene, messages), why[200] = "";
+    char *text = deck_echo(recorder->scene->deck, messages), why[200] = "";
     const char *wrong = why;
     int error = 0;
     double figures[FIGURES] = {0};

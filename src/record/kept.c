@@ -1,28 +1,15 @@
 /* Decks that files keep (see the header). */
-#include "record/checkpoint/kept.h"
+#include "record/kept.h"
 
 #include "base/crc64.h"
-#include "base/memory.h"
 #include "base/stored.h"
-#include "record/checkpoint/head.h"
+#include "record/checkpoint_head.h"
 #include "record/run_file.h"
 #include "record/sets.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-
-char *kept_text_of(const struct scene *scene, struct messages *messages)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (file == NULL) return NULL;
-    const selas_status status = scene->deck != NULL ? deck_write(scene->deck, file, messages) : SELAS_OK;
-    if (fclose(file) == 0 && status == SELAS_OK) return text;
-    free(text);
-    return NULL;
-}
 
 static uint64_t file_checksum(const struct crc64_table *table, uint64_t before, const char *path)
 {
@@ -36,22 +23,25 @@ static uint64_t file_checksum(const struct crc64_table *table, uint64_t before, 
     return before;
 }
 
+struct sum {
+    struct crc64_table table;
+    uint64_t checksum;
+};
+
+static bool add_file(void *context, const char *path)
+{
+    struct sum *sum = context;
+    sum->checksum = file_checksum(&sum->table, sum->checksum, path);
+    return true;
+}
+
 bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
 {
-    static const char *const group[4] = {"body", "boundary", "load", "reference"};
-    struct crc64_table table;
-    crc64_prepare(&table);
-    *checksum = 0;
-    for (size_t g = 0; g < 4 && scene->deck != NULL; g++)
-        for (size_t i = 0; i < deck_count(scene->deck, group[g]); i++) {
-            const struct deck_group *one = deck_get(scene->deck, group[g], i);
-            if (deck_values(one, "file") == 0) continue;
-            char *path = deck_resolve(scene->deck, deck_text(one, "file", 0));
-            if (path == NULL) return false;
-            *checksum = file_checksum(&table, *checksum, path);
-            array_free(path);
-        }
-    return true;
+    struct sum sum = {.checksum = 0};
+    crc64_prepare(&sum.table);
+    const bool good = scene->deck == NULL || deck_files(scene->deck, add_file, &sum);
+    *checksum = sum.checksum;
+    return good;
 }
 
 selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, struct messages *messages)

@@ -17,8 +17,6 @@ selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, s
 selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct messages *messages);
 void kept_deck_free(struct kept_deck *kept);
 
-/* The deck of a scene with all defaults as text (free it), "" without a deck; NULL without memory. */
-char *kept_text_of(const struct scene *scene, struct messages *messages);
 /* Checksum of the files that the deck only names: points, tables, references; false without memory. */
 bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
 
