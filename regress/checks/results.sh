@@ -20,7 +20,7 @@ cat >"$work/small.nml" <<'END'
 &scene title = 'A small half-space', dimension = 3, end_time = 3.0 /
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
 &body name = 'ground', material = 'rock', shape = 'box', low = 0, 0, 0, high = 5, 5, 5, spacing = 0.5 /
-&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting' /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'lysmer' /
 &load face = 'z-', shape = 'square', centre = 2.5, 2.5, 0.0, size = 1.0, 1.0
   direction = 0, 0, 1, history = 'triangle', duration = 2.0 /
 &receiver name = 'centre', position = 2.5, 2.5, 0.0 /

@@ -22,7 +22,7 @@ static const char scene[] =
     "&method degree = 2 /\n"
     "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
     "&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 4, 4, 4, spacing = 1 /\n"
-    "&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting' /\n"
+    "&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'lysmer' /\n"
     "&load name = 'hammer', face = 'z-', shape = 'square', centre = 2, 2, 0, size = 2, 2, direction = 0, 0, "
     "1\n"
     "  amplitude = 1, history = 'triangle', duration = 1 /\n"

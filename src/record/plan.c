@@ -3,6 +3,7 @@
 #include "record/parts.h"
 
 #include "base/processor.h"
+#include "scene/absorbing_layers.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -83,7 +84,15 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
         if (scene->boundary[face].given) {
             char key[32];
             snprintf(key, sizeof key, "face %s", face_name((enum face)face));
-            say(teller, key, "%s", boundary_meaning(&scene->boundary[face])->name);
+            const char *name = boundary_meaning(&scene->boundary[face])->name;
+            const char *why = layers_refusal(scene);
+            if (boundary_has_layer(&scene->boundary[face]))
+                say(teller, key, "%s, absorbing layer (C-PML)", name);
+            else if (boundary_damps(&scene->boundary[face]))
+                say(teller, key, "%s, dampers (Lysmer-Kuhlemeyer)%s%s", name, why != NULL ? ": " : "",
+                    why != NULL ? why : "");
+            else
+                say(teller, key, "%s", name);
         }
     if (scene->output.low_pass > 0.0)
         say(teller, "low-pass", "exp(-(omega/%.9g)^4), zero phase, on computed histories",

@@ -14,7 +14,7 @@ struct builder {
     bool body_known;     /* box and frame are right: places can be checked against them */
     bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
     double spacing;      /* ... but this one, or 0 for a first guess ... */
-    long layer_points;   /* ... with absorbing layers of so many points, where the program adds them */
+    long layer_points; /* ... with absorbing layers of at least so many points, where the program adds them */
 };
 
 /* Adds a line with the place of `name` in the group (deck_error); the building goes on. */

@@ -56,6 +56,7 @@ struct body {
     struct layer *layer;
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
+    bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
@@ -183,7 +184,7 @@ struct scene {
 struct builder;
 struct scene_choice {
     double spacing;     /* 0: a first guess */
-    long layer_points;  /* of absorbing layers, where there are any; 0: the default */
+    long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
     int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
     const char *scheme; /* NULL: as without */
     double courant;     /* 0: the default step */
