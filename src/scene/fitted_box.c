@@ -169,7 +169,7 @@ static void fit_large(const struct builder *builder, const struct held *held, st
 {
     const double dx = sketch->body.spacing, speed = scene_fastest(sketch);
     const int down = sketch->dimension - 1;
-    struct span want[3];
+    struct span want[3] = {{0, 0}};
     struct extent seen, acts;
     for (int c = 0; c < sketch->dimension; c++)
         want[c] = (struct span){held->all[c].low - dx, held->all[c].high + dx};
@@ -203,7 +203,7 @@ static double fit_small(const struct builder *builder, const struct held *held, 
         boundary->least_points = builder->layer_points;
     }
     for (int i = 0; i < TRIES; i++, factor *= wider) {
-        struct span want[3];
+        struct span want[3] = {{0, 0}};
         for (int c = 0; c < sketch->dimension; c++) {
             const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * dx;
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
