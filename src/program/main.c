@@ -47,7 +47,8 @@ static const char documentation[] =
     "\n"
     "Exit status: 0 done; 1 the run failed or A and B differ (an unstable run says\n"
     "where and when); 2 bad deck or usage.\n"
-    "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.";
+    "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.\n"
+    "SELAS_PROCESSOR=x86-64, x86-64-v3 or x86-64-v4 takes the loops for that kind of processor.";
 
 struct arguments {
     const char *command; /* "run", "check", "exact", "restart", "rerun" */
@@ -159,8 +160,10 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
     }
     if (strcmp(arguments->command, "exact") == 0) {
         const selas_status status = selas_write_exact(simulation);
-        if (status == SELAS_OK && !arguments->quiet)
+        if (status == SELAS_OK && !arguments->quiet) {
+            simulation->exact->class->describe(simulation->exact, print_line, stdout);
             printf("exact histories in %s/\n", selas_output_directory(simulation));
+        }
         return status;
     }
     const bool restart = strcmp(arguments->command, "restart") == 0;

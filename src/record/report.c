@@ -1,6 +1,6 @@
 /* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
 #include "compare/misfit.h"
-#include "record/parts.h"
+#include "record/watch.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
@@ -183,6 +183,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     FILE *out = file.file;
     provenance_tell(tell_line, out);
     plan_tell(recorder, tell_line, out);
+    hindsight_tell(recorder, tell_line, out);
     fprintf(out, "steps done: %lu\ntime reached: %.9g\n", recorder->last_step, recorder->last_time);
     if (exact != NULL) {
         fprintf(out, "reference: %s\n", exact->class->kind);

@@ -67,6 +67,17 @@ static bool along_normal(const struct scene *scene, const double direction[3])
     return fabs(own[scene->dimension - 1]) > 1 - 1e-9;
 }
 
+/* Is a load at its own centre another one than its mirror image across an axis? */
+static bool is_skew(const struct scene *scene, const struct load *load, int axis)
+{
+    static const int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}}; /* of xx yy zz xy yz zx */
+    double own[3];
+    if (load->kind == LOAD_MOMENT_TENSOR)
+        return scene->body.rotated || load->moment[shear[axis][0]] != 0 || load->moment[shear[axis][1]] != 0;
+    body_direction_from_deck(&scene->body, load->direction, own);
+    return own[axis] != 0;
+}
+
 static void state_load(const struct scene *scene, size_t index, struct extent *extent)
 {
     const struct load *load = &scene->load[index];
@@ -90,8 +101,10 @@ static void state_load(const struct scene *scene, size_t index, struct extent *e
     case LOAD_POINT:
         break;
     }
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         end[c] = load->centre[c] + load->velocity[c] * scene->end_time;
+        extent->skew[c] = is_skew(scene, load, c);
+    }
     begin_place(extent);
     widen(scene, load->centre, half, extent);
     widen(scene, end, half, extent);

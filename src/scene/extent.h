@@ -15,6 +15,7 @@ struct extent {
     double low[3], high[3]; /* body frame; -INFINITY and INFINITY: as far as the body goes */
     double from, until;     /* ACTS: no motion before `from`; SEEN: not looked at after `until` */
     double wavelength; /* ACTS: P waves at the root mean square frequency of the velocity; INFINITY: static */
+    bool skew[3];      /* ACTS: not its own mirror image across this axis of the body */
     bool plane;        /* ACTS: alike all over the surface, along its normal */
 };
 

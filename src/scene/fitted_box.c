@@ -28,7 +28,7 @@ static void widen(struct span *span, double low, double high)
 /* What the box has to hold. */
 struct held {
     struct span all[3], load[3];
-    bool one_centre[3]; /* all that acts has the same centre along this axis */
+    bool one_centre[3]; /* all that acts has the same centre along this axis and is symmetric about it */
     double centre[3];
     bool plane, whole; /* all moves along the depth alone; the whole body is looked at */
     size_t acts, seen;
@@ -106,6 +106,7 @@ static void add(struct held *held, const struct extent *extent, int dimension)
         if (extent->role != EXTENT_ACTS) continue;
         const double centre = 0.5 * (extent->low[c] + extent->high[c]);
         const bool first = held->load[c].low > held->load[c].high;
+        if (extent->skew[c]) held->one_centre[c] = false;
         if (first)
             held->centre[c] = centre;
         else if (fabs(centre - held->centre[c]) > 1e-9 * (1 + fabs(centre)))

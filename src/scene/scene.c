@@ -135,11 +135,20 @@ static void build_output(struct builder *builder)
 static void build_reference(struct builder *builder)
 {
     static const char *const file_words[] = {"file", NULL};
+    static const char *const ground_words[] = {"spectrum", "stress", NULL};
+    static const char *const tolerance_words[] = {"tolerance", NULL};
     struct reference *reference = &builder->scene->reference;
     if (deck_count(builder->deck, "reference") == 0) return;
     const struct deck_group *group = deck_get(builder->deck, "reference", 0);
     reference->group = group;
     snprintf(reference->kind, sizeof reference->kind, "%s", deck_text(group, "kind", 0));
+    const bool layered = strcmp(reference->kind, "layered") == 0;
+    if (!layered) refuse(builder, group, ground_words, "this reference, only to 'layered'");
+    if (!layered && strcmp(reference->kind, "lamb") != 0)
+        refuse(builder, group, tolerance_words, "this reference, only to 'layered' and 'lamb'");
+    if (deck_values(group, "tolerance") > 0) reference->tolerance = deck_real(group, "tolerance", 0);
+    reference->scheme = deck_values(group, "spectrum") > 0 && deck_choice(group, "spectrum", 0) == 1;
+    reference->stress = deck_values(group, "stress") > 0 && deck_logical(group, "stress", 0);
     if (strcmp(reference->kind, "file") != 0) {
         refuse(builder, group, file_words, "an exact solution");
     } else if (deck_values(group, "file") == 0) {

@@ -19,7 +19,9 @@ enum plane { PLANES(CHOICE_SYMBOL) };
 struct material {
     char name[NAME_SIZE];
     double density;
-    double lambda, mu; /* of the solid in three dimensions */
+    double q_p, q_s;    /* quality of P and S waves; 0: undamped */
+    double q_frequency; /* where the moduli are meant [cycles/time] */
+    double lambda, mu;  /* of the solid in three dimensions */
     double young, poisson;
     double plane_lambda; /* lambda that enters the equations: in plane stress 2 lambda mu / (lambda + 2 mu),
                             in 1D stress such that plane_lambda + 2 mu = E; otherwise lambda */
@@ -72,7 +74,7 @@ struct load {
                        diameter */
     double direction[3]; /* unit vector */
     double amplitude;    /* traction (force per area; force if POINT); body force: per volume, over the body
-                            (FACE shape),    or a force at `centre` (POINT); moment tensor: scale of `moment` */
+                            (FACE shape), or a force at `centre` (POINT); moment tensor: scale of `moment` */
     double moment[6];    /* xx yy zz xy yz zx */
     double velocity[3];  /* of a moving patch; 0 = at rest */
     struct history history;
@@ -147,6 +149,9 @@ struct output_choice {
 struct reference {
     char kind[NAME_SIZE]; /* "" if none */
     char *file;
+    double tolerance; /* wanted relative error; 0: the solution's own default */
+    bool scheme;      /* damping by relaxation mechanisms in place of constant Q */
+    bool stress;      /* histories of stress are wanted too */
     const struct deck_group *group;
 };
 
@@ -161,7 +166,7 @@ struct scene {
     struct body body;
     struct boundary boundary[FACES];
     size_t loads;
-    struct load *load;
+    struct load *load; /* the deck's in its order; behind them the pieces of those that a host drives */
     size_t receivers;
     struct receiver *receiver;
     size_t profiles;
@@ -210,6 +215,11 @@ static inline int face_sign(enum face face)
     return (int)face % 2 == 0 ? -1 : 1;
 }
 const char *face_name(enum face face); /* "x-" ... "hole" */
+/* Where the plane of a face of the box cuts its axis. */
+static inline double face_plane(const struct body *body, enum face face)
+{
+    return face_sign(face) < 0 ? body->low[face_axis(face)] : body->high[face_axis(face)];
+}
 
 static inline bool body_is_box(const struct body *body)
 {
@@ -226,8 +236,7 @@ static inline bool load_moves(const struct load *load)
     return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
 }
 
-/* questions.c. Is a component (0, 1, 2, of the body's frame) of the displacement at rest or moved on a face?
- */
+/* questions.c. Is a component (0, 1, 2, of the body's frame) at rest or moved on a face? */
 bool face_holds(const struct scene *scene, enum face face, int component);
 /* CAN_... of all faces together. */
 unsigned scene_needs(const struct scene *scene);
@@ -237,6 +246,9 @@ selas_status scene_check_faces(const struct scene *scene, unsigned can, const ch
 bool scene_loads_move(const struct scene *scene); /* any of them */
 bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
 double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
+/* Part of a point source at a place (body's frame) that the body carries: a half for each symmetry plane in
+ * which it lies. */
+double scene_carries(const struct scene *scene, const double place[3]);
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);

@@ -10,11 +10,6 @@
 /* What the damping against guided waves sends back, times the points squared, per share (measured). */
 static const double dragged_part = .9;
 
-static double face_position(const struct scene *scene, int face)
-{
-    return face % 2 == 0 ? scene->body.low[face / 2] : scene->body.high[face / 2];
-}
-
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -28,7 +23,7 @@ void layers_describe(const struct consistent *c,
                  "none: no reflection can be seen by end_time (boundary%always = .true. keeps it)");
         if (c->layer[face] == 0) continue;
         const double thickness = fabs((face % 2 == 0 ? c->spline[face / 2]->low : c->spline[face / 2]->high) -
-                                      face_position(scene, face));
+                                      face_plane(&scene->body, (enum face)face));
         int used =
             snprintf(text, sizeof text, "C-PML, %zu points, thickness %.4g", c->layer[face], thickness);
         if (cutoff > 0 && isfinite(cutoff))
