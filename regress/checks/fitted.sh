@@ -107,6 +107,10 @@ done
 run given f body%low=-3,-3,0 body%high=3,3,3
 ok "sides that nobody names absorb: error $(largest given)" below "$(largest given)" 0.1
 
+refused "a pressure all over a half-space that is given" 'only rollers' face body%low=-3,-3,0 body%high=3,3,3
+plan damped f body%low=-3,-3,0 body%high=3,3,3 method%mass=exact
+ok "dampers that nobody asked for are told of" grep -q 'warning: .*have dampers' "$out/damped.plan"
+
 # Faces whose place counts.
 for face in "z+ fixed" "x- symmetry" "y+ roller" "x+ free"; do
     refused "a face of a box that is not known: $face" 'is not known' f "boundary%face=${face% *}" "boundary%kind=${face#* }"

@@ -146,7 +146,11 @@ selas_status check_echo(const struct echo_deck *deck)
     if (status == SELAS_OK) status = run(other, selas_time_step(one), &large, &rows);
     if (status == SELAS_OK) {
         tell(one->scene, small, large, rows);
-        printf("echo expected: %.2e (at the worst of them, this spacing)\n", expected_at_worst(one->scene));
+        if ((scene_needs(one->scene) & CAN_DAMP) != 0)
+            printf("echo expected: not known (dampers)\n");
+        else
+            printf("echo expected: %.2e (at the worst of them, this spacing)\n",
+                   expected_at_worst(one->scene));
     } else {
         fputs(selas_message(other != NULL ? other : one), stderr);
     }

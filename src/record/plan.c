@@ -81,7 +81,7 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);
     if (scene->snapshots > 0) say(teller, "snapshot groups", "%zu", scene->snapshots);
     for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].given) {
+        if (scene->boundary[face].given || boundary_damps(&scene->boundary[face])) {
             char key[32];
             snprintf(key, sizeof key, "face %s", face_name((enum face)face));
             const char *name = boundary_meaning(&scene->boundary[face])->name;
@@ -89,8 +89,9 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
             if (boundary_has_layer(&scene->boundary[face]))
                 say(teller, key, "%s, absorbing layer (C-PML)", name);
             else if (boundary_damps(&scene->boundary[face]))
-                say(teller, key, "%s, dampers (Lysmer-Kuhlemeyer)%s%s", name, why != NULL ? ": " : "",
-                    why != NULL ? why : "");
+                say(teller, key,
+                    "%s, dampers (Lysmer-Kuhlemeyer), which send back part of what meets them askew%s%s",
+                    name, why != NULL ? ": " : "", why != NULL ? why : "");
             else
                 say(teller, key, "%s", name);
         }

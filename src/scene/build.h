@@ -83,6 +83,10 @@ double dividing_spacing(const struct body *body, int dimension, double at_most);
 /* fitted_box.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */
 bool choose_half_space(struct builder *builder, const struct deck_group *group);
 
+/* fitted_box.c, when all else is built: refuses what the sides of a half-space whose box the deck gives cannot
+ * serve, warns of dampers there. */
+void check_half_space(struct builder *builder);
+
 /* frame.c: sets body->frame, pivot and rotated from rotation, low and high. */
 void body_set_frame(struct body *body);
 
