@@ -15,7 +15,12 @@ ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-
 LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
 
 SOURCES := $(filter-out src/program/%,$(shell find src -name '*.c' | sort))
-OBJECTS  = $(SOURCES:src/%.c=$(BUILD)/obj/%.o)
+# Kernels are compiled once for each kind of processor (src/base/processor.h)
+KERNELS  = $(wildcard $(addprefix src/method/,spline/passes.c consistent/fused/kernels_*.c consistent/absorbing/pml_kernels_*.c \
+           total_lagrangian/*_loops.c updated_lagrangian/block_rates.c updated_lagrangian/artificial_stress.c cloud/solver.c cloud/splines.c))
+KINDS   := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine)),x86-64 x86-64-v3 x86-64-v4,plain)
+OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(filter-out $(KERNELS),$(SOURCES))) \
+           $(foreach kind,$(KINDS),$(KERNELS:src/%.c=$(BUILD)/obj/$(kind)/%.o))
 PROGRAM  = $(wildcard src/program/*.c)
 VERSION  = $(shell sed -n 's/^\#define SELAS_VERSION "\(.*\)"/\1/p' src/selas.h)
 SONAME   = libselas.so.$(firstword $(subst ., ,$(VERSION)))
@@ -86,9 +91,17 @@ $(BUILD)/commit: always
 $(BUILD)/obj/record/provenance.o: $(BUILD)/commit
 $(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
 
-# Multiplication and addition of the lattice and SPH operators in one instruction where the machine has it
-$(BUILD)/obj/method/consistent/fused/fused_%.o $(BUILD)/obj/method/consistent/absorbing/pml_fast_%.o $(BUILD)/obj/method/spline/passes.o: ALL_C += -ffp-contract=fast
-$(BUILD)/obj/method/total_lagrangian/run_loops.o $(BUILD)/obj/method/total_lagrangian/point_loops.o $(BUILD)/obj/method/updated_lagrangian/rate.o: ALL_C += -ffp-contract=fast
+# Kernels: a multiplication and an addition in one instruction where the kind has it, but for what is no sum over neighbours
+define kernels_of_kind
+$(BUILD)/obj/$(1)/%.o: ALL_C += $(2) -ffp-contract=fast
+$(BUILD)/obj/$(1)/%.o: src/%.c
+	$$(compile)
+endef
+$(eval $(call kernels_of_kind,plain,))
+$(eval $(call kernels_of_kind,x86-64,-march=x86-64 -DSELAS_KIND=1))
+$(eval $(call kernels_of_kind,x86-64-v3,-march=x86-64-v3 -DSELAS_KIND=3))
+$(eval $(call kernels_of_kind,x86-64-v4,-march=x86-64-v4 -mprefer-vector-width=512 -DSELAS_KIND=4))
+$(addprefix $(BUILD)/obj/%/method/,cloud/solver.o cloud/splines.o updated_lagrangian/artificial_stress.o): ALL_C += -ffp-contract=off
 
 # What hosts link. Only names that begin with selas_ are seen outside.
 $(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/selas.map

@@ -12,7 +12,7 @@ FUZZED   = $(patsubst regress/hardening/fuzz/%.c,%,$(wildcard regress/hardening/
 define program
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  compile $<")
-	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.a,$^) $(LIBS) $(EXTRA_LIBS)
+	$(Q)$(CC) $(ALL_C) -Iregress/unit $(EXTRA) $(if $(word 2,$(filter %.c,$^)),,-MMD -MP) $(LDFLAGS) -o $@ $(filter %.c,$^) $(filter %.o %.a,$^) $(LIBS) $(EXTRA_LIBS)
 endef
 $(BUILD)/test/%: %.c $(BUILD)/libselas.a
 	$(program)
@@ -22,7 +22,10 @@ $(BUILD)/replay/%: %.c regress/hardening/fuzz/replay.c $(BUILD)/libselas.a
 	$(program)
 
 $(TESTS): private EXTRA_LIBS = -lcmocka
-$(BUILD)/test/bench: private EXTRA = -ffp-contract=fast
+# The bench's own loops are compiled as kernels are
+$(BUILD)/test/bench: $(KINDS:%=$(BUILD)/obj/%/peak.o)
+$(BUILD)/obj/%/peak.o: peak.c
+	$(compile)
 $(FUZZED:%=$(BUILD)/fuzz/%): private EXTRA = -fsanitize=fuzzer
 $(FUZZED:%=$(BUILD)/replay/%): $(wildcard regress/hardening/fuzz/*.h)
 # The closed form of the half-space shares nothing with the library's
@@ -103,7 +106,7 @@ stops: $(BUILD)/test/stops ## restarts from random steps with two threads and on
 kills: $(BUILD)/selas ## 200 runs killed at random times: each must go on to the same bits (some minutes)
 	@regress/hardening/kills $(BUILD)
 
-instructions: $(BUILD)/selas ## instructions of three small scenes against those recorded (two minutes; installs valgrind)
+instructions: $(BUILD)/selas ## instructions of small scenes, kernels for x86-64-v3, against those recorded (some minutes; installs valgrind)
 	@sh regress/setup leaks
 	@sh regress/hardening/instructions/run $(BUILD)
 
@@ -175,12 +178,12 @@ bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: d
 	@sh regress/studies/bench/run $(BUILD) all
 
 bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/performance.md
-	@sh regress/studies/bench/sph $(BUILD)
+	@for kind in $$($(BUILD)/test/bench kinds); do SELAS_PROCESSOR=$$kind sh regress/studies/bench/sph $(BUILD) && echo || exit 1; done
 
-bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace.nml
+bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace-lysmer.nml
 	@mkdir -p $(BUILD)/test
 	$(Q)$(FC) $(ALL_F) -I$(BUILD) -o $(BUILD)/test/overhead regress/hosts/overhead.f90 $(BUILD)/libselas_fortran.a $(BUILD)/whole/libselas.a $(LIBS) -fopenmp
-	OMP_NUM_THREADS=1 $(BUILD)/test/overhead input/halfspace.nml 0.125 40 7
+	OMP_NUM_THREADS=1 $(BUILD)/test/overhead input/halfspace-lysmer.nml 0.125 40 7
 
 lamb-check: $(BUILD)/test/lamb_grid ## hold the half-space's FFT against its closed form: ten receivers, four Poisson ratios
 	$(BUILD)/test/lamb_grid

@@ -248,7 +248,7 @@ static void repulsion_of(int dimension, const double *t, double *r)
             tension[k] = scatter(k);
         for (int s = 0; s < stresses; s++)
             tension[UPDATED_TENSORS * (size_t)s + lane] = t[s];
-        updated_artificial_stress(dimension, .3, UPDATED_TENSORS, tension, repulsion);
+        taken_updated_stresses()->artificial(dimension, .3, UPDATED_TENSORS, tension, repulsion);
         for (int s = 0; s < stresses; s++) {
             const double found = repulsion[UPDATED_TENSORS * (size_t)s + lane];
             if (lane > 0) assert_near(found, r[s], 1e-14);

@@ -1,16 +1,6 @@
-/* What depends on the machine. EACH_MACHINE: functions made once for each kind of it; the one that fits is
- * taken at run time, so that one binary serves all. Compilers that cannot do this make the plain one, and
- * so does -DSELAS_ONE_MACHINE (regress/hardening/valgrind).
- * tiny_as_zero(): numbers below the smallest normal one. */
+/* What depends on the compiler and the machine. tiny_as_zero(): numbers below the smallest normal one. */
 #ifndef SELAS_MACHINE_H
 #define SELAS_MACHINE_H
-
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) &&             \
-    !defined(SELAS_ONE_MACHINE)
-#define EACH_MACHINE __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define EACH_MACHINE
-#endif
 
 #if defined(__GNUC__)
 #define NOT_INLINED __attribute__((noinline))

@@ -157,7 +157,7 @@ static double valid_until(const struct scene *scene, const double position[3], d
             const struct boundary *boundary = &scene->boundary[face];
             if (boundary_has_layer(boundary)) continue;
             const int axis = face / 2;
-            const double plane = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
+            const double plane = face_plane(&scene->body, (enum face)face);
             const double across = own[axis] + source[axis] - 2 * plane;
             const double aside = hypot(away[(axis + 1) % 3], away[(axis + 2) % 3]);
             until = fmin(until, hypot(across, aside) / speed);

@@ -31,7 +31,8 @@ static selas_status cut_of(const struct scene *scene, const struct load *load, s
     const struct body *body = &scene->body;
     *cut = (struct cut){.count = {1, 1, 1}};
     body_from_deck(body, load->centre, cut->middle);
-    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load_moves(load))
+    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load->face == FACE_HOLE ||
+        load_moves(load))
         return fail(
             messages, SELAS_UNSUPPORTED,
             "a function can give tractions on squares, whole faces and points at rest, and body forces");
@@ -197,9 +198,7 @@ static void drive_at_time(void *context, double time, double *load, double *disp
         double middle[3], place[3], value[3];
         for (size_t c = 0; c < 3; c++)
             middle[c] = 0.5 * (body->low[c] + body->high[c]);
-        const int axis = face_axis((enum face)face);
-        if (face < BOX_FACES)
-            middle[axis] = face_sign((enum face)face) < 0 ? body->low[axis] : body->high[axis];
+        if (face < BOX_FACES) middle[face_axis((enum face)face)] = face_plane(body, (enum face)face);
         body_to_deck(body, middle, place);
         ask(simulation, host->face[face].function, host->face[face].context, time, place,
             face_name((enum face)face), value);

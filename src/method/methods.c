@@ -1,6 +1,7 @@
 /* The methods of the list in deck/choices.h: a new method is a folder and a line there. */
 #include "method/methods.h"
 
+#include "base/processor.h"
 #include "method/mirror.h"
 #include "scene/symmetry.h"
 
@@ -45,6 +46,8 @@ static selas_status check_abilities(const struct method *method, const struct sc
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     *model = NULL;
+    selas_status status = processor_check(messages);
+    if (status != SELAS_OK) return status;
     for (size_t i = 0; i < scene->materials; i++)
         if (scene->material[i].q_p > 0)
             return deck_error(scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
@@ -54,7 +57,7 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     if (method == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,
                     scene->method.variant);
-    const selas_status status = check_abilities(method, scene, messages);
+    status = check_abilities(method, scene, messages);
     if (status != SELAS_OK) return status;
     const unsigned axes = method->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(method, scene, axes, model, messages);

@@ -75,6 +75,16 @@ bool scene_loads_move(const struct scene *scene)
     return false;
 }
 
+double scene_carries(const struct scene *scene, const double place[3])
+{
+    double part = 1;
+    for (enum face face = FACE_X_LOW; (int)face < 2 * scene->dimension; face++)
+        if (boundary_mirrors(&scene->boundary[face]) &&
+            fabs(place[face_axis(face)] - face_plane(&scene->body, face)) < 1e-6 * scene->body.spacing)
+            part /= 2;
+    return part;
+}
+
 double scene_fastest(const struct scene *scene)
 {
     double speed = 0;

@@ -1,11 +1,13 @@
-/* Speed of the lattice operator and of a step of leapfrog beside what the machine can do, measured in the
+/* Speed of the lattice operator and of a step of leapfrog beside what the processor can do, measured in the
  * same run: CPU time of one thread, the best of some repetitions. Usage: bench [NX NY NZ]...; prints rows of
- * a Markdown table. */
-#include "../unit/plain_scene.h"
-#include "base/machine.h"
+ * a Markdown table. `bench kinds` prints the kinds of processors that the machine has, the best first;
+ * SELAS_PROCESSOR takes one of them. */
 #include "base/memory.h"
+#include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/hform.h"
+#include "peak.h"
+#include "plain_scene.h"
 #include "stepping/schemes.h"
 
 #include <math.h>
@@ -13,10 +15,10 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
-typedef double lanes __attribute__((vector_size(64)));
-enum { CHAINS = 16, ROUNDS = 200000, TRIAD = 1 << 22 };
+enum { ROUNDS = 200000, TRIAD = 1 << 22 };
 
 static double now(void)
 {
@@ -25,39 +27,32 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Multiplications with addition, 8 numbers each, on independent registers. */
-void fma_rounds(long rounds, lanes *value);
-EACH_MACHINE void fma_rounds(long rounds, lanes *value)
+/* Cycles per ns: additions that wait for each other, one a cycle. */
+static double frequency(void)
 {
-    lanes sum[CHAINS];
-    const lanes factor = value[0], term = value[1];
-    for (int i = 0; i < CHAINS; i++)
-        sum[i] = value[i];
-    for (long round = 0; round < rounds; round++)
-        for (int i = 0; i < CHAINS; i++)
-            sum[i] = sum[i] * factor + term;
-    for (int i = 0; i < CHAINS; i++)
-        value[i] = sum[i];
+    double best = INFINITY;
+    for (int repeat = 0; repeat < 20; repeat++) {
+        const double start = now();
+        unsigned long sum = 1, more = 3;
+        for (long round = 0; round < 5L * ROUNDS; round++) {
+            sum += more;
+            __asm__ volatile("" : "+r"(sum), "+r"(more));
+        }
+        best = fmin(best, now() - start);
+    }
+    return 1e-9 * 5 * ROUNDS / best;
 }
 
 /* FMA per ns. */
 static double peak(void)
 {
-    lanes value[CHAINS] = {{0}};
-    double best = INFINITY;
+    double value[2 * 8] = {0}, best = INFINITY, count = 0;
     for (int repeat = 0; repeat < 20; repeat++) {
         const double start = now();
-        fma_rounds(ROUNDS, value);
+        count = taken_peak_loops()->multiply(ROUNDS, value);
         best = fmin(best, now() - start);
     }
-    return 1e-9 * 8.0 * CHAINS * ROUNDS / best;
-}
-
-void triad(size_t n, const double *a, const double *b, double *c);
-EACH_MACHINE void triad(size_t n, const double *restrict a, const double *restrict b, double *restrict c)
-{
-    for (size_t i = 0; i < n; i++)
-        c[i] = a[i] + 3.0 * b[i];
+    return 1e-9 * count / best;
 }
 
 /* Bytes per ns of c = a + 3 b over 100 MB, 24 bytes a number counted. */
@@ -69,7 +64,7 @@ static double bandwidth(void)
     if (a == NULL || b == NULL || c == NULL) exit(1);
     for (int repeat = 0; repeat < 12; repeat++) {
         const double start = now();
-        triad(TRIAD, a, b, c);
+        taken_peak_loops()->triad(TRIAD, a, b, c);
         best = fmin(best, now() - start);
     }
     array_free(a);
@@ -146,9 +141,18 @@ static struct timing measure(const size_t n[3], bool exact, bool unfused, bool s
 
 int main(int count, char **word)
 {
+    if (count == 2 && strcmp(word[1], "kinds") == 0) {
+        for (enum processor kind = PROCESSORS; kind-- > PROCESSOR_PLAIN;)
+            if (processor_there(kind)) puts(processor_name(kind));
+        return 0;
+    }
     omp_set_num_threads(1);
-    const double fma = peak(), stream = bandwidth();
-    printf("Machine, one thread: %.1f FMA/ns (double), triad %.1f GB/s.\n\n", fma, stream);
+    const double fma = peak(), stream = bandwidth(), cycles = frequency();
+    const enum processor kind = processor_taken();
+    printf("%s, one thread: %.1f FMA/ns (double; %.2f vectors of %d bytes in each cycle of %.2f GHz), "
+           "triad %.1f GB/s.\n\n",
+           processor_name(kind), fma, fma / cycles * 8 / processor_bytes(kind), processor_bytes(kind), cycles,
+           stream);
     printf("| lattice | over depth | passes | ns a call | ns a step, apart | ns a step | FMA | share of FMA "
            "peak "
            "| bytes a point |\n"
@@ -156,8 +160,8 @@ int main(int count, char **word)
     for (int i = 1; i + 2 < count; i += 3) {
         const size_t n[3] = {strtoul(word[i], NULL, 10), strtoul(word[i + 1], NULL, 10),
                              strtoul(word[i + 2], NULL, 10)};
-        for (int kind = 0; kind < 6; kind++) {
-            const bool exact = kind % 2 == 1, unfused = kind >= 4, single = kind / 2 == 1;
+        for (int row = 0; row < 6; row++) {
+            const bool exact = row % 2 == 1, unfused = row >= 4, single = row / 2 == 1;
             if (unfused && n[0] * n[1] * n[2] > 1000000) continue;
             const struct timing t = measure(n, exact, unfused, single);
             printf("| %zu x %zu x %zu | %s | %s | ", n[0], n[1], n[2], exact ? "exact" : "same",

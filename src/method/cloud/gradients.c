@@ -169,6 +169,7 @@ static selas_status pair_correction(const struct tl_model *tl, struct cloud_pair
     double *boundary = array_new(d * pairs->points, sizeof *boundary);
     vec4 *rest = array_new(n, sizeof *rest);
     vec4 *multiplier = array_new(n, sizeof *multiplier);
+    const struct cloud_solvers *solvers = taken_cloud_solvers();
     struct cloud_solver *solver = NULL;
     selas_status status = SELAS_OK;
     if (boundary == NULL || rest == NULL || multiplier == NULL)
@@ -179,18 +180,18 @@ static selas_status pair_correction(const struct tl_model *tl, struct cloud_pair
         for (size_t c = 0; c < d; c++)
             boundary[d * i + c] += element->area * element->normal[c];
     }
-    if (status == SELAS_OK) status = cloud_solver_create(pairs, &solver, messages);
+    if (status == SELAS_OK) status = solvers->create(pairs, &solver, messages);
     if (status == SELAS_OK) {
         remainder_of(tl, pairs, boundary, rest);
-        if (cloud_solve(solver, rest, wanted * size, multiplier) >= 0)
-            cloud_pairs_correct(pairs, multiplier);
+        if (solvers->solve(solver, rest, wanted * size, multiplier) >= 0)
+            solvers->correct(pairs, multiplier);
         else
             status =
                 fail(messages, SELAS_BAD_SCENE,
                      "no gradients that sum by parts were found for these points: they are too uneven, or "
                      "method%%smoothing_length is too small");
     }
-    cloud_solver_free(&solver);
+    solvers->free(&solver);
     array_free(boundary);
     array_free(rest);
     array_free(multiplier);
@@ -217,7 +218,7 @@ static selas_status first_guess(const struct tl_model *tl, struct cloud_pairs *p
             messages, SELAS_BAD_SCENE,
             "point %zu at (%g, %g, %g) has too few neighbours for a gradient: the body is too thin for "
             "its spacing",
-            lonely, tl->cloud->position[3 * lonely], tl->cloud->position[3 * lonely + 1],
+            lonely + 1, tl->cloud->position[3 * lonely], tl->cloud->position[3 * lonely + 1],
             tl->cloud->position[3 * lonely + 2]);
     antisymmetrise(pairs);
     return SELAS_OK;

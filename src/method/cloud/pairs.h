@@ -25,13 +25,16 @@ struct cloud_pairs {
 /* solver.c: (C w C^T) x = r by conjugate gradients. The system is not negative, its null space are the
  * quadratic functions (x = (f, grad f / 2)); r must be orthogonal to them. */
 struct cloud_solver;
-selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_solver **solver,
-                                 struct messages *messages);
-void cloud_solver_free(struct cloud_solver **solver);
-/* All axes at once, each until the root mean square of its residual is below `small`; r and x
- * [(d + 1) * points], r is spent. Number of iterations, -1 if it does not get there. */
-int cloud_solve(struct cloud_solver *solver, vec4 *r, double small, vec4 *x);
-/* a += w C^T x. */
-void cloud_pairs_correct(struct cloud_pairs *pairs, const vec4 *x);
+struct cloud_solvers {
+    selas_status (*create)(const struct cloud_pairs *pairs, struct cloud_solver **solver,
+                           struct messages *messages);
+    void (*free)(struct cloud_solver **solver);
+    /* All axes at once, each until the root mean square of its residual is below `small`; r and x
+     * [(d + 1) * points], r is spent. Number of iterations, -1 if it does not get there. */
+    int (*solve)(struct cloud_solver *solver, vec4 *r, double small, vec4 *x);
+    /* a += w C^T x. */
+    void (*correct)(struct cloud_pairs *pairs, const vec4 *x);
+};
+EACH_PROCESSOR(struct cloud_solvers, cloud_solvers)
 
 #endif

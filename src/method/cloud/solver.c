@@ -26,11 +26,11 @@ struct cloud_solver {
     double *null; /* [nulls][(d + 1) * points]: orthonormal basis of the null space */
 };
 
-void cloud_solver_free(struct cloud_solver **freed)
+static void free_solver(struct cloud_solver **freed)
 {
     struct cloud_solver *solver = *freed;
     if (solver == NULL) return;
-    cloud_splines_free(&solver->splines);
+    OF_PROCESSOR(cloud_splines_free)(&solver->splines);
     array_free(solver->p);
     array_free(solver->q);
     array_free(solver->z);
@@ -42,11 +42,13 @@ void cloud_solver_free(struct cloud_solver **freed)
 
 static double dot(size_t n, const double *a, const double *b)
 {
-    double sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (size_t k = 0; k < n; k++)
-        sum += a[k] * b[k];
-    return sum;
+    double even = 0, odd = 0;
+    size_t k = 0;
+    for (; k + 2 <= n; k += 2) {
+        even += a[k] * b[k];
+        odd += a[k + 1] * b[k + 1];
+    }
+    return k < n ? even + odd + a[k] * b[k] : even + odd;
 }
 
 /* x -= (x . null) null. */
@@ -87,8 +89,8 @@ static void make_null_space(struct cloud_solver *solver)
         }
 }
 
-selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_solver **created,
-                                 struct messages *messages)
+static selas_status create(const struct cloud_pairs *pairs, struct cloud_solver **created,
+                           struct messages *messages)
 {
     const size_t n = (pairs->d + 1) * pairs->points;
     *created = NULL;
@@ -105,7 +107,7 @@ selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_s
         solver->null == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the pair correction");
     if (status == SELAS_OK && solver->null != NULL) make_null_space(solver);
-    if (status == SELAS_OK) status = cloud_splines_create(pairs, &solver->splines, messages);
+    if (status == SELAS_OK) status = OF_PROCESSOR(cloud_splines_create)(pairs, &solver->splines, messages);
     for (size_t i = 0; i < pairs->points && status == SELAS_OK; i++)
         for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
             double *scale = solver->scale + (pairs->d + 1) * i;
@@ -115,7 +117,7 @@ selas_status cloud_solver_create(const struct cloud_pairs *pairs, struct cloud_s
                 scale[c + 1] += pairs->weight[k] * x * x;
             }
         }
-    if (status != SELAS_OK) cloud_solver_free(&solver);
+    if (status != SELAS_OK) free_solver(&solver);
     *created = solver;
     return status;
 }
@@ -132,7 +134,7 @@ INLINED void pair_sees(const struct cloud_pairs *pairs, const vec4 *x, size_t i,
 }
 
 /* One row of q = C w C^T p. */
-EACH_MACHINE static void apply_row(const struct cloud_pairs *pairs, const vec4 *p, size_t i, vec4 *q)
+static void apply_row(const struct cloud_pairs *pairs, const vec4 *p, size_t i, vec4 *q)
 {
     const size_t d = pairs->d;
     vec4 sum[NUMBERS] = {0};
@@ -154,7 +156,7 @@ static void apply(const struct cloud_pairs *pairs, const vec4 *p, vec4 *q)
         apply_row(pairs, p, i, q);
 }
 
-void cloud_pairs_correct(struct cloud_pairs *pairs, const vec4 *x)
+static void correct(struct cloud_pairs *pairs, const vec4 *x)
 {
     const size_t d = pairs->d;
     for (size_t i = 0; i < pairs->points; i++)
@@ -167,7 +169,7 @@ void cloud_pairs_correct(struct cloud_pairs *pairs, const vec4 *x)
 }
 
 /* Products of each lane. */
-EACH_MACHINE static void dots(size_t n, const vec4 *a, const vec4 *b, vec4 *product)
+static void dots(size_t n, const vec4 *a, const vec4 *b, vec4 *product)
 {
     vec4 even = {0}, odd = {0};
     for (size_t k = 0; k + 1 < n; k += 2) {
@@ -179,7 +181,7 @@ EACH_MACHINE static void dots(size_t n, const vec4 *a, const vec4 *b, vec4 *prod
 }
 
 /* Takes what lies along the null vectors out of x. */
-EACH_MACHINE static void project(const struct cloud_solver *solver, vec4 *x)
+static void project(const struct cloud_solver *solver, vec4 *x)
 {
     const size_t n = (solver->pairs->d + 1) * solver->pairs->points;
     for (size_t a = 0; a < solver->nulls; a++) {
@@ -202,7 +204,7 @@ static void precondition(struct cloud_solver *solver, const vec4 *r, vec4 *z)
     const size_t n = (solver->pairs->d + 1) * solver->pairs->points;
     for (size_t k = 0; k < n; k++)
         z[k] = r[k] / solver->scale[k];
-    cloud_splines_add(solver->splines, r, z);
+    OF_PROCESSOR(cloud_splines_add)(solver->splines, r, z);
 }
 
 /* Lanes whose residuals are not small yet (beyond the dimension they are 0): 1 for these, 0 for others. */
@@ -219,7 +221,7 @@ static bool unsolved(size_t n, const vec4 *r, double small, vec4 *open)
     return any;
 }
 
-int cloud_solve(struct cloud_solver *solver, vec4 *r, double small, vec4 *x)
+static int solve(struct cloud_solver *solver, vec4 *r, double small, vec4 *x)
 {
     const size_t n = (solver->pairs->d + 1) * solver->pairs->points;
     vec4 before = {0}, open = {0};
@@ -247,3 +249,5 @@ int cloud_solve(struct cloud_solver *solver, vec4 *r, double small, vec4 *x)
     }
     return -1;
 }
+
+const struct cloud_solvers OF_PROCESSOR(cloud_solvers) = {create, free_solver, solve, correct};

@@ -32,7 +32,7 @@ struct cloud_splines {
     vec4 *small;         /* [total] */
 };
 
-void cloud_splines_free(struct cloud_splines **freed)
+void OF_PROCESSOR(cloud_splines_free)(struct cloud_splines **freed)
 {
     struct cloud_splines *splines = *freed;
     if (splines == NULL) return;
@@ -208,17 +208,32 @@ static void add_pairs(struct cloud_splines *splines)
         splines->row[a][a] += 1e-9 * largest;
 }
 
+/* The sum of n products, GROUP of them in lanes of their own: one order whatever the width. */
+static double sum_of_products(size_t n, const double *a, const double *b)
+{
+    lanes sum[GROUP / LANES] = {0};
+    double part[GROUP], total = 0;
+    size_t k = 0;
+    for (; k + GROUP <= n; k += GROUP)
+        for (size_t v = 0; v < GROUP / LANES; v++)
+            sum[v] += AT(a + k + LANES * v) * AT(b + k + LANES * v);
+    memcpy(part, sum, sizeof part);
+    for (; k < n; k++)
+        part[0] += a[k] * b[k];
+    for (size_t lane = 0; lane < GROUP; lane++)
+        total += part[lane];
+    return total;
+}
+
 /* L of L L^T in the matrix's place; false if it is not positive. */
-EACH_MACHINE static bool factorise(size_t total, const size_t *begin, double *const *row)
+static bool factorise(size_t total, const size_t *begin, double *const *row)
 {
     for (size_t i = 0; i < total; i++) {
         double *const own = row[i];
         for (size_t j = begin[i]; j <= i; j++) {
             const double *const other = row[j];
-            double sum = 0;
-#pragma omp simd reduction(+ : sum)
-            for (size_t k = begin[i] > begin[j] ? begin[i] : begin[j]; k < j; k++)
-                sum += own[k] * other[k];
+            const size_t first = begin[i] > begin[j] ? begin[i] : begin[j];
+            const double sum = first < j ? sum_of_products(j - first, own + first, other + first) : 0;
             if (j == i && !(own[i] > sum)) return false;
             own[j] = j < i ? (own[j] - sum) / other[j] : sqrt(own[i] - sum);
         }
@@ -226,8 +241,8 @@ EACH_MACHINE static bool factorise(size_t total, const size_t *begin, double *co
     return true;
 }
 
-selas_status cloud_splines_create(const struct cloud_pairs *pairs, struct cloud_splines **created,
-                                  struct messages *messages)
+selas_status OF_PROCESSOR(cloud_splines_create)(const struct cloud_pairs *pairs,
+                                                struct cloud_splines **created, struct messages *messages)
 {
     *created = NULL;
     struct cloud_splines *splines = array_new(1, sizeof *splines);
@@ -250,13 +265,13 @@ selas_status cloud_splines_create(const struct cloud_pairs *pairs, struct cloud_
         if (!factorise(splines->total, splines->begin, splines->row))
             status = fail(messages, SELAS_BAD_SCENE, "the points are too uneven for the cloud method");
     }
-    if (status != SELAS_OK) cloud_splines_free(&splines);
+    if (status != SELAS_OK) OF_PROCESSOR(cloud_splines_free)(&splines);
     *created = splines;
     return status;
 }
 
 /* x := (L L^T)^-1 x. */
-EACH_MACHINE static void solve(size_t total, const size_t *begin, double *const *row, vec4 *x)
+static void solve(size_t total, const size_t *begin, double *const *row, vec4 *x)
 {
     for (size_t i = 0; i < total; i++) {
         const double *own = row[i];
@@ -279,7 +294,7 @@ EACH_MACHINE static void solve(size_t total, const size_t *begin, double *const 
 }
 
 /* c += P^T r: the splines are products, summed axis by axis. */
-EACH_MACHINE static void take(const struct cloud_splines *splines, const vec4 *r, vec4 *c)
+static void take(const struct cloud_splines *splines, const vec4 *r, vec4 *c)
 {
     const size_t numbers = splines->pairs->d + 1;
     for (size_t i = 0; i < splines->pairs->points; i++) {
@@ -300,7 +315,7 @@ EACH_MACHINE static void take(const struct cloud_splines *splines, const vec4 *r
 }
 
 /* r += P c. */
-EACH_MACHINE static void give(const struct cloud_splines *splines, const vec4 *c, vec4 *r)
+static void give(const struct cloud_splines *splines, const vec4 *c, vec4 *r)
 {
     const size_t numbers = splines->pairs->d + 1;
     for (size_t i = 0; i < splines->pairs->points; i++) {
@@ -322,7 +337,7 @@ EACH_MACHINE static void give(const struct cloud_splines *splines, const vec4 *c
     }
 }
 
-void cloud_splines_add(struct cloud_splines *splines, const vec4 *r, vec4 *z)
+void OF_PROCESSOR(cloud_splines_add)(struct cloud_splines *splines, const vec4 *r, vec4 *z)
 {
     memset(splines->small, 0, splines->total * sizeof *splines->small);
     take(splines, r, splines->small);

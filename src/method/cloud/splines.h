@@ -6,10 +6,10 @@
 
 struct cloud_splines;
 /* Lays the knots and factorises Galerkin's matrix. SELAS_BAD_SCENE: it is singular. */
-selas_status cloud_splines_create(const struct cloud_pairs *pairs, struct cloud_splines **splines,
-                                  struct messages *messages);
-void cloud_splines_free(struct cloud_splines **splines);
+selas_status OF_PROCESSOR(cloud_splines_create)(const struct cloud_pairs *pairs,
+                                                struct cloud_splines **splines, struct messages *messages);
+void OF_PROCESSOR(cloud_splines_free)(struct cloud_splines **splines);
 /* z += P (P^T A P)^-1 P^T r; r and z [(d + 1) * points] (cloud_solve). */
-void cloud_splines_add(struct cloud_splines *splines, const vec4 *r, vec4 *z);
+void OF_PROCESSOR(cloud_splines_add)(struct cloud_splines *splines, const vec4 *r, vec4 *z);
 
 #endif

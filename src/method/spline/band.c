@@ -125,25 +125,27 @@ static void scale(double factor, size_t lanes, double *row)
 /* Each row of the solution is a sum over rows that are known, and itself. */
 void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
+    const struct passes *passes = taken_passes();
     double weight[MOST_HALF + 1];
     for (size_t i = 0; i < n; i++) {
         const size_t reach = smaller(i, half);
         for (size_t d = 1; d <= reach; d++)
             weight[reach - d] = -factor[i] * factor[d * n + i];
         weight[reach] = factor[i];
-        pass_over_rows(weight, reach + 1, x + (i - reach) * stride, stride, lanes, NULL, x + i * stride);
+        passes->over_rows(weight, reach + 1, x + (i - reach) * stride, stride, lanes, NULL, x + i * stride);
     }
 }
 
 void band_backward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
+    const struct passes *passes = taken_passes();
     double weight[MOST_HALF + 1];
     for (size_t i = n; i-- > 0;) {
         const size_t reach = smaller(n - 1 - i, half);
         for (size_t d = 1; d <= reach; d++)
             weight[d] = -factor[i] * factor[d * n + i + d];
         weight[0] = factor[i];
-        pass_over_rows(weight, reach + 1, x + i * stride, stride, lanes, NULL, x + i * stride);
+        passes->over_rows(weight, reach + 1, x + i * stride, stride, lanes, NULL, x + i * stride);
     }
 }
 

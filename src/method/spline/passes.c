@@ -1,22 +1,17 @@
-/* Sums over rows and neighbours in vectors of 64 bytes (GNU C; narrower machines take several for one), four
- * vectors at a time, and at the end of a row up to five. The last vector of a row that is no whole number of
- * them overlaps the one before: sums of one go are all made before any is stored. */
+/* Sums over rows and neighbours in vectors, eight at a time (sums of fewer wait for each other, more find no
+ * registers), and at the end of a row up to nine. The last vector of a row that is no whole number of them
+ * overlaps the one before: sums of one go are all made before any is stored. */
 #include "method/spline/passes.h"
 
 #include "base/machine.h"
+#include "base/vectors.h"
 
-typedef double lanes __attribute__((vector_size(64), aligned(sizeof(double)), may_alias));
-enum { LANE_COUNT = 8, TOGETHER = 4, MOST = TOGETHER + 1 };
-
-INLINED const lanes *at(const double *place)
-{
-    return (const lanes *)place;
-}
+enum { TOGETHER = 8, MOST = TOGETHER + 1 };
 
 /* Where vector v of `count` begins, from i on: the last one at `last`. */
 INLINED size_t place(const int count, int v, size_t i, size_t last)
 {
-    return v == count - 1 ? last : i + (size_t)v * LANE_COUNT;
+    return v == count - 1 ? last : i + (size_t)v * LANES;
 }
 
 INLINED void rows_at(const int count, const double *restrict weight, size_t taps, const double *in,
@@ -24,38 +19,37 @@ INLINED void rows_at(const int count, const double *restrict weight, size_t taps
 {
     lanes sum[MOST];
     for (int v = 0; v < count; v++)
-        sum[v] = init != NULL ? *at(init + place(count, v, i, last)) : (lanes){0};
+        sum[v] = init != NULL ? AT(init + place(count, v, i, last)) : (lanes){0};
     for (size_t d = 0; d < taps; d++)
         for (int v = 0; v < count; v++)
-            sum[v] += weight[d] * *at(in + d * stride + place(count, v, i, last));
+            sum[v] += weight[d] * AT(in + d * stride + place(count, v, i, last));
     for (int v = 0; v < count; v++)
         *(lanes *)(out + place(count, v, i, last)) = sum[v];
 }
 
-/* CALL(count) for the vectors that are left from i on. */
+/* CALL(count) for the vectors that are left from i on, 1 to MOST. */
 #define FOR_THE_REST(CALL)                                                                                   \
-    switch ((n - i + LANE_COUNT - 1) / LANE_COUNT) {                                                         \
-    case 1:                                                                                                  \
-        CALL(1);                                                                                             \
-        break;                                                                                               \
-    case 2:                                                                                                  \
-        CALL(2);                                                                                             \
-        break;                                                                                               \
-    case 3:                                                                                                  \
-        CALL(3);                                                                                             \
-        break;                                                                                               \
-    case 4:                                                                                                  \
-        CALL(4);                                                                                             \
-        break;                                                                                               \
+    switch ((n - i + LANES - 1) / LANES) {                                                                   \
+        CASE(1, CALL)                                                                                        \
+        CASE(2, CALL)                                                                                        \
+        CASE(3, CALL)                                                                                        \
+        CASE(4, CALL)                                                                                        \
+        CASE(5, CALL)                                                                                        \
+        CASE(6, CALL)                                                                                        \
+        CASE(7, CALL)                                                                                        \
+        CASE(8, CALL)                                                                                        \
     default:                                                                                                 \
-        CALL(5);                                                                                             \
+        CALL(MOST);                                                                                          \
     }
+#define CASE(count, CALL)                                                                                    \
+    case count:                                                                                              \
+        CALL(count);                                                                                         \
+        break;
 
-EACH_MACHINE
-void pass_over_rows(const double *weight, size_t taps, const double *in, size_t stride, size_t n,
-                    const double *init, double *out)
+static void over_rows(const double *weight, size_t taps, const double *in, size_t stride, size_t n,
+                      const double *init, double *out)
 {
-    if (n < LANE_COUNT) {
+    if (n < LANES) {
         for (size_t i = 0; i < n; i++) {
             double total = init != NULL ? init[i] : 0;
             for (size_t d = 0; d < taps; d++)
@@ -65,9 +59,9 @@ void pass_over_rows(const double *weight, size_t taps, const double *in, size_t 
         return;
     }
     size_t i = 0;
-    for (; i + MOST * LANE_COUNT < n; i += TOGETHER * LANE_COUNT)
-        rows_at(TOGETHER, weight, taps, in, stride, i, i + (TOGETHER - 1) * LANE_COUNT, init, out);
-#define ROWS(count) rows_at(count, weight, taps, in, stride, i, n - LANE_COUNT, init, out)
+    for (; i + MOST * LANES < n; i += TOGETHER * LANES)
+        rows_at(TOGETHER, weight, taps, in, stride, i, i + (TOGETHER - 1) * LANES, init, out);
+#define ROWS(count) rows_at(count, weight, taps, in, stride, i, n - LANES, init, out)
     FOR_THE_REST(ROWS)
 #undef ROWS
 }
@@ -80,18 +74,17 @@ INLINED void neighbours_at(const int count, const double *restrict value, size_t
         sum[v] = (lanes){0};
     for (size_t d = 0; d < taps; d++)
         for (int v = 0; v < count; v++)
-            sum[v] += *at(value + d * n + place(count, v, i, last)) * *at(in + d + place(count, v, i, last));
+            sum[v] += AT(value + d * n + place(count, v, i, last)) * AT(in + d + place(count, v, i, last));
     for (int v = 0; v < count; v++)
-        sum[v] = *at(out + place(count, v, i, last)) + factor * sum[v];
+        sum[v] = AT(out + place(count, v, i, last)) + factor * sum[v];
     for (int v = 0; v < count; v++)
         *(lanes *)(out + place(count, v, i, last)) = sum[v];
 }
 
-EACH_MACHINE
-void pass_over_neighbours(const double *value, size_t taps, double factor, const double *in, size_t n,
-                          double *out)
+static void over_neighbours(const double *value, size_t taps, double factor, const double *in, size_t n,
+                            double *out)
 {
-    if (n < LANE_COUNT) {
+    if (n < LANES) {
         for (size_t i = 0; i < n; i++) {
             double total = 0;
             for (size_t d = 0; d < taps; d++)
@@ -101,16 +94,15 @@ void pass_over_neighbours(const double *value, size_t taps, double factor, const
         return;
     }
     size_t i = 0;
-    for (; i + MOST * LANE_COUNT < n; i += TOGETHER * LANE_COUNT)
-        neighbours_at(TOGETHER, value, taps, factor, in, n, i, i + (TOGETHER - 1) * LANE_COUNT, out);
-#define NEIGHBOURS(count) neighbours_at(count, value, taps, factor, in, n, i, n - LANE_COUNT, out)
+    for (; i + MOST * LANES < n; i += TOGETHER * LANES)
+        neighbours_at(TOGETHER, value, taps, factor, in, n, i, i + (TOGETHER - 1) * LANES, out);
+#define NEIGHBOURS(count) neighbours_at(count, value, taps, factor, in, n, i, n - LANES, out)
     FOR_THE_REST(NEIGHBOURS)
 #undef NEIGHBOURS
 }
 
 #define LARGEST_SIZE(name, type)                                                                             \
-    EACH_MACHINE                                                                                             \
-    type name(const type *x, size_t n)                                                                       \
+    static type name(const type *x, size_t n)                                                                \
     {                                                                                                        \
         type largest = 0;                                                                                    \
         _Pragma("omp simd reduction(max : largest)") for (size_t i = 0; i < n; i++)                          \
@@ -122,3 +114,6 @@ void pass_over_neighbours(const double *value, size_t taps, double factor, const
     }
 LARGEST_SIZE(largest_size_double, double)
 LARGEST_SIZE(largest_size_single, float)
+
+const struct passes OF_PROCESSOR(passes) = {over_rows, over_neighbours, largest_size_double,
+                                            largest_size_single};

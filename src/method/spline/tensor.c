@@ -141,8 +141,8 @@ size_t tensor_plan_bytes(const struct tensor_plan *plan)
 
 /* out[i] := init[i] + factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n;
  * init NULL: 0. */
-static void pass_across(const struct band *matrix, size_t at, double factor, const double *in, size_t stride,
-                        size_t n, const double *init, double *out)
+static void pass_across(const struct passes *passes, const struct band *matrix, size_t at, double factor,
+                        const double *in, size_t stride, size_t n, const double *init, double *out)
 {
     const size_t half = matrix->half;
     const size_t from = at < half ? half - at : 0;
@@ -150,7 +150,7 @@ static void pass_across(const struct band *matrix, size_t at, double factor, con
     double weight[MAX_TAPS] = {0};
     for (size_t d = from; d < end; d++)
         weight[d - from] = factor * matrix->value[d * matrix->n + at];
-    pass_over_rows(weight, end - from, in + (at + from - half) * stride, stride, n, init, out);
+    passes->over_rows(weight, end - from, in + (at + from - half) * stride, stride, n, init, out);
 }
 
 static void add_row(double factor, const double *restrict in, size_t n, double *restrict out)
@@ -169,13 +169,14 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
 void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
                  const double *u, double *const *out)
 {
+    const struct passes *passes = taken_passes();
     const size_t nx = plan->n[0], plane = plan->plane, step = rounded(plane);
     double *buffer = plan->buffer[thread];
     double *row = buffer + plan->z_items * step + plan->pad;
     for (size_t i = 0; i < plan->z_items; i++) {
         const double *in = u + (size_t)plan->z[i].in * plan->volume;
         if (plan->z[i].matrix != NULL) {
-            pass_across(plan->z[i].matrix, k, 1, in, plane, plane, NULL, buffer + i * step);
+            pass_across(passes, plan->z[i].matrix, k, 1, in, plane, plane, NULL, buffer + i * step);
         } else
             memcpy(buffer + i * step, in + k * plane, plane * sizeof *in);
     }
@@ -193,13 +194,14 @@ void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t fr
             for (size_t i = y; i < y_end; i++) {
                 const double *in = buffer + plan->y[i].source * step;
                 if (plan->y[i].matrix != NULL)
-                    pass_across(plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum, sum);
+                    pass_across(passes, plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum,
+                                sum);
                 else
                     add_row(scale * plan->y[i].factor, in + j * nx, nx, sum);
             }
             if (along)
-                pass_over_neighbours(target->matrix->value, 2 * target->matrix->half + 1, factor,
-                                     row - target->matrix->half, nx, result);
+                passes->over_neighbours(target->matrix->value, 2 * target->matrix->half + 1, factor,
+                                        row - target->matrix->half, nx, result);
         }
         y = y_end;
     }

@@ -8,7 +8,7 @@
  * part of a pair's stretch that the gradients do not see; it vanishes for quadratic fields where the
  * gradients are exact for them. Momentum: the f_i add up to 0 because E depends on differences only; angular
  * momentum: E does not change when x = X + u turns. Each row is a gather, so the result does not depend on
- * the number of threads. The loops over neighbours are in run_loops.c. */
+ * the number of threads. The loops over neighbours are in run_loops.c and point_loops.c. */
 #include "method/total_lagrangian/run_loops.h"
 
 #include <math.h>
@@ -90,12 +90,31 @@ void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double
     }
 }
 
+static void gradient_block(struct tl_model *tl, const struct tl_block *block)
+{
+    const int axis = tl->cloud->dimension - 1;
+    (block->run ? taken_tl_run_loops()->gradient : taken_tl_point_loops()->gradient)[axis](tl, block);
+}
+
+static void stress_block(struct tl_model *tl, const struct tl_block *block)
+{
+    const int axis = tl->cloud->dimension - 1;
+    taken_tl_run_loops()->stress[axis](tl, block);
+    if (!block->run && tl->extra != NULL) taken_tl_point_loops()->control[axis](tl, block);
+}
+
+static void force_block(struct tl_model *tl, const struct tl_block *block)
+{
+    const int axis = tl->cloud->dimension - 1;
+    (block->run ? taken_tl_run_loops()->force : taken_tl_point_loops()->force)[axis](tl, block);
+}
+
 void tl_gradients(struct tl_model *tl)
 {
     const struct tl_blocks *blocks = &tl->gradient_blocks;
 #pragma omp parallel for schedule(static) if (tl->cloud->points > TL_SERIAL)
     for (size_t k = 0; k < blocks->count; k++)
-        tl_gradient_block(tl, &blocks->block[k]);
+        gradient_block(tl, &blocks->block[k]);
 }
 
 void tl_stresses(struct tl_model *tl)
@@ -104,7 +123,7 @@ void tl_stresses(struct tl_model *tl)
     if (tl->extra != NULL) ghost_gradients(tl);
 #pragma omp parallel for schedule(static) if (tl->cloud->points > TL_SERIAL)
     for (size_t k = 0; k < blocks->count; k++)
-        tl_stress_block(tl, &blocks->block[k]);
+        stress_block(tl, &blocks->block[k]);
 }
 
 /* A force on a ghost is one on its source, T^T. */
@@ -116,7 +135,7 @@ void tl_divergence(struct tl_model *tl)
     {
 #pragma omp for schedule(static)
         for (size_t k = 0; k < blocks->count; k++)
-            tl_force_block(tl, &blocks->block[k]);
+            force_block(tl, &blocks->block[k]);
 #pragma omp for schedule(static)
         for (size_t s = 0; s < tl->sources; s++) {
             const size_t i = tl->source[s];
@@ -152,7 +171,7 @@ INLINED double hourglass_energy(const struct tl_model *tl, const size_t d, size_
 }
 
 #define OF_DIMENSION(d)                                                                                      \
-    EACH_MACHINE static double hourglass_energy_##d(const struct tl_model *tl, size_t i)                     \
+    static double hourglass_energy_##d(const struct tl_model *tl, size_t i)                                  \
     {                                                                                                        \
         return hourglass_energy(tl, d, i);                                                                   \
     }

@@ -196,7 +196,7 @@ INLINED void force_of(struct tl_model *tl, size_t s, const size_t d)
 /* --- One function for each dimension --- */
 
 #define OF_BLOCK(name, d, call)                                                                              \
-    EACH_MACHINE static void name##_##d(struct tl_model *tl, const struct tl_block *block)                   \
+    static void name##_##d(struct tl_model *tl, const struct tl_block *block)                                \
     {                                                                                                        \
         for (size_t i = block->first, last = i + block->count; i < last; i++)                                \
             (call);                                                                                          \
@@ -211,20 +211,5 @@ OF_BLOCK(force, 1, force_of(tl, i, 1))
 OF_BLOCK(force, 2, force_in_plane(tl, i))
 OF_BLOCK(force, 3, force_of(tl, i, 3))
 
-void tl_gradient_points(struct tl_model *tl, const struct tl_block *block)
-{
-    void (*const of[MOST])(struct tl_model *, const struct tl_block *) = {gradient_1, gradient_2, gradient_3};
-    of[tl->cloud->dimension - 1](tl, block);
-}
-
-void tl_control_points(struct tl_model *tl, const struct tl_block *block)
-{
-    void (*const of[MOST])(struct tl_model *, const struct tl_block *) = {control_1, control_2, control_3};
-    of[tl->cloud->dimension - 1](tl, block);
-}
-
-void tl_force_points(struct tl_model *tl, const struct tl_block *block)
-{
-    void (*const of[MOST])(struct tl_model *, const struct tl_block *) = {force_1, force_2, force_3};
-    of[tl->cloud->dimension - 1](tl, block);
-}
+const struct tl_point_loops OF_PROCESSOR(tl_point_loops) = {
+    {gradient_1, gradient_2, gradient_3}, {control_1, control_2, control_3}, {force_1, force_2, force_3}};

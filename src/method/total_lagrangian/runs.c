@@ -42,15 +42,15 @@ static selas_status find(const struct tl_model *tl, size_t count,
                          bool (*same)(const struct tl_model *, size_t, size_t), struct tl_blocks *blocks,
                          struct messages *messages)
 {
-    /* at most count / VEC runs and one stretch more between them, each with one block that is not full */
-    blocks->block = array_new(2 * (count / VEC) + count / LONGEST + 2, sizeof *blocks->block);
+    /* at most count / GROUP runs and one stretch more between them, each with one block that is not full */
+    blocks->block = array_new(2 * (count / GROUP) + count / LONGEST + 2, sizeof *blocks->block);
     if (blocks->block == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", count);
     size_t alone = 0; /* where the points begin that stand in no run */
     for (size_t i = 0; i < count;) {
         size_t next = i + 1;
         while (next < count && same(tl, i, next))
             next++;
-        if (next - i >= VEC) {
+        if (next - i >= GROUP) {
             cut(blocks, alone, i - alone, false);
             cut(blocks, i, next - i, true);
             alone = next;

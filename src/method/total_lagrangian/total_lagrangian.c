@@ -219,6 +219,7 @@ static void fill_model(struct tl_model *tl)
     model->point_stride = d;
     model->damped = tl->damper != NULL || viscous;
     model->self_adjoint = true;
+    model->small_strain = tl->options.law == LAW_LINEAR;
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
     model->bytes = sizeof *tl + tl_rows_bytes(&tl->gradient) + tl_rows_bytes(&tl->transposed) +
                    tl_rows_bytes(&tl->pair) + tl_rows_bytes(&tl->viscous) + neighbours_bytes(&tl->near) +
@@ -235,7 +236,7 @@ static selas_status allocate_numbers(struct tl_model *tl, struct messages *messa
     enum { PAGE = 512, APART = 72, ARRAYS = 5 };
     const size_t d = (size_t)tl->cloud->dimension;
     tl->plane =
-        ((d * tl->sites + VEC - 1) / PAGE + 1) * PAGE + APART; /* room to read a vector at the last point */
+        ((d * tl->sites + GROUP - 1) / PAGE + 1) * PAGE + APART; /* room to read a vector at the last point */
     const size_t counts[ARRAYS] = {tl->plane, tl->plane, tl->plane, d * tl->plane, d * tl->plane};
     double **const arrays[ARRAYS] = {&tl->site_u, &tl->force, &tl->extra, &tl->H, &tl->A};
     size_t total = 0;

@@ -1,28 +1,28 @@
-/* Rates of eight particles from their sums, one particle in each lane of a vector: L^-1, the velocity
+/* Rates of a vector of particles from their sums, one particle in each lane of a vector: L^-1, the velocity
  * gradient, the accelerations, and the stress rate of Hooke's law with the Jaumann terms (equations in
- * rate.c). Inlined into the instances of rate.c. */
+ * rate.c). Inlined into the instances of block_rates.c. */
 #ifndef SELAS_METHOD_UPDATED_LAGRANGIAN_CONTRACT_H
 #define SELAS_METHOD_UPDATED_LAGRANGIAN_CONTRACT_H
 
 #include "base/vectors.h"
 #include "method/updated_lagrangian/updated_lagrangian.h"
 
-/* Sums over the neighbours of eight particles, with 2 W' / slope_scale for W': contract() puts that right. */
-struct eight_sums {
-    vec8 matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
-    vec8 full[6];        /* the same over all: with the ghosts of loaded faces */
-    vec8 velocity[3][3]; /* V (v_j - v_i) grad W */
-    vec8 push[6][3];     /* m (s_j/rho_j^2 + f^4 R_j) grad W */
-    vec8 pull[3];        /* m grad W, which s_i/rho_i^2 multiplies */
-    vec8 soft[3];        /* m f^4 grad W, which R_i multiplies */
-    vec8 damp[3];        /* m Pi grad W */
+/* Sums over the neighbours of LANES particles, with 2 W' / slope_scale for W': contract() puts that right. */
+struct lane_sums {
+    lanes matrix[6];      /* V grad W (x_j - x_i), symmetric, over what deforms with the body */
+    lanes full[6];        /* the same over all: with the ghosts of loaded faces */
+    lanes velocity[3][3]; /* V (v_j - v_i) grad W */
+    lanes push[6][3];     /* m (s_j/rho_j^2 + f^4 R_j) grad W */
+    lanes pull[3];        /* m grad W, which s_i/rho_i^2 multiplies */
+    lanes soft[3];        /* m f^4 grad W, which R_i multiplies */
+    lanes damp[3];        /* m Pi grad W */
 };
 
 /* Inverse of L; the identity where the neighbours do not span the space. */
-INLINED void invert(const int dimension, const vec8 m[6], vec8 inverse[3][3])
+INLINED void invert(const int dimension, const lanes m[6], lanes inverse[3][3])
 {
-    const vec8 none = {0}, one = none + 1;
-    vec8 det, x[3][3];
+    const lanes none = {0}, one = none + 1;
+    lanes det, x[3][3];
     if (dimension == 1) {
         det = m[0];
         x[0][0] = one;
@@ -40,26 +40,26 @@ INLINED void invert(const int dimension, const vec8 m[6], vec8 inverse[3][3])
         x[1][2] = x[2][1] = m[3] * m[5] - m[0] * m[4];
         det = m[0] * x[0][0] + m[3] * x[0][1] + m[5] * x[0][2];
     }
-    const mask8 spans = (mask8)(det > 1e-6);
-    const vec8 scale = 1 / ((vec8)((mask8)det & spans) + (vec8)((mask8)one & ~spans));
+    const lanes_mask spans = (lanes_mask)(det > 1e-6);
+    const lanes scale = 1 / ((lanes)((lanes_mask)det & spans) + (lanes)((lanes_mask)one & ~spans));
     for (int a = 0; a < dimension; a++)
         for (int b = 0; b < dimension; b++)
-            inverse[a][b] =
-                (vec8)((mask8)(x[a][b] * scale) & spans) + (vec8)((mask8)(a == b ? one : none) & ~spans);
+            inverse[a][b] = (lanes)((lanes_mask)(x[a][b] * scale) & spans) +
+                            (lanes)((lanes_mask)(a == b ? one : none) & ~spans);
 }
 
 /* Stress rate from the velocity gradient g[a][b] = d v_a / d x_b. */
-INLINED void stress_rate(const struct updated *updated, const int dimension, vec8 g[3][3], const vec8 *trace,
-                         const vec8 stress[6], vec8 rate[6])
+INLINED void stress_rate(const struct updated *updated, const int dimension, lanes g[3][3],
+                         const lanes *trace, const lanes stress[6], lanes rate[6])
 {
     const double lambda = updated->material->plane_lambda, mu = updated->material->mu;
     for (int a = 0; a < dimension; a++)
         for (int b = a; b < dimension; b++) {
-            vec8 sum = mu * (g[a][b] + g[b][a]);
+            lanes sum = mu * (g[a][b] + g[b][a]);
             if (a == b) sum += lambda * *trace;
             if (updated->options.jaumann)
                 for (int c = 0; c < dimension; c++) {
-                    const vec8 ac = (g[a][c] - g[c][a]) / 2, cb = (g[c][b] - g[b][c]) / 2;
+                    const lanes ac = (g[a][c] - g[c][a]) / 2, cb = (g[c][b] - g[b][c]) / 2;
                     sum += ac * stress[updated_component[dimension][c][b]] -
                            stress[updated_component[dimension][a][c]] * cb;
                 }
@@ -68,28 +68,28 @@ INLINED void stress_rate(const struct updated *updated, const int dimension, vec
 }
 
 /* Number `entry` of each of `count` rows of `width` numbers, and back; the other lanes are 0. */
-INLINED void take_lanes(const double *rows, size_t width, size_t entry, size_t count, vec8 *value)
+INLINED void take_lanes(const double *rows, size_t width, size_t entry, size_t count, lanes *value)
 {
-    double lane[VEC] = {0};
+    double lane[LANES] = {0};
     for (size_t n = 0; n < count; n++)
         lane[n] = rows[width * n + entry];
     memcpy(value, lane, sizeof lane);
 }
 
-INLINED void give_lanes(const vec8 *value, double *rows, size_t width, size_t entry, size_t count)
+INLINED void give_lanes(const lanes *value, double *rows, size_t width, size_t entry, size_t count)
 {
-    double lane[VEC];
+    double lane[LANES];
     memcpy(lane, value, sizeof lane);
     for (size_t n = 0; n < count; n++)
         rows[width * n + entry] = lane[n];
 }
 
 /* What grad W of the sums is multiplied with: L^-1 and the scale of the kernel, which the sums go without. */
-INLINED void correction(const struct updated *updated, const int dimension, const vec8 sums[6],
-                        vec8 inverse[3][3])
+INLINED void correction(const struct updated *updated, const int dimension, const lanes sums[6],
+                        lanes inverse[3][3])
 {
     const double scale = updated->slope_scale / 2;
-    vec8 matrix[6] = {{0}};
+    lanes matrix[6] = {{0}};
     for (int s = 0; updated->options.correction && s < dimension * (dimension + 1) / 2; s++)
         matrix[s] = scale * sums[s];
     invert(dimension, matrix, inverse);
@@ -98,16 +98,16 @@ INLINED void correction(const struct updated *updated, const int dimension, cons
             inverse[a][b] *= scale;
 }
 
-/* Rates of the particles i ... i + count - 1, at most eight. */
+/* Rates of the particles i ... i + count - 1, at most LANES. */
 INLINED void contract(const struct updated *updated, const int dimension, size_t i, size_t count,
-                      const struct eight_sums *sums, const double *y, double *dydt)
+                      const struct lane_sums *sums, const double *y, double *dydt)
 {
     const size_t points = updated->cloud->points, unknowns = updated->model.unknowns;
     const size_t dim = (size_t)dimension, stresses = dim * (dim + 1) / 2;
     const double *density = y + 2 * unknowns + i, *stress = y + 2 * unknowns + points + stresses * i;
     double *acceleration = dydt + unknowns + dim * i, *density_rate = dydt + 2 * unknowns + i,
            *stresses_rate = dydt + 2 * unknowns + points + stresses * i;
-    vec8 inverse[3][3], gradient[3][3], trace = {0}, own[6] = {{0}}, soft[6] = {{0}}, rate[6], thinning;
+    lanes inverse[3][3], gradient[3][3], trace = {0}, own[6] = {{0}}, soft[6] = {{0}}, rate[6], thinning;
     correction(updated, dimension, sums->matrix, inverse);
     for (int a = 0; a < dimension; a++) {
         for (int b = 0; b < dimension; b++) {
@@ -120,9 +120,9 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
     if (updated->pressed) correction(updated, dimension, sums->full, inverse);
     const double *packed = updated_packed(updated, i);
     const size_t step = updated_step(updated), place = updated->ordered ? 1 : updated->layout.size;
-    const vec8 none = {0}, one = none + 1;
+    const lanes none = {0}, one = none + 1;
     take_lanes(density, 1, 0, count, &thinning);
-    const vec8 volume = 1 / (thinning + WHERE(thinning == 0, one));
+    const lanes volume = 1 / (thinning + WHERE(thinning == 0, one));
     for (size_t s = 0; s < stresses; s++) {
         take_lanes(packed + step * (updated->layout.tension + s), place, 0, count, &own[s]);
         own[s] *= volume;
@@ -131,11 +131,11 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
         soft[s] *= volume;
     }
     for (int a = 0; a < dimension; a++) {
-        vec8 sum = {0};
+        lanes sum = {0};
         for (int c = 0; c < dimension; c++)
             for (int b = 0; b < dimension; b++) {
                 const int s = updated_component[dimension][a][b];
-                vec8 push = sums->push[s][c] + own[s] * sums->pull[c] + soft[s] * sums->soft[c];
+                lanes push = sums->push[s][c] + own[s] * sums->pull[c] + soft[s] * sums->soft[c];
                 if (a == b) push -= sums->damp[c];
                 sum += push * inverse[b][c];
             }
@@ -150,30 +150,35 @@ INLINED void contract(const struct updated *updated, const int dimension, size_t
         give_lanes(&rate[s], stresses_rate, stresses, s, count);
 }
 
-/* The lanes of the sums of one particle together, into one lane of those of eight. */
-INLINED void put_lane(const vec8 *parts, size_t lane, vec8 *eight)
+/* The sums of one particle lie in GROUP lanes, of one vector or several, and go together in one order
+ * whatever the width. */
+enum { PARTS = GROUP / LANES };
+
+/* Adds the lanes of a number of one particle's sums up into one lane of those of several. */
+INLINED void put_lane(const lanes *part, size_t lane, lanes *several)
 {
     double sum = 0;
-    for (int n = 0; n < VEC; n++)
-        sum += (*parts)[n];
-    (*eight)[lane] = sum;
+    for (size_t p = 0; p < PARTS; p++)
+        for (int n = 0; n < LANES; n++)
+            sum += part[p * sizeof(struct lane_sums) / sizeof(lanes)][n];
+    (*several)[lane] = sum;
 }
 
-INLINED void put_sums(const int dimension, const struct eight_sums *parts, size_t lane,
-                      struct eight_sums *eight)
+INLINED void put_sums(const int dimension, const struct lane_sums *parts, size_t lane,
+                      struct lane_sums *several)
 {
     for (int s = 0; s < dimension * (dimension + 1) / 2; s++) {
-        put_lane(&parts->matrix[s], lane, &eight->matrix[s]);
-        put_lane(&parts->full[s], lane, &eight->full[s]);
+        put_lane(&parts->matrix[s], lane, &several->matrix[s]);
+        put_lane(&parts->full[s], lane, &several->full[s]);
         for (int a = 0; a < dimension; a++)
-            put_lane(&parts->push[s][a], lane, &eight->push[s][a]);
+            put_lane(&parts->push[s][a], lane, &several->push[s][a]);
     }
     for (int a = 0; a < dimension; a++) {
-        put_lane(&parts->pull[a], lane, &eight->pull[a]);
-        put_lane(&parts->soft[a], lane, &eight->soft[a]);
-        put_lane(&parts->damp[a], lane, &eight->damp[a]);
+        put_lane(&parts->pull[a], lane, &several->pull[a]);
+        put_lane(&parts->soft[a], lane, &several->soft[a]);
+        put_lane(&parts->damp[a], lane, &several->damp[a]);
         for (int b = 0; b < dimension; b++)
-            put_lane(&parts->velocity[a][b], lane, &eight->velocity[a][b]);
+            put_lane(&parts->velocity[a][b], lane, &several->velocity[a][b]);
     }
 }
 

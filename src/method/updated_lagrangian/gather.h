@@ -1,15 +1,15 @@
-/* Sums over the neighbours of eight particles in sequence. Inlined into the instances of
- * rate.c.
+/* Sums over the neighbours of particles, a vector of pairs at a time. Inlined into the instances of
+ * block_rates.c.
  *
  * Where particles are numbered in some order (lattices, rings) the neighbours of one stand at much the same
- * distances in memory as those of the next. So the lists of eight particles are merged into one of distances
- * in memory, and for each of them eight pairs are taken at once, with contiguous loads from the planes of
- * struct updated. A place that is no neighbour of some particle is out of its reach, as the lists are
- * complete: the slope of the kernel is 0 there and adds nothing.
+ * distances in memory as those of the next. So the lists of GROUP particles are merged into one of distances
+ * in memory (order.c), and for each of them as many pairs as a vector holds are taken at once, with
+ * contiguous loads from the planes of struct updated. A place that is no neighbour of some particle is out of
+ * its reach, as the lists are complete: the slope of the kernel is 0 there and adds nothing.
  *
  * Else particles go one by one: the neighbours within reach are copied into a batch, component by component,
- * and eight of them at a time meet the particle in all lanes; the last lanes are filled up with a place that
- * is far away.
+ * and a vector of them at a time meets the particle in all lanes; the last lanes are filled up with a place
+ * that is far away.
  *
  * Either way the sums, in ascending order, do not depend on when the lists were made. */
 #ifndef SELAS_METHOD_UPDATED_LAGRANGIAN_GATHER_H
@@ -17,25 +17,26 @@
 
 #include "method/updated_lagrangian/pairs.h"
 
-/* Sums of the particles first ... last - 1, eight in each; first is a multiple of eight. Chunk by chunk of
- * all of them: what the neighbours of the first eight are read from is in the first-level cache still when
- * the second eight need it. */
-INLINED void gather_eights(const struct updated *updated, const int dimension, const struct pair_switches on,
-                           size_t first, size_t last, struct eight_sums *sums)
+/* Sums of the particles first ... last - 1, LANES in each; first is a multiple of GROUP. Chunk by chunk of
+ * all of them: what the neighbours of the first are read from is in the first-level cache still when the
+ * second need it. */
+INLINED void gather_ordered(const struct updated *updated, const int dimension, const struct pair_switches on,
+                            size_t first, size_t last, struct lane_sums *sums)
 {
     const struct pair_constants constants = pair_constants_of(updated);
     bool more = true;
     for (int k = 0; more; k += CHUNK) {
         more = false;
-        for (size_t i = first; i < last; i += VEC) {
+        for (size_t i = first; i < last; i += LANES) {
             const struct pairs pairs = {.own = updated_packed(updated, i),
                                         .other = updated_packed(updated, i),
                                         .own_stride = updated->stride,
                                         .other_stride = updated->stride,
-                                        .shift = updated->shift + updated->neighbours.start[i],
-                                        .count = (int)updated->shifts[i / VEC]};
+                                        .shift =
+                                            updated->shift + updated->neighbours.start[i / GROUP * GROUP],
+                                        .count = (int)updated->shifts[i / GROUP]};
             if (k < pairs.count)
-                add_chunk(updated, &constants, dimension, on, &pairs, k, &sums[(i - first) / VEC]);
+                add_chunk(updated, &constants, dimension, on, &pairs, k, &sums[(i - first) / LANES]);
             more = more || k + CHUNK < pairs.count;
         }
     }
@@ -50,7 +51,7 @@ enum {
 /* Components of up to BATCH neighbours. */
 struct batch {
     double number[COMPONENTS][ROW];
-    double own[COMPONENTS][VEC];
+    double own[COMPONENTS][LANES];
 };
 
 /* Copies neighbours within reach from entry *next of the list on; returns how many. */
@@ -71,7 +72,7 @@ INLINED int fill_batch(const struct updated *updated, const int dimension, const
             batch->number[c][count] = other[c];
         count++;
     }
-    for (int n = count; n % VEC != 0; n++) {
+    for (int n = count; n % GROUP != 0; n++) {
         for (size_t c = 0; c < layout.size; c++)
             batch->number[c][n] = own[c];
         batch->number[0][n] += 1000 * updated->reach * updated->longest;
@@ -79,34 +80,37 @@ INLINED int fill_batch(const struct updated *updated, const int dimension, const
     return count;
 }
 
-/* Sums of particle i into lane n. */
+/* Sums of particle i into a lane: each GROUP of its neighbours is one vector, or several with sums of their
+ * own, so that they are added in one order whatever the width. */
 INLINED void gather_one(const struct updated *updated, const int dimension, const struct pair_switches on,
-                        size_t i, size_t lane, struct eight_sums *sums)
+                        size_t i, size_t lane, struct lane_sums *sums)
 {
     const struct pair_constants constants = pair_constants_of(updated);
     const double *own = updated->record + updated->layout.size * i;
     _Alignas(64) struct batch batch;
-    _Alignas(64) struct eight_sums parts = {.matrix = {{0}}};
-    int32_t shift[BATCH / VEC];
-    for (int k = 0; k < BATCH / VEC; k++)
-        shift[k] = VEC * k;
+    _Alignas(64) struct lane_sums parts[PARTS] = {{.matrix = {{0}}}};
+    int32_t shift[BATCH / GROUP];
+    for (int k = 0; k < BATCH / GROUP; k++)
+        shift[k] = GROUP * k;
     for (size_t c = 0; c < updated->layout.size; c++)
-        for (int n = 0; n < VEC; n++)
+        for (int n = 0; n < LANES; n++)
             batch.own[c][n] = own[c];
     size_t next = updated->neighbours.start[i];
     const size_t last = updated->neighbours.start[i + 1];
     for (int count = BATCH; count == BATCH;) {
         count = fill_batch(updated, dimension, own, last, &next, &batch);
-        const struct pairs pairs = {.own = batch.own[0],
-                                    .other = batch.number[0],
-                                    .own_stride = VEC,
-                                    .other_stride = ROW,
-                                    .shift = shift,
-                                    .count = (count + VEC - 1) / VEC};
-        for (int k = 0; k < pairs.count; k += CHUNK)
-            add_chunk(updated, &constants, dimension, on, &pairs, k, &parts);
+        for (int part = 0; part < PARTS; part++) {
+            const struct pairs pairs = {.own = batch.own[0],
+                                        .other = batch.number[0] + LANES * part,
+                                        .own_stride = LANES,
+                                        .other_stride = ROW,
+                                        .shift = shift,
+                                        .count = (count + GROUP - 1) / GROUP};
+            for (int k = 0; k < pairs.count; k += CHUNK)
+                add_chunk(updated, &constants, dimension, on, &pairs, k, &parts[part]);
+        }
     }
-    put_sums(dimension, &parts, lane, sums);
+    put_sums(dimension, parts, lane, sums);
 }
 
 #endif

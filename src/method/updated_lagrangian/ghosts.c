@@ -84,7 +84,7 @@ static bool mirror_at(struct updated *updated, enum face face)
 {
     const struct scene *scene = updated->model.scene;
     const int axis = face_axis(face);
-    const double wall = face_sign(face) < 0 ? scene->body.low[axis] : scene->body.high[axis];
+    const double wall = face_plane(&scene->body, face);
     const size_t points = updated->cloud->points, before = updated->ghosts;
     if (!grow(updated, count_images(updated, axis, wall))) return false;
     for (size_t i = 0; i < points + before; i++) {
@@ -202,16 +202,16 @@ static void repel(const struct updated *updated, size_t place)
     const size_t places = updated->cloud->points + updated->ghosts, stresses = (size_t)updated->stresses;
     double *packed = updated_packed(updated, place);
     if (updated->ordered) {
-        updated_artificial_stress(updated->dimension, epsilon, updated->stride,
-                                  packed + updated->stride * layout.tension,
-                                  packed + updated->stride * layout.repulsion);
+        taken_updated_stresses()->artificial(updated->dimension, epsilon, updated->stride,
+                                             packed + updated->stride * layout.tension,
+                                             packed + updated->stride * layout.repulsion);
         return;
     }
     double tension[6 * UPDATED_TENSORS] = {0}, repulsion[6 * UPDATED_TENSORS];
     for (size_t n = 0; n < UPDATED_TENSORS && place + n < places; n++)
         for (size_t s = 0; s < stresses; s++)
             tension[UPDATED_TENSORS * s + n] = packed[layout.size * n + layout.tension + s];
-    updated_artificial_stress(updated->dimension, epsilon, UPDATED_TENSORS, tension, repulsion);
+    taken_updated_stresses()->artificial(updated->dimension, epsilon, UPDATED_TENSORS, tension, repulsion);
     for (size_t n = 0; n < UPDATED_TENSORS && place + n < places; n++)
         for (size_t s = 0; s < stresses; s++)
             packed[layout.size * n + layout.repulsion + s] = repulsion[UPDATED_TENSORS * s + n];

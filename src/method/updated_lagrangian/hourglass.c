@@ -217,21 +217,21 @@ INLINED void return_pairs(const struct updated *updated, const int dimension, si
 /* Instances with constant dimension: of particles first ... last - 1. */
 enum { BLOCK = 64 };
 #define INSTANCES(dimension)                                                                                 \
-    EACH_MACHINE static void gradients_##dimension(const struct updated *updated, size_t first, size_t last) \
+    static void gradients_##dimension(const struct updated *updated, size_t first, size_t last)              \
     {                                                                                                        \
         for (size_t i = first; i < last; i++) {                                                              \
             weigh_pairs(updated, dimension, i);                                                              \
             take_gradient(updated, dimension, i);                                                            \
         }                                                                                                    \
     }                                                                                                        \
-    EACH_MACHINE static void pushes_##dimension(const struct updated *updated, size_t first, size_t last,    \
-                                                const double *y, double *acceleration)                       \
+    static void pushes_##dimension(const struct updated *updated, size_t first, size_t last,                 \
+                                   const double *y, double *acceleration)                                    \
     {                                                                                                        \
         for (size_t i = first; i < last; i++)                                                                \
             push_pairs(updated, dimension, i, y, acceleration);                                              \
     }                                                                                                        \
-    EACH_MACHINE static void returns_##dimension(const struct updated *updated, size_t first, size_t last,   \
-                                                 double *acceleration)                                       \
+    static void returns_##dimension(const struct updated *updated, size_t first, size_t last,                \
+                                    double *acceleration)                                                    \
     {                                                                                                        \
         for (size_t i = first; i < last; i++)                                                                \
             return_pairs(updated, dimension, i, acceleration);                                               \

@@ -35,9 +35,9 @@ static size_t reachable(const struct updated *updated, size_t i, size_t k)
 static uint32_t merge(const struct updated *updated, size_t i, size_t *pairs)
 {
     const struct neighbours *near = &updated->neighbours;
-    const size_t last = i + VEC < updated->cloud->points ? i + VEC : updated->cloud->points;
+    const size_t last = i + GROUP < updated->cloud->points ? i + GROUP : updated->cloud->points;
     int32_t *shift = updated->shift + near->start[i];
-    size_t next[VEC] = {0};
+    size_t next[GROUP] = {0};
     uint32_t count = 0;
     for (size_t n = i; n < last; n++)
         next[n - i] = reachable(updated, n, near->start[n]);
@@ -73,8 +73,8 @@ selas_status updated_merge_lists(struct updated *updated, struct messages *messa
     }
     size_t pairs = 0;
 #pragma omp parallel for schedule(static) reduction(+ : pairs) if (points >= UPDATED_PARALLEL)
-    for (size_t i = 0; i < points; i += VEC)
-        updated->shifts[i / VEC] = merge(updated, i, &pairs);
+    for (size_t i = 0; i < points; i += GROUP)
+        updated->shifts[i / GROUP] = merge(updated, i, &pairs);
     updated->merged = pairs;
     return SELAS_OK;
 }
@@ -84,7 +84,7 @@ static void fill_ends(struct updated *updated)
 {
     const size_t places = updated->cloud->points + updated->ghosts;
     for (size_t k = 0; k < updated->stride; k++) {
-        if (k >= VEC && k < VEC + places) continue;
+        if (k >= GROUP && k < GROUP + places) continue;
         for (size_t a = 0; a < (size_t)updated->dimension; a++)
             updated->planes[a * updated->stride + k] = 1e6 * updated->reach * updated->longest;
         updated->planes[updated->layout.density * updated->stride + k] = updated->material->density;
@@ -114,8 +114,8 @@ selas_status updated_choose_order(struct updated *updated, struct messages *mess
 {
     const size_t points = updated->cloud->points, places = points + updated->ghosts;
     if (!updated->cubic || places > INT32_MAX) return updated_one_by_one(updated, messages);
-    const size_t groups = (points + VEC - 1) / VEC;
-    updated->stride = (places + 4 * VEC - 1) / VEC * VEC;
+    const size_t groups = (points + GROUP - 1) / GROUP;
+    updated->stride = (places + 4 * GROUP - 1) / GROUP * GROUP;
     updated->shifts = array_new(groups, sizeof *updated->shifts);
     updated->planes = array_new(updated->layout.size * updated->stride, sizeof *updated->planes);
     if (updated->shifts == NULL || updated->planes == NULL)
@@ -123,7 +123,7 @@ selas_status updated_choose_order(struct updated *updated, struct messages *mess
     selas_status status = updated_merge_lists(updated, messages);
     double merged = 0;
     for (size_t k = 0; status == SELAS_OK && k < groups; k++)
-        merged += VEC * (double)updated->shifts[k];
+        merged += GROUP * (double)updated->shifts[k];
     updated->ordered = merged < MOST * (double)updated->merged;
     if (updated->ordered)
         fill_ends(updated);

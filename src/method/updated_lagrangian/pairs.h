@@ -1,6 +1,5 @@
-/* Sums over pairs of particles, eight pairs at a time, one in each lane of a vector: what eight particles in
- * sequence and single particles (gather.h) have in common. Inlined into the instances of
- * rate.c.
+/* Sums over pairs of particles, one pair in each lane of a vector: what particles in sequence and single
+ * particles (gather.h) have in common. Inlined into the instances of block_rates.c.
  *
  * Pairs come in chunks, and each chunk is gone over in short loops: distances and differences; roots; kernel
  * and viscosity; L and grad v; stresses. One loop would need 42 sums in space and as many other numbers at
@@ -16,6 +15,10 @@
 
 #include "method/updated_lagrangian/contract.h"
 
+#if VECTOR_BYTES > 16
+#include <immintrin.h>
+#endif
+
 /* What all pairs have in common. */
 struct pair_constants {
     double inverse_square, closest; /* 1 / h^2; the square of the kernel's support */
@@ -30,23 +33,24 @@ struct pair_switches {
     bool pressed;            /* ghosts that carry a traction do not deform */
 };
 
+/* Vectors of pairs in a chunk, which stays in the first-level cache. */
 enum { CHUNK = 12 };
 
-/* Eight pairs each. */
+/* LANES pairs each. */
 struct chunk {
-    vec8 d[3][CHUNK], change[3][CHUNK]; /* x_i - x_j, later V grad W; v_j - v_i */
-    vec8 s[CHUNK], approach[CHUNK];     /* q^2, -change.d */
-    vec8 shorter[CHUNK];                /* usual smoothing length over that of the pair, if it is another */
-    vec8 mean[CHUNK];                   /* sum of the densities */
-    vec8 inverse[CHUNK];                /* 1 / q without viscosity, else 1 / (q (q^2 + .01) mean) */
-    vec8 span[CHUNK], volume[CHUNK];    /* V W'/r, over what deforms and over all */
-    vec8 power[CHUNK];                  /* f^4 */
-    int reached[CHUNK], count;          /* which of them are in reach, and how many */
+    lanes d[3][CHUNK], change[3][CHUNK]; /* x_i - x_j, later V grad W; v_j - v_i */
+    lanes s[CHUNK], approach[CHUNK];     /* q^2, -change.d */
+    lanes shorter[CHUNK];                /* usual smoothing length over that of the pair, if it is another */
+    lanes mean[CHUNK];                   /* sum of the densities */
+    lanes inverse[CHUNK];                /* 1 / q without viscosity, else 1 / (q (q^2 + .01) mean) */
+    lanes span[CHUNK], volume[CHUNK];    /* V W'/r, over what deforms and over all */
+    lanes power[CHUNK];                  /* f^4 */
+    int reached[CHUNK], count;           /* which of them are in reach, and how many */
     bool within[CHUNK];
 };
 
-/* Where the packed particles stand: component c of the eight on one side at own + c * own_stride; of the
- * eight on the other side of group k of pairs at other + shift[k] + c * other_stride. */
+/* Where the packed particles stand: component c of those on one side at own + c * own_stride; of those on the
+ * other side of vector k of pairs at other + shift[k] + c * other_stride. */
 struct pairs {
     const double *own, *other;
     size_t own_stride, other_stride;
@@ -67,25 +71,25 @@ INLINED struct pair_constants pair_constants_of(const struct updated *updated)
     };
 }
 
-#define OWN(component) VEC8(pairs->own + (component)*pairs->own_stride)
-#define OTHER(component) VEC8(other + (component)*pairs->other_stride)
+#define OWN(component) AT(pairs->own + (component)*pairs->own_stride)
+#define OTHER(component) AT(other + (component)*pairs->other_stride)
 
 /* w'(q)/q and w(q), by which q that of the cubic spline is, by truncated powers, w = ((2 - q)^3 - 4 (1 -
  * q)^3) / 6, each where positive: no branch. Twice the slope and six times the shape: updated_slope_scale()
  * and updated_shape_scale(). */
-INLINED void cubic_spline(const vec8 *q, const vec8 *inverse, vec8 *slope, vec8 *shape)
+INLINED void cubic_spline(const lanes *q, const lanes *inverse, lanes *slope, lanes *shape)
 {
-    const vec8 outer = WHERE(*q < 2, 2 - *q), inner = WHERE(*q < 1, 1 - *q);
-    const vec8 outer_square = outer * outer, inner_square = 4 * inner * inner;
+    const lanes outer = WHERE(*q < 2, 2 - *q), inner = WHERE(*q < 1, 1 - *q);
+    const lanes outer_square = outer * outer, inner_square = 4 * inner * inner;
     *slope = (inner_square - outer_square) * *inverse;
     *shape = outer_square * outer - inner_square * inner;
 }
 
 /* The same of any kernel, number by number. */
-INLINED void other_kernel(const struct kernel *kernel, const int dimension, const vec8 *q, vec8 *slope,
-                          vec8 *shape)
+INLINED void other_kernel(const struct kernel *kernel, const int dimension, const lanes *q, lanes *slope,
+                          lanes *shape)
 {
-    for (int n = 0; n < VEC; n++) {
+    for (int n = 0; n < LANES; n++) {
         const bool within = (*q)[n] < kernel->support;
         (*slope)[n] = within ? 2 * kernel->slope_over_q(dimension, (*q)[n]) : 0;
         (*shape)[n] = within ? 6 * kernel->shape(dimension, (*q)[n]) : 0;
@@ -93,12 +97,16 @@ INLINED void other_kernel(const struct kernel *kernel, const int dimension, cons
 }
 
 /* Some number in the vector is less than the limit. */
-INLINED bool any_less(const vec8 *x, double limit)
+INLINED bool any_less(const lanes *x, double limit)
 {
-    const byte8 less = __builtin_convertvector((mask8)(*x < limit), byte8);
-    uint64_t all;
-    memcpy(&all, &less, sizeof all);
-    return all != 0;
+    const lanes_mask less = (lanes_mask)(*x < limit);
+#if VECTOR_BYTES == 64
+    return _mm512_movepi64_mask((__m512i)less) != 0;
+#elif VECTOR_BYTES == 32
+    return _mm256_movemask_pd((__m256d)less) != 0;
+#else
+    return (less[0] | less[1]) != 0;
+#endif
 }
 
 /* First loop: distances, and whether somebody is in reach. */
@@ -108,15 +116,15 @@ INLINED void take_distances(const struct updated *updated, const struct pair_con
 {
     for (int k = 0; k < pairs->count; k++) {
         const double *other = pairs->other + pairs->shift[k];
-        vec8 square = {0};
+        lanes square = {0};
         for (size_t a = 0; a < (size_t)dimension; a++) {
-            const vec8 d = OWN(a) - OTHER(a);
+            const lanes d = OWN(a) - OTHER(a);
             square += d * d;
             chunk->d[a][k] = d;
         }
-        vec8 s = square * constants->inverse_square;
+        lanes s = square * constants->inverse_square;
         if (!on.even) {
-            const vec8 shorter = 2 / (OWN(updated->layout.length) + OTHER(updated->layout.length));
+            const lanes shorter = 2 / (OWN(updated->layout.length) + OTHER(updated->layout.length));
             s *= shorter * shorter;
             chunk->shorter[k] = shorter;
         }
@@ -139,18 +147,18 @@ INLINED void take_differences(const struct updated *updated, const int dimension
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
         const double *other = pairs->other + pairs->shift[k];
-        vec8 approach = {0};
+        lanes approach = {0};
         for (size_t a = 0; a < (size_t)dimension; a++) {
-            const vec8 change = OTHER(layout.velocity + a) - OWN(layout.velocity + a);
+            const lanes change = OTHER(layout.velocity + a) - OWN(layout.velocity + a);
             if (on.viscous) approach -= change * chunk->d[a][k];
             chunk->change[a][k] = change;
         }
-        const vec8 s = chunk->s[k];
+        const lanes s = chunk->s[k];
         if (!on.viscous) {
             chunk->inverse[k] = s;
             continue;
         }
-        const vec8 mean = OWN(layout.density) + OTHER(layout.density), both = (s + .01) * mean;
+        const lanes mean = OWN(layout.density) + OTHER(layout.density), both = (s + .01) * mean;
         chunk->approach[k] = approach;
         chunk->mean[k] = mean;
         chunk->inverse[k] = s * (both * both);
@@ -165,11 +173,11 @@ INLINED void take_inverse_roots(struct chunk *chunk)
 {
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
-        vec8 *x = chunk->inverse;
-        const vec8 square = x[k];
-        const vec8 guess = (vec8)(0x5fe6eb50c7b537a9 - ((mask8)square >> 1));
-        vec8 e = 1 - square * guess * guess;
-        const vec8 y =
+        lanes *x = chunk->inverse;
+        const lanes square = x[k];
+        const lanes guess = (lanes)(0x5fe6eb50c7b537a9 - ((lanes_bits)square >> 1));
+        lanes e = 1 - square * guess * guess;
+        const lanes y =
             guess * (0.99999917128758716 +
                      e * (0.49999925406266828 + e * (0.37634845857073469 + e * 0.31371374967740283)));
         e = 1 - square * y * y;
@@ -181,16 +189,16 @@ INLINED void take_inverse_roots(struct chunk *chunk)
  * what s_i, R_i and the viscosity multiply when all is summed. */
 INLINED void weigh(const struct updated *updated, const struct pair_constants *constants, const int dimension,
                    const struct pair_switches on, const struct pairs *pairs, struct chunk *restrict chunk,
-                   struct eight_sums *restrict sums)
+                   struct lane_sums *restrict sums)
 {
     const struct updated_layout layout = updated->layout;
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
         const double *other = pairs->other + pairs->shift[k];
-        const vec8 s = chunk->s[k];
-        vec8 over = chunk->inverse[k], slope = {0}, shape = {0}, d[3];
+        const lanes s = chunk->s[k];
+        lanes over = chunk->inverse[k], slope = {0}, shape = {0}, d[3];
         if (on.viscous) over *= (s + .01) * chunk->mean[k];
-        const vec8 q = s * over;
+        const lanes q = s * over;
         if (on.cubic)
             cubic_spline(&q, &over, &slope, &shape);
         else
@@ -199,22 +207,22 @@ INLINED void weigh(const struct updated *updated, const struct pair_constants *c
             slope *= chunk->shorter[k];
         chunk->span[k] = slope * OTHER(layout.span);
         if (on.pressed) chunk->volume[k] = slope * OTHER(layout.volume);
-        const vec8 mass = slope * OTHER(layout.mass);
+        const lanes mass = slope * OTHER(layout.mass);
         for (int a = 0; a < dimension; a++) {
             d[a] = chunk->d[a][k];
             sums->pull[a] += mass * d[a];
         }
         if (on.repulsive) {
-            const vec8 square = shape * shape, power = square * square, part = mass * power;
+            const lanes square = shape * shape, power = square * square, part = mass * power;
             chunk->power[k] = power;
             for (int a = 0; a < dimension; a++)
                 sums->soft[a] += part * d[a];
         }
         if (on.viscous) {
-            const vec8 approach = WHERE(chunk->approach[k] < constants->one_side, chunk->approach[k]);
-            vec8 b = approach * (chunk->inverse[k] * q);
+            const lanes approach = WHERE(chunk->approach[k] < constants->one_side, chunk->approach[k]);
+            lanes b = approach * (chunk->inverse[k] * q);
             if (!on.even) b *= chunk->shorter[k];
-            const vec8 part = (constants->beta * (b * chunk->mean[k]) - constants->alpha) * b * mass;
+            const lanes part = (constants->beta * (b * chunk->mean[k]) - constants->alpha) * b * mass;
             for (int a = 0; a < dimension; a++)
                 sums->damp[a] += part * d[a];
         }
@@ -222,7 +230,7 @@ INLINED void weigh(const struct updated *updated, const struct pair_constants *c
 }
 
 /* L with the ghosts of loaded faces, which carry a stress but do not deform; before the fifth loop. */
-INLINED void add_full(const int dimension, const struct chunk *chunk, struct eight_sums *sums)
+INLINED void add_full(const int dimension, const struct chunk *chunk, struct lane_sums *sums)
 {
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
@@ -233,23 +241,25 @@ INLINED void add_full(const int dimension, const struct chunk *chunk, struct eig
     }
 }
 
-/* Fifth loop: L and the velocity gradient. Leaves V grad W in place of d. */
-INLINED void add_strains(const int dimension, const bool pressed, struct chunk *restrict chunk,
-                         struct eight_sums *restrict sums)
+/* Fifth loop: the velocity gradient and L, each on its own where there are few registers. Leaves V grad W in
+ * place of d. */
+INLINED void add_strains(const int dimension, const bool pressed, const bool velocity, const bool matrix,
+                         struct chunk *restrict chunk, struct lane_sums *restrict sums)
 {
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
-        vec8 d[3], change[3];
-        const vec8 span = chunk->span[k];
+        lanes d[3], change[3];
+        const lanes span = chunk->span[k];
         for (int a = 0; a < dimension; a++) {
             d[a] = chunk->d[a][k];
             change[a] = chunk->change[a][k];
         }
         for (int a = 0; a < dimension; a++) {
-            const vec8 strain = span * d[a];
-            chunk->d[a][k] = (pressed ? chunk->volume[k] : span) * d[a];
-            for (int b = 0; b < dimension; b++)
+            const lanes strain = span * d[a];
+            for (int b = 0; velocity && b < dimension; b++)
                 sums->velocity[b][a] += change[b] * strain;
+            if (!matrix) continue;
+            chunk->d[a][k] = (pressed ? chunk->volume[k] : span) * d[a];
             for (int b = a; b < dimension; b++)
                 sums->matrix[updated_component[dimension][a][b]] -= d[b] * strain;
         }
@@ -259,17 +269,17 @@ INLINED void add_strains(const int dimension, const bool pressed, struct chunk *
 /* Sixth loop: V (s_j / rho_j + f^4 rho_j R_j) grad W. */
 INLINED void add_stresses(const struct updated *updated, const int dimension, const struct pair_switches on,
                           const int first, const int last, const struct pairs *pairs,
-                          const struct chunk *restrict chunk, struct eight_sums *restrict sums)
+                          const struct chunk *restrict chunk, struct lane_sums *restrict sums)
 {
     const size_t tension = updated->layout.tension, repulsion = updated->layout.repulsion;
     for (int n = 0; n < chunk->count; n++) {
         const int k = chunk->reached[n];
         const double *other = pairs->other + pairs->shift[k];
-        vec8 force[3];
+        lanes force[3];
         for (int a = 0; a < dimension; a++)
             force[a] = chunk->d[a][k];
         for (int s = first; s < last; s++) {
-            vec8 stress = OTHER(tension + (size_t)s);
+            lanes stress = OTHER(tension + (size_t)s);
             if (on.repulsive) stress += chunk->power[k] * OTHER(repulsion + (size_t)s);
             for (int a = 0; a < dimension; a++)
                 sums->push[s][a] += stress * force[a];
@@ -288,33 +298,44 @@ INLINED void add_stresses(const struct updated *updated, const int dimension, co
         loop;                                                                                                \
     }
 #define LOOPS(dim)                                                                                           \
-    EACH_MACHINE NOT_INLINED static void meet_##dim(                                                         \
-        const struct updated *updated, const struct pair_constants *constants, struct pair_switches on,      \
-        const struct pairs *pairs, struct chunk *chunk)                                                      \
+    NOT_INLINED static void meet_##dim(const struct updated *updated,                                        \
+                                       const struct pair_constants *constants, struct pair_switches on,      \
+                                       const struct pairs *pairs, struct chunk *chunk)                       \
     {                                                                                                        \
         EACH_SWITCH(take_distances(updated, constants, dim, as, pairs, chunk))                               \
         EACH_SWITCH(take_differences(updated, dim, as, pairs, chunk))                                        \
         take_inverse_roots(chunk);                                                                           \
     }                                                                                                        \
-    EACH_MACHINE NOT_INLINED static void weights_##dim(                                                      \
-        const struct updated *updated, const struct pair_constants *constants, struct pair_switches on,      \
-        const struct pairs *pairs, struct chunk *restrict chunk,                                             \
-        struct eight_sums *restrict sums){EACH_SWITCH(                                                       \
+    NOT_INLINED static void weights_##dim(const struct updated *updated,                                     \
+                                          const struct pair_constants *constants, struct pair_switches on,   \
+                                          const struct pairs *pairs, struct chunk *restrict chunk,           \
+                                          struct lane_sums *restrict sums){EACH_SWITCH(                      \
         weigh(updated, constants, dim, as, pairs, chunk,                                                     \
-              sums))} EACH_MACHINE NOT_INLINED static void strains_##dim(bool pressed,                       \
-                                                                         struct chunk *restrict chunk,       \
-                                                                         struct eight_sums *restrict sums)   \
+              sums))} NOT_INLINED static void strains_##dim(bool pressed, struct chunk *restrict chunk,      \
+                                                            struct lane_sums *restrict sums)                 \
     {                                                                                                        \
-        if (pressed)                                                                                         \
-            add_strains(dim, true, chunk, sums);                                                             \
-        else                                                                                                 \
-            add_strains(dim, false, chunk, sums);                                                            \
+        if (FEW_REGISTERS && dim == 3) {                                                                     \
+            add_strains(dim, false, true, false, chunk, sums);                                               \
+            if (pressed)                                                                                     \
+                add_strains(dim, true, false, true, chunk, sums);                                            \
+            else                                                                                             \
+                add_strains(dim, false, false, true, chunk, sums);                                           \
+        } else if (pressed) {                                                                                \
+            add_strains(dim, true, true, true, chunk, sums);                                                 \
+        } else {                                                                                             \
+            add_strains(dim, false, true, true, chunk, sums);                                                \
+        }                                                                                                    \
     }                                                                                                        \
-    EACH_MACHINE NOT_INLINED static void stresses_##dim(                                                     \
-        const struct updated *updated, struct pair_switches on, const struct pairs *pairs,                   \
-        const struct chunk *restrict chunk, struct eight_sums *restrict sums)                                \
+    NOT_INLINED static void stresses_##dim(const struct updated *updated, struct pair_switches on,           \
+                                           const struct pairs *pairs, const struct chunk *restrict chunk,    \
+                                           struct lane_sums *restrict sums)                                  \
     {                                                                                                        \
-        EACH_SWITCH(add_stresses(updated, dim, as, 0, dim *(dim + 1) / 2, pairs, chunk, sums))               \
+        if (FEW_REGISTERS && dim == 3) {                                                                     \
+            EACH_SWITCH(add_stresses(updated, dim, as, 0, 3, pairs, chunk, sums))                            \
+            EACH_SWITCH(add_stresses(updated, dim, as, 3, 6, pairs, chunk, sums))                            \
+        } else {                                                                                             \
+            EACH_SWITCH(add_stresses(updated, dim, as, 0, dim *(dim + 1) / 2, pairs, chunk, sums))           \
+        }                                                                                                    \
     }
 LOOPS(1)
 LOOPS(2)
@@ -326,7 +347,7 @@ LOOPS(3)
 /* Adds one chunk of the pairs, from number k on. */
 INLINED void add_chunk(const struct updated *updated, const struct pair_constants *constants,
                        const int dimension, const struct pair_switches on, const struct pairs *pairs, int k,
-                       struct eight_sums *sums)
+                       struct lane_sums *sums)
 {
     _Alignas(64) struct chunk chunk;
     struct pairs some = *pairs;

@@ -6,69 +6,36 @@
  *   grad v_i     = sum_j V_j (v_j - v_i) (L_i^-1 grad W_ij)^T,   L_i = sum_j V_j grad W_ij (x_j - x_i)^T
  *   d s_i / dt   = lambda tr(e) I + 2 mu e + w s - s w,   e and w: symmetric and antisymmetric part of grad v
  *
- * One pass over the pairs: L_i^-1 does not depend on j, so the sums are taken with the plain grad W and
- * contracted with L_i^-1 afterwards. A particle only gathers: the sums do not depend on the number of
- * threads. Particles in some order (lattices, rings) are summed eight at a time, others one by one
- * (gather.h, pairs.h); what the sums say is worked out for eight at a time
- * (contract.h). */
-#include "method/updated_lagrangian/gather.h"
+ *
+ * The sums: block_rates.c. */
+#include "method/updated_lagrangian/contract.h"
 
 #include <string.h>
 
-enum { BLOCK = 32 };
-
 void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
 {
-    vec8 m[6] = {{0}}, x[3][3];
+    lanes m[6] = {{0}}, x[3][3];
     for (int s = 0; s < dimension * (dimension + 1) / 2; s++)
         m[s] += matrix[s];
-    invert(dimension, m, x);
+    if (dimension == 1)
+        invert(1, m, x);
+    else if (dimension == 2)
+        invert(2, m, x);
+    else
+        invert(3, m, x);
     for (int a = 0; a < dimension; a++)
         for (int b = 0; b < dimension; b++)
             inverse[a][b] = x[a][b][0];
 }
 
-/* Rates of the particles first ... last - 1; first is a multiple of VEC. */
-INLINED void rates(const struct updated *updated, const int dimension, size_t first, size_t last,
-                   const double *y, double *dydt)
-{
-    const struct pair_switches on = {updated->alpha > 0 || updated->beta > 0, updated->repulsive,
-                                     updated->cubic, updated->even, updated->pressed};
-    _Alignas(64) struct eight_sums sums[BLOCK / VEC] = {{.matrix = {{0}}}};
-    if (updated->ordered)
-        gather_eights(updated, dimension, on, first, last, sums);
-    else
-        for (size_t i = first; i < last; i++)
-            gather_one(updated, dimension, on, i, (i - first) % VEC, &sums[(i - first) / VEC]);
-    for (size_t i = first; i < last; i += VEC)
-        contract(updated, dimension, i, i + VEC < last ? VEC : last - i, &sums[(i - first) / VEC], y, dydt);
-}
-
-/* Instances with constant dimension. */
-#define RATES(dimension)                                                                                     \
-    EACH_MACHINE static void rates_##dimension(const struct updated *updated, size_t first, size_t last,     \
-                                               const double *y, double *dydt)                                \
-    {                                                                                                        \
-        rates(updated, dimension, first, last, y, dydt);                                                     \
-    }
-RATES(1)
-RATES(2)
-RATES(3)
-#undef RATES
-
 static void all_rates(const struct updated *updated, const double *y, double *dydt)
 {
-    const size_t points = updated->cloud->points, blocks = (points + BLOCK - 1) / BLOCK;
+    const size_t points = updated->cloud->points, blocks = (points + UPDATED_BLOCK - 1) / UPDATED_BLOCK;
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t block = 0; block < blocks; block++) {
-        const size_t first = BLOCK * block;
-        const size_t last = first + BLOCK < points ? first + BLOCK : points;
-        if (updated->dimension == 1)
-            rates_1(updated, first, last, y, dydt);
-        else if (updated->dimension == 2)
-            rates_2(updated, first, last, y, dydt);
-        else
-            rates_3(updated, first, last, y, dydt);
+        const size_t first = UPDATED_BLOCK * block;
+        const size_t last = first + UPDATED_BLOCK < points ? first + UPDATED_BLOCK : points;
+        taken_updated_rates()->of[updated->dimension - 1](updated, first, last, y, dydt);
     }
 }
 

@@ -6,6 +6,7 @@
 #ifndef SELAS_METHOD_UPDATED_LAGRANGIAN_UPDATED_LAGRANGIAN_H
 #define SELAS_METHOD_UPDATED_LAGRANGIAN_UPDATED_LAGRANGIAN_H
 
+#include "base/processor.h"
 #include "kernel/kernel.h"
 #include "model/model.h"
 #include "points/cloud.h"
@@ -133,8 +134,19 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
 /* artificial_stress.c: R of Eqs 20-23 in any dimension from s / rho^2: minus epsilon times its
  * positive (tensile) part. UPDATED_TENSORS tensors in sequence; their components stand `stride` apart. */
 enum { UPDATED_TENSORS = 16 };
-void updated_artificial_stress(int dimension, double epsilon, size_t stride, const double *tension,
-                               double *repulsion);
+struct updated_stresses {
+    void (*artificial)(int dimension, double epsilon, size_t stride, const double *tension,
+                       double *repulsion);
+};
+EACH_PROCESSOR(struct updated_stresses, updated_stresses)
+
+/* block_rates.c, by dimension less one: rates of the particles first ... last - 1, at most UPDATED_BLOCK;
+ * first is a multiple of GROUP. */
+enum { UPDATED_BLOCK = 32 };
+struct updated_rates {
+    void (*of[3])(const struct updated *updated, size_t first, size_t last, const double *y, double *dydt);
+};
+EACH_PROCESSOR(struct updated_rates, updated_rates)
 
 /* order.c: the lists of eight particles at a time, after each search ... */
 selas_status updated_merge_lists(struct updated *updated, struct messages *messages);

@@ -2,5 +2,4 @@
 #define REAL double
 #define NAME(name) name##_double
 #define FAST(c) ((c)->pml->fast)
-#include "method/consistent/absorbing/pml_fast_kernel.h"
 #include "method/consistent/absorbing/pml_fast_steps.h"

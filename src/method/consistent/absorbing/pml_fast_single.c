@@ -2,5 +2,4 @@
 #define REAL float
 #define NAME(name) name##_single
 #define FAST(c) ((c)->pml->single)
-#include "method/consistent/absorbing/pml_fast_kernel.h"
 #include "method/consistent/absorbing/pml_fast_steps.h"

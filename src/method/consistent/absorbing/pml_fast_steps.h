@@ -1,18 +1,27 @@
 /* The order of the layers' shared passes (pml_fast.h, L1 to L4) for numbers of type REAL; included by
  * pml_fast_double.c and pml_fast_single.c. Threads share rows or groups of rows along b; none writes what
  * another one reads. */
-#include "method/consistent/absorbing/pml_fast.h"
+#include "method/consistent/absorbing/pml_kernels.h"
 #include "method/spline/passes.h"
 
 #include <math.h>
 #include <omp.h>
 #include <string.h>
 
+/* Numbers that rows are whole numbers of. */
+enum { ROW_LANES = FAST_LANES * sizeof(double) / sizeof(REAL) };
+
+static const struct NAME(pml_kernels) * kernels(void)
+{
+    return NAME(taken_pml_kernels)();
+}
+
 static void apply_group(const struct row_group *group, const REAL *in, size_t in_step, size_t width, bool add,
                         REAL *out, size_t out_step)
 {
-    (add ? add_kernel : set_kernel)[group->rows]((const REAL *)group->weight, group->inputs,
-                                                 in + group->from * in_step, in_step, width, out, out_step);
+    (add ? kernels()->add : kernels()->set)[group->rows]((const REAL *)group->weight, group->inputs,
+                                                         in + group->from * in_step, in_step, width, out,
+                                                         out_step);
 }
 
 static void apply(const struct row_table *table, const REAL *in, size_t width, size_t step, bool add,
@@ -34,8 +43,8 @@ static void apply_along(const struct fast_slab *s, const void *matrix, const REA
     memset(padded + s->ns * step, 0, FAST_PAD * sizeof *in);
     for (size_t r = 0; r < s->ns; r += FAST_ROWS) {
         const size_t rows = s->ns - r < FAST_ROWS ? s->ns - r : FAST_ROWS;
-        along_kernels[rows]((const REAL *)matrix, s->taps_f, padded + r * step + FAST_PAD, step, s->width,
-                            out + r * s->width);
+        kernels()->along[rows]((const REAL *)matrix, s->taps_f, padded + r * step + FAST_PAD, step, s->width,
+                               out + r * s->width);
     }
 }
 
@@ -45,8 +54,8 @@ static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL 
     for (size_t r = 0; r < s->ns; r++) {
         const double q = s->damping[r] * dt / 2, kept = 1 / (1 + q + s->slab->relaxation * dt / 2);
         const size_t at = r * s->width;
-        NAME(pml_move)
-        (s->width, (REAL)q, (REAL)kept, g + at, memory + at, middle == NULL ? NULL : middle + at);
+        kernels()->move(s->width, (REAL)q, (REAL)kept, g + at, memory + at,
+                        middle == NULL ? NULL : middle + at);
     }
 }
 
@@ -71,8 +80,8 @@ static bool memory_loud(const struct fast_slab *s, struct level level, size_t b,
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
     const REAL *psi = extra + s->slab->psi + b * size, *phi = extra + s->slab->phi + b * size;
-    return NAME(pml_loud)(3, inner, size, level.slope, psi) ||
-           NAME(pml_loud)(3, inner, size, level.force, phi);
+    return kernels()->loud(3, inner, size, level.slope, psi) ||
+           kernels()->loud(3, inner, size, level.force, phi);
 }
 
 /* Is any number larger than the level that row b reads of a field? */
@@ -82,8 +91,8 @@ static bool field_loud(const struct consistent *c, const struct fast_slab *s, RE
     const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
     for (size_t i = 0; i < 3; i++) {
         const REAL *from = field + i * c->volume + s->first + b * s->step[ROLE_B];
-        if (across ? NAME(pml_loud)(s->nf, s->step[ROLE_F], s->region, level, from)
-                   : NAME(pml_loud)(s->region, s->step[ROLE_S], s->nf, level, from))
+        if (across ? kernels()->loud(s->nf, s->step[ROLE_F], s->region, level, from)
+                   : kernels()->loud(s->region, s->step[ROLE_S], s->nf, level, from))
             return true;
     }
     return false;
@@ -131,9 +140,8 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
         const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
         const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
         REAL *middle = i == j ? (REAL *)s->middle + b * size : m, *wait = (REAL *)s->wait[i] + b * size;
-        NAME(pml_load)
-        (u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
-         region);
+        kernels()->load(u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf,
+                        s->step[ROLE_F], s->width, region);
         apply(&s->gradient[i], region, s->width, s->width, false, g);
         move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
         apply(&s->second[i], region, s->width, s->width, false, wait);
@@ -175,8 +183,8 @@ static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other
     step[other->axis[ROLE_S]] = other->width;
     step[other->axis[ROLE_B]] = other->ns * other->width;
     step[other->axis[ROLE_F]] = 1;
-    const size_t first = along.from / LANE_COUNT * LANE_COUNT;
-    const size_t width = (along.end - first + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
+    const size_t first = along.from / ROW_LANES * ROW_LANES;
+    const size_t width = (along.end - first + ROW_LANES - 1) / ROW_LANES * ROW_LANES;
     const size_t step_s = step[s->axis[ROLE_S]], step_f = step[s->axis[ROLE_F]];
     const REAL *from = (const REAL *)other->middle + (across.from - inside->at[s->axis[ROLE_S]]) * step_s +
                        (b - inside->at[s->axis[ROLE_B]]) * step[s->axis[ROLE_B]] +
@@ -200,7 +208,7 @@ static bool add_divergence(const struct consistent *c, const struct fast_slab *s
     for (size_t o = 0; o < c->pml->slabs; o++) {
         const struct fast_slab *other = &FAST(c)->slab[o];
         if (other->axis[ROLE_S] != s->axis[role] || !take_slopes(s, other, b, rows, &meeting)) continue;
-        if (!NAME(pml_loud)(1, 0, s->region * meeting.width, level, rows)) continue;
+        if (!kernels()->loud(1, 0, s->region * meeting.width, level, rows)) continue;
         added = true;
         for (size_t g = 0; sum != NULL && g < s->divergence.groups; g++) {
             const struct row_group *group = &s->divergence.group[g];
@@ -284,7 +292,9 @@ double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         for (size_t i = 0; i < 3; i++)
-            largest = fmax(largest, (double)NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
+            largest =
+                fmax(largest,
+                     (double)taken_passes()->NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
     return c->options.quiet * largest;
 }
 
@@ -323,12 +333,11 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
         for (int i = 0; i < 3; i++) {
             const size_t b = group->to + r;
             apply(&s->pull[i], psi_b[i] + r * size, s->width, s->width, false, out);
-            NAME(pml_sum)(size, phi + (size_t)i * inner + b * size, inside);
-            if (i == s->axis[ROLE_B]) NAME(pml_sum)(size, over + r * size, inside);
+            kernels()->sum(size, phi + (size_t)i * inner + b * size, inside);
+            if (i == s->axis[ROLE_B]) kernels()->sum(size, over + r * size, inside);
             if (i == s->axis[ROLE_F]) apply_along(s, s->pull_f, psi_b[j] + r * size, padded, inside);
-            NAME(pml_store)
-            (out, (REAL)factor, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
-             a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B]);
+            kernels()->store(out, (REAL)factor, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
+                             a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B]);
         }
 }
 

@@ -5,10 +5,13 @@
  * rows of a plane are taken while it is in the cache; the window of a block of planes is the smallest that
  * holds all columns and strips above the level, of these planes and those within reach, and what they reach
  * along x and y. */
-#include "method/consistent/fused/fused.h"
+#include "method/consistent/fused/kernels.h"
 
 #include <math.h>
 #include <string.h>
+
+/* Numbers that rows and windows are whole numbers of: not less than passes along x reach. */
+enum { FUSED_LANES = FUSED_VECTOR / sizeof(REAL) };
 
 static REAL *columns_of(const struct fused *f, size_t k)
 {
@@ -31,6 +34,7 @@ static void forget_sizes(const struct fused *f, size_t k)
 static void take_sizes(const struct fused *f, size_t k, const struct window *window, REAL dt, const REAL *w,
                        REAL *u)
 {
+    const struct NAME(fused_kernels) *kernels = NAME(taken_fused_kernels)();
     const size_t n = window->end[0] - window->from[0];
     REAL *column = columns_of(f, k) + window->from[0], *strip = strips_of(f, k);
     if (window_points(window) == 0) return;
@@ -39,8 +43,8 @@ static void take_sizes(const struct fused *f, size_t k, const struct window *win
         const size_t rows = (end < window->end[1] ? end : window->end[1]) - j;
         for (size_t component = 0; component < 3; component++) {
             const size_t at = component * f->volume + k * f->plane + j * f->n[0] + window->from[0];
-            const REAL size = w == NULL ? NAME(fused_measure)(n, rows, f->n[0], u + at, column)
-                                        : NAME(fused_drift)(n, rows, f->n[0], dt, w + at, u + at, column);
+            const REAL size = w == NULL ? kernels->measure(n, rows, f->n[0], u + at, column)
+                                        : kernels->drift(n, rows, f->n[0], dt, w + at, u + at, column);
             if (size > strip[s]) strip[s] = size;
         }
         if (strip[s] > f->size[k]) f->size[k] = strip[s];
@@ -107,9 +111,9 @@ static struct window window_of(const struct fused *f, const struct loud *loud)
     if (f->quiet <= 0) return fused_whole(f);
     if (loud->column[0] >= loud->column[1] || loud->strip[0] >= loud->strip[1]) return w;
     const size_t end[2] = {loud->column[1] + reach, loud->strip[1] * FUSED_STRIP + reach};
-    w.from[0] = less(loud->column[0], reach) / LANE_COUNT * LANE_COUNT;
+    w.from[0] = less(loud->column[0], reach) / FUSED_LANES * FUSED_LANES;
     w.from[1] = less(loud->strip[0] * FUSED_STRIP, reach) / FUSED_STRIP * FUSED_STRIP;
-    w.end[0] = (end[0] + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
+    w.end[0] = (end[0] + FUSED_LANES - 1) / FUSED_LANES * FUSED_LANES;
     w.end[1] = (end[1] + FUSED_STRIP - 1) / FUSED_STRIP * FUSED_STRIP;
     for (int axis = 0; axis < 2; axis++)
         if (w.end[axis] > f->n[axis]) w.end[axis] = f->n[axis];

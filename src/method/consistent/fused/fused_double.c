@@ -1,10 +1,8 @@
-/* The fused operator and step in double precision: kernels for degree 2 with one to three sweeps. In this
+/* The fused operator and step in double precision: in this
  * order: each needs those before. */
 #define REAL double
 #define NAME(name) name##_double
 #define FUSED(c) ((c)->fused)
-#include "method/consistent/fused/fused_kernel.h"
-
 #include "method/consistent/fused/active.h"
 
 #include "method/consistent/fused/fused_strips.h"

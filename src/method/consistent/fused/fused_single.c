@@ -1,10 +1,8 @@
-/* The fused operator and step in single precision: kernels for degree 2 with one to three sweeps. In this
+/* The fused operator and step in single precision: in this
  * order: each needs those before. */
 #define REAL float
 #define NAME(name) name##_single
 #define FUSED(c) ((c)->fused->single)
-#include "method/consistent/fused/fused_kernel.h"
-
 #include "method/consistent/fused/active.h"
 
 #include "method/consistent/fused/fused_strips.h"

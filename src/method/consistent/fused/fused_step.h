@@ -180,7 +180,8 @@ static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
 {
     REAL largest = 0;
     for (size_t component = 0; component < 3; component++) {
-        const REAL size = NAME(largest_size)(u + component * f->volume + k * f->plane, f->plane);
+        const REAL size =
+            taken_passes()->NAME(largest_size)(u + component * f->volume + k * f->plane, f->plane);
         if (size > largest) largest = size;
     }
     return largest;

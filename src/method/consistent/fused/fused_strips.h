@@ -8,7 +8,7 @@
  * What passes along x and y read is made beyond the window, too, as far as they reach, so that results in it
  * are those of whole planes, to the bit. What lies further out is left as it was; nothing that is kept is
  * made of it. */
-#include "method/consistent/fused/fused.h"
+#include "method/consistent/fused/kernels.h"
 
 #include <string.h>
 
@@ -20,7 +20,8 @@ struct span {
 /* What the steps of a strip share. */
 struct strip {
     const struct fused *f;
-    const struct kernels *kernel;
+    const struct NAME(fused_kernels) * kernel;
+    int sweeps;           /* less one: which of the kernels are the wide ones */
     struct span own, all; /* columns of the result; with those beyond that passes along x read */
     size_t from, end;     /* rows of the result */
     REAL *rings, *ring;   /* of the first plane; of the plane being worked on */
@@ -48,9 +49,9 @@ static void y_pass(const struct strip *s, struct span span, bool wide, enum fuse
         place = place + 1 < ring ? place + 1 : 0;
     }
     const bool plain = f->plain[j / FUSED_ROWS];
-    (wide    ? plain ? s->kernel->y_wide : s->kernel->y_wide_ends
-     : plain ? s->kernel->y_narrow
-             : s->kernel->y_narrow_ends)(weight, rows, init + span.at, span.n, f->stride, out + span.at);
+    const int of = wide ? s->sweeps : 0;
+    (plain ? s->kernel->of[of].y : s->kernel->of[of].y_ends)(weight, rows, init + span.at, span.n, f->stride,
+                                                             out + span.at);
 }
 
 /* Narrow passes are made for wide ones, which read beyond the window. */
@@ -60,8 +61,8 @@ static void x_pass(const struct strip *s, bool wide, enum fused_side side, const
     const struct fused *f = s->f;
     const struct span span = wide ? s->own : s->all;
     const size_t taps = (size_t)(wide ? f->wide : f->narrow);
-    (wide ? s->kernel->x_wide : s->kernel->x_narrow)((const REAL *)f->x[side] + span.at * taps, in + span.at,
-                                                     init + span.at, span.n, f->stride, out + span.at);
+    s->kernel->of[wide ? s->sweeps : 0].x((const REAL *)f->x[side] + span.at * taps, in + span.at,
+                                          init + span.at, span.n, f->stride, out + span.at);
 }
 
 /* The passes along x that need nothing of y: g = C_z u_z + N_x G_x b_x, and what goes into a_y and a_z. */
@@ -132,7 +133,8 @@ static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL
                 out[m * FUSED_PLANES + r] =
                     row_of(f, s->rings + r * f->ring_size, result[component][m], j) + s->all.at;
         }
-        (f->bare ? s->kernel->two : s->kernel->three)(in, weight, n, f->n[0], out);
+        (f->bare ? s->kernel->of[s->sweeps].two : s->kernel->of[s->sweeps].three)(in, weight, n, f->n[0],
+                                                                                  out);
     }
 }
 
@@ -148,7 +150,7 @@ static void store_row(const struct strip *s, size_t k, size_t j, const struct fu
         if (fields->moved == NULL)
             memcpy(a, row, n * sizeof *a);
         else
-            NAME(fused_kick)(n, (REAL)fields->dt, row, a);
+            s->kernel->kick(n, (REAL)fields->dt, row, a);
     }
 }
 
@@ -206,13 +208,14 @@ void NAME(fused_planes)(const struct fused *fused, int thread, size_t first,
     struct strip s = {.f = f, .rings = (REAL *)f->buffer[thread] + (f->stride - f->width)};
     s.spare = s.rings + FUSED_PLANES * f->ring_size;
     s.zero = s.spare + FUSED_ROWS * f->stride;
-    for (size_t i = 0; i < sizeof kernel_table / sizeof kernel_table[0]; i++)
-        if (kernel_table[i].wide == f->wide) s.kernel = &kernel_table[i];
+    s.kernel = NAME(taken_fused_kernels)();
+    while (s.kernel->of[s.sweeps].taps != f->wide)
+        s.sweeps++;
     if (fields->moved == NULL && window_points(window) < f->plane) clear_planes(f, first, (REAL *)fields->a);
     if (window_points(window) == 0) return;
-    const size_t from = window->from[0], before = less(from, LANE_COUNT);
-    const size_t end = (window->end[0] + LANE_COUNT - 1) / LANE_COUNT * LANE_COUNT;
-    const size_t after = end + LANE_COUNT < f->width ? end + LANE_COUNT : f->width;
+    const size_t from = window->from[0], before = less(from, FUSED_LANES);
+    const size_t end = (window->end[0] + FUSED_LANES - 1) / FUSED_LANES * FUSED_LANES;
+    const size_t after = end + FUSED_LANES < f->width ? end + FUSED_LANES : f->width;
     s.own = (struct span){from, end - from};
     s.all = (struct span){before, after - before};
     s.from = window->from[1];

@@ -24,7 +24,7 @@ struct consistent_options {
     bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
 };
 
-enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LANES = 8 };
+enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LINES = 8 };
 
 /* Material property that weights an integral over depth. */
 enum weighting { WEIGHT_DENSITY, WEIGHT_LAMBDA, WEIGHT_MU, WEIGHT_P, WEIGHT_NONE };
@@ -80,7 +80,7 @@ struct consistent {
     size_t layer[BOX_FACES]; /* points of the absorbing layer behind the face; 0: none */
     struct pml *pml;         /* NULL: no layers */
     struct scene *own_scene; /* of a body that was cut (shorter.c); NULL: the scene is borrowed */
-    double *lane_buffer;     /* [threads * n[0] * LANES] */
+    double *lane_buffer;     /* [threads * n[0] * LINES] */
     double *line_buffer;     /* [threads * (n[0] + n[1])] */
     double *face_buffer;     /* [dimension * plane] */
     struct hform *hform;     /* NULL: exact mass */

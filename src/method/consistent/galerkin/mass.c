@@ -77,23 +77,23 @@ static size_t half_width(const struct consistent *c, int slot)
 static void solve_rows(const double *factor, size_t n, size_t half, size_t rows, double *buffer,
                        double *plane)
 {
-    for (size_t j = 0; j < rows; j += LANES) {
-        const size_t lanes = rows - j < LANES ? rows - j : LANES;
+    for (size_t j = 0; j < rows; j += LINES) {
+        const size_t lanes = rows - j < LINES ? rows - j : LINES;
         for (size_t lane = 0; lane < lanes; lane++)
             for (size_t i = 0; i < n; i++)
-                buffer[i * LANES + lane] = plane[(j + lane) * n + i];
-        band_forward(factor, n, half, buffer, LANES, LANES);
-        band_backward(factor, n, half, buffer, LANES, LANES);
+                buffer[i * LINES + lane] = plane[(j + lane) * n + i];
+        band_forward(factor, n, half, buffer, LINES, LINES);
+        band_backward(factor, n, half, buffer, LINES, LINES);
         for (size_t lane = 0; lane < lanes; lane++)
             for (size_t i = 0; i < n; i++)
-                plane[(j + lane) * n + i] = buffer[i * LANES + lane];
+                plane[(j + lane) * n + i] = buffer[i * LINES + lane];
     }
 }
 
 static void solve_plane(const struct consistent *c, const struct mass_factors *factors, int thread, size_t k,
                         double *a)
 {
-    double *buffer = c->lane_buffer + (size_t)thread * c->n[0] * LANES;
+    double *buffer = c->lane_buffer + (size_t)thread * c->n[0] * LINES;
     for (int component = 0; component < c->dimension; component++) {
         double *plane = a + (size_t)component * c->volume + k * c->plane;
         double *const *side = factors->side[c->plane_class[k]][component];
@@ -192,7 +192,7 @@ bool mass_allocate(struct consistent *c)
                 }
             }
     }
-    c->lane_buffer = array_new((size_t)c->threads * c->n[0] * LANES, sizeof *c->lane_buffer);
+    c->lane_buffer = array_new((size_t)c->threads * c->n[0] * LINES, sizeof *c->lane_buffer);
     return c->lane_buffer != NULL && lay_sides(c);
 }
 

@@ -1,0 +1,195 @@
+/* The passes of the fused operator (fused.h, F1) for numbers of type REAL; included by kernels_double.c and
+ * kernels_single.c.
+ *
+ * Vectors are those of the compiler (GNU C), as wide as the kind of processor has them; a row is a whole
+ * number of FUSED_VECTOR bytes on each. With a constant number of taps all loops over taps and rows are
+ * unrolled and sums stay in registers. */
+#include "base/machine.h"
+#include "method/consistent/fused/kernels.h"
+
+typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
+enum { LANES = VECTOR_BYTES / sizeof(REAL), GROUP = FUSED_VECTOR / sizeof(REAL) };
+
+#define UNROLLED _Pragma("GCC unroll 32")
+
+INLINED const lanes *at(const REAL *place)
+{
+    return (const lanes *)place;
+}
+
+#if defined(__GNUC__)
+#define FETCH(place) __builtin_prefetch(place, 0, 2)
+#else
+#define FETCH(place) (void)(place)
+#endif
+
+/* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
+ * for one row of n points. Without the last matrix, B, which is then the identity, its results are the input.
+ * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
+ * does not foresee them. Floats, half as long, gain nothing from that. */
+INLINED void over_depth(const int taps, const int matrices, const REAL *const *in, const REAL *const *weight,
+                        size_t n, size_t ahead, REAL *const *result)
+{
+    for (size_t i = 0;; i += LANES) {
+        if (i + LANES > n) i = n - LANES;
+        lanes sum[OVER_DEPTH_MATRICES][FUSED_PLANES] = {0};
+        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
+        {
+            const lanes value = *at(in[t] + i);
+            if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
+            if (matrices < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
+                *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
+            UNROLLED for (int m = 0; m < matrices; m++)
+                UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
+                weight[m][r * taps + t - r] * value;
+        }
+        UNROLLED for (int m = 0; m < matrices; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
+            (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
+        if (i + LANES >= n) break;
+    }
+}
+
+/* Along x: out := init + matrix in, FUSED_ROWS rows, all from the same column on; entries beyond the row are
+ * read, times 0. */
+INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in, const REAL *init,
+                     size_t width, size_t stride, REAL *out)
+{
+    for (size_t i = 0; i < width; i += LANES) {
+        const size_t group = i / GROUP * GROUP;
+        lanes sum[FUSED_ROWS];
+        UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] = *at(init + (size_t)r * stride + i);
+        UNROLLED for (int t = 0; t < taps; t++)
+        {
+            const lanes weight = *at(matrix + group * (size_t)taps + (size_t)t * GROUP + i - group);
+            UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] +=
+                weight * *at(in + (size_t)r * stride + i + t - taps / 2);
+        }
+        UNROLLED for (int r = 0; r < FUSED_ROWS; r++) * (lanes *)(out + (size_t)r * stride + i) = sum[r];
+    }
+}
+
+/* Across rows: out := init + sum over t of weights times row t, FUSED_ROWS rows of the result from taps +
+ * FUSED_ROWS - 1 rows. `step` from the weights of one row to the next: 0 where all are the same. */
+INLINED void across_y(const int taps, const REAL *restrict weight, const size_t step, const REAL *const *in,
+                      const REAL *init, size_t width, size_t stride, REAL *out)
+{
+    for (size_t i = 0; i < width; i += LANES) {
+        lanes sum[FUSED_ROWS];
+        UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] = *at(init + (size_t)r * stride + i);
+        UNROLLED for (int t = 0; t < taps + FUSED_ROWS - 1; t++)
+        {
+            const lanes value = *at(in[t] + i);
+            UNROLLED for (int r = 0; r < FUSED_ROWS; r++) if (t >= r && t - r < taps) sum[r] +=
+                weight[(size_t)r * step + (size_t)(t - r)] * value;
+        }
+        UNROLLED for (int r = 0; r < FUSED_ROWS; r++) * (lanes *)(out + (size_t)r * stride + i) = sum[r];
+    }
+}
+
+/* Largest |u| of so many rows in a vector of columns: that of each column so far in `column`, of all in
+ * `largest`. */
+INLINED void measured(size_t rows, size_t step, const REAL *restrict u, REAL *restrict column,
+                      REAL *restrict largest)
+{
+    REAL most[LANES] = {0};
+    for (size_t row = 0; row < rows; row++) {
+#pragma omp simd
+        for (int lane = 0; lane < LANES; lane++) {
+            const REAL value = u[row * step + (size_t)lane], size = value < 0 ? -value : value;
+            most[lane] = size > most[lane] ? size : most[lane];
+        }
+    }
+#pragma omp simd
+    for (int lane = 0; lane < LANES; lane++) {
+        column[lane] = most[lane] > column[lane] ? most[lane] : column[lane];
+        largest[lane] = most[lane] > largest[lane] ? most[lane] : largest[lane];
+    }
+}
+
+/* The same for n columns, the last vector ending with them (less than a vector: one by one); gives the
+ * largest. */
+INLINED REAL measured_rows(size_t n, size_t rows, size_t step, const REAL *u, REAL *column)
+{
+    REAL lane[LANES] = {0}, largest = 0;
+    for (size_t i = 0; n >= LANES; i += LANES) {
+        if (i + LANES > n) i = n - LANES;
+        measured(rows, step, u + i, column + i, lane);
+        if (i + LANES == n) break;
+    }
+    for (size_t row = 0; n < LANES && row < rows; row++)
+        for (size_t i = 0; i < n; i++) {
+            const REAL value = u[row * step + i], size = value < 0 ? -value : value;
+            column[i] = size > column[i] ? size : column[i];
+            lane[i] = size > lane[i] ? size : lane[i];
+        }
+    for (int i = 0; i < LANES; i++)
+        largest = lane[i] > largest ? lane[i] : largest;
+    return largest;
+}
+
+static REAL measure(size_t n, size_t rows, size_t step, const REAL *u, REAL *column)
+{
+    return measured_rows(n, rows, step, u, column);
+}
+
+INLINED void moved(size_t n, REAL dt, const REAL *restrict w, REAL *restrict u)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        u[i] += dt * w[i];
+}
+
+/* The same with u += dt w before. */
+static REAL drift(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, REAL *u, REAL *column)
+{
+    if (n == step)
+        moved(rows * n, dt, w, u);
+    else
+        for (size_t row = 0; row < rows; row++)
+            moved(n, dt, w + row * step, u + row * step);
+    return measured_rows(n, rows, step, u, column);
+}
+
+/* w += dt a */
+static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
+{
+    moved(n, dt, a, w);
+}
+
+/* One function for each pass and number of taps. */
+#define PASSES(wide, deep)                                                                                   \
+    static void x_##wide(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride,  \
+                         REAL *out)                                                                          \
+    {                                                                                                        \
+        along_x(wide, matrix, in, init, width, stride, out);                                                 \
+    }                                                                                                        \
+    static void y_##wide(const REAL *weight, const REAL *const *in, const REAL *init, size_t width,          \
+                         size_t stride, REAL *out)                                                           \
+    {                                                                                                        \
+        across_y(wide, weight, 0, in, init, width, stride, out);                                             \
+    }                                                                                                        \
+    static void ends_##wide(const REAL *weight, const REAL *const *in, const REAL *init, size_t width,       \
+                            size_t stride, REAL *out)                                                        \
+    {                                                                                                        \
+        across_y(wide, weight, wide, in, init, width, stride, out);                                          \
+    }                                                                                                        \
+    static void two_##deep(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,         \
+                           REAL *const *result)                                                              \
+    {                                                                                                        \
+        over_depth(deep, 2, in, weight, n, ahead, result);                                                   \
+    }                                                                                                        \
+    static void three_##deep(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,       \
+                             REAL *const *result)                                                            \
+    {                                                                                                        \
+        over_depth(deep, 3, in, weight, n, ahead, result);                                                   \
+    }
+PASSES(5, 9)
+PASSES(9, 13)
+PASSES(13, 17)
+
+#define OF(wide, deep)                                                                                       \
+    {                                                                                                        \
+        wide, x_##wide, y_##wide, ends_##wide, two_##deep, three_##deep                                      \
+    }
+const struct NAME(fused_kernels)
+    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, kick};
