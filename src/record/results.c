@@ -151,41 +151,47 @@ static bool has_run(const char *folder)
     return found;
 }
 
-/* True unless the file at `context` is that one. */
+struct sought {
+    struct stat about;
+    bool found;
+};
+
+/* False if that is the file sought. */
 static bool is_other(void *context, const char *path)
 {
-    const struct stat *wanted = context;
+    struct sought *sought = context;
     struct stat about;
-    return stat(path, &about) != 0 || about.st_ino != wanted->st_ino || about.st_dev != wanted->st_dev;
+    sought->found = stat(path, &about) == 0 && about.st_ino == sought->about.st_ino &&
+                    about.st_dev == sought->about.st_dev;
+    return !sought->found;
 }
 
-static bool is_input(const struct deck *deck, struct stat *about)
+static selas_status no_memory(struct messages *messages)
 {
-    return deck != NULL && !(is_other(about, deck_source_path(deck)) && deck_files(deck, is_other, about));
+    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
 }
 
 static selas_status claim_one(const struct scene *scene, const char *name, const char *listed,
                               struct messages *messages)
 {
     const char *folder = scene->output.directory;
+    const struct deck *deck = scene->deck;
     char path[PATH_SIZE];
-    struct stat about;
-    if (!path_of(folder, name, path, sizeof path) || stat(path, &about) != 0) return SELAS_OK;
-    if (is_input(scene->deck, &about))
+    struct sought sought = {.found = false};
+    if (!path_of(folder, name, path, sizeof path) || stat(path, &sought.about) != 0) return SELAS_OK;
+    const bool searched =
+        deck == NULL || (is_other(&sought, deck_source_path(deck)) && deck_files(deck, is_other, &sought));
+    if (sought.found)
         return fail(messages, SELAS_FILE_ERROR,
                     "the results would overwrite '%s', which the deck is read from; choose another "
                     "output%%directory",
                     path);
+    if (!searched) return no_memory(messages);
     if (has(listed, name) || has_run(folder)) return SELAS_OK;
     return fail(messages, SELAS_FILE_ERROR,
                 "'%s' is no result of selas and would be overwritten; choose another output%%directory or "
                 "move the file",
                 path);
-}
-
-static selas_status no_memory(struct messages *messages)
-{
-    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
 }
 
 selas_status results_claim(const struct scene *scene, const char *names, struct messages *messages)
