@@ -175,7 +175,7 @@ done
 check "files too long: says that the state is kept" grep -q 'state is kept' full.err
 check "files too long: with room again it goes on" "$selas" -q restart full/unfinished/checkpoint.h5
 check "same bits" same whole_paper full
-if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=300k tmpfs small 2>/dev/null; then
+if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=320k tmpfs small 2>/dev/null; then
     check "a full disk: a message, exit status 1" sh -c "'$selas' -q paper.nml output%directory=small/out 2>err; [ \$? -eq 1 ] && grep -q 'No space left on device' err"
     check "a full disk: no half files" sh -c "! find small -name '*.part' | grep ."
     mount -o remount,size=3m small

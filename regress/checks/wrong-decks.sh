@@ -73,9 +73,9 @@ changed "two bodies" '3,6{H;};7{x;s/^\n//;G;}' "7:1: error: &body is given twice
 refused "negative spacing by an override" right.nml "override: error: -1 for 'spacing'.*" body%spacing=-1
 refused "unknown name in an override" right.nml "override: error: unknown name 'spcing'.*" body%spcing=1
 refused "a filter with a Runge-Kutta scheme" right.nml \
-    "error: the filter of method 'smoothed-point', variant 'paper', acts on leapfrog's half-step velocity.*" \
+    "error: a filter (method%filter > 0) needs scheme 'leapfrog' or 'modified-equation', not 'rk4'" \
     method%variant=paper stepping%scheme=rk4
-refused "single precision of another method" right.nml "override: error: only the consistent smoothed-point method.*" \
+refused "single precision of another method" right.nml "override: error: method '.*', variant '.*', has no state in single precision; expected 'double'" \
     method%precision=single method%variant=paper
 refused "single precision without the fused operator" right.nml "error: method%precision = 'single' needs the fused operator.*" \
     method%precision=single

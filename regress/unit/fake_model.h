@@ -124,7 +124,6 @@ struct fake {
     struct state state;
     struct exact exact;
     double *position;
-    double load_amplitude[1], motion[3 * FACES];
     char folder[64];
 };
 
@@ -179,9 +178,8 @@ static void fake_build(struct fake *fake, int dimension, const size_t n[3], doub
                                      .model = &fake->model,
                                      .dt = dt,
                                      .steps = (unsigned long)ceil(end_time / dt - 1e-9),
-                                     .extra = 1,
-                                     .load = fake->load_amplitude,
-                                     .motion = fake->motion};
+                                     .extra = 1};
+    if (driver_create(&fake->stepper.driver, scene, dt, &(struct messages){0}) != SELAS_OK) abort();
     snprintf(fake->stepper.dt_reason, sizeof fake->stepper.dt_reason, "given");
     fake->state.y = array_new(6 * points, sizeof(double));
     fake->state.a = array_new(3 * points, sizeof(double));
@@ -212,6 +210,7 @@ static void fake_clear(struct fake *fake)
 {
     nftw(fake->folder, fake_remove, 8, FTW_DEPTH | FTW_PHYS);
     array_free(fake->position);
+    driver_free(&fake->stepper.driver);
     array_free(fake->state.y);
     array_free(fake->state.a);
 }

@@ -61,6 +61,47 @@ static void test_driven_loads(void **state)
     driven_loads(true);
 }
 
+/* A face that goes to and fro, by the deck's history or by a function. */
+static int slide(void *context, double time, const double position[3], double value[3])
+{
+    (void)context;
+    (void)position;
+    value[1] = value[2] = 0;
+    value[0] = .01 * exp(-(time - .8) * (time - .8) / .02);
+    return 0;
+}
+
+static void test_driven_face(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"variant = 'consistent'", "variant = 'paper', filter = 0",
+                                          "name = 'sph', variant = 'total-lagrangian'"};
+    char deck[1000];
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+        double answer[2];
+        snprintf(deck, sizeof deck,
+                 "&scene dimension = 2, end_time = 2 /\n&method %s /\n&stepping scheme = 'leapfrog', "
+                 "time_step = .05, unwarp = F /\n&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+                 "&body material = 'rock', shape = 'box', low = 0, 0, high = 4, 4, spacing = .5 /\n"
+                 "&boundary face = 'x-', kind = 'displacement', direction = 1, 0, amplitude = .01, history = "
+                 "'gaussian', delay = .8, width = .1 /\n&receiver name = 'r', position = 2, 2 /\n",
+                 methods[m]);
+        for (int driven = 0; driven < 2; driven++) {
+            selas_simulation *simulation = NULL;
+            double value[3];
+            if (selas_open_text("slide", deck, &simulation) != SELAS_OK ||
+                (driven && selas_set_motion(simulation, "x-", slide, NULL) != SELAS_OK) ||
+                selas_advance(simulation, 2) != SELAS_OK ||
+                selas_receiver(simulation, "r", SELAS_DISPLACEMENT, value) != SELAS_OK)
+                fail_msg("%s: %s", methods[m], selas_message(simulation));
+            answer[driven] = value[0];
+            selas_close(&simulation);
+        }
+        print_message("# %s: by the deck %.9g, by the host %.9g\n", methods[m], answer[0], answer[1]);
+        assert_true(fabs(answer[0]) > 1e-4 && fabs(answer[1] - answer[0]) < 1e-12 * fabs(answer[0]));
+    }
+}
+
 /* A smooth push, known beforehand or held step by step. */
 static double bell(double time)
 {
@@ -244,6 +285,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_driven_loads),
+        cmocka_unit_test(test_driven_face),
         cmocka_unit_test(test_mean),
         cmocka_unit_test(test_held_order),
         cmocka_unit_test(test_callback_answers),

@@ -113,7 +113,6 @@ struct lattice {
     struct stepper stepper;
     struct state state;
     double *work[1];
-    double drive[4 * FACES];
     double ends; /* what the ends of the box still are in its middle: the inverse mass falls off like this */
 };
 
@@ -133,9 +132,9 @@ static void lattice_create(struct lattice *lattice, struct consistent_options op
     lattice->stepper = (struct stepper){.scheme = scheme_find(scheme),
                                         .model = lattice->model,
                                         .dt = strcmp(scheme, "leapfrog") == 0 ? .19 : .33,
-                                        .work = lattice->work,
-                                        .load = lattice->drive,
-                                        .motion = lattice->drive + FACES};
+                                        .work = lattice->work};
+    assert_int_equal(
+        driver_create(&lattice->stepper.driver, &lattice->plain.scene, lattice->stepper.dt, NULL), SELAS_OK);
     lattice->state = (struct state){.y = calloc(2 * n, sizeof(double)), .a = calloc(n, sizeof(double))};
     assert_non_null(lattice->work[0]);
     assert_non_null(lattice->state.y);
@@ -148,6 +147,7 @@ static void lattice_free(struct lattice *lattice)
     free(lattice->state.y);
     free(lattice->state.a);
     free(lattice->work[0]);
+    driver_free(&lattice->stepper.driver);
     model_free(&lattice->model);
 }
 

@@ -273,6 +273,37 @@ static void echo_comes_in_time(void **state)
     layered_free(&layered);
 }
 
+/* A time before the pulse: what is judged is the source, not the little that has come. */
+static void a_short_time_costs_little(void **state)
+{
+    (void)state;
+    const struct history bell = {.kind = HISTORY_GAUSSIAN, .width = .4, .delay = 2.4};
+    const struct lamb_load load = {{.shape = PATCH_RECTANGLE, .half = {.5, .5}}, {0, 0, 1}, &bell};
+    const struct stratum strata[2] = {{0, 1, .25, .75, .5}, {1, 1, 1, sqrt(3), 1}};
+    struct layered *layered = NULL;
+    struct messages messages = {0};
+    struct lamb_problem problem = {.loads = 1, .load = &load};
+    half_space_set(&problem.ground, 1, 1 * .75 * .75 - 2 * .25, .25);
+    assert_int_equal(layered_from(2, strata, &layered, &messages), SELAS_OK);
+    problem.layers = layered;
+    struct lamb_signal whole = {.position = {1, 0, 0}}, early = {.position = {1, 0, 0}};
+    assert_int_equal(lamb_fft(&problem, 7.5, 1, &whole, &messages), SELAS_OK);
+    assert_int_equal(lamb_fft(&problem, 1, 1, &early, &messages), SELAS_OK);
+    print_message("evaluations until 7.5: %g, until 1: %g\n", whole.effort.evaluations,
+                  early.effort.evaluations);
+    assert_true(early.effort.evaluations < whole.effort.evaluations);
+    for (int i = 0; i <= 20; i++) {
+        double a[6], b[6];
+        lamb_signal_value(&problem, &whole, .05 * i, a);
+        lamb_signal_value(&problem, &early, .05 * i, b);
+        for (int c = 0; c < 6; c++)
+            assert_near(b[c], a[c], 2e-7);
+    }
+    lamb_signal_free(&whole);
+    lamb_signal_free(&early);
+    layered_free(&layered);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,6 +313,7 @@ int main(void)
         cmocka_unit_test(ground_is_passive),
         cmocka_unit_test(fictitious_interface_changes_nothing),
         cmocka_unit_test(echo_comes_in_time),
+        cmocka_unit_test(a_short_time_costs_little),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,11 +46,10 @@ static void finish(struct run *run)
 static double *forces(struct run *run, double time, double power[2])
 {
     const struct model *model = run->model;
-    struct drive drive;
+    const struct drive drive = driver_at(&run->stepper->driver, time);
     double *y = array_new(model->state_size, sizeof *y), *a = array_new(model->unknowns, sizeof *a);
     assert_non_null(y);
     assert_non_null(a);
-    drive_at(run->stepper, time, &drive);
     for (size_t i = 0; i < model->unknowns; i++)
         y[model->unknowns + i] = sin(.37 * (double)i);
     model->core->power(run->model, &drive, y, &power[0], &power[1]);

@@ -45,21 +45,18 @@ static unsigned long run(const struct model_operator *spatial, const char *schem
                          long steps, double y[2])
 {
     struct model model = {.spatial = spatial, .scene = &empty, .unknowns = 1, .state_size = 2};
-    double work[5][2], *vectors[5] = {work[0], work[1], work[2], work[3], work[4]}, load[1],
-                       motion[3 * FACES], a[1];
-    struct stepper stepper = {.scheme = scheme_find(scheme),
-                              .model = &model,
-                              .dt = dt,
-                              .stages = stages,
-                              .work = vectors,
-                              .load = load,
-                              .motion = motion};
+    double work[5][2], *vectors[5] = {work[0], work[1], work[2], work[3], work[4]}, a[1];
+    struct messages messages = {0};
+    struct stepper stepper = {
+        .scheme = scheme_find(scheme), .model = &model, .dt = dt, .stages = stages, .work = vectors};
     struct state state = {.y = y, .a = a};
+    assert_int_equal(driver_create(&stepper.driver, &empty, dt, &messages), SELAS_OK);
     assert_true(stepper.scheme->vectors <= 5);
     stepper.scheme->start(&stepper, &state);
     for (long n = 0; n < steps; n++)
         stepper.scheme->step(&stepper, &state);
     assert_int_equal(state.step, steps);
+    driver_free(&stepper.driver);
     return model.evaluations;
 }
 
@@ -158,7 +155,7 @@ static void rkc_internal_stability(void **unused)
 static double limit(const char *scheme, double omega, double viscous, long stages)
 {
     const struct spectrum spectrum = {.omega = omega, .wave_damping = viscous, .viscous = viscous};
-    return scheme_find(scheme)->limit(&spectrum, stages);
+    return scheme_limit(scheme_find(scheme), &spectrum, stages);
 }
 
 static void imaginary_limits(void **unused)

@@ -143,13 +143,14 @@ static double free_vibration_error(const char *scheme, double dt, double *growth
 static void schemes_have_their_order(void **state)
 {
     (void)state;
-    const char *const names[] = {"leapfrog", "modified-equation"};
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; scheme_table[i] != NULL; i++) {
+        const struct scheme_class *scheme = scheme_table[i];
+        if (!scheme->needs_acceleration) continue;
         double growth = 0.0;
-        const double coarse = free_vibration_error(names[i], 0.1, &growth);
-        const double fine = free_vibration_error(names[i], 0.05, &growth);
+        const double coarse = free_vibration_error(scheme->name, 0.1, &growth);
+        const double fine = free_vibration_error(scheme->name, 0.05, &growth);
         const double order = log2(coarse / fine);
-        assert_true(fabs(order - scheme_find(names[i])->order) < 0.15);
+        assert_true(fabs(order - scheme->order) < 0.15);
         assert_true(growth < 1.01);
     }
 }
@@ -158,16 +159,16 @@ static void schemes_have_their_order(void **state)
 static void limits_are_sharp(void **state)
 {
     (void)state;
-    const char *const names[] = {"leapfrog", "modified-equation"};
-    for (size_t i = 0; i < 2; i++)
-        for (int above = 0; above < 2; above++) {
+    for (size_t i = 0; scheme_table[i] != NULL; i++)
+        for (int above = 0; above < 2 && scheme_table[i]->needs_acceleration; above++) {
+            const struct scheme_class *scheme = scheme_table[i];
             struct fixture f;
-            set_up(&f, CHAIN, 1.0, 0.0, names[i]);
+            set_up(&f, CHAIN, 1.0, 0.0, scheme->name);
             f.chain.model.core = &plucked_core;
             f.scene.initial.kind = INITIAL_GAUSSIAN;
             const double omega = 2.0 * sin(CHAIN * PI / (2.0 * (CHAIN + 1)));
             f.scene.stepping.time_step =
-                scheme_find(names[i])->limit(&(struct spectrum){.omega = omega}, 0) * (above ? 1.002 : 0.998);
+                scheme_limit(scheme, &(struct spectrum){.omega = omega}, 0) * (above ? 1.002 : 0.998);
             f.scene.stepping.force = true;
             struct stepper *stepper = NULL;
             struct state s;
@@ -182,6 +183,43 @@ static void limits_are_sharp(void **state)
             state_free(&s);
             stepper_free(&stepper);
         }
+}
+
+/* What the table says of the schemes: which are bounded for undamped waves, one default for each kind of model,
+ * and that what acts on leapfrog's half steps is offered by schemes that have them. */
+static void abilities(void **state)
+{
+    (void)state;
+    int defaults[4] = {0};
+    for (size_t i = 0; scheme_table[i] != NULL; i++) {
+        const struct scheme_class *scheme = scheme_table[i];
+        const unsigned halves = SCHEME_FILTERS | SCHEME_REMEMBERS | SCHEME_ONE_PASS | SCHEME_UNWARPS;
+        const double longest = scheme_limit(scheme, &(struct spectrum){.omega = 1.0}, 5);
+        assert_int_equal(longest > 0.0, (scheme->can & SCHEME_WAVES) != 0);
+        if (!scheme->needs_acceleration) assert_int_equal(scheme->can & halves, 0);
+        if ((scheme->can & SCHEME_UNWARPS) != 0) assert_non_null(scheme->finish);
+        assert_true(scheme_find(scheme->name) == scheme);
+        defaults[scheme->default_for]++;
+    }
+    assert_int_equal(defaults[DEFAULT_FOR_ACCELERATE], 1);
+    assert_int_equal(defaults[DEFAULT_FOR_DAMPED], 1);
+    assert_int_equal(defaults[DEFAULT_FOR_UNDAMPED], 1);
+}
+
+/* A message names the schemes that would do. */
+static void names_of_schemes(void **state)
+{
+    (void)state;
+    struct fixture f;
+    char text[SCHEME_NAMES_SIZE];
+    set_up(&f, CHAIN, 1.0, 0.0, "euler");
+    assert_string_equal(scheme_names(&f.chain.model, SCHEME_REMEMBERS, text), "'leapfrog'");
+    assert_string_equal(scheme_names(&f.chain.model, SCHEME_FILTERS, text),
+                        "'leapfrog' or 'modified-equation'");
+    static const struct model_operator rates = {0};
+    f.chain.model.spatial = &rates;
+    assert_string_equal(scheme_names(&f.chain.model, SCHEME_WAVES, text), "'rk4' or 'lsrk54'");
+    assert_string_equal(scheme_names(&f.chain.model, SCHEME_FILTERS, text), "(none fits this method)");
 }
 
 static void a_step_beyond_the_limit_is_refused(void **state)
@@ -335,12 +373,13 @@ static double jump_error(const char *scheme, double dt, bool unwarp)
 static void a_jump_at_the_start_costs_no_order(void **state)
 {
     (void)state;
-    const char *const names[] = {"leapfrog", "modified-equation"};
-    for (size_t i = 0; i < 2; i++) {
-        const double coarse = jump_error(names[i], 0.1, false);
-        const double fine = jump_error(names[i], 0.05, false);
-        print_message("# %s under a jump: %.2e %.2e\n", names[i], coarse, fine);
-        assert_true(log2(coarse / fine) > scheme_find(names[i])->order - 0.15);
+    for (size_t i = 0; scheme_table[i] != NULL; i++) {
+        const struct scheme_class *scheme = scheme_table[i];
+        if (!scheme->needs_acceleration) continue;
+        const double coarse = jump_error(scheme->name, 0.1, false);
+        const double fine = jump_error(scheme->name, 0.05, false);
+        print_message("# %s under a jump: %.2e %.2e\n", scheme->name, coarse, fine);
+        assert_true(log2(coarse / fine) > scheme->order - 0.15);
     }
 }
 
@@ -351,6 +390,8 @@ int main(void)
         cmocka_unit_test(schemes_have_their_order),
         cmocka_unit_test(a_jump_at_the_start_costs_no_order),
         cmocka_unit_test(limits_are_sharp),
+        cmocka_unit_test(abilities),
+        cmocka_unit_test(names_of_schemes),
         cmocka_unit_test(a_step_beyond_the_limit_is_refused),
         cmocka_unit_test(the_damper_takes_what_the_energy_loses),
         cmocka_unit_test(unwarped_leapfrog_is_exact),

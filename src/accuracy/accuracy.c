@@ -26,7 +26,7 @@ static void refuse_choices(struct builder *builder, const struct accuracy_kind *
     static const char *const particles[] = {"gradient", "viscosity_alpha", "viscosity_beta", NULL};
     static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
     static const char *const body_words[] = {"spacing", NULL};
-    static const char *const layer[] = {"layer_points", "layer_reflection", NULL};
+    static const char *const layer[] = {"layer_points", "layer_thickness", "layer_reflection", NULL};
     static const char *const output[] = {"low_pass", NULL};
     const char *purpose = "a deck with scene%accuracy, which makes that choice";
     refuse(builder, deck_get(builder->deck, "method", 0), method, purpose);
@@ -46,6 +46,12 @@ const char *accuracy_gradient(const struct scene *scene)
     return deck_values(group, "gradient") > 0 ? deck_text(group, "gradient", 0) : "quadratic";
 }
 
+const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene)
+{
+    if (kind->variant != NULL && strcmp(kind->variant, scene->method.variant) != 0) return kind->served;
+    return kind->refusal(scene);
+}
+
 static void check(struct builder *builder)
 {
     const struct deck_group *group = deck_get(builder->deck, "scene", 0);
@@ -60,7 +66,7 @@ static void check(struct builder *builder)
                  "beams and for plates with a hole; give body%%spacing in place of accuracy");
         return;
     }
-    const char *why = kind->refusal(builder->scene);
+    const char *why = accuracy_refusal(kind, builder->scene);
     if (why != NULL)
         complain(builder, group, "accuracy",
                  "there is no table of errors for this scene, only for %s; give body%%spacing in place of "

@@ -131,7 +131,8 @@ static double work_of(const struct scene *scene, const struct setting *setting, 
 static double deflection(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
-    if (strcmp(scene->method.variant, "consistent") == 0) return 0;
+    for (int s = 0; s < SETTINGS; s++)
+        if (settings[s].degree > 0 && serves(&settings[s], scene)) return 0;
     if (deck_chosen(group, "law", "linear")) return 0;
     const struct beam beam = beam_of(scene);
     const struct material *material = &scene->material[scene->body.material];
@@ -180,4 +181,9 @@ static selas_status choose(const struct scene *scene, double accuracy, struct sc
         accuracy, MOST_ACROSS);
 }
 
-const struct accuracy_kind accuracy_beam = {looks_like, refusal, choose, true};
+const struct accuracy_kind accuracy_beam = {
+    .looks_like = looks_like,
+    .refusal = refusal,
+    .choose = choose,
+    .particles = true,
+};

@@ -13,7 +13,6 @@
 #include <fftw3.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double SLOWLY = 1.1;
 enum { ROWS = SURFACE_ROWS };
@@ -29,8 +28,7 @@ static const char *faces_refusal(const struct scene *scene)
         const struct boundary *boundary = &scene->boundary[face];
         if (face == FACE_Z_LOW || boundary_mirrors(boundary) || boundary_has_layer(boundary)) continue;
         if (scene->body.absorbing && !boundary->given) continue;
-        if (echo_path(&seen, face) < 1.02 * surface_ground_of(scene, 0).p_speed * scene->end_time &&
-            !scene->body.chosen)
+        if (!scene->body.chosen && echo_seen(&seen, face, 0))
             return "boxes with faces that absorb by layers (layer = 'pml'), are symmetry planes, or stand so "
                    "far away that nothing comes back before end_time";
     }
@@ -45,8 +43,6 @@ static bool looks_like(const struct scene *scene)
 
 static const char *refusal(const struct scene *scene)
 {
-    if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
-        return "method 'smoothed-point', variant 'consistent'";
     if (!body_is_box(&scene->body)) return "half-spaces and boxes";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     for (size_t k = 0; k < scene->loads; k++) {
@@ -270,6 +266,15 @@ static selas_status choose_for(const struct scene *scene, double accuracy, struc
     return status;
 }
 
+/* The law is that of degree 2 with three sweeps and open ends, of histories as they are. */
+static bool measured_setting(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    return (!deck_given(group, "degree") || deck_integer(group, "degree", 0) == 2) &&
+           (!deck_given(group, "mass") || deck_chosen(group, "mass", "vc3")) &&
+           !deck_chosen(group, "ends", "mapped") && !(scene->output.low_pass > 0);
+}
+
 bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
 {
     enum { ENOUGH = 8 }; /* receivers looked at: each costs an exact history */
@@ -278,7 +283,8 @@ bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
     struct surface_place *place = NULL;
     double *power = NULL;
     bool known = false;
-    if (!looks_like(scene) || refusal(scene) != NULL) return false;
+    if (!looks_like(scene) || accuracy_refusal(&accuracy_ground, scene) != NULL) return false;
+    if (!measured_setting(scene)) return false;
     if (scene->body.layers > 0) return false; /* exact histories take seconds there */
     if (few.receivers > ENOUGH) few.receivers = ENOUGH;
     if (find_places(&few, &place, &power, &unsaid) == SELAS_OK) {
@@ -295,4 +301,10 @@ bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
     return known;
 }
 
-const struct accuracy_kind accuracy_ground = {looks_like, refusal, choose_for, false};
+const struct accuracy_kind accuracy_ground = {
+    .looks_like = looks_like,
+    .variant = "consistent",
+    .served = "method 'smoothed-point', variant 'consistent'",
+    .refusal = refusal,
+    .choose = choose_for,
+};

@@ -7,6 +7,8 @@
 struct accuracy_kind {
     /* True if the scene looks like one of this kind; what is wrong with it is then said by `refusal`. */
     bool (*looks_like)(const struct scene *scene);
+    /* Variant of the method that was measured, and what to say of others; NULL: refusal() looks at it. */
+    const char *variant, *served;
     /* NULL, or what this kind can be served with ("loads on a square or a disc"). */
     const char *(*refusal)(const struct scene *scene);
     /* Fails (SELAS_BAD_SCENE) only if no spacing will do or the exact solution is not for this scene. */
@@ -16,6 +18,9 @@ struct accuracy_kind {
 };
 
 extern const struct accuracy_kind accuracy_beam, accuracy_ground, accuracy_plate, accuracy_wave;
+
+/* NULL, or what this kind can be served with: the method first. */
+const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene);
 
 /* Gradient of particles that the deck asks for, or the default. */
 const char *accuracy_gradient(const struct scene *scene);

@@ -3,16 +3,14 @@
 #include "accuracy/lattice.h"
 
 #include <math.h>
-#include <string.h>
 
-/* What may be chosen: degree, sweeps (0: exact mass), scheme; c_p dt / spacing at .9 of the limit in 1, 2, 3
- * dimensions and nanoseconds a point and step. */
 const struct accuracy_setting accuracy_settings[ACCURACY_SETTINGS] = {
-    {2, 3, "leapfrog", {.48, .38, .31}, 15},
-    {2, 3, "modified-equation", {.83, .66, .54}, 30},
-    {3, 0, "modified-equation", {.44, .33, .27}, 40},
-    {4, 0, "modified-equation", {.32, .24, .2}, 50},
+    {2, 3, "leapfrog", 2, true, {.48, .38, .31}, 15},
+    {2, 3, "modified-equation", 4, false, {.83, .66, .54}, 30},
+    {3, 0, "modified-equation", 4, false, {.44, .33, .27}, 40},
+    {4, 0, "modified-equation", 4, false, {.32, .24, .2}, 50},
 };
+
 /* Centred B-spline of degree n with knots one apart. */
 static double bspline(int n, double x)
 {
@@ -31,7 +29,7 @@ void lattice_wave_set(struct lattice_wave *wave, const struct accuracy_setting *
 {
     const int degree = setting->degree;
     wave->setting = setting;
-    wave->transformed = wave->scene->initial.kind == INITIAL_REST && strcmp(setting->scheme, "leapfrog") == 0;
+    wave->transformed = setting->transforms && wave->scene->initial.kind == INITIAL_REST;
     for (int j = 0; j < LATTICE_OFFSETS; j++) {
         wave->mass[j] = bspline(2 * degree + 1, j);
         wave->stiffness[j] =
@@ -84,11 +82,6 @@ static const double LEAST_LEFT = .1;
  * (measured: regress/studies/accuracy/ends.sh; doc/accuracy.md, section 5). */
 static const double MODIFIED = .042, PLAIN_DAMPER = .0625, MODIFIED_DAMPER = .0833, HELD = .0165;
 
-static bool plain_leapfrog(const struct lattice_wave *wave)
-{
-    return strcmp(wave->setting->scheme, "leapfrog") == 0;
-}
-
 /* omega dt */
 static double step_angle(const struct lattice_wave *wave, double spacing, double omega)
 {
@@ -104,7 +97,7 @@ double lattice_speed_error(const struct lattice_wave *wave, double spacing, doub
     const double space = sqrt(square) / omega - 1;
     if (wave->transformed) return space;
     const double angle = step_angle(wave, spacing, omega), x = angle * angle * square / (omega * omega);
-    const double sine = plain_leapfrog(wave) ? x : x * (1 - x / 12);
+    const double sine = wave->setting->order == 2 ? x : x * (1 - x / 12);
     const double both = 2 * asin(sqrt(fmin(1, sine / 4))) / angle - 1;
     return copysign(fmax(fabs(both), LEAST_LEFT * fabs(space)), both);
 }
@@ -125,9 +118,9 @@ double lattice_local_error(const struct lattice_wave *wave, double spacing, doub
                            const double position[3])
 {
     const double square = pow(step_angle(wave, spacing, omega), 2);
-    const double time = wave->transformed      ? 0
-                        : plain_leapfrog(wave) ? square / 6
-                                               : MODIFIED * square * square;
+    const double time = wave->transformed           ? 0
+                        : wave->setting->order == 2 ? square / 6
+                                                    : MODIFIED * square * square;
     double sum = time * time;
     for (int c = 0; c < wave->scene->dimension; c++) {
         const double angle = fabs(omega / wave->speed * spacing * wave->direction[c]);
@@ -140,7 +133,7 @@ double lattice_local_error(const struct lattice_wave *wave, double spacing, doub
 double lattice_damper_error(const struct lattice_wave *wave, double spacing, double omega)
 {
     const double square = pow(step_angle(wave, spacing, omega), 2);
-    return fmin(1, (plain_leapfrog(wave) ? PLAIN_DAMPER : MODIFIED_DAMPER) * square);
+    return fmin(1, (wave->setting->order == 2 ? PLAIN_DAMPER : MODIFIED_DAMPER) * square);
 }
 
 double lattice_held_error(const struct lattice_wave *wave, double spacing, double omega)

@@ -74,8 +74,6 @@ static const char *refusal(const struct scene *scene)
 {
     static const double smallest = .15, largest = .4; /* radius over E: .2 and .3 were measured */
     const struct deck_group *group = scene->method.group;
-    if (strcmp(scene->method.variant, "total-lagrangian") != 0)
-        return "plates by method 'sph', variant 'total-lagrangian'";
     if (scene->body.arrangement != ARRANGEMENT_CONFORMAL)
         return "plates with arrangement = 'conformal' (others err by .01 or by .2, as their rings happen to "
                "meet the edges)";
@@ -109,4 +107,11 @@ static selas_status choose(const struct scene *scene, double accuracy, struct sc
     return SELAS_OK;
 }
 
-const struct accuracy_kind accuracy_plate = {looks_like, refusal, choose, true};
+const struct accuracy_kind accuracy_plate = {
+    .looks_like = looks_like,
+    .variant = "total-lagrangian",
+    .served = "plates by method 'sph', variant 'total-lagrangian'",
+    .refusal = refusal,
+    .choose = choose,
+    .particles = true,
+};

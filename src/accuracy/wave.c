@@ -16,7 +16,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static bool looks_like(const struct scene *scene)
 {
@@ -31,8 +30,6 @@ static bool looks_like(const struct scene *scene)
 
 static const char *refusal(const struct scene *scene)
 {
-    if (strcmp(scene->method.name, "smoothed-point") != 0 || strcmp(scene->method.variant, "consistent") != 0)
-        return "method 'smoothed-point', variant 'consistent'";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     if (scene->initial.kind == INITIAL_PLANE_WAVE) {
         double direction[3];
@@ -242,7 +239,7 @@ static bool begins_smoothly(const struct scene *scene, double accuracy)
         const int axis = face / 2;
         if (fabs(direction[axis]) < .999) continue;
         const bool leaves = direction[axis] * face_sign((enum face)face) > 0;
-        const double end = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
+        const double end = face_plane(&scene->body, (enum face)face);
         const double slope = plane_wave_shape(initial, (end - centre[axis]) * direction[axis], 1);
         if (leaves && boundary_damps(&scene->boundary[face])) continue;
         if (fabs(slope) > little * accuracy * fabs(most)) return false;
@@ -276,4 +273,10 @@ static selas_status choose(const struct scene *scene, double accuracy, struct sc
     return status;
 }
 
-const struct accuracy_kind accuracy_wave = {looks_like, refusal, choose, false};
+const struct accuracy_kind accuracy_wave = {
+    .looks_like = looks_like,
+    .variant = "consistent",
+    .served = "method 'smoothed-point', variant 'consistent'",
+    .refusal = refusal,
+    .choose = choose,
+};

@@ -10,22 +10,10 @@
 #include "scene/resolution.h"
 
 #include <math.h>
-#include <string.h>
 
 static double layers_error(size_t points, double cells_per_wavelength)
 {
     return 0.0011 * layer_profile_reflection(points) * pow(cells_per_wavelength, 1.7);
-}
-
-/* The law of errors is that of degree 2 with three sweeps, and of a scheme that adds little in time. */
-static bool lawful(const struct scene *scene, const struct stepper *stepper)
-{
-    const struct deck_group *group = scene->method.group;
-    if (strcmp(scene->method.variant, "consistent") != 0 || scene->output.low_pass > 0.0) return false;
-    if (deck_given(group, "degree") && deck_integer(group, "degree", 0) != 2) return false;
-    if (deck_given(group, "mass") && !deck_chosen(group, "mass", "vc3")) return false;
-    if (deck_chosen(group, "ends", "mapped")) return false;
-    return stepper->unwarp || stepper->scheme->order >= 4;
 }
 
 static size_t fewest_layer_points(const struct scene *scene)
@@ -43,7 +31,8 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper)
     const struct scene *scene = adviser->scene;
     const size_t points = fewest_layer_points(scene);
     struct ground_outlook outlook;
-    if (points == 0 || scene->body.accuracy[0] != '\0' || !lawful(scene, stepper)) return;
+    const bool late = !stepper->unwarp && stepper->scheme->order < 4; /* errors in time, of no law */
+    if (points == 0 || scene->body.accuracy[0] != '\0' || late) return;
     /* Too thin, the P wavelength at the mean frequency would be 13 S wavelengths at the cutoff: this saves
      * the exact solution. */
     if ((double)points > 2.0 * points_per_wavelength(scene)) return;

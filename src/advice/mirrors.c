@@ -107,7 +107,7 @@ void look_at_mirrors(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const struct mirror_plane plane = {(enum face)face, face_axis((enum face)face),
-                                           plane_of(&scene->body, (enum face)face)};
+                                           face_plane(&scene->body, (enum face)face)};
         if (!boundary_mirrors(&scene->boundary[face])) continue;
         for (size_t k = 0; k < scene->loads; k++)
             look_at_load(adviser, &plane, k);

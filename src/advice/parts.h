@@ -20,11 +20,9 @@ void advise(struct adviser *adviser, const char *format, ...) __attribute__((for
 bool has_patch(const struct load *load);
 /* Half its extent along an axis; 0 across its face. */
 double half_size(const struct load *load, int axis);
-/* Coordinate of a box face in the body's frame. */
-double plane_of(const struct body *body, enum face face);
 
-/* A patch on points that cannot show it. */
-void look_at_points(struct adviser *adviser, size_t load);
+/* A patch on points that do not see it as it is. */
+void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 /* Edges in which faces prescribe different motions. */

@@ -4,12 +4,6 @@
 #include "advice/parts.h"
 
 #include <math.h>
-#include <string.h>
-
-static bool is_variant(const struct scene *scene, const char *name)
-{
-    return strcmp(scene->method.variant, name) == 0;
-}
 
 /* A square whose edges lie on lattice planes is seen as it is. */
 static void look_at_edges(struct adviser *adviser, size_t k, const char *why)
@@ -92,7 +86,6 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
     enum { FEW = 10 };
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
-    const bool central = deck_chosen(scene->method.group, "gradient", "central");
     double width = INFINITY;
     bool whole = true;
     for (int axis = 0; axis < scene->dimension; axis++) {
@@ -101,7 +94,7 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
         width = fmin(width, size);
         whole = whole && size >= 0.999 * (scene->body.high[axis] - scene->body.low[axis]);
     }
-    if (central || whole || scene->dimension < 3 || width > FEW * scene->body.spacing) return;
+    if (whole || scene->dimension < 3 || width > FEW * scene->body.spacing) return;
     advise(
         adviser,
         "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "
@@ -110,11 +103,10 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
         scene->body.jitter > 0.0 ? "method%variant = 'cloud'" : "method%gradient = 'central'");
 }
 
-void look_at_points(struct adviser *adviser, size_t k)
+void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t k)
 {
-    const struct scene *scene = adviser->scene;
-    if (is_variant(scene, "paper") && scene->load[k].shape == LOAD_SQUARE)
+    if (sight == PATCH_BY_POINTS && adviser->scene->load[k].shape == LOAD_SQUARE)
         look_at_edges(adviser, k, "points");
-    if (is_variant(scene, "updated-lagrangian")) look_at_particles(adviser, k);
-    if (is_variant(scene, "total-lagrangian")) look_at_ringing(adviser, k);
+    if (sight == PATCH_BY_CELLS) look_at_particles(adviser, k);
+    if (sight == PATCH_RINGS) look_at_ringing(adviser, k);
 }

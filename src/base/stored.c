@@ -2,6 +2,8 @@
 #include "base/stored.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 /* Deflate makes at most 1032 bytes of one (zlib's technical notes, "Maximum Compression Factor"). */
 static const double most_from_one_byte = 1032.0;
@@ -54,4 +56,15 @@ hid_t stored_set(hid_t place, const char *name)
     if (set < 0 || holds_its_numbers(place, set)) return set;
     H5Dclose(set);
     return -1;
+}
+
+bool stored_is_hdf5(const char *path)
+{
+    static const unsigned char signature[4] = {0x89, 'H', 'D', 'F'};
+    unsigned char start[4] = {0};
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) return false;
+    const size_t count = fread(start, 1, sizeof start, file);
+    fclose(file);
+    return count == sizeof start && memcmp(start, signature, sizeof start) == 0;
 }

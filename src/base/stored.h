@@ -13,4 +13,7 @@ bool stored_here(hid_t place, const char *name);
  * elsewhere, is virtual, keeps its numbers in another file, or has more of them than the file holds. */
 hid_t stored_set(hid_t place, const char *name);
 
+/* True if the file begins as HDF5 files do. */
+bool stored_is_hdf5(const char *path);
+
 #endif

@@ -13,15 +13,15 @@
 #define CHOICES(LIST) (&(LIST(CHOICE_WORD))[1])
 
 /* The table of methods: families, each followed by its variants, the first of which is its default;
- * method_SYMBOL is in a folder of its own. */
+ * method_SYMBOL is in a folder of its own. Of each: where its points may lie (enum point_places, scene.h). */
 #define METHODS(FAMILY, VARIANT)                                                                             \
     FAMILY("smoothed-point")                                                                                 \
-    VARIANT(consistent, "smoothed-point", "consistent")                                                      \
-    VARIANT(paper, "smoothed-point", "paper")                                                                \
-    VARIANT(cloud, "smoothed-point", "cloud")                                                                \
+    VARIANT(consistent, "smoothed-point", "consistent", POINTS_ON_FACES)                                     \
+    VARIANT(paper, "smoothed-point", "paper", POINTS_ON_FACES)                                               \
+    VARIANT(cloud, "smoothed-point", "cloud", POINTS_SCATTERED)                                              \
     FAMILY("sph")                                                                                            \
-    VARIANT(total_lagrangian, "sph", "total-lagrangian")                                                     \
-    VARIANT(updated_lagrangian, "sph", "updated-lagrangian")
+    VARIANT(total_lagrangian, "sph", "total-lagrangian", POINTS_IN_CELLS)                                    \
+    VARIANT(updated_lagrangian, "sph", "updated-lagrangian", POINTS_IN_CELLS)
 
 /* The table of time schemes: scheme_SYMBOL is in a file of its own in stepping/. */
 #define SCHEMES(X)                                                                                           \
@@ -36,6 +36,7 @@
 /* The table of exact solutions: exact_SYMBOL is in a file of its own in exact/. */
 #define EXACT_SOLUTIONS(X)                                                                                   \
     X(lamb, "lamb")                                                                                          \
+    X(layered, "layered")                                                                                    \
     X(stokes, "stokes")                                                                                      \
     X(bar, "bar")                                                                                            \
     X(beam, "beam")                                                                                          \
@@ -117,7 +118,10 @@
     X(HISTORY_GAUSSIAN, "gaussian") /* exp(-(t - delay)^2 / (2 width^2)) */                                  \
     X(HISTORY_SINE_BURST,                                                                                    \
       "sine-burst")           /* sin(2 pi f t) (1 - cos(2 pi f t / cycles)) / 2, t <= cycles / f */          \
-    X(HISTORY_TABLE, "table") /* straight lines between rows `t value` of a file; its last value after it */
+    X(HISTORY_TABLE, "table") /* straight lines between rows `t value` of a file; its last value after it */ \
+    X(HISTORY_BRUNE, "brune") /* 1 - (1 + t/width) exp(-t/width): of rate t/width^2 exp(-t/width) (1970) */  \
+    X(HISTORY_ERROR_FUNCTION,                                                                                \
+      "error-function") /* integral of a Gaussian of unit area: erfc((delay - t)/(sqrt(2) width))/2 */
 
 #define INITIAL_KINDS(X)                                                                                     \
     X(INITIAL_REST, "rest")                                                                                  \

@@ -5,9 +5,9 @@
 
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
 #define FAMILY_WORD(word) "|" word
-#define VARIANT_WORD(symbol, family, word) "|" word
+#define VARIANT_WORD(symbol, family, word, points) "|" word
 #define FAMILY_GLOSS(word) "; " word ":"
-#define VARIANT_GLOSS(symbol, family, word) " " word
+#define VARIANT_GLOSS(symbol, family, word, points) " " word
 #define KIND_WORD(symbol, word, holds, motion, needs) "|" word
 #define NOTHING(...)
 #define POSITIVE "(0, inf)"
@@ -80,6 +80,8 @@ static const struct word method_words[] = {
     {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "hourglass control (sph, cloud)"},
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
      "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
+    {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", OPTIONAL,
+     "relaxation mechanisms of damped materials (reference 'layered', spectrum 'scheme'; else 3)"},
     {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 
@@ -108,6 +110,11 @@ static const struct word material_words[] = {
     {"s_speed", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "speed of S waves [length/time]"},
     {"bulk", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "bulk modulus [stress]"},
     {"shear", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "shear modulus [stress]"},
+    {"q_p", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
+     "quality of P waves, the same at all frequencies; without q_p and q_s there is no damping"},
+    {"q_s", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "quality of S waves"},
+    {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
+     "frequency at which the speeds or elastic constants of a damped material are meant [1/time]"},
 };
 
 static const struct word body_words[] = {
@@ -139,10 +146,23 @@ static const struct word body_words[] = {
         {"history", WORD_CHOICE, 1, NULL, CHOICES(HISTORY_KINDS), OPTIONAL, "time function"},                 \
         {"duration", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "length of the triangle [time]"},                \
         {"frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "frequency of ricker and sine-burst [1/time]"}, \
-        {"delay", WORD_REAL, 1, NULL, NULL, OPTIONAL, "time of the peak of ricker and gaussian [time]"},      \
-        {"width", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "standard deviation of the gaussian [time]"},       \
+        {"delay",                                                                                             \
+         WORD_REAL,                                                                                           \
+         1,                                                                                                   \
+         NULL,                                                                                                \
+         NULL,                                                                                                \
+         OPTIONAL,                                                                                            \
+         "time of the peak of ricker and gaussian, of the middle of error-function [time]"},                  \
+        {"width",                                                                                             \
+         WORD_REAL,                                                                                           \
+         1,                                                                                                   \
+         NULL,                                                                                                \
+         POSITIVE,                                                                                            \
+         OPTIONAL,                                                                                            \
+         "standard deviation of gaussian and of the rate of error-function, time constant of brune [time]"},  \
         {"cycles", WORD_REAL, 1, "5", POSITIVE, OPTIONAL, "cycles of the Hann-windowed sine-burst"},          \
         {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the time function: columns time, value"},      \
+        {"start", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL, "when the time function begins [time]"},         \
     {                                                                                                         \
         "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,                                               \
             "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                    \
@@ -152,9 +172,12 @@ static const struct word boundary_words[] = {
     {"face", WORD_CHOICE, 8, NULL, &(FACE_NAMES(CHOICE_WORD) "|all")[1], OBLIGATORY, "faces"},
     {"kind", WORD_CHOICE, 1, NULL, &(BOUNDARY_KINDS(KIND_WORD))[1], OBLIGATORY, "what the faces do"},
     {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL,
-     "how a transmitting face absorbs: dampers, or an absorbing layer"},
+     "how a transmitting face absorbs: dampers or an absorbing layer; else the layer where the method has "
+     "it"},
     {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", OPTIONAL,
      "thickness of the absorbing layer [points]"},
+    {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
+     "thickness of the absorbing layer, in place of layer_points [length]"},
     {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
      "wanted reflection of the absorbing layer, in place of layer_points"},
     {"always", WORD_LOGICAL, 1, ".false.", NULL, EXPERT,
@@ -196,6 +219,8 @@ static const struct word load_words[] = {
     {"size", WORD_REAL, 2, NULL, POSITIVE, OPTIONAL, "edges of the square, or diameter of the disc [length]"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, OPTIONAL, "moment tensor: xx yy zz xy yz zx [force length]"},
+    {"sources", WORD_FILE, 1, NULL, NULL, OPTIONAL,
+     "file of point forces or moment tensors, text or HDF5: place, values, amplitude, start"},
     {"velocity", WORD_REAL, 3, NULL, NULL, OPTIONAL,
      "velocity of a moving patch [length/time]; else at rest"},
     HISTORY_WORDS,
@@ -239,6 +264,12 @@ static const struct word reference_words[] = {
     {"kind", WORD_CHOICE, 1, NULL, CHOICES(EXACT_SOLUTIONS), OBLIGATORY, "exact solution"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
      "of kind 'file': the history of the one receiver, or the folder of a run with one of each"},
+    {"tolerance", WORD_REAL, 1, NULL, "[1e-10, 0.1]", OPTIONAL,
+     "wanted relative L2 error of velocity (lamb, layered; else 1e-6 of layered)"},
+    {"spectrum", WORD_CHOICE, 1, NULL, "constant-q|scheme", OPTIONAL,
+     "damping by q_p and q_s: constant Q (default), or by the relaxation mechanisms of a run (layered)"},
+    {"stress", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
+     "write histories of stress too (layered, point sources)"},
 };
 
 #define GROUP(name, occurrence, gloss)                                                                       \

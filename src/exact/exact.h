@@ -9,6 +9,7 @@ struct exact;
 
 struct exact_class {
     const char *kind; /* as in &reference */
+    bool damped;      /* takes materials with q_p and q_s */
     /* Says in messages why a scene has no such solution (SELAS_BAD_SCENE). May compute tables shared by all
      * positions. */
     selas_status (*create)(const struct scene *scene, struct exact **exact, struct messages *messages);
@@ -17,6 +18,9 @@ struct exact_class {
      * uz vx vy vz. Must be safe to call from several threads. */
     selas_status (*history)(struct exact *exact, const double position[3], size_t n, const double *time,
                             double *value, struct messages *messages);
+    /* Stress there, value[6 * i] = xx yy zz xy yz zx; NULL: not offered. As history(). */
+    selas_status (*stress)(struct exact *exact, const double position[3], size_t n, const double *time,
+                           double *value, struct messages *messages);
     /* Lines for the report: how accurate, how it was computed. */
     void (*describe)(const struct exact *exact,
                      void (*tell)(void *context, const char *key, const char *value), void *context);

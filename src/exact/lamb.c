@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "exact/exact.h"
+#include "exact/ground.h"
 #include "exact/lamb_fft.h"
 #include "exact/lamb_moving.h"
 
@@ -27,20 +28,6 @@ struct lamb {
     struct lamb_signal *signal; /* of the scene's receivers */
 };
 
-static double surface_depth(const struct body *body)
-{
-    return body->shape == BODY_BOX ? body->low[2] : 0;
-}
-
-/* Position relative to the surface, in the body's frame; depths of rounding size are 0. */
-static void position_in_ground(const struct scene *scene, const double deck[3], double position[3])
-{
-    body_from_deck(&scene->body, deck, position);
-    position[2] -= surface_depth(&scene->body);
-    const double size = fabs(deck[0]) + fabs(deck[1]) + fabs(deck[2]) + 1;
-    if (fabs(position[2]) < 1e-12 * size) position[2] = 0;
-}
-
 static selas_status refuse(struct messages *messages, const char *why)
 {
     return fail(messages, SELAS_BAD_SCENE, "reference 'lamb': %s", why);
@@ -60,37 +47,16 @@ static selas_status check_load(const struct scene *scene, const struct load *loa
 
 static selas_status check_scene(const struct scene *scene, struct messages *messages)
 {
-    if (scene->dimension != 3) return refuse(messages, "the half-space is three-dimensional, dimension = 3");
-    if (!body_is_box(&scene->body))
-        return refuse(messages, "the body must have shape = 'box' or 'half-space'");
-    if (scene->initial.kind != INITIAL_REST) return refuse(messages, "the ground must start at rest");
-    if (scene->loads == 0) return refuse(messages, "there is no &load");
-    for (int face = 0; face < BOX_FACES; face++) {
-        const struct boundary *boundary = &scene->boundary[face];
-        const bool open = boundary_absorbs(boundary) || boundary_mirrors(boundary);
-        if (!boundary_is_free(boundary) && (face == FACE_Z_LOW || !open))
-            return fail(
-                messages, SELAS_BAD_SCENE, "reference 'lamb': face %s must be %s for an infinite half-space",
-                face_name((enum face)face),
-                face == FACE_Z_LOW ? "'free'" : "'transmitting', 'symmetry' (sides) or 'free' and far away");
-        if (boundary_mirrors(boundary) && face == FACE_Z_HIGH)
-            return refuse(messages, "face z+ cannot be a symmetry plane of a half-space");
-    }
-    for (int axis = 0; axis < 2; axis++)
-        if (boundary_mirrors(&scene->boundary[2 * axis]) && boundary_mirrors(&scene->boundary[2 * axis + 1]))
-            return refuse(messages, "opposite symmetry planes repeat the load without end; make one of them "
-                                    "'transmitting'");
-    for (size_t i = 0; i < scene->loads; i++) {
-        const selas_status status = check_load(scene, &scene->load[i], messages);
-        if (status != SELAS_OK) return status;
-    }
-    return SELAS_OK;
+    selas_status status = ground_check(scene, "lamb", messages);
+    for (size_t i = 0; i < scene->loads && status == SELAS_OK; i++)
+        status = check_load(scene, &scene->load[i], messages);
+    return status;
 }
 
 static void set_load(const struct scene *scene, const struct load *load, struct lamb_load *out)
 {
     double centre[3], direction[3];
-    position_in_ground(scene, load->centre, centre);
+    ground_position(scene, load->centre, centre);
     body_direction_from_deck(&scene->body, load->direction, direction);
     *out = (struct lamb_load){.history = &load->history};
     out->patch.centre[0] = centre[0];
@@ -205,7 +171,7 @@ static selas_status compute_receivers(struct lamb *lamb, const struct scene *sce
     if (lamb->signal == NULL || lamb->moved == NULL)
         return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
     for (size_t i = 0; i < scene->receivers; i++) {
-        position_in_ground(scene, scene->receiver[i].position, lamb->signal[i].position);
+        ground_position(scene, scene->receiver[i].position, lamb->signal[i].position);
         const selas_status status = check_position(lamb, lamb->signal[i].position, messages);
         if (status != SELAS_OK) return status;
     }
@@ -259,7 +225,7 @@ selas_status lamb_create_within(const struct scene *scene, double tolerance, str
 
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
 {
-    return lamb_create_within(scene, 0, exact, messages);
+    return lamb_create_within(scene, scene->reference.tolerance, exact, messages);
 }
 
 static void add_plane_wave(const struct half_space *ground, const struct lamb_load *load, double z, double t,
@@ -296,7 +262,7 @@ static selas_status history(struct exact *exact, const double position[3], size_
     const struct lamb *lamb = (const struct lamb *)exact;
     if (n == 0) return SELAS_OK;
     struct lamb_signal own = {.value = NULL}, moved = {.value = NULL};
-    position_in_ground(exact->scene, position, own.position);
+    ground_position(exact->scene, position, own.position);
     for (size_t i = 0; i < lamb->signals; i++) {
         const struct lamb_signal *signal = &lamb->signal[i];
         if (signal->position[0] == own.position[0] && signal->position[1] == own.position[1] &&
@@ -329,7 +295,8 @@ static void describe(const struct exact *exact,
     }
     char text[128];
     tell(context, "exact", "infinite half-space under traction patches, by FFT (doc/lamb.md)");
-    if (lamb->problem.layers != NULL) tell(context, "exact layers", "stiffness matrices (doc/layered.md)");
+    if (lamb->problem.layers != NULL)
+        tell(context, "exact layers", "by reflections (doc/layered.md, doc/seismograms.md)");
     if (lamb->patches > 0)
         tell(context, "exact moving patches", "by wavenumbers and directions (doc/sources.md)");
     if (lamb->signals == 0 || lamb->problem.loads == 0) return;
@@ -343,4 +310,10 @@ static void describe(const struct exact *exact,
     tell(context, "exact period and decay", text);
 }
 
-const struct exact_class exact_lamb = {"lamb", create, destroy, history, describe, NULL};
+const struct exact_class exact_lamb = {
+    .kind = "lamb",
+    .create = create,
+    .destroy = destroy,
+    .history = history,
+    .describe = describe,
+};

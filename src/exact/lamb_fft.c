@@ -8,11 +8,10 @@
  * the tolerance. */
 #include "exact/lamb_fft.h"
 
-#include "base/fft_room.h"
 #include "base/memory.h"
+#include "exact/contour.h"
 #include "exact/lamb_sum.h"
 
-#include <fftw3.h>
 #include <math.h>
 #include <string.h>
 
@@ -31,20 +30,11 @@ struct work {
     size_t receivers;
     struct lamb_signal *signal;
     struct lamb_sum sum;
-    double period, decay;
+    struct contour contour;
     size_t frequencies, frequency_room;
     double complex *spectrum; /* [receivers][LAMB_COMPONENTS][frequency_room]: displacement */
-    size_t rows;              /* of the time grid over the whole period */
-    fftw_plan plan;
-    double complex *fft_in;
-    double *fft_out;
     double evaluations;
 };
-
-static double complex frequency(const struct work *work, size_t j)
-{
-    return work->decay + I * (2 * M_PI * (double)j / work->period);
-}
 
 static struct lamb_range wavenumbers(const struct work *work, double angular_frequency)
 {
@@ -57,7 +47,7 @@ static struct lamb_range wavenumbers(const struct work *work, double angular_fre
 
 static void one_frequency(const struct work *work, size_t j, double complex *sum)
 {
-    const double complex s = frequency(work, j);
+    const double complex s = contour_frequency(&work->contour, j);
     const double mu = work->problem->ground.mu;
     lamb_sum_at(&work->sum, s, wavenumbers(work, cimag(s)), sum);
     const size_t loads = work->problem->loads;
@@ -75,28 +65,15 @@ static void one_frequency(const struct work *work, size_t j, double complex *sum
     }
 }
 
-static bool make_room_for_frequencies(struct work *work, size_t until)
-{
-    if (until <= work->frequency_room) return true;
-    const size_t room = 2 * until, lines = work->receivers * LAMB_COMPONENTS;
-    double complex *spectrum = array_new(lines * room, sizeof *spectrum);
-    if (spectrum == NULL) return false;
-    for (size_t i = 0; i < lines && work->frequencies > 0; i++)
-        memcpy(spectrum + i * room, work->spectrum + i * work->frequency_room,
-               work->frequencies * sizeof *spectrum);
-    array_free(work->spectrum);
-    work->spectrum = spectrum;
-    work->frequency_room = room;
-    return true;
-}
-
 /* Frequencies from work->frequencies up to the angular frequency `cutoff`. */
 static bool add_band(struct work *work, double cutoff)
 {
-    const size_t until = (size_t)ceil(cutoff * work->period / (2 * M_PI)) + 1;
-    const double top = cimag(frequency(work, until));
+    const size_t until = (size_t)ceil(cutoff * work->contour.period / (2 * M_PI)) + 1;
+    const double top = cimag(contour_frequency(&work->contour, until));
     if (!lamb_sum_extend(&work->sum, top, wavenumbers(work, top).end) ||
-        !make_room_for_frequencies(work, until))
+
+        !contour_widen(&work->spectrum, work->receivers * LAMB_COMPONENTS, work->frequencies, until,
+                       &work->frequency_room))
         return false;
     bool room = true;
 #pragma omp parallel
@@ -117,55 +94,20 @@ static bool add_band(struct work *work, double cutoff)
     return room;
 }
 
-/* Time grid over one period, eight samples in the shortest one. */
-static bool make_plan(struct work *work)
-{
-    size_t rows = 256;
-    while (rows < 16 * work->frequencies)
-        rows *= 2;
-    if (rows == work->rows) return true;
-    bool room = false;
-#pragma omp critical(selas_fftw_planner)
-    {
-        if (work->plan != NULL) fftw_destroy_plan(work->plan);
-        fftw_free(work->fft_in);
-        fftw_free(work->fft_out);
-        work->plan = NULL;
-        work->fft_in = fftw_malloc((rows / 2 + 1) * sizeof *work->fft_in);
-        work->fft_out = fftw_malloc(rows * sizeof *work->fft_out);
-        if (work->fft_in != NULL && work->fft_out != NULL && fft_room(rows))
-            work->plan = fftw_plan_dft_c2r_1d((int)rows, work->fft_in, work->fft_out, FFTW_ESTIMATE);
-        room = work->plan != NULL;
-    }
-    work->rows = rows;
-    return room;
-}
-
-/* Inverse transform of the frequencies [from, until) of one line, without exp(decay t), to fft_out:
- * (1/T) sum over j of U_j exp(2 pi i j t/T), negative j by conjugation. */
 static void transform(struct work *work, size_t receiver, size_t component, size_t from, size_t until)
 {
     const double complex *line =
         work->spectrum + (receiver * LAMB_COMPONENTS + component % LAMB_COMPONENTS) * work->frequency_room;
-    memset(work->fft_in, 0, (work->rows / 2 + 1) * sizeof *work->fft_in);
-    for (size_t j = from; j < until; j++)
-        work->fft_in[j] = line[j] * (component >= LAMB_COMPONENTS ? frequency(work, j) : 1) / work->period;
-    fftw_execute(work->plan);
+    contour_transform(&work->contour, line, from, until, component >= LAMB_COMPONENTS, 0);
 }
 
 /* Largest L2 norm over [0, end] among the velocity components of the frequencies [from, until). */
 static double band_norm(struct work *work, size_t receiver, size_t from, size_t until)
 {
-    const double step = work->period / (double)work->rows, end = work->signal[receiver].end_time;
     double largest = 0;
     for (size_t c = LAMB_COMPONENTS; c < 2 * LAMB_COMPONENTS; c++) {
         transform(work, receiver, c, from, until);
-        double sum = 0;
-        for (size_t i = 0; i < work->rows && (double)i * step <= end; i++) {
-            const double value = work->fft_out[i] * exp(work->decay * (double)i * step);
-            sum += value * value;
-        }
-        largest = fmax(largest, sqrt(sum * step));
+        largest = fmax(largest, contour_norm(&work->contour, work->signal[receiver].end_time));
     }
     return largest;
 }
@@ -173,16 +115,16 @@ static double band_norm(struct work *work, size_t receiver, size_t from, size_t 
 static bool keep_signal(struct work *work, size_t receiver)
 {
     struct lamb_signal *signal = &work->signal[receiver];
-    signal->decay = work->decay;
-    signal->step = work->period / (double)work->rows;
+    signal->decay = work->contour.decay;
+    signal->step = work->contour.period / (double)work->contour.rows;
     signal->rows = (size_t)(signal->end_time / signal->step) + 16;
-    if (signal->rows > work->rows) signal->rows = work->rows;
+    if (signal->rows > work->contour.rows) signal->rows = work->contour.rows;
     array_free(signal->value);
     signal->value = array_new(6 * signal->rows, sizeof *signal->value);
     if (signal->value == NULL) return false;
     for (size_t c = 0; c < 6; c++) {
         transform(work, receiver, c, 0, work->frequencies);
-        memcpy(signal->value + c * signal->rows, work->fft_out, signal->rows * sizeof *signal->value);
+        memcpy(signal->value + c * signal->rows, work->contour.out, signal->rows * sizeof *signal->value);
     }
     return true;
 }
@@ -199,6 +141,19 @@ static double signal_norm(const struct work *work, const struct lamb_signal *sig
             sum[c] += value[3 + c] * value[3 + c] * step;
     }
     return sqrt(fmax(sum[0], fmax(sum[1], sum[2])));
+}
+
+/* A tenth of the velocity that the loads' whole histories would cause if all went slowly: the least by which an error
+ * is judged, so that a time before the pulse asks for nothing. */
+static double least_norm(const struct work *work, const struct lamb_signal *signal)
+{
+    double sum = 0;
+    for (size_t l = 0; l < work->problem->loads; l++) {
+        const double *rest = signal->statics + 3 * l;
+        const double size = sqrt(rest[0] * rest[0] + rest[1] * rest[1] + rest[2] * rest[2]);
+        sum += .1 * size * history_rate_norm(work->problem->load[l].history);
+    }
+    return sum;
 }
 
 static void find_scales(const struct work *work, struct scales *scales)
@@ -246,7 +201,7 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
     for (int band = 0; band < MOST_BANDS; band++) {
         const size_t from = work->frequencies;
         const double wavenumber = wavenumbers(work, cutoff).end;
-        if (!add_band(work, cutoff) || !make_plan(work)) {
+        if (!add_band(work, cutoff) || !contour_grid(&work->contour, work->frequencies)) {
             array_free(last);
             return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
         }
@@ -259,16 +214,19 @@ static selas_status work_off_bands(struct work *work, struct messages *messages)
                 return fail(messages, SELAS_NO_MEMORY, "not enough memory for the half-space's reference");
             }
             const double ratio = fmin(.8, fmax(.3, last[r] > 0 ? part / last[r] : .8));
-            const double norm = signal_norm(work, signal);
-            signal->effort = (struct lamb_effort){
-                cutoff,      wavenumber,        work->period,
-                work->decay, work->evaluations, norm > 0 ? part * ratio / (1 - ratio) / norm : 0};
+            const double norm = fmax(signal_norm(work, signal), least_norm(work, signal));
+            signal->effort = (struct lamb_effort){cutoff,
+                                                  wavenumber,
+                                                  work->contour.period,
+                                                  work->contour.decay,
+                                                  work->evaluations,
+                                                  norm > 0 ? part * ratio / (1 - ratio) / norm : 0};
             last[r] = part;
             worst = fmax(worst, signal->effort.estimate);
         }
         if (cutoff >= scales.most || (band > 1 && cutoff >= scales.least && worst < tolerance)) break;
         const double next = fmin(cutoff * M_SQRT2, scales.most);
-        const double more = (next - cutoff) * work->period / (2 * M_PI) *
+        const double more = (next - cutoff) * work->contour.period / (2 * M_PI) *
                             lamb_sum_effort(&work->sum, wavenumbers(work, next).end);
         const double most = worst > 3e-5 ? MOST_EVALUATIONS : SOME_EVALUATIONS;
         if (work->evaluations + more > most && cutoff >= scales.least) break;
@@ -290,8 +248,8 @@ static selas_status prepare(struct work *work, double end_time, struct messages 
     bool kinks = false;
     for (size_t l = 0; l < problem->loads; l++)
         kinks = kinks || has_kinks(problem->load[l].history);
-    work->period = (kinks ? 4 : 2.2) * end_time;
-    work->decay = (kinks ? 14 : 16) / work->period;
+    work->contour.period = (kinks ? 4 : 2.2) * end_time;
+    work->contour.decay = (kinks ? 14 : 16) / work->contour.period;
     for (size_t r = 0; r < work->receivers; r++) {
         struct lamb_signal *signal = &work->signal[r];
         signal->statics = array_new(3 * problem->loads, sizeof *signal->statics);
@@ -309,7 +267,7 @@ static selas_status prepare(struct work *work, double end_time, struct messages 
             lamb_split_front(&problem->ground, load, x, y, signal->position[2], signal->front + 3 * l);
         }
     }
-    return lamb_sum_set(&work->sum, problem, work->receivers, work->signal, work->decay, messages);
+    return lamb_sum_set(&work->sum, problem, work->receivers, work->signal, work->contour.decay, messages);
 }
 
 /* Receivers of one depth and of similar distances share a group: others neither share compliances nor need
@@ -322,12 +280,7 @@ static selas_status one_group(const struct lamb_problem *problem, double end_tim
     if (status == SELAS_OK) status = work_off_bands(&work, messages);
     lamb_sum_free(&work.sum);
     array_free(work.spectrum);
-#pragma omp critical(selas_fftw_planner)
-    {
-        if (work.plan != NULL) fftw_destroy_plan(work.plan);
-        fftw_free(work.fft_in);
-        fftw_free(work.fft_out);
-    }
+    contour_free(&work.contour);
     return status;
 }
 

@@ -28,18 +28,19 @@ static bool kink(const struct history *history, size_t i, double *time, double *
     *jump = 0;
     if (history->kind == HISTORY_TRIANGLE) {
         const double half = .5 * history->duration;
-        *time = (double)i * half;
+        *time = history->start + (double)i * half;
         *slope = (i == 1 ? -2 : 1) / half;
         return i < 3;
     }
     if (history->kind == HISTORY_STEP) {
-        *time = *slope = 0;
+        *time = history->start;
+        *slope = 0;
         *jump = 1;
         return i < 1;
     }
     if (i >= history->rows) return false;
     const double *times = history->table_time, *values = history->table_value;
-    *time = times[i];
+    *time = history->start + times[i];
     if (i == 0) *jump = values[0];
     *slope = 0;
     if (i + 1 < history->rows) *slope += (values[i + 1] - values[i]) / (times[i + 1] - times[i]);

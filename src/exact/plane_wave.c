@@ -108,7 +108,7 @@ static selas_status fill_end(struct plane_wave *wave, enum face face, struct bar
     const struct boundary *boundary = &scene->boundary[face];
     const struct material *material = &scene->material[scene->body.material];
     const double alpha = damping(wave, boundary);
-    end->place = face_sign(face) < 0 ? scene->body.low[face_axis(face)] : scene->body.high[face_axis(face)];
+    end->place = face_plane(&scene->body, face);
     end->reflection = holds(wave, boundary) ? -1 : (1 - alpha) / (1 + alpha);
     end->source = array_new(scene->loads + 1, sizeof *end->source);
     if (end->source == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the exact solution");

@@ -19,6 +19,8 @@ static double scale_of(const struct history *history)
 {
     switch (history->kind) {
     case HISTORY_GAUSSIAN:
+    case HISTORY_BRUNE:
+    case HISTORY_ERROR_FUNCTION:
         return history->width;
     case HISTORY_RICKER:
     case HISTORY_SINE_BURST:
@@ -155,7 +157,7 @@ static double valid_until(const struct scene *scene, const double position[3], d
             const struct boundary *boundary = &scene->boundary[face];
             if (boundary_has_layer(boundary)) continue;
             const int axis = face / 2;
-            const double plane = face % 2 == 0 ? scene->body.low[axis] : scene->body.high[axis];
+            const double plane = face_plane(&scene->body, (enum face)face);
             const double across = own[axis] + source[axis] - 2 * plane;
             const double aside = hypot(away[(axis + 1) % 3], away[(axis + 2) % 3]);
             until = fmin(until, hypot(across, aside) / speed);

@@ -1,5 +1,5 @@
 /* What a host calls to drive loads and faces: by a function, or at a value that it holds; and the mean motion
- * under a load. How they are driven: drive.c. */
+ * under a load. How they are driven: driven_loads.c. */
 #include "host/simulation.h"
 
 #include "base/memory.h"
@@ -15,9 +15,8 @@ static selas_status find_load(selas_simulation *simulation, const char *name, si
     const struct scene *scene = simulation->scene;
     const size_t own = deck_count(simulation->deck, "load");
     for (size_t i = 0; name != NULL && i < own; i++) {
-        char number[32];
-        snprintf(number, sizeof number, "%zu", i + 1);
-        if (strcmp(scene->load[i].name[0] != '\0' ? scene->load[i].name : number, name) != 0) continue;
+        char number[LOAD_NUMBER_SIZE];
+        if (strcmp(load_name(scene, i, number), name) != 0) continue;
         *index = i;
         return SELAS_OK;
     }
@@ -36,7 +35,7 @@ static struct driven_load *driven_of(struct host *host, size_t load)
 static selas_status drive_new_load(selas_simulation *simulation, const struct driven_load *wanted)
 {
     struct host *host = &simulation->host;
-    const selas_status status = simulation_change(simulation);
+    const selas_status status = simulation_may_change(simulation);
     if (status != SELAS_OK) return status;
     struct driven_load *driven = driven_of(host, wanted->load);
     if (driven == NULL) {
@@ -51,6 +50,7 @@ static selas_status drive_new_load(selas_simulation *simulation, const struct dr
         driven = &host->load[host->loads++];
     }
     *driven = *wanted;
+    simulation_discard(simulation);
     return SELAS_OK;
 }
 
@@ -75,6 +75,7 @@ selas_status selas_set_traction(selas_simulation *simulation, const char *load,
                                 selas_vector_function traction, void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     return set_function(simulation, load, LOAD_TRACTION, traction, context);
 }
 
@@ -82,6 +83,7 @@ selas_status selas_set_body_force(selas_simulation *simulation, const char *load
                                   void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     return set_function(simulation, load, LOAD_BODY_FORCE, force, context);
 }
 
@@ -89,6 +91,7 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
                               selas_vector_function displacement, void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (displacement == NULL) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the function is NULL");
@@ -103,15 +106,18 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
             &simulation->messages, SELAS_BAD_ARGUMENT,
             "face '%s' has no &boundary of kind 'displacement' (its direction says which way it moves)",
             face);
-    status = simulation_change(simulation);
-    if (status == SELAS_OK) simulation->host.face[index] = (struct driven_face){displacement, context};
-    return status;
+    status = simulation_may_change(simulation);
+    if (status != SELAS_OK) return status;
+    simulation->host.face[index] = (struct driven_face){displacement, context};
+    simulation_discard(simulation);
+    return SELAS_OK;
 }
 
 selas_status selas_set_load(selas_simulation *simulation, const char *load, double value)
 {
     AT_THE_DOOR(simulation);
-    struct driven_load wanted = {.held = true, .value = value};
+    simulation_call(simulation);
+    struct driven_load wanted = {.value = value};
     selas_status status = simulation_scene(simulation);
     if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
     if (status != SELAS_OK) return status;
@@ -119,7 +125,7 @@ selas_status selas_set_load(selas_simulation *simulation, const char *load, doub
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the value of load '%s' is not a finite number", load);
     struct driven_load *driven = driven_of(&simulation->host, wanted.load);
-    if (driven != NULL && !driven->held)
+    if (driven != NULL && driven->function != NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "load '%s' is given by a function of the host",
                     load);
     if (driven == NULL) return drive_new_load(simulation, &wanted);
@@ -143,6 +149,7 @@ static void translate(const struct model *model, const double direction[3], doub
 selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     size_t index = 0;
     if (status == SELAS_OK) status = find_load(simulation, load, &index);

@@ -17,15 +17,6 @@
 /* Pieces of one load, all directions together; each takes memory for its own force pattern. */
 enum { MOST_PIECES = 100000 };
 
-bool host_drives(const selas_simulation *simulation)
-{
-    const struct host *host = &simulation->host;
-    bool any = host->loads > 0;
-    for (size_t face = 0; face < FACES; face++)
-        any = any || host->face[face].function != NULL;
-    return any;
-}
-
 /* --- Cutting loads into pieces --- */
 
 /* How a load is cut: `count` pieces along each axis of the body's frame, about `middle`. */
@@ -40,7 +31,8 @@ static selas_status cut_of(const struct scene *scene, const struct load *load, s
     const struct body *body = &scene->body;
     *cut = (struct cut){.count = {1, 1, 1}};
     body_from_deck(body, load->centre, cut->middle);
-    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load_moves(load))
+    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load->face == FACE_HOLE ||
+        load_moves(load))
         return fail(
             messages, SELAS_UNSUPPORTED,
             "a function can give tractions on squares, whole faces and points at rest, and body forces");
@@ -71,19 +63,12 @@ selas_status host_can_drive(const struct scene *scene, const struct load *load, 
     return cut_of(scene, load, &cut, messages);
 }
 
-static size_t pieces_of(const struct cut *cut)
+/* The pieces' loads, one along each axis, from scene->load[driven->first] on. */
+static void lay_pieces(const struct scene *scene, const struct driven_load *driven, const struct cut *cut)
 {
-    return cut->count[0] * cut->count[1] * cut->count[2];
-}
-
-/* The pieces' loads (dimension for each) from scene->load[first] on, and their centres. */
-static void lay_pieces(struct scene *scene, size_t original, const struct cut *cut, size_t first,
-                       double *centre)
-{
-    const struct body *body = &scene->body;
-    const struct load *whole = &scene->load[original];
+    const struct load *whole = &scene->load[driven->load];
     const size_t d = (size_t)scene->dimension;
-    for (size_t p = 0; p < pieces_of(cut); p++) {
+    for (size_t p = 0; p < driven->pieces; p++) {
         const size_t at[3] = {p % cut->count[0], p / cut->count[0] % cut->count[1],
                               p / (cut->count[0] * cut->count[1])};
         struct load piece = *whole;
@@ -95,99 +80,69 @@ static void lay_pieces(struct scene *scene, size_t original, const struct cut *c
             if (width > 0.0) piece.size[along++] = width;
             if (width > 0.0) volume *= width;
         }
-        body_to_deck(body, place, piece.centre);
-        memcpy(centre + 3 * p, piece.centre, sizeof piece.centre);
+        body_to_deck(&scene->body, place, piece.centre);
         if (whole->kind == LOAD_TRACTION && whole->shape == LOAD_FACE && d > 1) piece.shape = LOAD_SQUARE;
         if (whole->kind == LOAD_BODY_FORCE) piece.shape = LOAD_POINT;
-        piece.amplitude = whole->kind == LOAD_BODY_FORCE ? volume : 1.0;
+        if (whole->kind == LOAD_BODY_FORCE) piece.amplitude = volume;
+        piece.driven = BY_HOST;
         piece.name[0] = '\0';
         for (size_t c = 0; c < d; c++) {
-            /* the histories are never asked; no two are alike, so that no mirror plane is taken for one */
-            piece.history = (struct history){.kind = HISTORY_STEP, .delay = (double)(first + d * p + c + 1)};
             memset(piece.direction, 0, sizeof piece.direction);
             piece.direction[c] = 1.0;
-            scene->load[first + d * p + c] = piece;
+            scene->load[driven->first + d * p + c] = piece;
         }
     }
 }
 
-static selas_status make_room(selas_simulation *simulation, const struct cut *cut)
+/* Marks a load as the host's; behind the scene's loads come the pieces of one that a function gives. */
+static selas_status take_over(selas_simulation *simulation, struct driven_load *driven)
 {
-    struct host *host = &simulation->host;
     struct scene *scene = simulation->scene;
-    const size_t d = (size_t)scene->dimension;
-    size_t pieces = 0;
-    for (size_t i = 0; i < host->loads; i++)
-        if (!host->load[i].held) pieces += pieces_of(&cut[i]);
-    struct load *all = array_new(scene->loads + d * pieces, sizeof *all);
-    array_free(host->centre);
-    array_free(host->held);
-    host->centre = array_new(3 * pieces, sizeof *host->centre);
-    host->held = array_new(scene->loads + d * pieces, sizeof *host->held);
-    if (all == NULL || host->centre == NULL || host->held == NULL) {
-        array_free(all);
+    struct load *load = &scene->load[driven->load];
+    struct cut cut;
+    history_free(&load->history);
+    load->history = (struct history){0};
+    load->driven = HELD_BY_HOST; /* at 0 if a function gives its pieces */
+    load->amplitude = 1.0;
+    if (driven->function == NULL) return SELAS_OK;
+    const selas_status status = cut_of(scene, load, &cut, &simulation->messages);
+    if (status != SELAS_OK) return status;
+    driven->pieces = cut.count[0] * cut.count[1] * cut.count[2];
+    driven->first = scene->loads;
+    const size_t loads = driven->first + (size_t)scene->dimension * driven->pieces;
+    struct load *all = array_new(loads, sizeof *all);
+    if (all == NULL)
         return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the pieces of the host's loads");
-    }
-    if (scene->loads > 0) memcpy(all, scene->load, scene->loads * sizeof *all);
+    memcpy(all, scene->load, driven->first * sizeof *all);
     array_free(scene->load);
     scene->load = all;
-    host->pieces = pieces;
+    scene->loads = loads;
+    lay_pieces(scene, driven, &cut);
     return SELAS_OK;
-}
-
-static void take_over(selas_simulation *simulation, const struct cut *cut)
-{
-    struct host *host = &simulation->host;
-    struct scene *scene = simulation->scene;
-    const size_t d = (size_t)scene->dimension;
-    size_t piece = 0;
-    for (size_t i = 0; i < host->loads; i++) {
-        struct driven_load *driven = &host->load[i];
-        struct load *load = &scene->load[driven->load];
-        history_free(&load->history);
-        load->history = (struct history){.kind = HISTORY_STEP, .delay = (double)(driven->load + 1)};
-        load->amplitude = 1.0;
-        host->held[driven->load] = true;
-        driven->first = piece;
-        driven->pieces = driven->held ? 0 : pieces_of(&cut[i]);
-        if (driven->held) continue;
-        lay_pieces(scene, driven->load, &cut[i], scene->loads, host->centre + 3 * piece);
-        scene->loads += d * driven->pieces;
-        piece += driven->pieces;
-    }
 }
 
 selas_status host_prepare_scene(selas_simulation *simulation)
 {
-    struct host *host = &simulation->host;
-    struct scene *scene = simulation->scene;
-    if (!host_drives(simulation)) return SELAS_OK;
-    if (scene->stepping.unwarp_given && scene->stepping.unwarp)
-        return fail(&simulation->messages, SELAS_BAD_SCENE,
-                    "stepping%%unwarp needs histories that are known beforehand; the host drives this scene");
-    scene->stepping.unwarp_given = true;
-    scene->stepping.unwarp = false;
-    struct cut *cut = array_new(host->loads, sizeof *cut);
-    if (cut == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the host's loads");
+    const struct host *host = &simulation->host;
     selas_status status = SELAS_OK;
-    for (size_t i = 0; i < host->loads && status == SELAS_OK; i++)
-        if (!host->load[i].held)
-            status = cut_of(scene, &scene->load[host->load[i].load], &cut[i], &simulation->messages);
-    if (status == SELAS_OK) status = make_room(simulation, cut);
-    if (status == SELAS_OK) take_over(simulation, cut);
-    array_free(cut);
     for (size_t face = 0; face < FACES; face++) {
-        struct boundary *boundary = &scene->boundary[face];
+        struct boundary *boundary = &simulation->scene->boundary[face];
         if (host->face[face].function == NULL) continue;
-        host->drive.moves = true;
-        /* the host's motion may come at any time: the energy watch must not take its end for that of the
-         * deck's */
         history_free(&boundary->history);
-        boundary->history = (struct history){.kind = HISTORY_TRIANGLE, .duration = scene->end_time};
+        boundary->history = (struct history){0};
+        boundary->driven = BY_HOST;
         boundary->kind = BOUNDARY_DISPLACEMENT;
         boundary->amplitude = 1.0;
     }
+    for (size_t i = 0; i < host->loads && status == SELAS_OK; i++)
+        status = take_over(simulation, &host->load[i]);
     return status;
+}
+
+const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE])
+{
+    snprintf(number, LOAD_NUMBER_SIZE, "%zu", load + 1);
+    return scene->load[load].name[0] != '\0' ? scene->load[load].name : number;
 }
 
 /* --- Asking the host --- */
@@ -213,19 +168,19 @@ static bool ask(selas_simulation *simulation, selas_vector_function function, vo
     return answer >= 0;
 }
 
-static void drive_load(selas_simulation *simulation, const struct driven_load *driven, size_t first,
-                       double time, double *load)
+static void drive_load(selas_simulation *simulation, const struct driven_load *driven, double time,
+                       double *load)
 {
     const struct scene *scene = simulation->scene;
     const size_t d = (size_t)scene->dimension;
-    char number[32];
-    snprintf(number, sizeof number, "%zu", driven->load + 1);
-    const char *name = scene->load[driven->load].name;
+    char number[LOAD_NUMBER_SIZE];
+    const char *name = load_name(scene, driven->load, number);
+    load[driven->load] = driven->value;
     for (size_t p = 0; p < driven->pieces; p++) {
+        const size_t piece = driven->first + d * p;
         double value[3];
-        ask(simulation, driven->function, driven->context, time,
-            simulation->host.centre + 3 * (driven->first + p), name[0] != '\0' ? name : number, value);
-        memcpy(load + first + d * p, value, d * sizeof *load);
+        ask(simulation, driven->function, driven->context, time, scene->load[piece].centre, name, value);
+        memcpy(load + piece, value, d * sizeof *load);
     }
 }
 
@@ -234,13 +189,8 @@ static void drive_at_time(void *context, double time, double *load, double *disp
     selas_simulation *simulation = context;
     const struct host *host = &simulation->host;
     const struct scene *scene = simulation->scene;
-    const size_t d = (size_t)scene->dimension;
-    const size_t own = scene->loads - d * host->pieces;
-    for (size_t i = 0; i < host->loads; i++) {
-        const struct driven_load *driven = &host->load[i];
-        load[driven->load] = driven->held ? driven->value : 0.0;
-        if (!driven->held) drive_load(simulation, driven, own + d * driven->first, time, load);
-    }
+    for (size_t i = 0; i < host->loads; i++)
+        drive_load(simulation, &host->load[i], time, load);
     for (size_t face = 0; face < FACES; face++) {
         if (host->face[face].function == NULL) continue;
         const struct body *body = &scene->body;
@@ -248,9 +198,7 @@ static void drive_at_time(void *context, double time, double *load, double *disp
         double middle[3], place[3], value[3];
         for (size_t c = 0; c < 3; c++)
             middle[c] = 0.5 * (body->low[c] + body->high[c]);
-        const int axis = face_axis((enum face)face);
-        if (face < BOX_FACES)
-            middle[axis] = face_sign((enum face)face) < 0 ? body->low[axis] : body->high[axis];
+        if (face < BOX_FACES) middle[face_axis((enum face)face)] = face_plane(body, (enum face)face);
         body_to_deck(body, middle, place);
         ask(simulation, host->face[face].function, host->face[face].context, time, place,
             face_name((enum face)face), value);
@@ -258,14 +206,11 @@ static void drive_at_time(void *context, double time, double *load, double *disp
     }
 }
 
-selas_status host_prepare_stepper(selas_simulation *simulation)
+void host_prepare_stepper(selas_simulation *simulation)
 {
     struct host *host = &simulation->host;
-    if (!host_drives(simulation)) return SELAS_OK;
-    host->drive.context = simulation;
-    host->drive.at = drive_at_time;
-    host->drive.held = host->held;
-    return drive_by_host(simulation->stepper, &host->drive, &simulation->messages);
+    host->drive = (struct host_drive){simulation, drive_at_time};
+    if (scene_driven(simulation->scene)) simulation->stepper->driver.host = &host->drive;
 }
 
 selas_status host_answer(selas_simulation *simulation)
@@ -284,7 +229,9 @@ selas_status host_refresh(selas_simulation *simulation)
 {
     if (!simulation->dirty) return SELAS_OK;
     simulation->dirty = false;
-    drive_again(simulation->stepper, &simulation->state);
+    struct stepper *stepper = simulation->stepper;
+    driver_changed(&stepper->driver, simulation->state.step);
+    stepper->scheme->again(stepper, &simulation->state);
     return recorder_observe_again(simulation->recorder, &simulation->state, &simulation->messages);
 }
 
@@ -292,6 +239,4 @@ void host_free(selas_simulation *simulation)
 {
     struct host *host = &simulation->host;
     free(host->load);
-    array_free(host->centre);
-    array_free(host->held);
 }

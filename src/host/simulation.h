@@ -10,14 +10,14 @@
 #include "selas.h"
 #include "stepping/stepping.h"
 
-/* A load whose traction, force or body force a function of the host gives, piece by piece. */
+/* A load whose traction, force or body force the host gives. */
 struct driven_load {
-    size_t load; /* in the scene; the pieces are loads of their own behind the deck's */
-    selas_vector_function function;
+    size_t load;                    /* in the scene */
+    selas_vector_function function; /* NULL: the host holds the load at `value` along its direction */
     void *context;
-    bool held;    /* no function: the host holds it at `value` */
-    double value; /* along the load's direction */
-    size_t first, pieces;
+    double value;
+    size_t first,
+        pieces; /* with a function: its pieces, loads of their own along each axis, behind the deck's */
 };
 
 /* A face whose motion a function of the host gives. */
@@ -30,9 +30,6 @@ struct host {
     size_t loads, room;
     struct driven_load *load;
     struct driven_face face[FACES];
-    size_t pieces;
-    double *centre; /* [3 * pieces] deck coordinates */
-    bool *held;     /* [scene->loads] */
     struct host_drive drive;
     int answer;              /* what the callbacks returned since this was last looked at: the worst */
     char refused[NAME_SIZE]; /* the load or face whose callback it was */
@@ -53,6 +50,10 @@ struct selas_simulation {
     bool busy;           /* a callback of the host is running */
     bool dirty;          /* loads at the time reached have changed; the acceleration has not yet */
     selas_status failed; /* why no step can follow */
+    size_t call;         /* where in the messages the last call began */
+    size_t failure[2];   /* first and last byte of the failure that keeps later calls from being done */
+    bool consequence;    /* the last call was not done because of that failure */
+    char *last;          /* what selas_last_message handed out */
     struct host host;
     struct given_points points;
     double *point_position, *point_volume;
@@ -75,16 +76,26 @@ struct c_locale door_enter(selas_simulation *simulation);
 /* An empty handle. */
 selas_status simulation_new(selas_simulation **simulation);
 
+/* A function of the library begins: what it says from here on is the message of the last call. NULL is fine. */
+void simulation_call(selas_simulation *simulation);
 /* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
 selas_status simulation_check(selas_simulation *simulation);
+/* No step can follow, for what this call has said. */
+void simulation_failed(selas_simulation *simulation, selas_status status);
+/* A call that is not done because of what an earlier one has said; that is not said again. */
+selas_status simulation_consequence(selas_simulation *simulation, selas_status status);
 /* The same, with the scene built. */
 selas_status simulation_scene(selas_simulation *simulation);
 /* The same, with model, time step and recorder, without files. */
 selas_status simulation_prepare(selas_simulation *simulation);
 /* The same, with the state at t = 0 or later and the loads as they are now. */
 selas_status simulation_begin(selas_simulation *simulation);
-/* SELAS_OK as long as the scene may still be changed: before the first step; throws the model away. */
-selas_status simulation_change(selas_simulation *simulation);
+/* Runs on as far as the finished histories need, and finishes them. */
+selas_status simulation_finish(selas_simulation *simulation);
+/* SELAS_OK as long as the scene may still be changed: before the first step. */
+selas_status simulation_may_change(selas_simulation *simulation);
+/* Throws away everything behind the deck: it has changed. */
+void simulation_discard(selas_simulation *simulation);
 
 /* host/checkpoints.c */
 /* Opens the deck that a checkpoint keeps; selas_record and selas_restore make a run of it that goes on in the
@@ -101,14 +112,15 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 /* host/driven_loads.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */
 selas_status host_prepare_scene(selas_simulation *simulation);
-/* Puts the host in the histories' place: after the stepper is made. */
-selas_status host_prepare_stepper(selas_simulation *simulation);
+/* Puts the host behind the driver: after the stepper is made. */
+void host_prepare_stepper(selas_simulation *simulation);
 /* What the callbacks said since the last call: SELAS_OK, SELAS_STOPPED or SELAS_CALLBACK_FAILED. */
 selas_status host_answer(selas_simulation *simulation);
-/* True if the host drives anything. */
-bool host_drives(const selas_simulation *simulation);
 /* Makes the state's acceleration that of the loads as they are now. */
 selas_status host_refresh(selas_simulation *simulation);
+/* Name of a load, or its number from 1 if it has none. */
+enum { LOAD_NUMBER_SIZE = 32 };
+const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE]);
 /* SELAS_OK if a function can give this load, or the reason why not. */
 selas_status host_can_drive(const struct scene *scene, const struct load *load, struct messages *messages);
 void host_free(selas_simulation *simulation);

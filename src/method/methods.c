@@ -9,17 +9,38 @@
 #include <string.h>
 
 #define NO_FAMILY(word)
-#define DECLARE(symbol, family, word) extern const struct method method_##symbol;
-#define ENTRY(symbol, family, word) &method_##symbol,
+#define DECLARE(symbol, ...) extern const struct method method_##symbol;
+#define ENTRY(symbol, ...) &method_##symbol,
 METHODS(NO_FAMILY, DECLARE)
-static const struct method *const methods[] = {METHODS(NO_FAMILY, ENTRY) NULL};
+const struct method *const method_table[] = {METHODS(NO_FAMILY, ENTRY) NULL};
 
 const struct method *method_find(const char *name, const char *variant)
 {
-    for (size_t i = 0; methods[i] != NULL; i++)
-        if (strcmp(methods[i]->name, name) == 0 && strcmp(methods[i]->variant, variant) == 0)
-            return methods[i];
+    for (size_t i = 0; method_table[i] != NULL; i++)
+        if (strcmp(method_table[i]->name, name) == 0 && strcmp(method_table[i]->variant, variant) == 0)
+            return method_table[i];
     return NULL;
+}
+
+/* What the scene asks of the method beyond its equations. */
+static selas_status check_abilities(const struct method *method, const struct scene *scene,
+                                    struct messages *messages)
+{
+    const struct deck_group *group = scene->method.group;
+    const struct method *other = method;
+    char name[2 * NAME_SIZE + 32];
+    snprintf(name, sizeof name, "method '%s', variant '%s',", method->name, method->variant);
+    if (deck_chosen(group, "precision", "single") && !method->single)
+        return deck_error(scene->deck, group, "precision", messages,
+                          "%s has no state in single precision; expected 'double'", name);
+    for (size_t i = 0; method_table[i] != NULL && !other->point_materials; i++)
+        other = method_table[i];
+    if (scene->body.given != NULL && scene->body.given->material != NULL && other != method)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s has no materials point by point, only &layer where it takes layers; expected '%s', "
+                    "'%s'",
+                    name, other->name, other->variant);
+    return scene_check_faces(scene, method->faces, name, messages);
 }
 
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages)
@@ -27,19 +48,16 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     *model = NULL;
     selas_status status = processor_check(messages);
     if (status != SELAS_OK) return status;
+    for (size_t i = 0; i < scene->materials; i++)
+        if (scene->material[i].q_p > 0)
+            return deck_error(scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
+                              "runs are undamped; only 'selas exact' with reference 'layered' takes q_p and "
+                              "q_s");
     const struct method *method = method_find(scene->method.name, scene->method.variant);
     if (method == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,
                     scene->method.variant);
-    const struct deck_group *group = scene->method.group;
-    if (deck_chosen(group, "precision", "single") && !method->single)
-        return deck_error(
-            scene->deck, group, "precision", messages,
-            "only the consistent smoothed-point method has a state in single precision; expected "
-            "'double'");
-    char name[2 * NAME_SIZE + 32];
-    snprintf(name, sizeof name, "method '%s', variant '%s',", method->name, method->variant);
-    status = scene_check_faces(scene, method->faces, name, messages);
+    status = check_abilities(method, scene, messages);
     if (status != SELAS_OK) return status;
     const unsigned axes = method->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(method, scene, axes, model, messages);

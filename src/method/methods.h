@@ -4,6 +4,8 @@
 
 #include "model/model.h"
 
+/* The table, ended by NULL. */
+extern const struct method *const method_table[];
 /* NULL if there is none. */
 const struct method *method_find(const char *name, const char *variant);
 

@@ -67,10 +67,11 @@ struct model;
 /* A method of the list in deck/choices.h: what a deck may ask for. */
 struct method {
     const char *name, *variant; /* as in the deck */
-    bool mirrors;   /* exact on the half of a symmetric scene with symmetry on the middle plane: see
+    bool mirrors;         /* exact on the half of a symmetric scene with symmetry on the middle plane: see
                        method/mirror.h */
-    unsigned faces; /* what it can do at faces: CAN_... (scene/boundary.h) */
-    bool single;    /* some scenes may keep the state in single precision */
+    unsigned faces;       /* what it can do at faces: CAN_... (scene/boundary.h) */
+    bool single;          /* some scenes may keep the state in single precision */
+    bool point_materials; /* each point that a host gives may have a material of its own */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
 };
@@ -152,6 +153,14 @@ struct model_memory {
     void (*remember)(struct model *model, double dt, double *y);
 };
 
+/* How points see a patch that a traction presses. */
+enum patch_sight {
+    PATCH_WHOLE,     /* as it is */
+    PATCH_RINGS,     /* as it is, but the short surface waves that a narrow patch makes ring on */
+    PATCH_BY_POINTS, /* as wide as the points in it */
+    PATCH_BY_CELLS   /* as the cells of the points in it */
+};
+
 struct model {
     const struct method *method;
     const struct model_core *core;
@@ -173,7 +182,10 @@ struct model {
     bool damped;        /* C is not zero */
     double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
                            [1/time] */
-    bool self_adjoint;  /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
+    bool small_strain;  /* forces are linear in grad u: rotations must stay small */
+    bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
+    enum patch_sight patch;
+    bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (
         *frame)[3]; /* unknowns are in the body's frame: rotate to deck coordinates; NULL: they are not */
     unsigned long evaluations; /* calls of accelerate or rate so far */

@@ -24,6 +24,8 @@ enum { COLUMNS = 8 };
 struct table {
     size_t rows, room;
     double (*row)[COLUMNS];
+    size_t *line; /* [rows] of a text file; else NULL */
+    size_t line_room;
 };
 
 static bool make_room(struct table *table, size_t rows)
@@ -34,6 +36,16 @@ static bool make_room(struct table *table, size_t rows)
     if (larger == NULL) return false;
     table->row = larger;
     table->room = room;
+    return true;
+}
+
+static bool make_room_for_lines(struct table *table)
+{
+    if (table->line_room == table->room) return true;
+    size_t *larger = realloc(table->line, table->room * sizeof *larger);
+    if (larger == NULL) return false;
+    table->line = larger;
+    table->line_room = table->room;
     return true;
 }
 
@@ -59,8 +71,9 @@ static selas_status add_row(struct table *table, size_t d, int count, const doub
         return fail(messages, SELAS_FILE_ERROR,
                     "%s:%zu: expected %zu numbers (position, volume) or %zu (and normal, area)", path, line,
                     d + 1, 2 * d + 2);
-    if (!make_room(table, table->rows + 1))
+    if (!make_room(table, table->rows + 1) || !make_room_for_lines(table))
         return fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+    table->line[table->rows] = line;
     double *row = table->row[table->rows++];
     memset(row, 0, sizeof *table->row);
     memcpy(row, value, d * sizeof *row);
@@ -151,25 +164,13 @@ static selas_status read_hdf5(const char *path, size_t d, struct table *table, s
         path, d, d);
 }
 
-static bool is_hdf5(const char *path)
-{
-    static const unsigned char signature[4] = {0x89, 'H', 'D', 'F'};
-    unsigned char start[4] = {0};
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) return false;
-    const size_t count = fread(start, 1, sizeof start, file);
-    fclose(file);
-    return count == sizeof start && memcmp(start, signature, sizeof start) == 0;
-}
-
 /* Face of the box that an element lies on, FACES if none. */
 static int face_of(const struct body *body, int dimension, const struct face_element *element, double spacing)
 {
     for (int face = 0; face < 2 * dimension; face++) {
         const int axis = face / 2;
-        const double plane = face % 2 == 0 ? body->low[axis] : body->high[axis];
-        if (element->normal[axis] * (face % 2 == 0 ? -1 : 1) > 0.99 &&
-            fabs(element->position[axis] - plane) < spacing)
+        if (element->normal[axis] * face_sign((enum face)face) > 0.99 &&
+            fabs(element->position[axis] - face_plane(body, (enum face)face)) < spacing)
             return face;
     }
     return FACES;
@@ -229,15 +230,20 @@ selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct 
                      ? SELAS_OK
                      : fail(messages, SELAS_NO_MEMORY, "no memory for the points");
     else
-        status = is_hdf5(path) ? read_hdf5(path, d, &table, messages) : read_text(path, d, &table, messages);
+        status = stored_is_hdf5(path) ? read_hdf5(path, d, &table, messages)
+                                      : read_text(path, d, &table, messages);
     if (status == SELAS_OK && table.rows == 0)
         status = fail(messages, SELAS_FILE_ERROR, "'%s' has no points", path);
     if (status == SELAS_OK) status = cloud_allocate(scene->dimension, table.rows, cloud, messages);
     if (status == SELAS_OK) {
         (*cloud)->spacing = scene->body.spacing;
         status = take(scene, &table, *cloud, messages);
+        if (status == SELAS_OK)
+            status =
+                points_check_apart(table.rows, (*cloud)->position, scene->body.spacing, table.line, messages);
     }
     free(table.row);
+    free(table.line);
     if (status != SELAS_OK) cloud_free(cloud);
     return status;
 }

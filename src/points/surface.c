@@ -61,7 +61,7 @@ static selas_status face_part(struct cloud *cloud, const struct body *body, enum
     const size_t pieces = (size_t)fmax(1, round(length / body->spacing));
     for (size_t k = 0; k < pieces; k++) {
         struct face_element element = {.area = length / (double)pieces, .face = (int)face};
-        element.position[axis] = face_sign(face) < 0 ? body->low[axis] : body->high[axis];
+        element.position[axis] = face_plane(body, face);
         element.position[along] = from + ((double)k + 0.5) * element.area;
         element.normal[axis] = face_sign(face);
         element.width[along] = element.area;
@@ -121,7 +121,7 @@ static selas_status face_3d(struct cloud *cloud, const struct body *body, enum f
         element.width[c] = length / (double)count[c];
         element.area *= element.width[c];
     }
-    element.position[axis] = face_sign(face) < 0 ? body->low[axis] : body->high[axis];
+    element.position[axis] = face_plane(body, face);
     element.normal[axis] = face_sign(face);
     for (size_t j = 0; j < count[second]; j++)
         for (size_t i = 0; i < count[first]; i++) {
@@ -137,7 +137,7 @@ static selas_status face_1d(struct cloud *cloud, const struct body *body, enum f
                             struct messages *messages)
 {
     struct face_element element = {.area = 1, .face = (int)face};
-    element.position[0] = face_sign(face) < 0 ? body->low[0] : body->high[0];
+    element.position[0] = face_plane(body, face);
     element.normal[0] = face_sign(face);
     return cloud_add_element(cloud, &element, messages);
 }

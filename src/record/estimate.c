@@ -54,20 +54,19 @@ static double time_steps(struct stepper *stepper, struct recorder *recorder, str
 
 double estimate_step(const struct recorder *own, struct stepper *stepper)
 {
-    const struct host_drive *host = stepper->host;
-    const struct host_drive silent = {
-        .at = stay_silent, .moves = host != NULL && host->moves, .held = host != NULL ? host->held : NULL};
+    const struct host_drive *host = stepper->driver.host;
+    const struct host_drive silent = {.at = stay_silent};
     const unsigned long evaluations = stepper->model->evaluations;
     struct recorder *recorder = NULL;
     struct state state = {0};
     double seconds = -1.0;
-    if (host != NULL) stepper->host = &silent;
+    if (host != NULL) stepper->driver.host = &silent;
     if (recorder_create(own->scene, own->model, stepper, &recorder, NULL) == SELAS_OK)
         seconds = time_steps(stepper, recorder, &state);
     state_free(&state);
     recorder_free(&recorder);
     stepper->model->evaluations = evaluations;
-    stepper->host = host;
-    if (host != NULL) drive_changed(stepper, 0);
+    stepper->driver.host = host;
+    driver_changed(&stepper->driver, 0);
     return seconds;
 }

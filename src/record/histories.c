@@ -1,5 +1,5 @@
-/* NAME.dat and NAME.exact.dat: columns t ux uy uz vx vy vz with a header. Numbers have 17 digits: what is
- * read back is what was written. */
+/* NAME.dat and NAME.exact.dat: columns t ux uy uz vx vy vz with a header; NAME.exact.stress.dat: t sxx syy
+ * szz sxy syz szx. Numbers have 17 digits: what is read back is what was written. */
 #include "record/results.h"
 
 #include "base/memory.h"
@@ -18,28 +18,33 @@ void histories_note(FILE *out, const struct recorder *recorder)
                 recorder->last_step, recorder->last_time, recorder->stepper->steps);
 }
 
+enum kind { COMPUTED, EXACT, EXACT_STRESS };
+
 /* `recorder` is NULL where nothing is run. */
 static selas_status write_history(const struct scene *scene, const struct recorder *recorder, size_t receiver,
-                                  bool exact, const struct history_rows *history, struct messages *messages)
+                                  enum kind kind, const struct history_rows *history,
+                                  struct messages *messages)
 {
+    static const char *const ending[] = {".dat", ".exact.dat", ".exact.stress.dat"};
     const struct receiver *place = &scene->receiver[receiver];
-    char name[NAME_SIZE + 16];
-    file_name_of(place->name, exact ? ".exact.dat" : ".dat", name, sizeof name);
+    char name[NAME_SIZE + 24];
+    file_name_of(place->name, ending[kind], name, sizeof name);
     struct safe_file file;
     const selas_status status =
         safe_file_open(recorder != NULL ? recorder->folder : scene->output.directory, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
-    fprintf(out, "# %s at receiver %s, position %.17g %.17g %.17g\n", exact ? "exact history" : "history",
-            place->name, place->position[0], place->position[1], place->position[2]);
+    fprintf(out, "# %s at receiver %s, position %.17g %.17g %.17g\n",
+            kind == COMPUTED ? "history" : "exact history", place->name, place->position[0],
+            place->position[1], place->position[2]);
     fprintf(out, "# %s\n", scene->title);
     fprintf(out, "# deck %s, selas %s; units: the deck's own\n",
             scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version());
-    if (!exact && scene->output.low_pass > 0.0)
+    if (kind == COMPUTED && scene->output.low_pass > 0.0)
         fprintf(out, "# low-passed: spectrum times exp(-(omega/%.17g)^4), zero phase\n",
                 scene->output.low_pass);
     if (recorder != NULL) histories_note(out, recorder);
-    fprintf(out, "# t ux uy uz vx vy vz\n");
+    fprintf(out, "# t %s\n", kind == EXACT_STRESS ? "sxx syy szz sxy syz szx" : "ux uy uz vx vy vz");
     for (size_t i = 0; i < history->rows; i++) {
         fprintf(out, "%.17g", history->time[i]);
         for (size_t c = 0; c < 6; c++)
@@ -71,10 +76,10 @@ selas_status histories_write(struct recorder *recorder, struct messages *message
     selas_status status = SELAS_OK;
     for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++) {
         struct history_rows history = recorder_history(recorder, r);
-        status = write_history(recorder->scene, recorder, r, false, &history, messages);
+        status = write_history(recorder->scene, recorder, r, COMPUTED, &history, messages);
         if (status != SELAS_OK || recorder->exact == NULL) continue;
         history.value = recorder->exact + r * recorder->rows * 6;
-        status = write_history(recorder->scene, recorder, r, true, &history, messages);
+        status = write_history(recorder->scene, recorder, r, EXACT, &history, messages);
     }
     return status;
 }
@@ -104,7 +109,10 @@ selas_status record_exact(const struct scene *scene, struct exact *exact, struct
     const struct history_rows history = {rows, time, value};
     for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++) {
         status = exact->class->history(exact, scene->receiver[r].position, rows, time, value, messages);
-        if (status == SELAS_OK) status = write_history(scene, NULL, r, true, &history, messages);
+        if (status == SELAS_OK) status = write_history(scene, NULL, r, EXACT, &history, messages);
+        if (status != SELAS_OK || !scene->reference.stress || exact->class->stress == NULL) continue;
+        status = exact->class->stress(exact, scene->receiver[r].position, rows, time, value, messages);
+        if (status == SELAS_OK) status = write_history(scene, NULL, r, EXACT_STRESS, &history, messages);
     }
     array_free(time);
     array_free(value);

@@ -73,6 +73,8 @@ char *results_names(const struct scene *scene, const struct recorder *recorder, 
     const bool exact = recorder != NULL && done ? recorder->exact != NULL : scene->reference.kind[0] != '\0';
     for (size_t r = 0; exact && r < scene->receivers; r++)
         put(list, scene->receiver[r].name, ".exact.dat");
+    for (size_t r = 0; recorder == NULL && scene->reference.stress && r < scene->receivers; r++)
+        put(list, scene->receiver[r].name, ".exact.stress.dat");
     if (fclose(list) == 0) return names;
     free(names);
     return NULL;
@@ -181,13 +183,20 @@ static selas_status claim_one(const struct scene *scene, const char *name, const
                 path);
 }
 
+static selas_status no_memory(struct messages *messages)
+{
+    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+}
+
 selas_status results_claim(const struct scene *scene, const char *names, struct messages *messages)
 {
     char name[FILE_NAME_SIZE];
     char *listed = listed_in(scene->output.directory);
-    selas_status status = listed != NULL && names != NULL
-                              ? SELAS_OK
-                              : fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+    selas_status status = SELAS_OK;
+    if (listed == NULL || names == NULL) {
+        free(listed);
+        return no_memory(messages);
+    }
     for (const char *at = names; status == SELAS_OK && next_name(&at, name);)
         status = claim_one(scene, name, listed, messages);
     free(listed);
@@ -209,10 +218,9 @@ static bool is_picture(const char *name)
 selas_status results_list(const struct scene *scene, const char *names, struct messages *messages)
 {
     char *listed = listed_in(scene->output.directory);
-    const selas_status status =
-        listed != NULL && names != NULL
-            ? write_list(scene->output.directory, listed, names, messages)
-            : fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+    const selas_status status = listed != NULL && names != NULL
+                                    ? write_list(scene->output.directory, listed, names, messages)
+                                    : no_memory(messages);
     free(listed);
     return status;
 }
@@ -224,7 +232,7 @@ selas_status results_tidy(const struct scene *scene, const char *names, struct m
     char *listed = listed_in(folder);
     if (listed == NULL || names == NULL) {
         free(listed);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+        return no_memory(messages);
     }
     for (const char *at = listed; next_name(&at, name);)
         if (is_picture(name) || !has(names, name)) take_away(folder, name);

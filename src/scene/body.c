@@ -74,7 +74,7 @@ static void check_division(struct builder *builder, const struct deck_group *gro
         const double length = body->high[c] - body->low[c];
         if (divides(body->spacing, length)) continue;
         const double nearest = nearest_spacing(body, scene->dimension, body->spacing);
-        if (strcmp(scene->method.name, "sph") == 0) {
+        if (scene->method.points == POINTS_IN_CELLS) {
             deck_warning(builder->deck, group, "spacing", builder->messages,
                          "spacing = %g does not divide the edge of %.10g along %c, which gets %.0f points %g "
                          "apart",

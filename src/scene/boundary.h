@@ -11,17 +11,24 @@ enum boundary_kind { BOUNDARY_KINDS(BOUNDARY_KIND) };
 #undef BOUNDARY_KIND
 enum absorber { ABSORBERS(CHOICE_SYMBOL) };
 
+/* What gives the motion of a face or the amplitude of a load: its history, a function of the host, or the
+ * host holds a load at a value until it changes it. With a host the history is empty. */
+enum driven { BY_HISTORY, BY_HOST, HELD_BY_HOST };
+
 struct boundary {
     enum boundary_kind kind;
     enum absorber absorber;
-    long layer_points; /* of the absorbing layer; 0: choose from layer_reflection */
-    double layer_reflection;
-    bool always; /* keep the absorbing layer even where no reflection can be seen by end_time */
+    long layer_points;       /* of the absorbing layer; 0: by one of the next two, or chosen */
+    double layer_thickness;  /* length; 0: not given */
+    double layer_reflection; /* wanted; 0: not given */
+    long least_points;       /* where they are chosen, at least so many; 0: the default */
+    bool always;             /* keep the absorbing layer even where no reflection can be seen by end_time */
     double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
     double direction[3];                /* of a moved face: unit vector in the deck's coordinates */
     double amplitude;
     bool slip; /* leave components across `direction` free (direction along an axis of the body) */
     struct history history;
+    enum driven driven;
     bool given;   /* false: nobody named this face, it is free */
     size_t group; /* occurrence of &boundary that named it */
 };

@@ -3,6 +3,7 @@
 #ifndef SELAS_SCENE_BUILD_H
 #define SELAS_SCENE_BUILD_H
 
+#include "scene/point_sources.h"
 #include "scene/scene.h"
 
 struct builder {
@@ -13,7 +14,7 @@ struct builder {
     bool body_known;     /* box and frame are right: places can be checked against them */
     bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
     double spacing;      /* ... but this one, or 0 for a first guess ... */
-    long layer_points;   /* ... with absorbing layers of so many points, where the program adds them */
+    long layer_points; /* ... with absorbing layers of at least so many points, where the program adds them */
 };
 
 /* Adds a line with the place of `name` in the group (deck_error); the building goes on. */
@@ -50,6 +51,16 @@ extern const char *const history_words[];
 
 /* Path of a file that the deck names, relative to the deck's folder; free with array_free. */
 char *deck_path(struct builder *builder, const char *path);
+
+/* listed_loads.c: the file of point sources that a &load names; none after complaining. */
+struct point_sources take_sources(struct builder *builder, const struct deck_group *group,
+                                  enum load_kind kind);
+/* Makes loads [sources->count] of it from the first, which holds what they have in common. */
+void read_sources(struct builder *builder, const struct deck_group *group,
+                  const struct point_sources *sources, struct load *load);
+/* The box around them, read without a word; false if the &load names no file or it cannot be used. */
+bool sources_span(const struct builder *builder, const struct deck_group *group, double low[3],
+                  double high[3]);
 
 /* The parts, in this order; each reads its groups. */
 void build_materials(struct builder *builder);

@@ -105,6 +105,41 @@ static double burst_value(const struct history *history, double t, int derivativ
     return sum;
 }
 
+/* With x = t/width: f = 1 - (1 + x) exp(-x). */
+static double brune_value(const struct history *history, double t, int derivative)
+{
+    const double width = history->width, x = t / width, fall = exp(-x);
+    if (t <= 0) return derivative == 2 && t == 0 ? 1 / (width * width) : 0;
+    switch (derivative) {
+    case -1:
+        return width * (x - 2 + (x + 2) * fall);
+    case 0:
+        return 1 - (1 + x) * fall;
+    case 1:
+        return x * fall / width;
+    default:
+        return (1 - x) * fall / (width * width);
+    }
+}
+
+static double error_function_value(const struct history *history, double t, int derivative, bool right)
+{
+    if (t < 0 || (t == 0 && !right)) return 0;
+    const double width = history->width, x = (t - history->delay) / width, first = history->delay / width;
+    const double bell = exp(-.5 * x * x) / (width * sqrt(2 * M_PI));
+    switch (derivative) {
+    case -1: /* of x erfc(-x/sqrt 2)/2 + bell */
+        return .5 * width * (x * erfc(-x * M_SQRT1_2) + first * erfc(first * M_SQRT1_2)) +
+               width * width * bell - width * exp(-.5 * first * first) / sqrt(2 * M_PI);
+    case 0:
+        return .5 * erfc(-x * M_SQRT1_2);
+    case 1:
+        return bell;
+    default:
+        return -x / width * bell;
+    }
+}
+
 static double one_side(const struct history *history, double t, int derivative, bool right)
 {
     switch (history->kind) {
@@ -120,6 +155,10 @@ static double one_side(const struct history *history, double t, int derivative, 
         return burst_value(history, t, derivative, right);
     case HISTORY_TABLE:
         return history_table_value(history, t, derivative, right);
+    case HISTORY_BRUNE:
+        return brune_value(history, t, derivative);
+    case HISTORY_ERROR_FUNCTION:
+        return error_function_value(history, t, derivative, right);
     }
     return 0;
 }
@@ -150,6 +189,8 @@ double history_plain_scale(const struct history *history)
     case HISTORY_RICKER:
         return .5 / (M_PI * history->frequency);
     case HISTORY_GAUSSIAN:
+    case HISTORY_BRUNE:
+    case HISTORY_ERROR_FUNCTION:
         return history->width;
     case HISTORY_SINE_BURST:
         return .5 / (2 * M_PI * history->frequency * (1 + 1 / history->cycles));
@@ -170,7 +211,10 @@ double history_plain_end(const struct history *history)
         return 0;
     case HISTORY_RICKER: /* (1 - 2 a) exp(-a) < 4e-17 from a = 42 on */
         return fmax(0, history->delay + sqrt(42.) / (M_PI * history->frequency));
+    case HISTORY_BRUNE: /* (1 + x) exp(-x) < 1e-17 from x = 43 on */
+        return 43 * history->width;
     case HISTORY_GAUSSIAN: /* exp(-a) < 6e-17 from a = 37.5 on */
+    case HISTORY_ERROR_FUNCTION:
         return fmax(0, history->delay + sqrt(75.) * history->width);
     case HISTORY_SINE_BURST:
         return history->cycles / history->frequency;
@@ -182,7 +226,7 @@ double history_plain_end(const struct history *history)
 
 double history_end(const struct history *history)
 {
-    return history_plain_end(history) + fmax(0, history->smoothing);
+    return history->start + history_plain_end(history) + fmax(0, history->smoothing);
 }
 
 /* Derivative of order 0, 1 or 2 of the cubic B-spline with knots 0..4 and unit area (Schoenberg 1946). */
@@ -227,6 +271,7 @@ static double panel(const struct window *window, double from, double to)
 
 double history_value(const struct history *history, double t, int derivative)
 {
+    t -= history->start;
     if (history->smoothing <= 0) return history_plain_value(history, t, derivative);
     if (t <= 0) return 0;
     const double h = .25 * history->smoothing, scale = history_plain_scale(history);
@@ -266,7 +311,7 @@ size_t history_kinks(const struct history *history, double *times, size_t room)
         const double kink = next[first] + first * h;
         if (isinf(kink)) return count;
         if (kink > last * (1 + 4e-16)) { /* knots of two copies may fall together */
-            if (count < room) times[count] = kink;
+            if (count < room) times[count] = history->start + kink;
             count++;
             last = kink;
         }
@@ -278,9 +323,21 @@ bool history_same(const struct history *a, const struct history *b)
 {
     if (a->kind != b->kind || a->duration != b->duration || a->frequency != b->frequency ||
         a->delay != b->delay || a->width != b->width || a->cycles != b->cycles ||
-        a->smoothing != b->smoothing || a->rows != b->rows)
+        a->smoothing != b->smoothing || a->start != b->start || a->rows != b->rows)
         return false;
     const size_t bytes = a->rows * sizeof(double);
     return a->rows == 0 || (memcmp(a->table_time, b->table_time, bytes) == 0 &&
                             memcmp(a->table_value, b->table_value, bytes) == 0);
+}
+
+double history_rate_norm(const struct history *history)
+{
+    enum { STEPS = 2000 };
+    const double step = (history_end(history) - history->start) / STEPS;
+    double sum = 0;
+    for (int i = 0; i < STEPS && step > 0; i++) {
+        const double rate = history_value(history, history->start + (i + .5) * step, 1);
+        sum += rate * rate * step;
+    }
+    return sqrt(sum);
 }

@@ -1,8 +1,9 @@
 /* Time functions of loads and prescribed motions, which the word `history` names: f(t), dimensionless, zero
- * for t < 0 (the Gaussian and the Ricker wavelet are cut at t = 0: choose the delay so that this does not
- * matter; scene/ warns otherwise).
+ * for t < 0 (Gaussian, Ricker wavelet and error function are cut at t = 0: choose the delay so that this does
+ * not matter; scene/ warns otherwise).
  *
- * With smoothing S > 0 the history is convolved with the unit-area cubic B-spline supported on [0, S]. */
+ * With smoothing S > 0 the history is convolved with the unit-area cubic B-spline supported on [0, S]. All of
+ * it begins at `start` in place of 0. */
 #ifndef SELAS_HISTORY_H
 #define SELAS_HISTORY_H
 
@@ -15,7 +16,7 @@ enum history_kind { HISTORY_KINDS(CHOICE_SYMBOL) };
 
 struct history {
     enum history_kind kind;
-    double duration, frequency, delay, width, cycles, smoothing;
+    double duration, frequency, delay, width, cycles, smoothing, start;
     size_t rows; /* table */
     double *table_time, *table_value;
 };
@@ -28,6 +29,9 @@ double history_value(const struct history *history, double t, int derivative);
 /* Laplace transform: integral of f(t) exp(-s t) dt from 0 to infinity (Re s > 0), smoothing included. For the
  * kinds that are cut at t = 0 the cut is part of the transform. */
 double complex history_laplace(const struct history *history, double complex s);
+/* The same without the cut where that takes less than 1e-6 of the peak away: then the pulse is smooth, and
+ * has begun before t = 0. */
+double complex history_laplace_uncut(const struct history *history, double complex s);
 
 /* Times >= 0 at which f or a derivative up to the second jumps (kinks, knots of the smoothing); at most
  * `room` are written, ascending; returns how many there are. */
@@ -36,9 +40,12 @@ size_t history_kinks(const struct history *history, double *times, size_t room);
 /* The same function of time, number by number. */
 bool history_same(const struct history *a, const struct history *b);
 
-/* Time after which f stays constant (0, or the table's last value); INFINITY if never (not for kinds of
+/* Time after which f stays constant; INFINITY if never (not for kinds of
  * today). */
 double history_end(const struct history *history);
+
+/* L2 norm of f' over all time, impulses left out. */
+double history_rate_norm(const struct history *history);
 
 /* Angular frequency above which the amplitude spectrum of f stays below `fraction` of its largest value. */
 double history_cutoff(const struct history *history, double fraction);

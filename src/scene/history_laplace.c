@@ -39,6 +39,13 @@ static double complex cut_ricker(double frequency, double delay, double complex 
     return -(s * s * bell - s * start - 2 * b * b * delay * start) / (2 * b * b);
 }
 
+/* f' is a Gaussian of unit area; f(0) is what the cut leaves of it before t = 0. */
+static double complex cut_error_function(double width, double delay, double complex s)
+{
+    const double start = .5 * erfc(delay / width * M_SQRT1_2);
+    return (start + cut_gaussian(width, delay, s) / (width * sqrt(2 * M_PI))) / s;
+}
+
 /* Sum of three sines over [0, end]: integral of sin(a t) exp(-s t) dt
  *   = [a - exp(-s end) (s sin(a end) + a cos(a end))] / (s^2 + a^2).                                   (2) */
 static double complex burst(const struct history *history, double complex s)
@@ -72,22 +79,48 @@ static double complex plain_laplace(const struct history *history, double comple
         return burst(history, s);
     case HISTORY_TABLE:
         return history->rows > 0 ? history_table_laplace(history, s) : 0;
+    case HISTORY_BRUNE:
+        return 1 / (s * (1 + s * history->width) * (1 + s * history->width));
+    case HISTORY_ERROR_FUNCTION:
+        return cut_error_function(history->width, history->delay, s);
     }
     return 0;
 }
 
-double complex history_laplace(const struct history *history, double complex s)
+/* Transform of what begins at `start` and is smoothed, from that of the plain history. */
+static double complex completed(const struct history *history, double complex s, double complex plain)
 {
-    const double complex plain = plain_laplace(history, s);
+    if (history->start > 0) plain *= cexp(-s * history->start);
     if (history->smoothing <= 0) return plain;
     const double complex ratio = history_decay_ratio(.25 * s * history->smoothing), square = ratio * ratio;
     return plain * square * square;
 }
 
+double complex history_laplace(const struct history *history, double complex s)
+{
+    return completed(history, s, plain_laplace(history, s));
+}
+
+double complex history_laplace_uncut(const struct history *history, double complex s)
+{
+    const enum history_kind kind = history->kind;
+    const bool bell = kind == HISTORY_GAUSSIAN || kind == HISTORY_ERROR_FUNCTION,
+               wavelet = kind == HISTORY_RICKER;
+    if ((!bell && !wavelet) || fabs(history_plain_value(history, 0, 0)) > 5e-7)
+        return history_laplace(history, s);
+    const double width = bell ? history->width : M_SQRT1_2 / (M_PI * history->frequency);
+    double complex plain = width * sqrt(2 * M_PI) * cexp(s * (.5 * s * width * width - history->delay));
+    if (wavelet) plain *= -s * s * width * width;
+    if (kind == HISTORY_ERROR_FUNCTION) plain /= width * sqrt(2 * M_PI) * s;
+    return completed(history, s, plain);
+}
+
 /* The spectrum that history_cutoff() judges: of f, or of f' where f does not come back to zero. */
 static bool comes_back(const struct history *history)
 {
-    if (history->kind == HISTORY_STEP) return false;
+    if (history->kind == HISTORY_STEP || history->kind == HISTORY_BRUNE ||
+        history->kind == HISTORY_ERROR_FUNCTION)
+        return false;
     return history->kind != HISTORY_TABLE || history->rows == 0 ||
            history->table_value[history->rows - 1] == 0;
 }
@@ -99,6 +132,8 @@ static double highest_peak(const struct history *history)
     case HISTORY_TRIANGLE:
         return 4 / history->duration;
     case HISTORY_GAUSSIAN:
+    case HISTORY_BRUNE:
+    case HISTORY_ERROR_FUNCTION:
         return 1 / history->width;
     case HISTORY_RICKER:
         return 2 * M_PI * history->frequency;
@@ -154,6 +189,15 @@ static double plain_envelope(const struct history *history, double w)
             slope = next;
         }
         return comes_back(history) ? sum : w * sum;
+    }
+    case HISTORY_BRUNE: {
+        const double x = w * history->width;
+        return 1 / (1 + x * x);
+    }
+    case HISTORY_ERROR_FUNCTION: {
+        const double x = w * history->width, ratio = history->delay / history->width;
+        return exp(-.5 * x * x) + exp(-.5 * ratio * ratio) / (x * sqrt(2 * M_PI)) +
+               .5 * erfc(ratio * M_SQRT1_2);
     }
     }
     return 0;

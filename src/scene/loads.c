@@ -1,4 +1,5 @@
 /* Loads: tractions on patches of faces, body forces, moment tensors. */
+#include "base/memory.h"
 #include "scene/build.h"
 
 #include <math.h>
@@ -31,13 +32,39 @@ static void read_size(struct builder *builder, const struct deck_group *group, s
         load->size[i] = deck_real(group, "size", i);
 }
 
+static double half_patch(const struct load *load, int edge)
+{
+    if (load->shape == LOAD_POINT) return 0;
+    return load->size[load->shape == LOAD_DISC ? 0 : edge] / 2;
+}
+
+/* Does a moving patch, now at `place` of the body's frame, come over the face before the end? */
+static bool comes_by(const struct builder *builder, const struct load *load, const double place[3])
+{
+    const struct body *body = &builder->scene->body;
+    double velocity[3], from = 0, to = builder->scene->end_time;
+    int axes[2];
+    const int count = axes_of_face(load->face, builder->scene->dimension, axes);
+    body_direction_from_deck(body, load->velocity, velocity);
+    for (int i = 0; i < count; i++) {
+        const int axis = axes[i];
+        const double half = half_patch(load, i), speed = velocity[axis];
+        const double low = body->low[axis] - half - place[axis], high = body->high[axis] + half - place[axis];
+        if (speed == 0 && (low > 0 || high < 0)) return false;
+        if (speed == 0) continue;
+        from = fmax(from, speed > 0 ? low / speed : high / speed);
+        to = fmin(to, speed > 0 ? high / speed : low / speed);
+    }
+    return from < to;
+}
+
 /* The centre must lie in the plane of the face, where it is then put exactly, and the patch must cover some
- * of the face. */
+ * of the face, if it moves at some time. */
 static void place_patch(struct builder *builder, const struct deck_group *group, struct load *load)
 {
     const struct body *body = &builder->scene->body;
     const int axis = face_axis(load->face), dimension = builder->scene->dimension;
-    const double plane = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+    const double plane = face_plane(body, load->face);
     double place[3], beyond[2] = {0, 0};
     char text[VECTOR_TEXT_SIZE];
     int axes[2];
@@ -56,7 +83,9 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
         beyond[i] = fmax(0, fmax(body->low[axes[i]] - place[axes[i]], place[axes[i]] - body->high[axes[i]]));
     const double tolerance = body_tolerance(body);
     bool misses = false;
-    if (load->shape == LOAD_POINT)
+    if (load_moves(load))
+        misses = !comes_by(builder, load, place);
+    else if (load->shape == LOAD_POINT)
         misses = hypot(beyond[0], beyond[1]) > tolerance;
     else if (load->shape == LOAD_DISC)
         misses = hypot(beyond[0], beyond[1]) >= load->size[0] / 2 - tolerance;
@@ -65,7 +94,8 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
             misses = misses || beyond[i] >= load->size[i] / 2 - tolerance;
     if (misses)
         complain(builder, group, "centre",
-                 "the load lies beyond the face '%s'; no part of it acts on the body", face_name(load->face));
+                 "the load lies beyond the face '%s'%s; no part of it acts on the body",
+                 face_name(load->face), load_moves(load) ? " until the end of the run" : "");
 }
 
 static void read_velocity(struct builder *builder, const struct deck_group *group, struct load *load)
@@ -105,11 +135,12 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
     const int dimension = builder->scene->dimension;
     bool known = builder->body_known;
     if (deck_values(group, "face") == 0) {
-        complain(builder, group, NULL, "a traction needs face: x-, x+, y-, y+, z- or z+");
+        complain(builder, group, NULL, "a traction needs face: x-, x+, y-, y+, z-, z+ or hole");
         return;
     }
     load->face = (enum face)deck_choice(group, "face", 0);
-    if (load->face == FACE_HOLE || face_axis(load->face) >= dimension) {
+    const bool hole = load->face == FACE_HOLE && builder->scene->body.shape == BODY_PLATE_WITH_HOLE;
+    if (!hole && (load->face == FACE_HOLE || face_axis(load->face) >= dimension)) {
         complain(builder, group, "face", "no traction can act on a face '%s' of this body",
                  face_name(load->face));
         return;
@@ -120,13 +151,17 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
     }
     load->shape = LOAD_FACE; /* the end of a bar in 1D is a whole face whatever the shape */
     if (dimension > 1) load->shape = (enum load_shape)deck_choice(group, "shape", 0);
+    if (hole && load->shape != LOAD_FACE) {
+        complain(builder, group, "shape", "a traction on the hole acts on all of it; expected 'face'");
+        return;
+    }
+    read_velocity(builder, group, load);
     if (load->shape == LOAD_FACE) {
         refuse(builder, group, patch_words, dimension == 1 ? "a traction in 1D" : "shape 'face'");
-        if (known) { /* for those who want one: the middle of the face */
+        if (known && !hole) { /* for those who want one: the middle of the face */
             const struct body *body = &builder->scene->body;
             double middle[3] = {body->pivot[0], body->pivot[1], body->pivot[2]};
-            const int axis = face_axis(load->face);
-            middle[axis] = face_sign(load->face) < 0 ? body->low[axis] : body->high[axis];
+            middle[face_axis(load->face)] = face_plane(body, load->face);
             body_to_deck(body, middle, load->centre);
         }
     } else {
@@ -137,9 +172,8 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
             read_size(builder, group, load);
         if (known) place_patch(builder, group, load);
     }
-    read_velocity(builder, group, load);
     if (need_direction(builder, group, "direction", kinds[load->kind], load->direction) &&
-        builder->body_known)
+        builder->body_known && !hole)
         warn_of_held_face(builder, group, load);
 }
 
@@ -200,7 +234,8 @@ static void read_moment(struct builder *builder, const struct deck_group *group,
     if (zero) complain(builder, group, "moment", "moment is zero; expected a component that is not");
 }
 
-static void read_load(struct builder *builder, size_t index, struct load *load)
+static void read_load(struct builder *builder, size_t index, const struct point_sources *sources,
+                      struct load *load)
 {
     static const char *const moment_words[] = {"moment", NULL};
     const struct deck_group *group = deck_get(builder->deck, "load", index);
@@ -208,6 +243,11 @@ static void read_load(struct builder *builder, size_t index, struct load *load)
     take_name(builder, group, "name", load->name);
     load->kind = (enum load_kind)deck_choice(group, "kind", 0);
     load->amplitude = deck_real(group, "amplitude", 0);
+    if (deck_given(group, "sources")) {
+        take_history(builder, group, kinds[load->kind], &load->history);
+        read_sources(builder, group, sources, load);
+        return;
+    }
     if (load->kind == LOAD_TRACTION) {
         refuse(builder, group, moment_words, kinds[load->kind]);
         read_traction(builder, group, load);
@@ -222,11 +262,22 @@ static void read_load(struct builder *builder, size_t index, struct load *load)
 void build_loads(struct builder *builder)
 {
     struct scene *scene = builder->scene;
-    const size_t count = deck_count(builder->deck, "load");
-    if (count == 0) return;
-    scene->load = scene_array(builder, count, sizeof *scene->load);
-    if (scene->load == NULL) return;
-    scene->loads = count;
-    for (size_t i = 0; i < count; i++)
-        read_load(builder, i, &scene->load[i]);
+    const size_t groups = deck_count(builder->deck, "load");
+    if (groups == 0) return;
+    struct point_sources *sources = scene_array(builder, groups, sizeof *sources);
+    size_t count = 0;
+    for (size_t i = 0; i < groups && sources != NULL; i++) {
+        const struct deck_group *group = deck_get(builder->deck, "load", i);
+        if (deck_given(group, "sources"))
+            sources[i] = take_sources(builder, group, (enum load_kind)deck_choice(group, "kind", 0));
+        count += sources[i].count > 0 ? sources[i].count : 1;
+    }
+    if (sources != NULL) scene->load = scene_array(builder, count, sizeof *scene->load);
+    if (scene->load != NULL) scene->loads = count;
+    for (size_t i = 0, at = 0; i < groups && sources != NULL; i++) {
+        if (scene->load != NULL) read_load(builder, i, &sources[i], &scene->load[at]);
+        at += sources[i].count > 0 ? sources[i].count : 1;
+        point_sources_free(&sources[i]);
+    }
+    array_free(sources);
 }

@@ -117,6 +117,31 @@ static void complete(const struct scene *scene, struct material *material)
     material->s_speed = sqrt(mu / material->density);
 }
 
+/* Waves of a damped solid lose energy in shear and in compression: the quality of the bulk modulus is
+ * positive if q_p <= 3/4 (c_p/c_s)^2 q_s, to first order in 1/q (hence the hundredth). */
+static void read_quality(struct builder *builder, const struct deck_group *group, struct material *material)
+{
+    static const char *const words[] = {"q_p", "q_s", "q_frequency"};
+    double *const values[] = {&material->q_p, &material->q_s, &material->q_frequency};
+    int given = 0;
+    for (int i = 0; i < 3; i++)
+        if (deck_values(group, words[i]) > 0) {
+            *values[i] = deck_real(group, words[i], 0);
+            given++;
+        }
+    for (int i = 0; i < 3 && given > 0; i++)
+        if (!(*values[i] > 0))
+            complain(builder, group, NULL,
+                     "a damped material needs q_p, q_s and q_frequency; '%s' is not given", words[i]);
+    if (given < 3 || !(material->mu > 0)) return;
+    const double ratio = (material->lambda + 2 * material->mu) / material->mu;
+    if (material->q_p > 1.01 * .75 * ratio * material->q_s)
+        complain(builder, group, "q_p",
+                 "q_p = %g is too large beside q_s = %g: compression would gain energy; expected at most 3/4 "
+                 "(p_speed/s_speed)^2 q_s = %g",
+                 material->q_p, material->q_s, .75 * ratio * material->q_s);
+}
+
 void build_materials(struct builder *builder)
 {
     struct scene *scene = builder->scene;
@@ -143,5 +168,6 @@ void build_materials(struct builder *builder)
         if (pair >= 0 && read_constants(builder, group, pair, material) &&
             check_definite(builder, group, pair, material))
             complete(scene, material);
+        read_quality(builder, group, material);
     }
 }

@@ -75,10 +75,30 @@ bool scene_loads_move(const struct scene *scene)
     return false;
 }
 
+double scene_carries(const struct scene *scene, const double place[3])
+{
+    double part = 1;
+    for (enum face face = FACE_X_LOW; (int)face < 2 * scene->dimension; face++)
+        if (boundary_mirrors(&scene->boundary[face]) &&
+            fabs(place[face_axis(face)] - face_plane(&scene->body, face)) < 1e-6 * scene->body.spacing)
+            part /= 2;
+    return part;
+}
+
 double scene_fastest(const struct scene *scene)
 {
     double speed = 0;
     for (size_t i = 0; i < scene->materials; i++)
         speed = fmax(speed, scene->material[i].p_speed);
     return speed;
+}
+
+bool scene_driven(const struct scene *scene)
+{
+    bool driven = false;
+    for (size_t k = 0; k < scene->loads; k++)
+        driven = driven || scene->load[k].driven != BY_HISTORY;
+    for (size_t face = 0; face < FACES; face++)
+        driven = driven || scene->boundary[face].driven != BY_HISTORY;
+    return driven;
 }

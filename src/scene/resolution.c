@@ -5,6 +5,7 @@
 double source_cutoff(const struct scene *scene)
 {
     double omega = 0.0;
+    if (scene_driven(scene)) return INFINITY;
     for (size_t k = 0; k < scene->loads; k++)
         omega = fmax(omega, history_cutoff(&scene->load[k].history, SOURCE_COUNTS));
     for (size_t face = 0; face < FACES; face++)

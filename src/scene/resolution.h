@@ -8,7 +8,7 @@
 #define SOURCE_COUNTS 0.05
 
 /* Angular frequency above which the spectra of all loads and prescribed motions lie below SOURCE_COUNTS of
- * their largest amplitude (history_cutoff) [rad/time]; 0 if there is none. */
+ * their largest amplitude (history_cutoff) [rad/time]; 0 if there is none, INFINITY if it is not known. */
 double source_cutoff(const struct scene *scene);
 
 /* Of the slowest wave at that frequency; 0 if nothing tells. */

@@ -23,7 +23,7 @@ static void build_settings(struct builder *builder)
         complain(builder, group, "plane", "plane has no meaning in three dimensions; leave it out");
 }
 
-/* True if the points of the body are no lattice, so that the cloud variant is the one that fits. */
+/* True if the points of the body are no lattice. */
 static bool scattered(const struct deck *deck)
 {
     if (deck_count(deck, "body") == 0) return false;
@@ -34,9 +34,10 @@ static bool scattered(const struct deck *deck)
 
 static const struct {
     const char *family, *name;
+    enum point_places points;
 } variants[] = {
 #define NO_FAMILY(word)
-#define VARIANT(symbol, family, word) {family, word},
+#define VARIANT(symbol, ...) {__VA_ARGS__},
     METHODS(NO_FAMILY, VARIANT)};
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
@@ -57,24 +58,28 @@ static void refuse_variant(struct builder *builder, const struct deck_group *gro
              deck_text(group, "variant", 0), expected);
 }
 
-/* The default of each family is its first variant, or the cloud; a variant must belong to its family. */
+/* The default of each family is its first variant, or the first for scattered points; a variant must belong
+ * to its family. */
 static void build_method(struct builder *builder)
 {
     struct method_choice *method = &builder->scene->method;
     const struct deck_group *group = deck_get(builder->deck, "method", 0);
     const char *family = deck_text(group, "name", 0);
-    const bool given = deck_given(group, "variant"), cloud = !given && scattered(builder->deck);
-    const char *wanted = given ? deck_text(group, "variant", 0) : cloud ? "cloud" : NULL;
+    const bool given = deck_given(group, "variant"), scatter = !given && scattered(builder->deck);
+    const char *wanted = given ? deck_text(group, "variant", 0) : "";
     size_t first = VARIANTS, found = VARIANTS;
     for (size_t i = VARIANTS; i-- > 0;) {
         if (strcmp(variants[i].family, family) != 0) continue;
         first = i;
-        if (wanted != NULL && strcmp(variants[i].name, wanted) == 0) found = i;
+        if (scatter ? variants[i].points == POINTS_SCATTERED : strcmp(variants[i].name, wanted) == 0)
+            found = i;
     }
     if (given && found == VARIANTS) refuse_variant(builder, group, family);
+    if (found == VARIANTS) found = first;
     method->group = group;
+    method->points = variants[found].points;
     snprintf(method->name, sizeof method->name, "%s", family);
-    snprintf(method->variant, sizeof method->variant, "%s", variants[found < VARIANTS ? found : first].name);
+    snprintf(method->variant, sizeof method->variant, "%s", variants[found].name);
 }
 
 static void build_stepping(struct builder *builder)
@@ -130,11 +135,20 @@ static void build_output(struct builder *builder)
 static void build_reference(struct builder *builder)
 {
     static const char *const file_words[] = {"file", NULL};
+    static const char *const ground_words[] = {"spectrum", "stress", NULL};
+    static const char *const tolerance_words[] = {"tolerance", NULL};
     struct reference *reference = &builder->scene->reference;
     if (deck_count(builder->deck, "reference") == 0) return;
     const struct deck_group *group = deck_get(builder->deck, "reference", 0);
     reference->group = group;
     snprintf(reference->kind, sizeof reference->kind, "%s", deck_text(group, "kind", 0));
+    const bool layered = strcmp(reference->kind, "layered") == 0;
+    if (!layered) refuse(builder, group, ground_words, "this reference, only to 'layered'");
+    if (!layered && strcmp(reference->kind, "lamb") != 0)
+        refuse(builder, group, tolerance_words, "this reference, only to 'layered' and 'lamb'");
+    if (deck_values(group, "tolerance") > 0) reference->tolerance = deck_real(group, "tolerance", 0);
+    reference->scheme = deck_values(group, "spectrum") > 0 && deck_choice(group, "spectrum", 0) == 1;
+    reference->stress = deck_values(group, "stress") > 0 && deck_logical(group, "stress", 0);
     if (strcmp(reference->kind, "file") != 0) {
         refuse(builder, group, file_words, "an exact solution");
     } else if (deck_values(group, "file") == 0) {

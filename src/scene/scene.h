@@ -19,7 +19,9 @@ enum plane { PLANES(CHOICE_SYMBOL) };
 struct material {
     char name[NAME_SIZE];
     double density;
-    double lambda, mu; /* of the solid in three dimensions */
+    double q_p, q_s;    /* quality of P and S waves; 0: undamped */
+    double q_frequency; /* where the moduli are meant [cycles/time] */
+    double lambda, mu;  /* of the solid in three dimensions */
     double young, poisson;
     double plane_lambda; /* lambda that enters the equations: in plane stress 2 lambda mu / (lambda + 2 mu),
                             in 1D stress such that plane_lambda + 2 mu = E; otherwise lambda */
@@ -54,6 +56,7 @@ struct body {
     struct layer *layer;
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
+    bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
@@ -71,10 +74,11 @@ struct load {
                        diameter */
     double direction[3]; /* unit vector */
     double amplitude;    /* traction (force per area; force if POINT); body force: per volume, over the body
-                            (FACE shape),    or a force at `centre` (POINT); moment tensor: scale of `moment` */
+                            (FACE shape), or a force at `centre` (POINT); moment tensor: scale of `moment` */
     double moment[6];    /* xx yy zz xy yz zx */
     double velocity[3];  /* of a moving patch; 0 = at rest */
     struct history history;
+    enum driven driven;
     size_t group; /* occurrence of &load */
 };
 
@@ -114,9 +118,13 @@ struct initial {
     double centre[3], width;
 };
 
+/* Where the points of a method lie: on the faces of a box, whose spacing must divide every edge; there too, or
+ * scattered; in the middles of cells that fit edge by edge. */
+enum point_places { POINTS_ON_FACES, POINTS_SCATTERED, POINTS_IN_CELLS };
+
 struct method_choice {
-    char name[NAME_SIZE];           /* 'smoothed-point', 'sph' */
-    char variant[NAME_SIZE];        /* 'consistent', 'paper'; 'total-lagrangian', 'updated-lagrangian' */
+    char name[NAME_SIZE], variant[NAME_SIZE]; /* as in deck/choices.h */
+    enum point_places points;
     const struct deck_group *group; /* further options: each method reads its own with deck_*() */
     int degree, sweeps; /* of the consistent method, chosen by scene%accuracy; degree 0: by group */
 };
@@ -141,6 +149,9 @@ struct output_choice {
 struct reference {
     char kind[NAME_SIZE]; /* "" if none */
     char *file;
+    double tolerance; /* wanted relative error; 0: the solution's own default */
+    bool scheme;      /* damping by relaxation mechanisms in place of constant Q */
+    bool stress;      /* histories of stress are wanted too */
     const struct deck_group *group;
 };
 
@@ -155,7 +166,7 @@ struct scene {
     struct body body;
     struct boundary boundary[FACES];
     size_t loads;
-    struct load *load;
+    struct load *load; /* the deck's in its order; behind them the pieces of those that a host drives */
     size_t receivers;
     struct receiver *receiver;
     size_t profiles;
@@ -173,7 +184,7 @@ struct scene {
 struct builder;
 struct scene_choice {
     double spacing;     /* 0: a first guess */
-    long layer_points;  /* of absorbing layers, where there are any; 0: the default */
+    long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
     int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
     const char *scheme; /* NULL: as without */
     double courant;     /* 0: the default step */
@@ -204,6 +215,11 @@ static inline int face_sign(enum face face)
     return (int)face % 2 == 0 ? -1 : 1;
 }
 const char *face_name(enum face face); /* "x-" ... "hole" */
+/* Where the plane of a face of the box cuts its axis. */
+static inline double face_plane(const struct body *body, enum face face)
+{
+    return face_sign(face) < 0 ? body->low[face_axis(face)] : body->high[face_axis(face)];
+}
 
 static inline bool body_is_box(const struct body *body)
 {
@@ -220,8 +236,7 @@ static inline bool load_moves(const struct load *load)
     return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
 }
 
-/* questions.c. Is a component (0, 1, 2, of the body's frame) of the displacement at rest or moved on a face?
- */
+/* questions.c. Is a component (0, 1, 2, of the body's frame) at rest or moved on a face? */
 bool face_holds(const struct scene *scene, enum face face, int component);
 /* CAN_... of all faces together. */
 unsigned scene_needs(const struct scene *scene);
@@ -229,7 +244,11 @@ unsigned scene_needs(const struct scene *scene);
 selas_status scene_check_faces(const struct scene *scene, unsigned can, const char *who,
                                struct messages *messages);
 bool scene_loads_move(const struct scene *scene); /* any of them */
+bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
 double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
+/* Part of a point source at a place (body's frame) that the body carries: a half for each symmetry plane in
+ * which it lies. */
+double scene_carries(const struct scene *scene, const double place[3]);
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);

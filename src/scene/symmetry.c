@@ -93,7 +93,8 @@ static bool same_load(const struct load *a, const struct load *b, double length)
            history_same(&a->history, &b->history);
 }
 
-/* Each load's image must be among the loads as often as the load itself (two equal loads add). */
+/* Each load's image must be among the loads as often as the load itself (two equal loads add). What a host
+ * gives is like nothing but itself. */
 static bool loads_are_symmetric(const struct scene *scene, int axis, double middle, double length)
 {
     for (size_t i = 0; i < scene->loads; i++) {
@@ -102,6 +103,7 @@ static bool loads_are_symmetric(const struct scene *scene, int axis, double midd
         size_t equals = 0;
         size_t images = 0;
         for (size_t j = 0; j < scene->loads; j++) {
+            if (i != j && (load.driven != BY_HISTORY || scene->load[j].driven != BY_HISTORY)) continue;
             const struct load other = in_body_frame(&scene->body, &scene->load[j]);
             equals += same_load(&load, &other, length);
             images += same_load(&image, &other, length);
@@ -118,8 +120,9 @@ static bool faces_are_symmetric(const struct scene *scene, int axis)
     if (low->kind != high->kind || boundary_moves(low)) return false;
     if (boundary_absorbs(low) &&
         (low->absorber != high->absorber || low->layer_points != high->layer_points ||
-         low->layer_reflection != high->layer_reflection || low->always != high->always ||
-         low->normal_factor != high->normal_factor || low->shear_factor != high->shear_factor))
+         low->layer_thickness != high->layer_thickness || low->layer_reflection != high->layer_reflection ||
+         low->always != high->always || low->normal_factor != high->normal_factor ||
+         low->shear_factor != high->shear_factor))
         return false;
     for (int face = 0; face < BOX_FACES; face++) {
         if (!boundary_moves(&scene->boundary[face])) continue;

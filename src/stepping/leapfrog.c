@@ -25,10 +25,9 @@ static double limit(const struct spectrum *spectrum, long stages)
 static void start(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
-    struct drive drive;
-    drive_at_step(stepper, state->step, false, &drive);
+    struct drive drive = driver_at_step(&stepper->driver, state->step, false);
     /* a host may change its loads at the time reached, and then wants that acceleration anew */
-    stepper->one_pass = model->one_pass != NULL && stepper->host == NULL;
+    stepper->one_pass = model->one_pass != NULL && !scene_driven(model->scene);
     if (stepper->one_pass) {
         model->one_pass->begin(model, &drive, stepper->dt, state->y, state->a);
         return;
@@ -37,14 +36,19 @@ static void start(struct stepper *stepper, struct state *state)
     model->spatial->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 
+/* What settles a state. */
+static void resume(struct stepper *stepper, struct state *state)
+{
+    if (stepper->one_pass) driver_at_step(&stepper->driver, state->step, false);
+}
+
 /* The second half of a step: from w(n+1/2) to v(n+1), memory being at its end. */
 static void close_step(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
     double *u = state->y;
     double *v = state->y + model->unknowns;
-    struct drive drive;
-    drive_at_step(stepper, state->step, false, &drive);
+    struct drive drive = driver_at_step(&stepper->driver, state->step, false);
     if (model->memory != NULL) drive.extra = v + model->unknowns;
     model->spatial->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
     leapfrog_kick(stepper, state);
@@ -59,10 +63,9 @@ static void step(struct stepper *stepper, struct state *state)
         close_step(stepper, state);
         return;
     }
-    struct drive drive;
     state->step++;
     state->time = (double)state->step * stepper->dt;
-    drive_at_step(stepper, state->step, false, &drive);
+    const struct drive drive = driver_at_step(&stepper->driver, state->step, false);
     model->one_pass->advance(model, &drive, stepper->dt, state->y, state->a);
 }
 
@@ -86,11 +89,14 @@ static selas_status finish(const struct stepper *stepper, size_t n, double *u, d
 const struct scheme_class scheme_leapfrog = {
     .name = "leapfrog",
     .order = 2,
+    .can = SCHEME_WAVES | SCHEME_MOVING_LOADS | SCHEME_FILTERS | SCHEME_REMEMBERS | SCHEME_ONE_PASS |
+           SCHEME_UNWARPS,
+    .default_for = DEFAULT_FOR_ACCELERATE,
     .needs_acceleration = true,
     .evaluations = 1.0,
     .limit = limit,
-    .vectors = 1,
     .start = start,
+    .resume = resume,
     .step = step,
     .again = again,
     .finish = finish,

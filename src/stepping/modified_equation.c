@@ -34,13 +34,12 @@ static void accelerate(struct stepper *stepper, struct state *state, double half
     const double *restrict u = state->y;
     double *restrict a = state->a;
     double *restrict lifted = stepper->work[0];
-    struct drive drive;
-    drive_at_step(stepper, state->step, false, &drive);
+    struct drive drive = driver_at_step(&stepper->driver, state->step, false);
     model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
         lifted[i] = u[i] + twelfth * a[i];
-    drive_at_step(stepper, state->step, true, &drive);
+    drive = driver_at_step(&stepper->driver, state->step, true);
     model->spatial->accelerate(model, &drive, half_step, lifted, state->y + n, a);
 }
 
@@ -102,6 +101,7 @@ static selas_status finish(const struct stepper *stepper, size_t n, double *u, d
 const struct scheme_class scheme_modified_equation = {
     .name = "modified-equation",
     .order = 4,
+    .can = SCHEME_WAVES | SCHEME_FILTERS, /* knows how loads vary in time, not how they move */
     .needs_acceleration = true,
     .evaluations = 2.0,
     .limit = limit,

@@ -7,8 +7,7 @@
 void runge_kutta_rate(struct stepper *stepper, double time, const double *y, double *dydt)
 {
     struct model *model = stepper->model;
-    struct drive drive;
-    drive_at(stepper, time, &drive);
+    const struct drive drive = driver_at(&stepper->driver, time);
     if (model->spatial->rate != NULL) {
         model->spatial->rate(model, &drive, y, dydt);
         return;

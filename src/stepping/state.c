@@ -22,7 +22,7 @@ void state_settle(const struct stepper *stepper, const struct state *state, bool
 {
     struct model *model = stepper->model;
     if (!stepper->one_pass) return;
-    const struct drive drive = drive_last(stepper, state->time);
+    const struct drive drive = driver_last(&stepper->driver, state->time);
     model->one_pass->settle(model, &drive, stepper->dt, state->y, acceleration ? state->a : NULL);
 }
 

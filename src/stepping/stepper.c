@@ -2,7 +2,6 @@
 #include "stepping/schemes.h"
 
 #include "base/memory.h"
-#include "stepping/time_dispersion.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,24 +42,25 @@ static double wanted_step(struct stepper *stepper)
 }
 
 /* The reason why a step, or any step, is refused. */
-static selas_status refuse(const struct stepper *stepper, double dt, struct messages *messages)
+static selas_status refuse(const struct stepper *stepper, struct messages *messages)
 {
     const char *name = stepper->scheme->name;
+    char names[SCHEME_NAMES_SIZE];
     if (stepper->limit > 0.0)
         return fail(
             messages, SELAS_BAD_SCENE,
             "the time step %.6g is beyond the stability limit %.6g of scheme '%s' (largest frequency %.6g, "
             "damping rate %.6g); take a smaller stepping%%time_step or courant, leave both out, or set "
             "stepping%%force = .true.",
-            dt, stepper->limit, name, stepper->spectrum.omega, stepper->spectrum.viscous);
+            stepper->dt, stepper->limit, name, stepper->spectrum.omega, stepper->spectrum.viscous);
     return fail(
         messages, SELAS_BAD_SCENE,
         "scheme '%s' is unstable for every time step here: the largest frequency is %.6g, the damping rate "
         "only %.6g, and the scheme's stability region does not contain the imaginary axis, where undamped "
-        "waves live%s; take scheme 'leapfrog', 'rk4' or 'lsrk54', or set stepping%%time_step and "
-        "stepping%%force = .true.",
+        "waves live%s; take scheme %s, or set stepping%%time_step and stepping%%force = .true.",
         name, stepper->spectrum.omega, stepper->spectrum.wave_damping,
-        stepper->scheme->choose_stages != NULL ? ", whatever the number of stages" : "");
+        stepper->scheme->choose_stages != NULL ? ", whatever the number of stages" : "",
+        scheme_names(stepper->model, SCHEME_WAVES, names));
 }
 
 static selas_status choose_step(struct stepper *stepper, struct messages *messages)
@@ -72,7 +72,7 @@ static selas_status choose_step(struct stepper *stepper, struct messages *messag
     stepper->dt = wanted_step(stepper);
     if (stepper->scheme->choose_stages != NULL)
         stepper->stages = stepper->scheme->choose_stages(stepper, stepper->dt);
-    stepper->limit = stepper->scheme->limit(&stepper->spectrum, stepper->stages);
+    stepper->limit = scheme_limit(stepper->scheme, &stepper->spectrum, stepper->stages);
     const double limit = stepper->limit;
     if (!(stepper->dt > 0.0) && isfinite(limit) && limit > 0.0) {
         /* whole steps to end_time, so that the last row is end_time itself */
@@ -87,28 +87,27 @@ static selas_status choose_step(struct stepper *stepper, struct messages *messag
                     "nothing vibrates in this scene, so that the program cannot choose a time step; give "
                     "stepping%%time_step");
     if (!(stepper->dt > 0.0) || (stepper->dt > limit * (1.0 + 1e-9) && !choice->force))
-        return refuse(stepper, stepper->dt, messages);
+        return refuse(stepper, messages);
     return SELAS_OK;
 }
 
 static selas_status take_memory(struct stepper *stepper, struct messages *messages)
 {
     const struct model *model = stepper->model;
-    const size_t vectors = stepper->scheme->vectors;
-    stepper->load = array_new(model->scene->loads, sizeof *stepper->load);
-    stepper->motion = array_new(3 * FACES, sizeof *stepper->motion);
-    stepper->work = array_new(vectors, sizeof *stepper->work);
-    bool room = stepper->load != NULL && stepper->motion != NULL && stepper->work != NULL;
-    /* leapfrog keeps the displacements before a step only for models that filter */
-    const bool idle = stepper->scheme->evaluations == 1.0 && stepper->scheme->needs_acceleration &&
-                      model->spatial->after_step == NULL;
-    for (size_t i = 0; room && !idle && i < vectors; i++) {
+    const bool filters = model->spatial->after_step != NULL;
+    stepper->vectors = filters && stepper->scheme->vectors == 0 ? 1 : stepper->scheme->vectors;
+    stepper->work = array_new(stepper->vectors, sizeof *stepper->work);
+    bool room = stepper->work != NULL;
+    for (size_t i = 0; room && i < stepper->vectors; i++) {
         stepper->work[i] = array_new(model->state_size, sizeof **stepper->work);
         room = stepper->work[i] != NULL;
     }
     if (!room)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu work vectors of the scheme", vectors);
-    return SELAS_OK;
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu work vectors of the scheme",
+                    stepper->vectors);
+    const selas_status status = driver_create(&stepper->driver, model->scene, stepper->dt, messages);
+    if (status != SELAS_OK || !stepper->unwarp) return status;
+    return driver_warp(&stepper->driver, stepper->steps + stepper->extra + 2, messages);
 }
 
 /* Steps that the record needs beyond end_time: the un-warping kernel reaches a few times (t dt^2 / 8)^(1/3)
@@ -120,50 +119,28 @@ static unsigned long steps_beyond(const struct stepper *stepper)
     return 12 + (unsigned long)ceil(6.0 * width / stepper->dt);
 }
 
-static selas_status warp_drives(struct stepper *stepper, struct messages *messages)
-{
-    const struct scene *scene = stepper->model->scene;
-    const unsigned long rows = stepper->steps + stepper->extra + 2;
-    stepper->warped_rows = rows;
-    stepper->warped_load = array_new(rows * scene->loads, sizeof(double));
-    stepper->warped_motion = array_new(rows * FACES, sizeof(double));
-    if (stepper->warped_load == NULL || stepper->warped_motion == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for warped histories of %lu steps", rows);
-    for (size_t k = 0; k < scene->loads; k++) {
-        const selas_status status = time_dispersion_warp(&scene->load[k].history, 0, stepper->dt, rows,
-                                                         scene->loads, stepper->warped_load + k, messages);
-        if (status != SELAS_OK) return status;
-    }
-    for (size_t face = 0; face < FACES; face++) {
-        const struct boundary *boundary = &scene->boundary[face];
-        if (!boundary_moves(boundary)) continue;
-        const selas_status status =
-            time_dispersion_warp(&boundary->history, boundary_meaning(boundary)->motion, stepper->dt, rows,
-                                 FACES, stepper->warped_motion + face, messages);
-        if (status != SELAS_OK) return status;
-    }
-    return SELAS_OK;
-}
-
-/* The transform is exact for linear models at rest at t = 0 that prescribed histories at fixed places drive;
- * it is leapfrog's. */
+/* The transform is exact for linear models at rest at t = 0 that histories known beforehand drive at fixed
+ * places. */
 static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
-    return stepper->scheme == &scheme_leapfrog && model->self_adjoint && model->spatial->linearise == NULL &&
-           model->spatial->after_step == NULL && model->scene->initial.kind == INITIAL_REST &&
-           !scene_loads_move(model->scene);
+    return (stepper->scheme->can & SCHEME_UNWARPS) != 0 && model->self_adjoint &&
+           model->spatial->linearise == NULL && model->spatial->after_step == NULL &&
+           model->scene->initial.kind == INITIAL_REST && !scene_loads_move(model->scene) &&
+           !scene_driven(model->scene);
 }
 
 static selas_status choose_unwarp(struct stepper *stepper, struct messages *messages)
 {
     const struct stepping_choice *choice = &stepper->model->scene->stepping;
     const bool possible = can_unwarp(stepper);
+    char names[SCHEME_NAMES_SIZE];
     if (choice->unwarp_given && choice->unwarp && !possible)
         return fail(
             messages, SELAS_BAD_SCENE,
-            "stepping%%unwarp needs scheme 'leapfrog', a linear symmetric method without filter, a body "
-            "at rest at t = 0 and loads that do not move");
+            "stepping%%unwarp needs scheme %s, a linear symmetric method without filter, a body at rest at t "
+            "= 0 and loads that do not move, all of them by histories known beforehand (no host drives)",
+            scheme_names(stepper->model, SCHEME_UNWARPS, names));
     stepper->unwarp = choice->unwarp_given ? choice->unwarp : possible;
     return SELAS_OK;
 }
@@ -177,45 +154,55 @@ static selas_status check_steps(const struct stepper *stepper, struct messages *
                 stepper->dt, end);
 }
 
+/* What the scene and the model ask of the scheme. */
+static selas_status check_abilities(const struct stepper *stepper, struct messages *messages)
+{
+    const struct model *model = stepper->model;
+    const struct {
+        enum scheme_ability ability;
+        bool needed;
+        const char *what;
+    } needs[] = {
+        {SCHEME_MOVING_LOADS, scene_loads_move(model->scene), "loads that move need"},
+        {SCHEME_FILTERS, model->spatial->after_step != NULL, "a filter (method%filter > 0) needs"},
+        {SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"},
+        {SCHEME_REMEMBERS, model->memory != NULL, "absorbing layers (boundary%layer = 'pml') need"},
+    };
+    char names[SCHEME_NAMES_SIZE];
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
+        if (needs[i].needed && (stepper->scheme->can & needs[i].ability) == 0)
+            return fail(messages, SELAS_UNSUPPORTED, "%s scheme %s, not '%s'", needs[i].what,
+                        scheme_names(model, needs[i].ability, names), stepper->scheme->name);
+    if (model->single && scene_driven(model->scene))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "loads and faces that a host drives need method%%precision = 'double'");
+    return SELAS_OK;
+}
+
+static selas_status choose_scheme(struct stepper *stepper, struct messages *messages)
+{
+    const struct model *model = stepper->model;
+    const char *name = model->scene->stepping.scheme;
+    char names[SCHEME_NAMES_SIZE];
+    stepper->scheme = name[0] == '\0' ? scheme_default(model) : scheme_find(name);
+    if (stepper->scheme == NULL) return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", name);
+    if (!scheme_fits(stepper->scheme, model))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "scheme '%s' does not fit method '%s', variant '%s'; expected %s", name,
+                    model->method->name, model->method->variant, scheme_names(model, 0, names));
+    return check_abilities(stepper, messages);
+}
+
 static selas_status prepare(struct stepper *stepper, struct messages *messages)
 {
-    const struct scene *scene = stepper->model->scene;
-    const struct method *method = stepper->model->method;
-    const struct model_operator *spatial = stepper->model->spatial;
-    const char *name = scene->stepping.scheme;
-    if (name[0] == '\0') /* the defaults */
-        name = spatial->accelerate != NULL ? "leapfrog" : stepper->model->damped ? "rkc" : "rk4";
-    stepper->scheme = scheme_find(name);
-    if (stepper->scheme == NULL) return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", name);
-    if (stepper->scheme->needs_acceleration && spatial->accelerate == NULL)
-        return fail(messages, SELAS_UNSUPPORTED, "scheme '%s' does not fit method '%s', variant '%s'",
-                    stepper->scheme->name, method->name, method->variant);
-    if (stepper->scheme->order == 4 && stepper->scheme->needs_acceleration && scene_loads_move(scene))
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "scheme '%s' knows how loads vary in time, not how they move; take scheme 'leapfrog'",
-                    name);
-    if (spatial->after_step != NULL && !stepper->scheme->needs_acceleration)
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "the filter of method '%s', variant '%s', acts on leapfrog's half-step velocity and cannot "
-            "be had with scheme '%s'; take scheme 'leapfrog' or method%%filter = 0",
-            method->name, method->variant, name);
-    if (stepper->model->single && stepper->scheme != &scheme_leapfrog)
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "method%%precision = 'single' needs scheme 'leapfrog', not '%s'", name);
-    if (stepper->model->memory != NULL && stepper->scheme != &scheme_leapfrog)
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "absorbing layers (boundary%%layer = 'pml') need scheme 'leapfrog', not '%s'", name);
-    selas_status status = choose_step(stepper, messages);
+    selas_status status = choose_scheme(stepper, messages);
+    if (status == SELAS_OK) status = choose_step(stepper, messages);
     if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
+    if (status == SELAS_OK) status = check_steps(stepper, messages);
     if (status != SELAS_OK) return status;
-    status = check_steps(stepper, messages);
-    if (status != SELAS_OK) return status;
-    stepper->steps = (unsigned long)ceil(scene->end_time / stepper->dt - 1e-9);
+    stepper->steps = (unsigned long)ceil(stepper->model->scene->end_time / stepper->dt - 1e-9);
     stepper->extra = steps_beyond(stepper);
-    status = take_memory(stepper, messages);
-    if (status == SELAS_OK && stepper->unwarp) status = warp_drives(stepper, messages);
-    return status;
+    return take_memory(stepper, messages);
 }
 
 selas_status stepper_create(struct model *model, struct stepper **created, struct messages *messages)
@@ -237,15 +224,10 @@ void stepper_free(struct stepper **freed)
 {
     if (freed == NULL || *freed == NULL) return;
     struct stepper *stepper = *freed;
-    if (stepper->work != NULL)
-        for (size_t i = 0; i < stepper->scheme->vectors; i++)
-            array_free(stepper->work[i]);
+    for (size_t i = 0; stepper->work != NULL && i < stepper->vectors; i++)
+        array_free(stepper->work[i]);
     array_free(stepper->work);
-    array_free(stepper->load);
-    array_free(stepper->motion);
-    array_free(stepper->warped_load);
-    array_free(stepper->warped_motion);
-    array_free(stepper->host_row);
+    driver_free(&stepper->driver);
     free(stepper);
     *freed = NULL;
 }

@@ -3,7 +3,7 @@
 #ifndef SELAS_STEPPING_H
 #define SELAS_STEPPING_H
 
-#include "model/model.h"
+#include "stepping/driver.h"
 
 struct state {
     double time;
@@ -14,32 +14,37 @@ struct state {
 
 struct stepper;
 
-/* What a host of the library drives in place of the deck's histories. */
-struct host_drive {
-    void *context;
-    /* Amplitudes of all loads and displacements of all faces (per amplitude) at `time`: come in as the deck
-     * has them; the host changes those that it drives. Called once for each step's time, in order, and for
-     * one step ahead where a scheme takes second differences. */
-    void (*at)(void *context, double time, double *load, double *displacement);
-    bool moves;       /* drives faces */
-    const bool *held; /* [loads] a value that the host holds until it changes it: no differences are taken */
+/* What a scheme can do that not every scene or model asks for. */
+enum scheme_ability {
+    SCHEME_WAVES = 1,        /* bounded for undamped waves if the step is short enough */
+    SCHEME_MOVING_LOADS = 2, /* loads may move */
+    SCHEME_FILTERS = 4,      /* calls the filter of a model, which acts on the velocity at half a step */
+    SCHEME_REMEMBERS = 8,    /* brings the memory of a model over each step (absorbing layers) */
+    SCHEME_ONE_PASS = 16,    /* lets a model make whole steps (single precision) */
+    SCHEME_UNWARPS = 32      /* its only time error is the warp of the time-dispersion transform */
 };
 
-/* Rows of a host's amplitudes at three neighbouring steps. */
-enum { HOST_ROWS = 4 };
+/* Models for which a scheme is the default: all that have accelerate(); else by C. */
+enum scheme_default { DEFAULT_FOR_NONE, DEFAULT_FOR_ACCELERATE, DEFAULT_FOR_DAMPED, DEFAULT_FOR_UNDAMPED };
 
 struct scheme_class {
     const char *name;
-    int order;               /* in time */
+    int order;    /* in time */
+    unsigned can; /* enum scheme_ability */
+    enum scheme_default default_for;
     bool needs_acceleration; /* uses accelerate() (second-order form); otherwise rate() */
-    double evaluations;      /* operator calls a step (for stages = 0: per stage) */
-    /* Largest stable dt; 0 if none is, INFINITY if any is. */
+    double evaluations;      /* operator calls a step, or a stage where their number is free */
+    /* R(z) of a Runge-Kutta scheme, y_(n+1) = R(dt lambda) y_n, from which its limit follows; else NULL and
+     * limit(): see scheme_limit(). */
+    double _Complex (*polynomial)(double _Complex z, long stages);
     double (*limit)(const struct spectrum *spectrum, long stages);
     /* Schemes with a free number of stages: the number for a step dt (0: dt is free too). NULL: fixed. */
     long (*choose_stages)(const struct stepper *stepper, double dt);
-    size_t vectors; /* work vectors of state_size that the scheme needs */
-    /* Makes state->a (and what else the scheme keeps) right at the start or after a restart. */
+    size_t vectors; /* work vectors of state_size that the scheme needs; one at least if the model filters */
+    /* Makes state->a (and what else the scheme keeps) right at the start. */
     void (*start)(struct stepper *stepper, struct state *state);
+    /* The same after a restart, which has given state->a. NULL: nothing else is kept. */
+    void (*resume)(struct stepper *stepper, struct state *state);
     void (*step)(struct stepper *stepper, struct state *state);
     /* Makes state->a anew after a change of the loads at the state's own time, and the velocity with it where
      * that has half a step of a in it. */
@@ -60,22 +65,27 @@ struct stepper {
     double limit;             /* largest stable dt by the scheme's own limit; INFINITY if nothing vibrates */
     char dt_reason[160];      /* how the step was chosen, for the report */
     bool unwarp; /* time-dispersion transform: loads are warped beforehand, histories un-warped at the end */
-    unsigned long steps;   /* steps from t = 0 until end_time is reached or passed */
-    unsigned long extra;   /* steps beyond that the finished histories need */
-    double **work;         /* [scheme->vectors] arrays of state_size */
-    double *load, *motion; /* amplitudes handed to the model: [loads], [3 * FACES]: see drive_at */
-    double *
-        warped_load; /* [rows * loads] and [rows * FACES] if unwarp: amplitudes of the warped histories ... */
-    double *warped_motion; /* ... (motion: of the displacement, not its second derivative) */
-    unsigned long warped_rows;
-    bool one_pass;                 /* the model makes whole steps: settle() before all of y is looked at */
-    void *memory;                  /* of the scheme */
-    const struct host_drive *host; /* borrowed; NULL: the deck's histories drive */
-    double *host_row;              /* [HOST_ROWS * (loads + FACES)] */
-    long host_step[HOST_ROWS];     /* step of each row, -1: none */
+    unsigned long steps; /* steps from t = 0 until end_time is reached or passed */
+    unsigned long extra; /* steps beyond that the finished histories need */
+    size_t vectors;
+    double **work; /* [vectors] arrays of state_size */
+    struct driver driver;
+    bool one_pass; /* the model makes whole steps: settle() before all of y is looked at */
 };
 
+/* stepping/schemes.c: the table, ended by NULL. */
+extern const struct scheme_class *const scheme_table[];
 const struct scheme_class *scheme_find(const char *name);
+/* True if the model has the functions that the scheme calls. */
+bool scheme_fits(const struct scheme_class *scheme, const struct model *model);
+/* Largest stable dt; 0 if none is, INFINITY if any is. */
+double scheme_limit(const struct scheme_class *scheme, const struct spectrum *spectrum, long stages);
+const struct scheme_class *scheme_default(const struct model *model);
+/* Text such as "'leapfrog' or 'rk4'": schemes that fit the model and can do all that is asked for, in words if
+ * there is none. */
+enum { SCHEME_NAMES_SIZE = 200 };
+const char *scheme_names(const struct model *model, unsigned abilities, char text[SCHEME_NAMES_SIZE]);
+
 /* Chooses scheme, stages and dt from scene->stepping and the measured spectrum; refuses what cannot be stable
  * unless `force` (SELAS_BAD_SCENE). */
 selas_status stepper_create(struct model *model, struct stepper **stepper, struct messages *messages);
@@ -87,22 +97,6 @@ void state_free(struct state *state);
 /* Makes all of y right, and of a if wanted, where the model makes whole steps (model.h); else nothing. To be
  * called before anything but probes and the power of loads is looked at. */
 void state_settle(const struct stepper *stepper, const struct state *state, bool acceleration);
-
-/* stepping/drive.c: what drives the model at any time (Runge-Kutta stages: exact second derivative of
- * motions) ... */
-void drive_at(struct stepper *stepper, double time, struct drive *drive);
-/* ... and at step n (leapfrog family): second differences of motions over dt, warped histories if unwarp.
- * With `corrected` one twelfth of its own second difference is added to each amplitude (the load term of the
- * modified equation). */
-void drive_at_step(struct stepper *stepper, unsigned long n, bool corrected, struct drive *drive);
-/* The drive that was made last. */
-struct drive drive_last(const struct stepper *stepper, double time);
-/* Puts a host in the histories' place (the stepper must not unwarp). */
-selas_status drive_by_host(struct stepper *stepper, const struct host_drive *host, struct messages *messages);
-/* The host has changed what it drives: rows from the step given on are asked for again. */
-void drive_changed(struct stepper *stepper, unsigned long step);
-/* Makes the acceleration at the state's own time anew after a change of the loads there. */
-void drive_again(struct stepper *stepper, struct state *state);
 
 /* stepping/spectrum.c: largest frequency (rad per time) of the undamped operator; *error gets a bound on its
  * relative error or 0. */

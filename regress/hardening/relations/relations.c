@@ -18,6 +18,9 @@
  * deck is printed as a comment. */
 #include "selas.h"
 
+#include "method/methods.h"
+#include "stepping/stepping.h"
+
 #include <math.h>
 #include <omp.h>
 #include <stdarg.h>
@@ -80,50 +83,48 @@ struct variant {
 };
 static const struct variant plainly = {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, "", false, {0, 0, 0}};
 
-static void draw_method(struct drawn *s)
+/* Options of a method, by chance; one that is not known here gets none and counts as not linear. */
+static void draw_options(struct drawn *s, const char *variant)
 {
-    static const char *const schemes[] = {"",
-                                          "",
-                                          "",
-                                          "scheme = 'leapfrog'",
-                                          "scheme = 'modified-equation'",
-                                          "scheme = 'rk4'",
-                                          "scheme = 'lsrk54'",
-                                          "scheme = 'pc2'",
-                                          "scheme = 'rkc'"};
     static const char *const masses[] = {"exact", "vc1", "vc2", "vc3"};
     static const char *const gradients[] = {"linear", "quadratic", "central"};
     static const char *const laws[] = {"linear", "saint-venant-kirchhoff", "neo-hookean"};
-    const size_t which = chance(10);
     const char *law = laws[chance(3)];
-    s->consistent = which < 6;
-    s->linear = s->consistent || which == 6 || which == 7;
-    snprintf(s->scheme, sizeof s->scheme, "%s", schemes[chance(sizeof schemes / sizeof *schemes)]);
-    if (s->consistent) {
-        const bool usual = chance(2) == 0;
-        s->single = usual && s->dimension == 3 && chance(3) == 0;
-        if (usual)
-            snprintf(s->method, sizeof s->method, "variant = 'consistent', degree = 2%s",
-                     s->single ? ", precision = 'single'" : "");
-        else
-            snprintf(s->method, sizeof s->method,
-                     "variant = 'consistent', degree = %zu, mass = '%s', ends = '%s'%s", 1 + chance(4),
-                     masses[chance(4)], chance(3) == 0 ? "mapped" : "open",
-                     chance(5) == 0 ? ", dissipation = 0.02" : "");
+    char *more = s->method + strlen(s->method);
+    const size_t room = sizeof s->method - strlen(s->method);
+    const bool paper = strcmp(variant, "paper") == 0, cloud = strcmp(variant, "cloud") == 0,
+               total = strcmp(variant, "total-lagrangian") == 0;
+    s->linear = s->consistent || paper || cloud || (total && strcmp(law, "linear") == 0);
+    if (s->consistent && chance(2) == 0) {
+        s->single = s->dimension == 3 && chance(3) == 0;
+        snprintf(more, room, ", degree = 2%s", s->single ? ", precision = 'single'" : "");
         if (s->single) s->scheme[0] = '\0';
-    } else if (which == 6)
-        snprintf(s->method, sizeof s->method, "variant = 'paper'%s", chance(2) == 0 ? ", filter = 0.1" : "");
-    else if (which == 7)
-        snprintf(s->method, sizeof s->method, "variant = 'cloud'");
-    else if (which == 8) {
-        s->linear = strcmp(law, "linear") == 0;
-        snprintf(s->method, sizeof s->method,
-                 "name = 'sph', variant = 'total-lagrangian', gradient = '%s', law = '%s'",
-                 gradients[chance(3)], law);
-    } else
-        snprintf(s->method, sizeof s->method, "name = 'sph', variant = 'updated-lagrangian'%s",
-                 chance(2) == 0 ? ", forces = 'adjoint'" : "");
-    s->jitter = !s->consistent && which != 6 && chance(3) == 0;
+    } else if (s->consistent)
+        snprintf(more, room, ", degree = %zu, mass = '%s', ends = '%s'%s", 1 + chance(4), masses[chance(4)],
+                 chance(3) == 0 ? "mapped" : "open", chance(5) == 0 ? ", dissipation = 0.02" : "");
+    else if (paper)
+        snprintf(more, room, "%s", chance(2) == 0 ? ", filter = 0.1" : "");
+    else if (total)
+        snprintf(more, room, ", gradient = '%s', law = '%s'", gradients[chance(3)], law);
+    else if (strcmp(variant, "updated-lagrangian") == 0)
+        snprintf(more, room, "%s", chance(2) == 0 ? ", forces = 'adjoint'" : "");
+    s->jitter = !s->consistent && !paper && chance(3) == 0;
+}
+
+/* Any scheme, one time in three the default; any method, most often the first one. */
+static void draw_method(struct drawn *s)
+{
+    size_t methods = 0, schemes = 0;
+    while (method_table[methods] != NULL)
+        methods++;
+    while (scheme_table[schemes] != NULL)
+        schemes++;
+    const struct method *method = method_table[chance(2) == 0 ? 0 : chance(methods)];
+    if (chance(3) > 0)
+        snprintf(s->scheme, sizeof s->scheme, "scheme = '%s'", scheme_table[chance(schemes)]->name);
+    snprintf(s->method, sizeof s->method, "name = '%s', variant = '%s'", method->name, method->variant);
+    s->consistent = method == method_find("smoothed-point", "consistent");
+    draw_options(s, method->variant);
 }
 
 static void draw_faces(struct drawn *s)

@@ -99,12 +99,12 @@ static struct timing measure(const size_t n[3], bool exact, bool unfused, bool s
         exit(1);
     }
     const size_t points = model->unknowns / 3;
-    double load[1], motion[3 * FACES] = {0};
-    struct stepper stepper = {
-        .scheme = &scheme_leapfrog, .model = model, .dt = 1e-3, .load = load, .motion = motion};
+    struct stepper stepper = {.scheme = &scheme_leapfrog, .model = model, .dt = 1e-3};
     struct state state = {.y = array_new(model->state_size, sizeof(double)),
                           .a = array_new(model->unknowns, sizeof(double))};
-    if (state.y == NULL || state.a == NULL) exit(1);
+    if (state.y == NULL || state.a == NULL ||
+        driver_create(&stepper.driver, &plain.scene, stepper.dt, &messages) != SELAS_OK)
+        exit(1);
     uint64_t seed = 7;
     for (size_t i = 0; i < model->unknowns; i++) {
         seed = seed * 6364136223846793005u + 1442695040888963407u;

@@ -192,15 +192,9 @@ static double force_scale(const struct paper *paper, const struct load *load, co
 {
     if (load->kind != LOAD_BODY_FORCE || load->shape != LOAD_POINT) return 1;
     const struct scene *scene = paper->model.scene;
-    double own[3], force = 0, wanted = load->amplitude;
+    double own[3], force = 0;
     body_from_deck(&scene->body, load->centre, own);
-    for (enum face face = FACE_X_LOW; (int)face < 2 * paper->dimension; face++) {
-        const int axis = face_axis(face);
-        const double plane = face_sign(face) < 0 ? scene->body.low[axis] : scene->body.high[axis];
-        if (boundary_mirrors(&scene->boundary[face]) &&
-            fabs(own[axis] - plane) < 1e-6 * paper->set.spacing[axis])
-            wanted /= 2;
-    }
+    const double wanted = load->amplitude * scene_carries(scene, own);
     for (size_t k = 0; k < ready->points; k++)
         for (int c = 0; c < paper->dimension; c++)
             force += paper->volume[ready->point[k]] * ready->push[k * (size_t)paper->dimension + (size_t)c] *

@@ -72,7 +72,7 @@ bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis)
 {
     const struct scene *scene = tl->model.scene;
     for (int side = 0; side < 2; side++) {
-        const double plane = side == 0 ? scene->body.low[axis] : scene->body.high[axis];
+        const double plane = face_plane(&scene->body, (enum face)(2 * axis + side));
         if (boundary_slides(&scene->boundary[2 * axis + side]) &&
             fabs(place[axis] - plane) < 1e-6 * scene->body.spacing)
             return true;

@@ -78,7 +78,7 @@ static bool mirrored(const struct body *body, int face, double radius, double x[
 {
     if (face < BOX_FACES) {
         const int axis = face_axis((enum face)face);
-        const double plane = face_sign((enum face)face) < 0 ? body->low[axis] : body->high[axis];
+        const double plane = face_plane(body, (enum face)face);
         if (fabs(x[axis] - plane) >= radius) return false;
         x[axis] = 2 * plane - x[axis];
         return true;

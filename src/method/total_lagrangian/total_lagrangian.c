@@ -209,6 +209,7 @@ static void fill_model(struct tl_model *tl)
     const size_t n = tl->cloud->points;
     const bool viscous = tl->site_v != NULL;
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
+    model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;
     model->points = n;
     model->position = tl->deck_position;
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
@@ -218,6 +219,7 @@ static void fill_model(struct tl_model *tl)
     model->point_stride = d;
     model->damped = tl->damper != NULL || viscous;
     model->self_adjoint = true;
+    model->small_strain = tl->options.law == LAW_LINEAR;
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
     model->bytes = sizeof *tl + tl_rows_bytes(&tl->gradient) + tl_rows_bytes(&tl->transposed) +
                    tl_rows_bytes(&tl->pair) + tl_rows_bytes(&tl->viscous) + neighbours_bytes(&tl->near) +
@@ -305,6 +307,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_total_lagrangian = {
     .name = "sph",
     .variant = "total-lagrangian",
+    .point_materials = true,
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,
 };

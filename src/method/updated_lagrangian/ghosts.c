@@ -84,7 +84,7 @@ static bool mirror_at(struct updated *updated, enum face face)
 {
     const struct scene *scene = updated->model.scene;
     const int axis = face_axis(face);
-    const double wall = face_sign(face) < 0 ? scene->body.low[axis] : scene->body.high[axis];
+    const double wall = face_plane(&scene->body, face);
     const size_t points = updated->cloud->points, before = updated->ghosts;
     if (!grow(updated, count_images(updated, axis, wall))) return false;
     for (size_t i = 0; i < points + before; i++) {

@@ -1,6 +1,7 @@
 /* What the plan says of absorbing layers, and where they go wrong. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "scene/absorbing_layers.h"
+#include "scene/echo.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -9,17 +10,12 @@
 /* What the damping against guided waves sends back, times the points squared, per share (measured). */
 static const double dragged_part = .9;
 
-static double face_position(const struct scene *scene, int face)
-{
-    return face % 2 == 0 ? scene->body.low[face / 2] : scene->body.high[face / 2];
-}
-
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     const struct scene *scene = c->model.scene;
     const double cutoff = source_cutoff(scene), two_pi = 6.283185307179586477;
-    char key[32], text[200];
+    char key[32], text[256];
     for (int face = 0; face < 2 * c->dimension; face++) {
         snprintf(key, sizeof key, "layer %s", face_name((enum face)face));
         if (layer_left_out(scene, face))
@@ -27,7 +23,7 @@ void layers_describe(const struct consistent *c,
                  "none: no reflection can be seen by end_time (boundary%always = .true. keeps it)");
         if (c->layer[face] == 0) continue;
         const double thickness = fabs((face % 2 == 0 ? c->spline[face / 2]->low : c->spline[face / 2]->high) -
-                                      face_position(scene, face));
+                                      face_plane(&scene->body, (enum face)face));
         int used =
             snprintf(text, sizeof text, "C-PML, %zu points, thickness %.4g", c->layer[face], thickness);
         if (cutoff > 0 && isfinite(cutoff))
@@ -35,8 +31,11 @@ void layers_describe(const struct consistent *c,
                              " = %.2g P wavelengths at the source's cutoff",
                              thickness * cutoff / (two_pi * consistent_fastest(c, face)));
         const double drag = c->pml == NULL ? 0 : c->pml->drag, points = (double)c->layer[face];
-        snprintf(text + used, sizeof text - (size_t)used, ", expected reflection %.1g %%%s",
-                 100 * (layer_expected_reflection(c->layer[face]) + dragged_part * drag / (points * points)),
+        const double expected =
+            fmax(echo_of_layer(scene, face, c->layer[face]), layer_expected_reflection(c->layer[face]));
+        snprintf(text + used, sizeof text - (size_t)used,
+                 ", expected reflection %.1g %% of the velocity at the worst place looked at%s",
+                 100 * fmin(1, expected + dragged_part * drag / (points * points)),
                  drag > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
     }

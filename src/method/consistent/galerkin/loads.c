@@ -154,8 +154,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
             const bool odd = axis == component;
             double *line = w->line[axis];
             if (axis == normal) {
-                consistent_point_line(c, axis, odd, false, false,
-                                      load->face % 2 == 0 ? body->low[axis] : body->high[axis], line);
+                consistent_point_line(c, axis, odd, false, false, face_plane(body, load->face), line);
                 continue;
             }
             const double half = load->size[load->shape == LOAD_DISC ? 0 : count] / 2;

@@ -1,0 +1,85 @@
+#!/bin/sh
+# Exact seismograms by the program: LOH.1 reaches the tolerance of its deck in some CPU seconds; a list of sources does what single
+# loads do; damped ground is refused by runs and by other references, with the word that would be right.
+build=${1:-build}
+selas=$build/selas
+out=$build/test/seismograms
+rm -rf "$out"
+mkdir -p "$out"
+
+check() { # check TITLE CONDITION...
+    title=$1
+    shift
+    if "$@"; then echo "ok - $title"; else echo "not ok - $title"; fi
+}
+less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
+said() { sed -n "s/^$1: //p" "$out/text"; }
+
+"$selas" exact input/loh1.nml output%directory="$out/loh1" >"$out/text" 2>&1
+reached=$(said 'exact accuracy (L2 of velocity, estimated)')
+check "LOH.1 says that it reached $reached of the 1e-4 that were wanted" less "$reached" 1e-4
+"$selas" -q exact input/loh1.nml output%directory="$out/fine" reference%tolerance=1e-5
+worst=$(for r in 01 05 10; do
+    paste "$out/loh1/r$r.exact.dat" "$out/fine/r$r.exact.dat" | awk '!/^#/ { for (c = 5; c <= 7; c++) { d[c] += ($c - $(c + 7)) ^ 2; s[c] += $c ^ 2 } }
+        END { for (c = 5; c <= 7; c++) { if (d[c] > m) m = d[c]; if (s[c] > l) l = s[c] } print sqrt(m / l) }'
+done | sort -g | tail -1)
+check "and differs by $worst from the same with a tolerance of 1e-5" less "$worst" "$reached"
+
+# two tensors in a file, and the same as two loads
+cat >"$out/list.txt" <<'LIST'
+! x y z, Mxx Myy Mzz Mxy Myz Mzx, amplitude, start
+100 -200 2000  0 0 0 1 0 0  2e18 0.125
+-300 50 1600   1 0 -1 0 .5 0 -1e18
+LIST
+cat >"$out/two.nml" <<'DECK'
+&scene end_time = 3.0 /
+&material name = 'layer', density = 2600.0, p_speed = 4000.0, s_speed = 2000.0 /
+&material name = 'rock',  density = 2700.0, p_speed = 6000.0, s_speed = 3464.0 /
+&body material = 'rock', shape = 'half-space', spacing = 125.0 /
+&layer material = 'layer', top = 0.0 /
+&layer material = 'rock',  top = 1000.0 /
+&load kind = 'moment-tensor', sources = 'list.txt', history = 'error-function', width = 0.1, delay = 0.6, start = 0.25 /
+&receiver name = 'r', position = 900.0, 700.0, 0.0 /
+&receiver name = 'deep', position = 900.0, 700.0, 1600.0 /
+&reference kind = 'layered' /
+DECK
+sed "s/^&load.*/\&load kind = 'moment-tensor', centre = 100, -200, 2000, moment = 0, 0, 0, 1, 0, 0, amplitude = 2e18, history = 'error-function', width = 0.1, delay = 0.6, start = 0.375 \/\\
+\&load kind = 'moment-tensor', centre = -300, 50, 1600, moment = 1, 0, -1, 0, .5, 0, amplitude = -1e18, history = 'error-function', width = 0.1, delay = 0.6, start = 0.25 \//" \
+    "$out/two.nml" >"$out/apart.nml"
+for name in two apart; do "$selas" -q exact "$out/$name.nml" output%directory="$out/$name"; done
+for r in r deep; do
+    check "sources of a file are the loads they stand for: receiver $r" \
+        sh -c "grep -v '^#' $out/two/$r.exact.dat >$out/a; grep -v '^#' $out/apart/$r.exact.dat | cmp -s $out/a -"
+done
+
+for turn in first second; do # the second one overwrites the first
+    "$selas" -q exact "$out/apart.nml" output%directory="$out/stress" reference%stress=T reference%tolerance=1e-3
+done
+check "stress vanishes on the surface and not below, in files that are overwritten" awk '/^#/ { next }
+    FILENAME ~ /r.exact/ { if ($4 * $4 + $6 * $6 + $7 * $7 > s) s = $4 * $4 + $6 * $6 + $7 * $7 }
+    FILENAME ~ /deep/ { if ($4 * $4 > d) d = $4 * $4 } END { exit !(d > 0 && s < 1e-12 * d) }' \
+    "$out/stress/r.exact.stress.dat" "$out/stress/deep.exact.stress.dat"
+
+refused() { # refused TITLE MESSAGE COMMAND...
+    title=$1 message=$2
+    shift 2
+    "$selas" "$@" >"$out/text" 2>&1
+    status=$?
+    if [ $status -eq 2 ] && grep -q -e "$message" "$out/text"; then echo "ok - $title"; else
+        echo "not ok - $title: exit status $status"
+        sed 's/^/#   /' "$out/text"
+    fi
+}
+refused "a run of damped ground" "runs are undamped; only 'selas exact'" input/loh3.nml output%directory="$out/no"
+refused "the plan of damped ground" "runs are undamped; only 'selas exact'" check input/loh3.nml
+refused "damped ground in another reference" "reference 'lamb' is undamped" exact input/loh3.nml reference%kind=lamb reference%tolerance=
+refused "Q = 0" "0 for 'q_s'" exact input/loh3.nml 'material(1)%q_s=0'
+refused "a receiver above the ground" "lies outside the body" exact input/loh1.nml 'receiver(3)%position=1,1,-1'
+refused "a tensor on the interface" "lies on the interface at depth 1000" exact input/loh1.nml load%centre=0,0,1000
+refused "two layers at one depth" "begins at depth 0 already" exact input/loh1.nml 'layer(2)%top=0'
+refused "a receiver at the source" "lies at a point source" exact input/loh1.nml 'receiver(3)%position=0,0,2000'
+"$selas" -q exact input/loh1.nml output%directory="$out/turned" 'layer(1)%material=rock' 'layer(1)%top=1000' 'layer(2)%material=layer' 'layer(2)%top=0'
+check "layers in any order are the same ground" cmp -s "$out/turned/r05.exact.dat" "$out/loh1/r05.exact.dat"
+"$selas" -q exact input/loh1.nml output%directory="$out/force" load%kind=body-force load%shape=point load%moment= load%direction=0,0,1 load%centre=0,0,1000
+check "a force on the interface is no error" test -s "$out/force/r01.exact.dat"
+rm -rf "$out"

@@ -1,0 +1,112 @@
+/* Relaxation mechanisms in place of constant Q: rates and weights against those of another program, speeds,
+ * what is not possible. */
+#include "damping/relaxation.h"
+
+#include "near.h"
+
+#include <math.h>
+
+/* Of the velocity of a Gaussian pulse of width .3. */
+static double pulse(const void *source, double w)
+{
+    (void)source;
+    return w * w * exp(-.09 * w * w);
+}
+
+static void band_of_pulse(struct relaxation_band *band)
+{
+    relaxation_band_set(band, 4 / .3, pulse, NULL);
+}
+
+/* regress/reference/damped: three mechanisms for Q_p/Q_s = 20/20 and 100/50. */
+static void fit_is_that_of_another_program(void **state)
+{
+    (void)state;
+    static const double wanted[MOST_MECHANISMS] = {0.32918311541068257, 2.247213709180817,
+                                                   14.034822837455103};
+    static const double axial[2][3] = {{0.06973451372622277, 0.04671164936012833, 0.07595962509068271},
+                                       {0.015981634400679835, 0.010182049707781046, 0.015658920377061243}};
+    static const double shear[2][3] = {{0.06973451372622277, 0.04671164936012833, 0.07595962509068271},
+                                       {0.030892573227401653, 0.019933132266575556, 0.03108218060973822}};
+    static const double q[2][2] = {{20, 20}, {100, 50}},
+                        size[2][2] = {{3.2865845243380725, 1.0955281747793577},
+                                      {3.056415815164731, 1.0377672348445557}};
+    struct relaxation_band band;
+    struct messages messages = {0};
+    double rate[MOST_MECHANISMS], misfit = 0;
+    band_of_pulse(&band);
+    assert_int_equal(relaxation_rates(&band, 20, 3, rate, &misfit, &messages), SELAS_OK);
+    print_message("rates %.4f %.4f %.4f, misfit %.4f/Q\n", rate[0], rate[1], rate[2], misfit);
+    for (int l = 0; l < 3; l++)
+        assert_near(log(rate[l] / wanted[l]), 0, .15);
+    assert_near(misfit, .0094, .001); /* found by formula for this pulse */
+    for (int i = 0; i < 2; i++) {
+        struct modulus p = modulus_constant_q(3, q[i][0], M_PI), s = modulus_constant_q(1, q[i][1], M_PI);
+        assert_int_equal(relaxation_fit(&band, 3, wanted, &p, &s, &messages), SELAS_OK);
+        for (int l = 0; l < 3; l++) {
+            print_message("Y %.5f (%.5f) %.5f (%.5f)\n", p.weight[l], axial[i][l], s.weight[l], shear[i][l]);
+            assert_near(p.weight[l] / axial[i][l], 1, .03);
+            assert_near(s.weight[l] / shear[i][l], 1, .03);
+        }
+        assert_near(p.size / size[i][0], 1, 1e-3);
+        assert_near(s.size / size[i][1], 1, 1e-3);
+    }
+}
+
+static void speeds_are_kept(void **state)
+{
+    (void)state;
+    struct relaxation_band band;
+    struct messages messages = {0};
+    double rate[MOST_MECHANISMS], before = INFINITY;
+    band_of_pulse(&band);
+    for (size_t n = 1; n <= 5; n++) {
+        double misfit = 0;
+        struct modulus p = modulus_constant_q(3, 60, 2), s = modulus_constant_q(1, 30, 2);
+        assert_int_equal(relaxation_rates(&band, 40, n, rate, &misfit, &messages), SELAS_OK);
+        assert_int_equal(relaxation_fit(&band, n, rate, &p, &s, &messages), SELAS_OK);
+        assert_near(1 / creal(1 / csqrt(modulus_at(&p, 2 * I))), sqrt(3), 1e-12);
+        assert_near(1 / creal(1 / csqrt(modulus_at(&s, 2 * I))), 1, 1e-12);
+        print_message("%zu mechanisms: misfit %.5f/Q\n", n, misfit);
+        assert_true(misfit < .45 * before);
+        before = misfit;
+        for (size_t l = 0; l < n; l++)
+            assert_true(p.size * p.weight[l] >= 4. / 3 * s.size * s.weight[l] * (1 - 2e-3));
+    }
+}
+
+static void constant_q_is_constant(void **state)
+{
+    (void)state;
+    const struct modulus modulus = modulus_constant_q(2, 17, 5);
+    for (double w = .01; w < 1e4; w *= 7) {
+        const double complex m = modulus_at(&modulus, I * w);
+        assert_near(creal(m) / cimag(m), 17, 1e-9);
+    }
+    assert_near(1 / creal(1 / csqrt(modulus_at(&modulus, 5 * I))), sqrt(2), 1e-12);
+}
+
+static void too_low_a_q_is_refused(void **state)
+{
+    (void)state;
+    struct relaxation_band band;
+    struct messages messages = {0};
+    double rate[MOST_MECHANISMS], misfit = 0;
+    band_of_pulse(&band);
+    assert_int_equal(relaxation_rates(&band, .3, 3, rate, &misfit, &messages), SELAS_OK);
+    struct modulus p = modulus_constant_q(3, 5, 2), s = modulus_constant_q(1, .001, 2);
+    assert_int_equal(relaxation_fit(&band, 3, rate, &p, &s, &messages), SELAS_BAD_SCENE);
+    assert_non_null(messages.text);
+    messages_free(&messages);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fit_is_that_of_another_program),
+        cmocka_unit_test(speeds_are_kept),
+        cmocka_unit_test(constant_q_is_constant),
+        cmocka_unit_test(too_low_a_q_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

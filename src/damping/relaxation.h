@@ -1,0 +1,36 @@
+/* Relaxation mechanisms that stand for constant Q over the frequencies of a source (doc/seismograms.md, Eqs
+ * 25-28). */
+#ifndef SELAS_RELAXATION_H
+#define SELAS_RELAXATION_H
+
+#include "base/messages.h"
+#include "damping/modulus.h"
+
+enum { RELAXATION_SAMPLES = 80 };
+
+/* Angular frequencies, ascending, and what a misfit there counts: the squared spectrum of the source times
+ * the step. */
+struct relaxation_band {
+    double angular_frequency[RELAXATION_SAMPLES], weight[RELAXATION_SAMPLES];
+};
+
+/* Squared spectrum of the source's velocity at an angular frequency. */
+typedef double relaxation_power(const void *source, double angular_frequency);
+
+/* Samples of three decades up to the angular frequency `top`. */
+void relaxation_band_set(struct relaxation_band *band, double top, relaxation_power *power,
+                         const void *source);
+
+/* Rates of `mechanisms` (1 to MOST_MECHANISMS) mechanisms that fit constant Q best; *misfit: weighed root
+ * mean square of Q |M/M_Q - 1|. SELAS_NO_MEMORY. */
+selas_status relaxation_rates(const struct relaxation_band *band, double q, size_t mechanisms,
+                              double rate[MOST_MECHANISMS], double *misfit, struct messages *messages);
+
+/* Moduli with mechanisms of these rates in place of lambda + 2 mu and mu of constant Q; the phase speeds are
+ * kept at the angular frequency where those have their size. All weights, those of the bulk modulus too, are
+ * >= 0. SELAS_BAD_SCENE where that is not possible. */
+selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanisms,
+                            const double rate[MOST_MECHANISMS], struct modulus *axial, struct modulus *shear,
+                            struct messages *messages);
+
+#endif
