@@ -1,7 +1,6 @@
 /* The choice between kernels (processor.h). */
 #include "base/processor.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,13 +59,13 @@ static enum processor find(const char *name)
 
 enum processor processor_taken(void)
 {
-    static atomic_int
-        known; /* 1 more than the kind: neither machine nor choice changes while a program runs */
-    int kind = atomic_load_explicit(&known, memory_order_relaxed) - 1;
+    /* 1 more than the kind once it is known: neither machine nor choice changes while a program runs */
+    static _Atomic int known;
+    int kind = known - 1;
     if (kind < 0) {
         const enum processor named = wanted() == NULL ? PROCESSORS : find(wanted());
         kind = named != PROCESSORS && processor_there(named) ? (int)named : (int)best();
-        atomic_store_explicit(&known, kind + 1, memory_order_relaxed);
+        known = kind + 1;
     }
     return (enum processor)kind;
 }
