@@ -151,17 +151,24 @@ static bool has_run(const char *folder)
     return found;
 }
 
-/* True unless the file at `context` is that one. */
-static bool is_other(void *context, const char *path)
+struct search {
+    struct stat wanted;
+    bool found;
+};
+
+/* Goes on unless the file is the wanted one. */
+static bool look_at(void *context, const char *path)
 {
-    const struct stat *wanted = context;
+    struct search *search = context;
     struct stat about;
-    return stat(path, &about) != 0 || about.st_ino != wanted->st_ino || about.st_dev != wanted->st_dev;
+    search->found = stat(path, &about) == 0 && about.st_ino == search->wanted.st_ino &&
+                    about.st_dev == search->wanted.st_dev;
+    return !search->found;
 }
 
-static bool is_input(const struct deck *deck, struct stat *about)
+static selas_status no_memory(struct messages *messages)
 {
-    return deck != NULL && !(is_other(about, deck_source_path(deck)) && deck_files(deck, is_other, about));
+    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
 }
 
 static selas_status claim_one(const struct scene *scene, const char *name, const char *listed,
@@ -169,9 +176,12 @@ static selas_status claim_one(const struct scene *scene, const char *name, const
 {
     const char *folder = scene->output.directory;
     char path[PATH_SIZE];
-    struct stat about;
-    if (!path_of(folder, name, path, sizeof path) || stat(path, &about) != 0) return SELAS_OK;
-    if (is_input(scene->deck, &about))
+    struct search search = {.found = false};
+    if (!path_of(folder, name, path, sizeof path) || stat(path, &search.wanted) != 0) return SELAS_OK;
+    const bool all = scene->deck == NULL || (look_at(&search, deck_source_path(scene->deck)) &&
+                                             deck_files(scene->deck, look_at, &search));
+    if (!all && !search.found) return no_memory(messages);
+    if (search.found)
         return fail(messages, SELAS_FILE_ERROR,
                     "the results would overwrite '%s', which the deck is read from; choose another "
                     "output%%directory",
@@ -181,11 +191,6 @@ static selas_status claim_one(const struct scene *scene, const char *name, const
                 "'%s' is no result of selas and would be overwritten; choose another output%%directory or "
                 "move the file",
                 path);
-}
-
-static selas_status no_memory(struct messages *messages)
-{
-    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
 }
 
 selas_status results_claim(const struct scene *scene, const char *names, struct messages *messages)

@@ -58,9 +58,6 @@ struct point_sources take_sources(struct builder *builder, const struct deck_gro
 /* Makes loads [sources->count] of it from the first, which holds what they have in common. */
 void read_sources(struct builder *builder, const struct deck_group *group,
                   const struct point_sources *sources, struct load *load);
-/* The box around them, read without a word; false if the &load names no file or it cannot be used. */
-bool sources_span(const struct builder *builder, const struct deck_group *group, double low[3],
-                  double high[3]);
 
 /* The parts, in this order; each reads its groups. */
 void build_materials(struct builder *builder);

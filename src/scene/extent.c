@@ -84,6 +84,7 @@ static void state_load(const struct scene *scene, size_t index, struct extent *e
     double half[3] = {0}, end[3];
     int side = 0;
     extent->role = EXTENT_ACTS;
+    extent->index = load->group; /* of which there may be several (listed_loads.c) */
     extent->wavelength = wavelength_of(scene, &load->history);
     switch (load->shape) {
     case LOAD_FACE:
