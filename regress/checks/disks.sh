@@ -137,12 +137,14 @@ blocked() { # blocked WHAT MESSAGE UNBLOCK: results in `out` are blocked until U
     rm -rf out
 }
 rm -rf out
+cp -r whole out
+rm out/r1.dat
 mkdir -p out/r1.dat/full
 blocked "a folder in a history's place" "out/r1.dat.*Is a directory" "rm -r out/r1.dat"
 mkdir -p out/run.h5/full
-blocked "a folder in the place of run.h5" "out/run.h5.*Is a directory" "rm -r out/run.h5"
-mkdir out
-echo 'old' >out/report.txt
+refused "a folder in the place of run.h5" "out/run.h5' is no result of selas" out
+rm -rf out
+cp -r whole out
 if chattr +i out/report.txt 2>/dev/null; then
     blocked "a report that may not be changed" "out/report.txt.*Operation not permitted" "chattr -i out/report.txt"
 fi
