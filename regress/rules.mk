@@ -180,10 +180,10 @@ bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: d
 bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/performance.md
 	@for kind in $$($(BUILD)/test/bench kinds); do SELAS_PROCESSOR=$$kind sh regress/studies/bench/sph $(BUILD) && echo || exit 1; done
 
-bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace.nml
+bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace-lysmer.nml
 	@mkdir -p $(BUILD)/test
 	$(Q)$(FC) $(ALL_F) -I$(BUILD) -o $(BUILD)/test/overhead regress/hosts/overhead.f90 $(BUILD)/libselas_fortran.a $(BUILD)/whole/libselas.a $(LIBS) -fopenmp
-	OMP_NUM_THREADS=1 $(BUILD)/test/overhead input/halfspace.nml 0.125 40 7
+	OMP_NUM_THREADS=1 $(BUILD)/test/overhead input/halfspace-lysmer.nml 0.125 40 7
 
 lamb-check: $(BUILD)/test/lamb_grid ## hold the half-space's FFT against its closed form: ten receivers, four Poisson ratios
 	$(BUILD)/test/lamb_grid

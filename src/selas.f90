@@ -62,7 +62,8 @@ module selas
       procedure, public :: receiver, finish, history, record, write => write_results, write_exact, plan
       procedure, public :: set_traction, set_body_force, set_motion, set_load, load_mean
       procedure, public :: points, field, energy, save => save_state, restore
-      procedure, public :: status => kept_status, message, output_directory, close => close_simulation
+      procedure, public :: status => kept_status, message, last_message, output_directory, &
+         close => close_simulation
       final :: finalise
    end type
 
@@ -228,6 +229,11 @@ module selas
          type(c_ptr), value :: sim
          type(c_ptr) :: c_message ! const char *
       end function
+      function c_last_message(sim) bind(c, name='selas_last_message')
+         import :: c_ptr
+         type(c_ptr), value :: sim
+         type(c_ptr) :: c_last_message ! const char *
+      end function
       function c_output_directory(sim) bind(c, name='selas_output_directory')
          import :: c_ptr
          type(c_ptr), value :: sim
@@ -380,6 +386,13 @@ contains
       class(selas_simulation), intent(in) :: self
       character(:), allocatable :: text
       text = from_c(c_message(self%handle))
+   end function
+
+   ! What the last call said; of a call that was not done because an earlier one had failed, what that one said.
+   function last_message(self) result(text)
+      class(selas_simulation), intent(in) :: self
+      character(:), allocatable :: text
+      text = from_c(c_last_message(self%handle))
    end function
 
    function output_directory(self) result(text)

@@ -113,9 +113,13 @@ SELAS_API selas_status selas_plan(selas_simulation *simulation,
                                   void (*tell)(void *context, const char *key, const char *value),
                                   void *context);
 
-/* All messages so far (errors and warnings, one a line), "" if none; valid until the next call. Never NULL.
- */
+/* All messages so far (errors and warnings, one a line), "" if none; valid until the next call. Never NULL. A
+ * failure that keeps all later calls from being done (a deck that cannot be opened, a scene that cannot be
+ * built, a run that went unstable) is told once. */
 SELAS_API const char *selas_message(const selas_simulation *simulation);
+/* What the last call that returns a status said, "" if nothing; of a call that was not done because an earlier one had failed, what
+ * that one said. Valid until the next call of this function. Never NULL. */
+SELAS_API const char *selas_last_message(selas_simulation *simulation);
 /* Folder that selas_write fills; "" if the simulation has none. */
 SELAS_API const char *selas_output_directory(selas_simulation *simulation);
 
@@ -125,8 +129,8 @@ SELAS_API void selas_close(selas_simulation **simulation);
 /* --- Building a scene by calls ---
  *
  * A scene has the words of a deck (doc/deck.md), set one by one; what is not set has the deck's default. Each
- * call is checked as the deck is; what the words mean together is checked when the scene is first used, or by
- * selas_build. The calls also change a simulation that was opened from a deck. All of them, and the functions
+ * value is checked at once, as those of a deck are (name, type, number, range, choice); a call that is refused
+ * changes nothing. What the words mean together is checked when the scene is first used, or by selas_build. The calls also change a simulation that was opened from a deck. All of them, and the functions
  * further below that say so, must come before the first step. */
 
 /* A scene with nothing in it; name is that of a deck: results go to output/NAME. */
@@ -136,8 +140,9 @@ SELAS_API selas_status selas_open_new(const char *name, selas_simulation **simul
  * SELAS_BAD_DECK for an unknown group or one that may occur once and is there. */
 SELAS_API selas_status selas_add(selas_simulation *simulation, const char *group, size_t *number);
 /* Sets "group%word" or "group(2)%word" to values[0..count-1], in place of what it had. Errors: SELAS_BAD_DECK
- * for an unknown group or word, a wrong type or too many values (the word then counts as not set);
- * SELAS_BAD_ARGUMENT for NaN, infinities, NULL, no values, or after the first step. */
+ * for an unknown group or word, a wrong type, too many values, a value out of its range or choices, or a
+ * group of which there are several ("load%face": say which); SELAS_BAD_ARGUMENT for NaN, infinities, NULL, no
+ * values, or after the first step. */
 SELAS_API selas_status selas_set_real(selas_simulation *simulation, const char *word, size_t count,
                                       const double *values);
 SELAS_API selas_status selas_set_integer(selas_simulation *simulation, const char *word, long value);

@@ -31,6 +31,19 @@ subroutine slopen(path, sim, ierr)
    call made%open_deck(path, ierr)
 end subroutine
 
+! A scene with nothing in it, to be made by SLADD and SLSET...
+subroutine slnew(name, sim, ierr)
+   use selas77
+   implicit none
+   character(*), intent(in) :: name
+   integer(int64), intent(out) :: sim
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: made
+   allocate (made)
+   sim = transfer(c_loc(made), sim)
+   call made%open_new(name, ierr)
+end subroutine
+
 ! Closes a simulation and sets SIM to 0.
 subroutine slclos(sim)
    use selas77
@@ -54,6 +67,18 @@ subroutine slmesg(sim, text)
    if (associated(found)) text = found%message()
 end subroutine
 
+! What the last call said, cut to the length of TEXT.
+subroutine sllast(sim, text)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(out) :: text
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   text = 'no simulation (the handle is 0)'
+   if (associated(found)) text = found%last_message()
+end subroutine
+
 ! Time reached, end time and time step; 0 for a handle that is 0.
 subroutine sltime(sim, now, end, dt)
    use selas77
@@ -69,6 +94,21 @@ subroutine sltime(sim, now, end, dt)
    now = found%time()
    end = found%end_time()
    dt = found%time_step()
+end subroutine
+
+! Adds a group; N is its number, from 1.
+subroutine sladd(sim, group, n, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: group
+   integer, intent(out) :: n
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   n = 0
+   if (associated(found)) call found%add(group, n, ierr)
 end subroutine
 
 ! Sets a word of the deck to N reals (before the first step).
@@ -92,6 +132,34 @@ subroutine slsetc(sim, word, value, ierr)
    implicit none
    integer(int64), intent(in) :: sim
    character(*), intent(in) :: word, value
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%set(word, value, ierr)
+end subroutine
+
+! Sets a word of the deck to an integer.
+subroutine slseti(sim, word, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: word
+   integer, intent(in) :: value
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%set(word, value, ierr)
+end subroutine
+
+! Sets a word of the deck to a logical.
+subroutine slsetl(sim, word, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: word
+   logical, intent(in) :: value
    integer, intent(out) :: ierr
    type(selas_simulation), pointer :: found
    found => simulation_of(sim)
@@ -167,6 +235,47 @@ subroutine slmean(sim, load, field, value, ierr)
    found => simulation_of(sim)
    ierr = selas_bad_argument
    if (associated(found)) call found%load_mean(load, field, value, ierr)
+end subroutine
+
+! Kinetic and strain energy of the body.
+subroutine slener(sim, kinetic, strain, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   real(real64), intent(out) :: kinetic, strain
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   kinetic = 0
+   strain = 0
+   if (associated(found)) call found%energy(kinetic, strain, ierr)
+end subroutine
+
+! Saves the state in a file.
+subroutine slsave(sim, path, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: path
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%save(path, ierr)
+end subroutine
+
+! Goes on from a file of SLSAVE: before the first step.
+subroutine slrest(sim, path, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: path
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%restore(path, ierr)
 end subroutine
 
 ! Finishes the histories.

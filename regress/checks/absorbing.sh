@@ -44,3 +44,30 @@ grep -v '^#' "$out/straight.dat" >"$out/a"
 grep -v '^#' "$out/run/r2.dat" | paste -d ' ' "$out/a" - | awk '
     { d = $7 - $14; if (d < 0) d = -d; if (d > far) far = d; v = $7 < 0 ? -$7 : $7; if (v > peak) peak = v }
     END { print (NR > 50 && peak > 1e-3 && far < 1e-11 * peak ? "ok" : "not ok") " - layers of a body turned by 30 degrees: " far " of " peak }'
+# A load that stays: the static field's strain energy in the layers is no growth, and what grows there is found.
+cat >"$out/step.nml" <<'END'
+&scene dimension = 2, end_time = 10 /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', shape = 'box', low = -1, 0, high = 1, 1, spacing = 0.125 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'pml' /
+&load face = 'y-', shape = 'square', centre = 0, 0, size = 1, direction = 0, 1, history = 'step' /
+&receiver name = 'a', position = 0, 0 /
+&output plots = .false. /
+END
+for end in 10 40; do
+    if "$build/selas" -q "$out/step.nml" output%directory="$out/run" scene%end_time=$end >"$out/log" 2>&1 && ! [ -s "$out/log" ]; then
+        echo "ok - a step beside layers until t = $end: no warning"
+    else
+        echo "not ok - a step beside layers until t = $end: no warning"
+        sed 's/^/# /' "$out/log"
+    fi
+done
+limit=$("$build/selas" check "$out/step.nml" | sed -n 's/^time step limit: //p')
+for beyond in 1.001 1.01; do
+    "$build/selas" -q "$out/step.nml" output%directory="$out/run" stepping%force=T "stepping%time_step=$(echo "$limit $beyond" | awk '{ print $1 * $2 }')" >"$out/log" 2>&1
+    if [ $? -eq 1 ] && grep -q "went unstable" "$out/log"; then
+        echo "ok - growth beside layers at $beyond of the limit is found"
+    else
+        echo "not ok - growth beside layers at $beyond of the limit is found"
+    fi
+done

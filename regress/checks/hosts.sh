@@ -44,6 +44,8 @@ for host in halfspace_by_calls coupled_mass twins; do
 done
 check "legacy compiles (fixed form, legacy)" with selas-fortran gfortran -std=legacy -ffixed-form -O1 "$rpath" -o legacy \
     "$root/regress/hosts/legacy.f"
+check "legacy_scene compiles" with selas-fortran gfortran -std=legacy -ffixed-form -O1 "$rpath" -o legacy_scene \
+    "$root/regress/hosts/legacy_scene.f"
 cat >ten.c <<'C'
 #include <selas.h>
 #include <stdio.h>
@@ -76,6 +78,11 @@ check "host 2: two-way coupled mass" ./coupled_mass 0.25 0.018
 check "the program runs bar.nml" "$selas" -q "$root/input/bar.nml" body%spacing=0.02 output%directory="$work/bar" output%plots=.false.
 check "host 3: Fortran 77" ./legacy "$root/input/bar.nml" middle bar/middle.dat 0.02
 check "host 3, all libraries static" ./legacy-static "$root/input/bar.nml" middle bar/middle.dat 0.02
+check "Fortran 77: a scene by calls, energy, saved and taken up again" ./legacy_scene
+# with 8-byte default integers the Fortran part has to be compiled with them too (doc/calling.md, section 6)
+check "and with -fdefault-integer-8 throughout" with selas gfortran -std=legacy -fdefault-integer-8 "$rpath" -o legacy_8 \
+    "$place"/include/selas/selas.f90 "$place"/include/selas/selas77.f90 "$root/regress/hosts/legacy_scene.f"
+check "which runs" ./legacy_8
 ./twins "$root/input/halfspace.nml" || echo "not ok - the Fortran twins ended early"
 
 # The interfaces of selas.f90 are the declarations of selas.h, types and all; a difference is seen on either side.

@@ -20,7 +20,7 @@ cat >"$work/small.nml" <<'END'
 &scene title = 'A small half-space', dimension = 3, end_time = 3.0 /
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
 &body name = 'ground', material = 'rock', shape = 'box', low = 0, 0, 0, high = 5, 5, 5, spacing = 0.5 /
-&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting' /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'lysmer' /
 &load face = 'z-', shape = 'square', centre = 2.5, 2.5, 0.0, size = 1.0, 1.0
   direction = 0, 0, 1, history = 'triangle', duration = 2.0 /
 &receiver name = 'centre', position = 2.5, 2.5, 0.0 /
@@ -87,7 +87,7 @@ cat small.nml - >compared.nml <<'END'
 &reference kind = 'file', file = 'out' /
 END
 check "a run is compared with another one's histories" "$selas" compared.nml output%directory=compared
-check "... and is the same" awk '/^error largest:/ { found = 1; if ($3 > 1e-12) exit 1 } END { exit !found }' compared/report.txt
+check "... and is the same" awk '/^error largest:/ { found = 1; far = $3 > 1e-12 } END { exit far || !found }' compared/report.txt
 check "with histories that end too early it is told, exit 2" sh -c \
     '"$0" compared.nml scene%end_time=4 output%directory=longer 2>said_longer; test $? -eq 2 && grep -q "goes from t = 0 to 3, the run from 0 to 4" said_longer' "$selas"
 sed 's/kind = .file.*/kind = "bar" \//' compared.nml >wrong.nml

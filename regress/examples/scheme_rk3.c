@@ -9,11 +9,6 @@ static double complex polynomial(double complex z, long stages)
     return 1 + z * (1 + z / 2 * (1 + z / 3));
 }
 
-static double limit(const struct spectrum *spectrum, long stages)
-{
-    return stability_limit(polynomial, stages, spectrum);
-}
-
 static void step(struct stepper *stepper, struct state *state)
 {
     const size_t n = stepper->model->state_size;
@@ -35,10 +30,8 @@ const struct scheme_class scheme_rk3 = {
     .order = 3,
     .can = SCHEME_WAVES | SCHEME_MOVING_LOADS,
     .evaluations = 3,
-    .limit = limit,
+    .polynomial = polynomial,
     .vectors = 3,
-    .start = runge_kutta_start,
-    .resume = runge_kutta_start,
+    RUNGE_KUTTA_STARTS,
     .step = step,
-    .again = runge_kutta_start,
 };

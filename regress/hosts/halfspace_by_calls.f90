@@ -7,7 +7,7 @@ program halfspace_by_calls
    use selas
    implicit none
    character(*), parameter :: name(3) = [character(6) :: 'centre', 'r1', 'r2']
-   real(real64), parameter :: place(3) = [3.5_real64, 4.5_real64, 5.5_real64]
+   real(real64), parameter :: place(3) = [0.0_real64, 1.0_real64, 2.0_real64]
    type(selas_simulation) :: sim
    character(256) :: folder, word
    real(real64) :: spacing
@@ -45,7 +45,10 @@ contains
       call sim%set('method%name', 'smoothed-point')
       call sim%set('method%variant', 'consistent')
       call sim%set('stepping%scheme', 'leapfrog')
-      call sim%set('output%low_pass', 20.0_real64)
+      call sim%set('method%degree', 4)
+      call sim%set('method%mass', 'exact')
+      call sim%set('method%tuned', .true.)
+      call sim%set('output%low_pass', 30.0_real64)
       call sim%add('material')
       call sim%set('material%name', 'rock')
       call sim%set('material%density', 1.0_real64)
@@ -54,21 +57,12 @@ contains
       call sim%add('body')
       call sim%set('body%name', 'ground')
       call sim%set('body%material', 'rock')
-      call sim%set('body%shape', 'box')
-      call sim%set('body%low', [0.0_real64, 0.0_real64, 0.0_real64])
-      call sim%set('body%high', [7.0_real64, 7.0_real64, 7.0_real64])
+      call sim%set('body%shape', 'half-space')
       call sim%set('body%spacing', spacing)
-      call sim%add('boundary')
-      call sim%set('boundary(1)%face', 'z-')
-      call sim%set('boundary(1)%kind', 'free')
-      call sim%add('boundary')
-      call sim%set('boundary(2)%face', [character(2) :: 'x-', 'x+', 'y-', 'y+', 'z+'])
-      call sim%set('boundary(2)%kind', 'transmitting')
-      call sim%set('boundary(2)%layer', 'lysmer')
       call sim%add('load')
       call sim%set('load%face', 'z-')
       call sim%set('load%shape', 'square')
-      call sim%set('load%centre', [3.5_real64, 3.5_real64, 0.0_real64])
+      call sim%set('load%centre', [0.0_real64, 0.0_real64, 0.0_real64])
       call sim%set('load%size', [1.0_real64, 1.0_real64])
       call sim%set('load%direction', down)
       call sim%set('load%amplitude', 1.0_real64)
@@ -78,7 +72,7 @@ contains
          call sim%add('receiver', number)
          write (receiver, '(a, i0, a)') 'receiver(', number, ')%'
          call sim%set(trim(receiver)//'name', name(k))
-         call sim%set(trim(receiver)//'position', [place(k), 3.5_real64, 0.0_real64])
+         call sim%set(trim(receiver)//'position', [place(k), 0.0_real64, 0.0_real64])
       end do
       call sim%build()
    end subroutine

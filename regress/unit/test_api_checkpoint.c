@@ -104,6 +104,12 @@ static void compare(selas_simulation *whole, selas_simulation *second, const cha
     if (!(largest > 1e-4)) fail_msg("%s: nothing moved", what);
 }
 
+static void hear(void *context, const char *key, const char *value)
+{
+    bool *timed = context;
+    *timed = *timed || (strcmp(key, "estimated stepping seconds") == 0 && strtod(value, NULL) > 0);
+}
+
 /* Saved half way and gone on in another simulation: the same bits as without a stop. */
 static void go_on(const struct tested *tested)
 {
@@ -118,6 +124,9 @@ static void go_on(const struct tested *tested)
     }
     const unsigned long steps = selas_steps_needed(all[0]), half = steps / 2;
     if (half < 3) fail_msg("%s: %lu steps; %s", tested->what, steps, selas_message(all[0]));
+    bool timed = false; /* the steps that a plan times leave nothing behind */
+    assert_int_equal(selas_plan(all[1], hear, &timed), SELAS_OK);
+    assert_true(timed);
     run_to(all[0], tested, steps);
     run_to(all[1], tested, half);
     assert_int_equal(selas_save(all[1], path), SELAS_OK);

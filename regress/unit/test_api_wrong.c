@@ -141,15 +141,6 @@ static void test_wrong_words(void **state)
     wrong(s, selas_set_points(s, 1, many, &one, &(size_t){2}));
     wrong(s, selas_set_points(s, 1, many, &one, &(size_t){0}));
     wrong(s, selas_set_points(s, SIZE_MAX / 2, many, &one, NULL));
-    /* a value out of its range is found when the scene is used, and can be mended */
-    assert_int_equal(selas_set_real(s, "body%spacing", 1, &(double){-1}), SELAS_OK);
-    wrong(s, selas_build(s));
-    wrong(s, selas_step(s, 1));
-    wrong(s, selas_build(s));
-    assert_int_equal(selas_set_real(s, "body%spacing", 1, &one), SELAS_OK);
-    wrong(s, selas_build(s)); /* what was set wrongly above counts as not set */
-    assert_int_equal(selas_set_real(s, "body%low", 3, many), SELAS_OK);
-    assert_int_equal(selas_set_real(s, "scene%end_time", 1, &one), SELAS_OK);
     if (selas_build(s) != SELAS_OK) fail_msg("%s", selas_message(s));
     assert_int_equal(selas_step(s, 1), SELAS_OK);
     selas_close(&s);

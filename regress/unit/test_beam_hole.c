@@ -21,7 +21,7 @@ static void hole_stress(double far, double radius, double x, double y, double st
 static void beam_theories_agree_when_slender(void **state)
 {
     (void)state;
-    const struct beam stout = {.5, .1, 45e9, 45e9 / 2.7, 1738, .35};
+    const struct beam stout = {.5, .1, 45e9, 45e9 / 2.7, 1738, .35, BEAM_CLAMPED_FREE};
     assert_near(beam_euler_bernoulli(&stout), 2066, .5); /* He & Seaid 2016, Table 2 */
     struct beam thin = stout;
     thin.width = .05;
@@ -40,6 +40,25 @@ static void beam_theories_agree_when_slender(void **state)
     assert_near(beam_timoshenko(&thin), 1026.2, .002 * 1026.2);
 }
 
+/* Slender beams with other ends follow Euler and Bernoulli, kappa L = 4.7300 and pi (Blevins 1979, Table 8-1). Simply
+ * supported Timoshenko's have a closed form: with q = (pi r / L)^2, r^2 = W^2 / 12 and a = E / (k G), x = (w / w0)^2
+ * solves 1 - x (1 + q (1 + a)) + x^2 q^2 a = 0. */
+static void beams_have_ends(void **state)
+{
+    (void)state;
+    const double root[BEAM_ENDS] = {1.87510, 4.73004, M_PI, 4.73004};
+    for (enum beam_ends ends = BEAM_CLAMPED_FREE; ends < BEAM_ENDS; ends++) {
+        const struct beam beam = {.5, .001, 45e9, 45e9 / 2.7, 1738, .35, ends};
+        const double wanted = pow(root[ends] / .5, 2) * sqrt(45e9 * 1e-6 / 12 / 1738);
+        assert_near(beam_euler_bernoulli(&beam), wanted, 1e-5 * wanted);
+        assert_near(beam_timoshenko(&beam), wanted, 2e-4 * wanted);
+    }
+    const struct beam stout = {.5, .1, 45e9, 45e9 / 2.7, 1738, .35, BEAM_SIMPLY_SUPPORTED};
+    const double q = pow(M_PI / .5, 2) * .01 / 12, a = 2.7 / (10 * 1.35 / (12 + 11 * .35));
+    const double b = 1 + q * (1 + a), x = (b - sqrt(b * b - 4 * q * q * a)) / (2 * q * q * a);
+    assert_near(beam_timoshenko(&stout) / beam_euler_bernoulli(&stout), sqrt(x), 1e-9);
+}
+
 static void frequencies_are_fitted(void **state)
 {
     (void)state;
@@ -55,6 +74,11 @@ static void frequencies_are_fitted(void **state)
     assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, 2.2, &frequency, &messages), SELAS_OK);
     assert_near(frequency, 2.345, 2e-4);
     assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, .1, &frequency, &messages), SELAS_BAD_ARGUMENT);
+    /* none where there is none: far from the guess, or no motion at all */
+    assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, 5, &frequency, &messages), SELAS_NOT_CONVERGED);
+    memset(value, 0, sizeof value);
+    assert_int_equal(fit_frequency(ROWS, time, value + 1, 2, 2.2, &frequency, &messages),
+                     SELAS_NOT_CONVERGED);
     messages_free(&messages);
 }
 
@@ -117,13 +141,13 @@ static void scenes_choose_their_reference(void **state)
     box.material.density = 1738;
     box.material.poisson = .35;
     box.scene.plane = PLANE_STRESS;
+    box.scene.boundary[FACE_X_LOW].kind = BOUNDARY_FIXED;
     assert_near(beam_plane(&box.scene), 2008.3, 1e-9 * 2008);
     box.scene.body.high[1] = .09;
     assert_near(beam_plane(&box.scene), 0, 0);
     assert_int_equal(exact_beam.create(&box.scene, &exact, &messages), SELAS_BAD_SCENE);
     box.scene.initial.kind = INITIAL_BEAM_MODE;
     box.scene.initial.amplitude = .01;
-    box.scene.boundary[FACE_X_LOW].kind = BOUNDARY_FIXED;
     assert_int_equal(exact_beam.create(&box.scene, &exact, &messages), SELAS_OK);
     const double tip[3] = {.5, .045, 0};
     const double time[2] = {0, 1e-4};
@@ -133,6 +157,18 @@ static void scenes_choose_their_reference(void **state)
     assert_near(value[1], 0, 0);
     assert_near(value[7], value[4] * 1e-4, .01 * fabs(value[7]));
     exact->class->destroy(exact);
+    /* clamped at both ends; a roller below the beam or at its end makes it another one */
+    box.scene.boundary[FACE_X_HIGH].kind = BOUNDARY_FIXED;
+    assert_int_equal(exact_beam.create(&box.scene, &exact, &messages), SELAS_OK);
+    const double middle[3] = {.25, .045, 0};
+    assert_int_equal(exact->class->history(exact, middle, 2, time, value, &messages), SELAS_OK);
+    assert_near(fabs(value[4]), .01 * sqrt(45e9 / 1738), 1e-9 * 50);
+    exact->class->destroy(exact);
+    box.scene.boundary[FACE_Y_LOW].kind = BOUNDARY_ROLLER;
+    assert_int_equal(exact_beam.create(&box.scene, &exact, &messages), SELAS_BAD_SCENE);
+    box.scene.boundary[FACE_Y_LOW].kind = BOUNDARY_FREE;
+    box.scene.boundary[FACE_X_HIGH].kind = BOUNDARY_ROLLER;
+    assert_int_equal(exact_beam.create(&box.scene, &exact, &messages), SELAS_BAD_SCENE);
     assert_int_equal(exact_hole.create(&box.scene, &exact, &messages), SELAS_BAD_SCENE);
     messages_free(&messages);
 }
@@ -140,9 +176,8 @@ static void scenes_choose_their_reference(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(beam_theories_agree_when_slender),
-        cmocka_unit_test(frequencies_are_fitted),
-        cmocka_unit_test(kirsch_is_consistent),
+        cmocka_unit_test(beam_theories_agree_when_slender), cmocka_unit_test(beams_have_ends),
+        cmocka_unit_test(frequencies_are_fitted),           cmocka_unit_test(kirsch_is_consistent),
         cmocka_unit_test(scenes_choose_their_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,8 @@
 /* What the program finds out about a scene by itself: the box of a half-space and mirror planes. */
+#include "deck/words.h"
+#include "scene/absorbing_layers.h"
+#include "scene/echo.h"
+#include "scene/extent.h"
 #include "scene/symmetry.h"
 
 #include "from_deck.h"
@@ -10,6 +14,9 @@
 #define PATCH                                                                                                \
     "&load face='z-', shape='square', centre=3, 2, 0, size=1, 1, direction=0, 0, 1, history='triangle', "    \
     "duration=2 /\n"
+#define PULSE                                                                                                \
+    "&load face='z-', shape='square', centre=3, 2, 0, size=1, 1, direction=0, 0, 1, history='gaussian', "    \
+    "width=.6, delay=3 /\n"
 #define RECEIVER "&receiver name='far', position=5, 2, 0 /\n"
 
 /* Late end: layers. The box ends four points beyond load and receiver, is even about the load, twelve points
@@ -57,9 +64,11 @@ static void named_sides_are_kept(void **unused)
 {
     (void)unused;
     struct from_deck d =
-        right_scene(GROUND("60", ".125") PATCH RECEIVER "&boundary face='z+', kind='fixed' /\n");
-    assert_int_equal(d.scene->boundary[FACE_Z_HIGH].kind, BOUNDARY_FIXED);
-    assert_int_equal(d.scene->boundary[FACE_X_LOW].kind, BOUNDARY_TRANSMITTING);
+        right_scene(GROUND("60", ".125") PATCH RECEIVER "&boundary face='z+', kind='transmitting', "
+                                                        "layer_thickness=.7 /\n");
+    assert_int_equal(layer_points(d.scene, FACE_Z_HIGH), 6);
+    assert_true(d.scene->boundary[FACE_Z_HIGH].given && !d.scene->boundary[FACE_X_LOW].given);
+    assert_int_equal(d.scene->boundary[FACE_X_LOW].absorber, ABSORBER_PML);
     from_deck_free(&d);
 }
 
@@ -173,12 +182,80 @@ static void turned_bodies(void **unused)
     }
 }
 
+/* Every group of the deck states what it acts on or looks at, or that it does neither. */
+static void all_groups_are_stated(void **unused)
+{
+    (void)unused;
+    const struct word_table *table = deck_words();
+    assert_true(table->groups > 10);
+    for (size_t g = 0; g < table->groups; g++) {
+        if (!extent_stated(table->group[g].name)) print_error("no extent: &%s\n", table->group[g].name);
+        assert_true(extent_stated(table->group[g].name));
+    }
+    assert_false(extent_stated("nobody"));
+}
+
+/* Places, times and wavelengths of what acts and what is looked at. */
+static void extents(void **unused)
+{
+    (void)unused;
+    struct from_deck d = right_scene(GROUND(
+        "4", ".5") "&load face='z-', shape='disc', centre=1,2,0, size=2, direction=1,0,0, velocity=2,0,0, "
+                   "history='gaussian', width=.3, delay=1.5 /\n"
+                   "&load kind='body-force', shape='point', centre=0,0,3, direction=0,0,1, history='step' /\n"
+                   "&initial kind='gaussian', amplitude=1, width=.2, centre=0,1,2, direction=0,0,1 /\n"
+                   "&profile name='p', from=0,0,0, to=1,0,2, times=3,1 /\n"
+                   "&snapshot times=2, region=0,0,0,1,2,3 /\n");
+    struct extent found[16];
+    size_t count = 0;
+    for (size_t i = 0; scene_extent(d.scene, i, &found[count]); i++)
+        if (found[count].role != EXTENT_IDLE) count++;
+    assert_int_equal(count, 5);
+    assert_near(found[0].low[0], 0, 1e-12);
+    assert_near(found[0].high[0], 10, 1e-12); /* 1 + 2 * 4 + 1 */
+    assert_near(found[0].high[2], 0, 0);
+    /* of exp(-t^2 / (2 w^2)): rms frequency of the slope sqrt(3/2) / w */
+    assert_near(found[0].wavelength, 2 * M_PI * sqrt(3.) * .3 / sqrt(1.5), 1e-3);
+    assert_true(isinf(found[1].wavelength));
+    assert_near(found[2].low[1], 0, 1e-12);
+    assert_near(found[3].high[2], 2, 0);
+    assert_near(found[3].until, 3, 0);
+    assert_near(found[4].high[1], 2, 0);
+    assert_near(found[4].until, 2, 0);
+    from_deck_free(&d);
+}
+
+/* Half the spacing: a layer has more points, however far the receiver, and is expected to send back less. */
+static void layers_follow_the_spacing(void **unused)
+{
+    (void)unused;
+    static const char *const spacings[] = {"body%spacing=.2", "body%spacing=.1", "body%spacing=.05"};
+    double before = 1;
+    for (size_t i = 0; i < 3; i++) {
+        struct from_deck d =
+            from_text(GROUND("14", ".2") PULSE "&receiver name='far', position=13,2,0 /\n", 1, &spacings[i]);
+        assert_non_null(d.scene);
+        assert_true(d.scene->body.absorbing);
+        double worst = 0;
+        for (int face = 0; face < BOX_FACES; face++) {
+            const size_t points = layer_points(d.scene, face);
+            if (points > 0) worst = fmax(worst, echo_of_layer(d.scene, face, points));
+        }
+        assert_true(worst > 0 && worst < before && worst <= 1e-3);
+        before = worst;
+        from_deck_free(&d);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_box_with_layers),
         cmocka_unit_test(large_box_without_layers),
         cmocka_unit_test(named_sides_are_kept),
+        cmocka_unit_test(all_groups_are_stated),
+        cmocka_unit_test(extents),
+        cmocka_unit_test(layers_follow_the_spacing),
         cmocka_unit_test(mirror_planes),
         cmocka_unit_test(odd_numbers_of_cells_have_no_mirror),
         cmocka_unit_test(turned_bodies),

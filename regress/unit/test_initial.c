@@ -146,25 +146,64 @@ static void amplitudes(void **unused)
 static void beam_shape(void **unused)
 {
     (void)unused;
-    const double length = .5, h = .01, k = BEAM_MODE_ROOT / length;
-    assert_near(cos(BEAM_MODE_ROOT) * cosh(BEAM_MODE_ROOT), -1, 1e-14);
-    assert_near(BEAM_MODE_ROOT, 1.875, 2e-4); /* as printed */
-    assert_near(beam_mode(0, length), 0, 1e-15);
-    assert_near(beam_mode(length, length), 1, 1e-14);
-    assert_near((beam_mode(h, length) - beam_mode(-h, length)) / (2 * h), 0, 1e-3);
+    const double length = .5, h = .01, k = beam_mode_root(BEAM_CLAMPED_FREE) / length;
+    assert_near(cos(beam_mode_root(BEAM_CLAMPED_FREE)) * cosh(beam_mode_root(BEAM_CLAMPED_FREE)), -1, 1e-14);
+    assert_near(beam_mode_root(BEAM_CLAMPED_FREE), 1.875, 2e-4); /* as printed */
+    assert_near(beam_mode(BEAM_CLAMPED_FREE, 0, length, 0), 0, 1e-15);
+    assert_near(beam_mode(BEAM_CLAMPED_FREE, length, length, 0), 1, 1e-14);
+    assert_near((beam_mode(BEAM_CLAMPED_FREE, h, length, 0) - beam_mode(BEAM_CLAMPED_FREE, -h, length, 0)) /
+                    (2 * h),
+                0, 1e-3);
     for (double x = .1; x < .5; x += .1) {
-        const double fourth =
-            (beam_mode(x + 2 * h, length) - 4 * beam_mode(x + h, length) + 6 * beam_mode(x, length) -
-             4 * beam_mode(x - h, length) + beam_mode(x - 2 * h, length)) /
-            (h * h * h * h);
-        assert_near(fourth / (k * k * k * k), beam_mode(x, length), 5e-4);
+        const double fourth = (beam_mode(BEAM_CLAMPED_FREE, x + 2 * h, length, 0) -
+                               4 * beam_mode(BEAM_CLAMPED_FREE, x + h, length, 0) +
+                               6 * beam_mode(BEAM_CLAMPED_FREE, x, length, 0) -
+                               4 * beam_mode(BEAM_CLAMPED_FREE, x - h, length, 0) +
+                               beam_mode(BEAM_CLAMPED_FREE, x - 2 * h, length, 0)) /
+                              (h * h * h * h);
+        assert_near(fourth / (k * k * k * k), beam_mode(BEAM_CLAMPED_FREE, x, length, 0), 5e-4);
     }
-    const double bending = (beam_mode(length + h, length) - 2 + beam_mode(length - h, length)) / (h * h);
+    const double bending = (beam_mode(BEAM_CLAMPED_FREE, length + h, length, 0) - 2 +
+                            beam_mode(BEAM_CLAMPED_FREE, length - h, length, 0)) /
+                           (h * h);
     assert_near(bending / (k * k), 0, 2e-4);
-    const double shear = (beam_mode(length + 2 * h, length) - 2 * beam_mode(length + h, length) +
-                          2 * beam_mode(length - h, length) - beam_mode(length - 2 * h, length)) /
+    const double shear = (beam_mode(BEAM_CLAMPED_FREE, length + 2 * h, length, 0) -
+                          2 * beam_mode(BEAM_CLAMPED_FREE, length + h, length, 0) +
+                          2 * beam_mode(BEAM_CLAMPED_FREE, length - h, length, 0) -
+                          beam_mode(BEAM_CLAMPED_FREE, length - 2 * h, length, 0)) /
                          (2 * h * h * h);
     assert_near(shear / (k * k * k), 0, 2e-3);
+}
+
+/* The other ends: the root, w'''' = (k / L)^4 w, what is 0 at both ends, the slope, the scale. */
+static void other_beam_shapes(void **unused)
+{
+    (void)unused;
+    const double length = 2, h = .02;
+    assert_near(cos(beam_mode_root(BEAM_FREE_FREE)) * cosh(beam_mode_root(BEAM_FREE_FREE)), 1, 1e-12);
+    for (enum beam_ends ends = BEAM_CLAMPED_FREE; ends < BEAM_ENDS; ends++) {
+        const double k = beam_mode_root(ends) / length;
+        double most = 0;
+        for (int i = 0; i <= 10; i++) {
+            const double x = .1 * i * length;
+            double w[5];
+            for (int j = 0; j < 5; j++)
+                w[j] = beam_mode(ends, x + (j - 2) * h, length, 0);
+            const double fourth = (w[0] - 4 * w[1] + 6 * w[2] - 4 * w[3] + w[4]) / pow(k * h, 4);
+            assert_near(fourth, w[2], 1e-3);
+            assert_near((w[3] - w[1]) / (2 * h), beam_mode(ends, x, length, 1), 1e-3 * k);
+            most = fmax(most, fabs(w[2]));
+            if (i > 0 && i < 10) continue;
+            const double slope = beam_mode(ends, x, length, 1) / k;
+            const double bending = (w[1] - 2 * w[2] + w[3]) / pow(k * h, 2);
+            const double shear = (w[4] - 2 * w[3] + 2 * w[1] - w[0]) / (2 * pow(k * h, 3));
+            const bool clamped = ends == BEAM_CLAMPED_CLAMPED || (ends == BEAM_CLAMPED_FREE && i == 0);
+            const bool held = ends == BEAM_SIMPLY_SUPPORTED;
+            assert_near(clamped || held ? w[2] : shear, 0, 2e-3);
+            assert_near(clamped ? slope : bending, 0, 2e-3);
+        }
+        assert_near(most, 1, 1e-12);
+    }
 }
 
 /* The tip of the beam moves with V_f c0 across it, also when the beam is turned. */
@@ -174,6 +213,7 @@ static void beam_velocity(void **unused)
     struct from_deck d =
         right_scene("&scene dimension=2, end_time=6, plane='stress' /\n" SOLID
                     "&body material='rock', low=0,0, high=8,1, spacing=.5, rotation=0,0,90 /\n"
+                    "&boundary face='x-', kind='fixed' /\n"
                     "&initial kind='beam-mode', amplitude=.01 /\n");
     const double tip[3] = {8, .5, 0}, c0 = sqrt(11.875 / 2);
     double place[3], u[3], v[3];
@@ -189,7 +229,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rest_and_uniform), cmocka_unit_test(travelling_waves),
         cmocka_unit_test(shear_in_a_plane), cmocka_unit_test(amplitudes),
-        cmocka_unit_test(beam_shape),       cmocka_unit_test(beam_velocity),
+        cmocka_unit_test(beam_shape),       cmocka_unit_test(other_beam_shapes),
+        cmocka_unit_test(beam_velocity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

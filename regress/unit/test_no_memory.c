@@ -38,10 +38,10 @@ struct outcome {
 static const struct tested {
     const char *deck, *receiver, *override[10];
 } tested[] = {
-    {"input/halfspace.nml",
+    {"input/halfspace-lysmer.nml",
      "centre",
      {"body%spacing=1", "scene%end_time=0.5", "snapshot%times=0.2", "reference%kind=file",
-      "reference%file=../regress/cases/deck-halfspace/accepted"}},
+      "reference%file=../regress/cases/deck-halfspace-lysmer/accepted"}},
     {"input/layered.nml", "centre", {"body%spacing=1", "body%high=4,4,3", "scene%end_time=0.4"}},
     {"regress/cases/half-space-pml/deck.nml",
      "r1",
@@ -52,7 +52,7 @@ static const struct tested {
     {"input/halfspace-paper.nml",
      "centre",
      {"body%spacing=1", "scene%end_time=0.5", "reference%kind=file",
-      "reference%file=../regress/cases/deck-halfspace/accepted"}},
+      "reference%file=../regress/cases/deck-halfspace-lysmer/accepted"}},
     {"input/halfspace-cloud.nml",
      "centre",
      {"body%spacing=1", "body%high=3,3,3", "load%size=2,2", "scene%end_time=0.3"}},
@@ -77,7 +77,7 @@ static const struct tested {
      "r1",
      {"body%spacing=1", "scene%end_time=1", "load%direction=1,0,1", "boundary%face=y-",
       "boundary%kind=symmetry"}},
-    {"input/halfspace.nml", "r1", {"body%spacing=1", "snapshot%times=1"}},
+    {"input/halfspace-lysmer.nml", "r1", {"body%spacing=1", "snapshot%times=1"}},
     {"regress/cases/point-force/deck.nml", "p", {"body%spacing=1"}},
 };
 enum { SCENES = sizeof tested / sizeof *tested, EXACT = 14 };

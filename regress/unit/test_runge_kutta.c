@@ -155,7 +155,7 @@ static void rkc_internal_stability(void **unused)
 static double limit(const char *scheme, double omega, double viscous, long stages)
 {
     const struct spectrum spectrum = {.omega = omega, .wave_damping = viscous, .viscous = viscous};
-    return scheme_find(scheme)->limit(&spectrum, stages);
+    return scheme_limit(scheme_find(scheme), &spectrum, stages);
 }
 
 static void imaginary_limits(void **unused)

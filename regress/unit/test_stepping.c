@@ -168,7 +168,7 @@ static void limits_are_sharp(void **state)
             f.scene.initial.kind = INITIAL_GAUSSIAN;
             const double omega = 2.0 * sin(CHAIN * PI / (2.0 * (CHAIN + 1)));
             f.scene.stepping.time_step =
-                scheme->limit(&(struct spectrum){.omega = omega}, 0) * (above ? 1.002 : 0.998);
+                scheme_limit(scheme, &(struct spectrum){.omega = omega}, 0) * (above ? 1.002 : 0.998);
             f.scene.stepping.force = true;
             struct stepper *stepper = NULL;
             struct state s;
@@ -194,7 +194,7 @@ static void abilities(void **state)
     for (size_t i = 0; scheme_table[i] != NULL; i++) {
         const struct scheme_class *scheme = scheme_table[i];
         const unsigned halves = SCHEME_FILTERS | SCHEME_REMEMBERS | SCHEME_ONE_PASS | SCHEME_UNWARPS;
-        const double longest = scheme->limit(&(struct spectrum){.omega = 1.0}, 5);
+        const double longest = scheme_limit(scheme, &(struct spectrum){.omega = 1.0}, 5);
         assert_int_equal(longest > 0.0, (scheme->can & SCHEME_WAVES) != 0);
         if (!scheme->needs_acceleration) assert_int_equal(scheme->can & halves, 0);
         if ((scheme->can & SCHEME_UNWARPS) != 0) assert_non_null(scheme->finish);

@@ -26,7 +26,7 @@ static void refuse_choices(struct builder *builder, const struct accuracy_kind *
     static const char *const particles[] = {"gradient", "viscosity_alpha", "viscosity_beta", NULL};
     static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
     static const char *const body_words[] = {"spacing", NULL};
-    static const char *const layer[] = {"layer_points", "layer_reflection", NULL};
+    static const char *const layer[] = {"layer_points", "layer_thickness", "layer_reflection", NULL};
     static const char *const output[] = {"low_pass", NULL};
     const char *purpose = "a deck with scene%accuracy, which makes that choice";
     refuse(builder, deck_get(builder->deck, "method", 0), method, purpose);

@@ -28,8 +28,7 @@ static const char *faces_refusal(const struct scene *scene)
         const struct boundary *boundary = &scene->boundary[face];
         if (face == FACE_Z_LOW || boundary_mirrors(boundary) || boundary_has_layer(boundary)) continue;
         if (scene->body.absorbing && !boundary->given) continue;
-        if (echo_path(&seen, face) < 1.02 * surface_ground_of(scene, 0).p_speed * scene->end_time &&
-            !scene->body.chosen)
+        if (!scene->body.chosen && echo_seen(&seen, face, 0))
             return "boxes with faces that absorb by layers (layer = 'pml'), are symmetry planes, or stand so "
                    "far away that nothing comes back before end_time";
     }

@@ -57,9 +57,7 @@ struct surface_ground surface_ground_of(const struct scene *scene, double spacin
     for (int face = 0; face <= FACE_Z_HIGH; face++) {
         const struct boundary *boundary = &scene->boundary[face];
         if (!boundary_has_layer(boundary)) continue;
-        const double way =
-            echo_path(scene, face) - 4 * spacing; /* as method/consistent/absorbing/layer.c has it */
-        if (boundary->always || way <= 1.02 * ground.p_speed * scene->end_time) ground.tuned = false;
+        if (boundary->always || echo_seen(scene, face, 4 * spacing)) ground.tuned = false;
     }
     return ground;
 }

@@ -46,6 +46,42 @@ static void look_at_start(struct adviser *adviser)
                wave / spacing, fewest, wave / fewest);
 }
 
+/* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency of a beam in
+ * plane strain, L = 5 W, 5 and 10 points across, against degree 4 (doc/results.md). */
+static void look_at_incompressible(struct adviser *adviser)
+{
+    static const double nearly = 0.45;
+    const struct scene *scene = adviser->scene;
+    const struct material *stiff = &scene->material[0];
+    for (size_t m = 1; m < scene->materials; m++)
+        if (scene->material[m].poisson > stiff->poisson) stiff = &scene->material[m];
+    if (scene->dimension == 1 || (scene->dimension == 2 && scene->plane == PLANE_STRESS) ||
+        stiff->poisson <= nearly)
+        return;
+    advise(adviser,
+           "material '%s' has nu = %.4g, near 0.5, where bodies of few points across are too stiff: 5 "
+           "across, a beam's "
+           "frequency is .01 too high at nu = .49 and .04 at .499 by variant 'consistent', .05 and .2 by "
+           "'total-lagrangian', .2 and .3 by 'cloud'; variant = 'consistent' with degree = 3 (.004, .014), "
+           "or finer points, would be "
+           "right",
+           stiff->name, stiff->poisson);
+}
+
+/* A moment tensor pulls at one point's neighbours: by gradients of total-Lagrangian points it is coarse (doc/sources.md). */
+static void look_at_moments(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    bool moment = false;
+    for (size_t k = 0; k < scene->loads; k++)
+        moment = moment || scene->load[k].kind == LOAD_MOMENT_TENSOR;
+    if (!moment || strcmp(scene->method.variant, "total-lagrangian") != 0) return;
+    advise(adviser,
+           "moment tensors on total-Lagrangian points were .4 to 5 wrong (.13 to 1.4 with gradient = "
+           "'central') at 4 "
+           "points per wavelength; method%%name = 'smoothed-point', variant = 'consistent', would be right");
+}
+
 static void look_at_step(struct adviser *adviser, const struct stepper *stepper)
 {
     static const double smallest = 0.1;
@@ -139,12 +175,39 @@ static void look_at_speed(struct adviser *adviser, size_t k)
                k + 1, speed, ground.rayleigh_speed);
 }
 
+/* The exact ground goes on beyond the box, and a load that runs over it there sends waves into the box. */
+static void look_at_path(struct adviser *adviser, size_t k)
+{
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    double from[3], velocity[3];
+    body_from_deck(&scene->body, load->centre, from);
+    body_direction_from_deck(&scene->body, load->velocity, velocity);
+    if (load->kind != LOAD_TRACTION || strcmp(scene->reference.kind, "lamb") != 0) return;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double to = from[axis] + velocity[axis] * scene->end_time, half = half_size(load, axis);
+        if (axis == face_axis(load->face) || velocity[axis] == 0.0) continue;
+        if (fmin(from[axis], to) - half >= scene->body.low[axis] - 1e-9 * scene->body.spacing &&
+            fmax(from[axis], to) + half <= scene->body.high[axis] + 1e-9 * scene->body.spacing)
+            continue;
+        advise(
+            adviser,
+            "load %zu runs beyond the body, where nothing feels it; in the exact solution it runs on ground "
+            "there, too, so the error holds what it sends from there; a body from %.6g to %.6g along %c "
+            "would hold it",
+            k + 1, fmin(from[axis], to) - half, fmax(from[axis], to) + half, "xyz"[axis]);
+        return;
+    }
+}
+
 size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     struct adviser adviser = {scene, tell, context, 0};
     look_at_resolution(&adviser);
     look_at_start(&adviser);
+    look_at_incompressible(&adviser);
+    look_at_moments(&adviser);
     look_at_step(&adviser, stepper);
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
     if (!body_is_box(&scene->body)) return adviser.count;
@@ -154,6 +217,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
+        look_at_path(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }
     return adviser.count;

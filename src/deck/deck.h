@@ -30,8 +30,8 @@ void deck_free(struct deck **deck);
 selas_status deck_new(const char *name, struct deck **deck, struct messages *messages);
 /* Adds a group; *number is its occurrence, from 1. */
 selas_status deck_add(struct deck *deck, const char *group, size_t *number, struct messages *messages);
-/* "load(2)%amplitude=3": as an override, and once more in place of what was set before. After an error the
- * name counts as not given. */
+/* "load(2)%amplitude=3": as an override, and once more in place of what was set before. Values are
+ * checked at once. After an error the deck is as it was. */
 selas_status deck_set(struct deck *deck, const char *text, struct messages *messages);
 /* The checks of the table (ranges, choices, obligatory names) after the last deck_set. */
 selas_status deck_complete(struct deck *deck, struct messages *messages);

@@ -24,41 +24,57 @@ selas_status deck_add(struct deck *deck, const char *group, size_t *number, stru
     return SELAS_OK;
 }
 
-/* The item that "group(2)%name=..." names, NULL if there is none (yet). */
-static struct item *named_item(struct deck *deck, const char *text)
+/* What "group(2)%name=..." names. */
+struct named {
+    const struct word_group *kind;
+    struct deck_group *group; /* NULL: there is none (yet), or it is not said which */
+    size_t word;              /* kind->words: none */
+};
+
+static struct named find_named(struct deck *deck, const char *text)
 {
     const struct word_table *table = deck->list.table;
     const size_t length = strcspn(text, "(%= ");
     const size_t kind = words_find_group(table, text, length);
     const char *percent = strchr(text, '%');
-    if (kind == table->groups || percent == NULL) return NULL;
+    if (kind == table->groups || percent == NULL) return (struct named){NULL, NULL, 0};
     const size_t count = deck->first[kind + 1] - deck->first[kind];
-    const unsigned long number = text[length] == '(' ? strtoul(text + length + 1, NULL, 10) : 1;
-    const size_t word = words_find(&table->group[kind], percent + 1, strcspn(percent + 1, "(= "));
-    if (number < 1 || number > count || word == table->group[kind].words) return NULL;
-    return &deck->list.group[deck->first[kind] + number - 1].item[word];
-}
-
-static void clear(struct deck *deck, const char *text)
-{
-    struct item *item = named_item(deck, text);
-    if (item == NULL) return;
-    const struct word_table *table = deck->list.table;
-    const size_t kind = words_find_group(table, text, strcspn(text, "(%= "));
-    const char *name = strchr(text, '%') + 1;
-    const struct word *word =
-        &table->group[kind].word[words_find(&table->group[kind], name, strcspn(name, "(= "))];
-    item_clear(word, item);
+    unsigned long number = count == 1 ? 1 : 0;
+    if (text[length] == '(') number = strtoul(text + length + 1, NULL, 10);
+    struct named named = {&table->group[kind], NULL, 0};
+    named.word = words_find(named.kind, percent + 1, strcspn(percent + 1, "(= "));
+    if (number >= 1 && number <= count) named.group = &deck->list.group[deck->first[kind] + number - 1];
+    return named;
 }
 
 selas_status deck_set(struct deck *deck, const char *text, struct messages *messages)
 {
-    const size_t errors = messages->errors;
-    clear(deck, text);
+    const size_t errors = messages->errors, groups = deck->list.groups;
+    struct named named = find_named(deck, text);
+    const bool known = named.kind != NULL && named.word < named.kind->words;
+    struct item kept = {0};
+    if (known && named.group != NULL) {
+        kept = named.group->item[named.word];
+        named.group->item[named.word] = (struct item){0};
+    }
     deck_override(deck, text, messages);
-    if (!deck_sort_groups(deck)) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
+    const bool made = deck->list.groups > groups;
+    if (made) named.group = &deck->list.group[groups];
+    if (known && named.group != NULL && messages->errors == errors)
+        deck_check_values(deck, named.group, named.word, messages);
     const selas_status status = messages_since(messages, errors, SELAS_BAD_DECK);
-    if (status != SELAS_OK) clear(deck, text);
+    if (status != SELAS_OK && made) namelist_drop(&deck->list);
+    if (known && named.group != NULL && !made) {
+        struct item *item = &named.group->item[named.word];
+        if (status != SELAS_OK) { /* as it was */
+            item_clear(&named.kind->word[named.word], item);
+            *item = kept;
+        } else {
+            item_clear(&named.kind->word[named.word], &kept);
+        }
+    }
+    if (status == SELAS_OK && !deck_sort_groups(deck))
+        return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
     return status;
 }
 

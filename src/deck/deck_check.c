@@ -49,20 +49,14 @@ static void check_text(const struct deck *deck, const struct word *word, const s
         }
 }
 
-static void check_item(const struct deck *deck, const struct deck_group *group, size_t index,
+void deck_check_values(const struct deck *deck, const struct deck_group *group, size_t index,
                        struct messages *messages)
 {
     const struct word *word = &group->kind->word[index];
     const struct item *item = &group->item[index];
     for (size_t i = 0; i < item->values; i++) {
-        if (!item->value[i].given) {
-            if (group_value(group, index, i) == NULL && !item->wrong)
-                namelist_message(messages, deck->path, item->place, true,
-                                 "value %zu of '%s' in &%s is missing%s", i + 1, word->name,
-                                 group->kind->name, item->comment_null ? COMMENT_NULL : "");
-            continue;
-        }
         const struct value *value = &item->value[i];
+        if (!value->given) continue;
         if (word->type == WORD_CHOICE)
             check_choice(deck, group, word, value, messages);
         else if (word->type >= WORD_TEXT)
@@ -70,6 +64,18 @@ static void check_item(const struct deck *deck, const struct deck_group *group, 
         else if (word->type != WORD_LOGICAL)
             check_range(deck, group, word, value, messages);
     }
+}
+
+static void check_item(const struct deck *deck, const struct deck_group *group, size_t index,
+                       struct messages *messages)
+{
+    const struct word *word = &group->kind->word[index];
+    const struct item *item = &group->item[index];
+    for (size_t i = 0; i < item->values; i++)
+        if (!item->value[i].given && group_value(group, index, i) == NULL && !item->wrong)
+            namelist_message(messages, deck->path, item->place, true, "value %zu of '%s' in &%s is missing%s",
+                             i + 1, word->name, group->kind->name, item->comment_null ? COMMENT_NULL : "");
+    deck_check_values(deck, group, index, messages);
     if (word->need == OBLIGATORY && item->values == 0 && !item->wrong) {
         const struct place place = item->named ? item->place : group->place;
         namelist_message(messages, deck->path, place, true, "'%s' is missing in &%s: %s%s", word->name,

@@ -21,6 +21,9 @@ const struct item *group_item(const struct deck_group *group, const char *name, 
 const struct value *group_value(const struct deck_group *group, size_t word, size_t i);
 size_t group_values(const struct deck_group *group, size_t word);
 
+/* Checks ranges and choices of what is given for one word of a group. */
+void deck_check_values(const struct deck *deck, const struct deck_group *group, size_t word,
+                       struct messages *messages);
 /* Checks ranges, choices, gaps and obligatory names of all groups. */
 void deck_check(const struct deck *deck, struct messages *messages);
 /* Sorts the groups by kind, those of one kind as they stand in the text, and finds the first of each. */

@@ -30,12 +30,17 @@ static void free_texts(const struct word_group *kind, struct item *item)
             array_free(item[i].value[j].as.text);
 }
 
+void namelist_drop(struct namelist *list)
+{
+    const struct deck_group *group = &list->group[--list->groups];
+    free_texts(group->kind, group->item);
+    free_items(group->item, group->kind->words);
+}
+
 void namelist_free(struct namelist *list)
 {
-    for (size_t i = 0; i < list->groups; i++) {
-        free_texts(list->group[i].kind, list->group[i].item);
-        free_items(list->group[i].item, list->group[i].kind->words);
-    }
+    while (list->groups > 0)
+        namelist_drop(list);
     array_free(list->group);
     for (size_t i = 0; list->defaults != NULL && i < list->table->groups; i++) {
         free_texts(&list->table->group[i], list->defaults[i].item);

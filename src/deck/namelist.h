@@ -75,6 +75,8 @@ void item_clear(const struct word *word, struct item *item);
 bool namelist_begin(struct namelist *list, const struct word_table *table, struct messages *messages);
 /* Adds a group with nothing but its defaults; NULL if there is no memory. */
 struct deck_group *namelist_add(struct namelist *list, size_t kind, struct place place);
+/* Takes the group that was added last away again. */
+void namelist_drop(struct namelist *list);
 void namelist_free(struct namelist *list);
 
 /* Adds "NAME:LINE:COLUMN: error: ..." (or warning), with place.line = 0 "override: error: ...". */

@@ -172,9 +172,12 @@ static const struct word boundary_words[] = {
     {"face", WORD_CHOICE, 8, NULL, &(FACE_NAMES(CHOICE_WORD) "|all")[1], OBLIGATORY, "faces"},
     {"kind", WORD_CHOICE, 1, NULL, &(BOUNDARY_KINDS(KIND_WORD))[1], OBLIGATORY, "what the faces do"},
     {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL,
-     "how a transmitting face absorbs: dampers, or an absorbing layer"},
+     "how a transmitting face absorbs: dampers or an absorbing layer; else the layer where the method has "
+     "it"},
     {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", OPTIONAL,
      "thickness of the absorbing layer [points]"},
+    {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
+     "thickness of the absorbing layer, in place of layer_points [length]"},
     {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
      "wanted reflection of the absorbing layer, in place of layer_points"},
     {"always", WORD_LOGICAL, 1, ".false.", NULL, EXPERT,

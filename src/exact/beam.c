@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "exact/frequency.h"
-#include "scene/initial.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +19,7 @@ struct solution {
 
 static double fundamental(const struct beam *beam)
 {
-    return BEAM_MODE_ROOT / beam->length;
+    return beam_mode_root(beam->ends) / beam->length;
 }
 
 double beam_euler_bernoulli(const struct beam *beam)
@@ -54,8 +53,8 @@ static void exponential(const double a[16], double e[16])
 
 /* Timoshenko's equations for (w, psi, M, Q) with harmonic motion, lengths in L and per unit of depth:
  *   w' = psi + Q / (k G A),  psi' = M / (E I),  M' = -Q - rho I w^2 psi,  Q' = -rho A w^2 w.
- * Clamped (w = psi = 0) at 0 and free (M = Q = 0) at L: the determinant of the M, Q block of exp(matrix L).
- */
+ * Two of the four are 0 at each end: clamped w = psi = 0, free M = Q = 0, supported w = M = 0. The determinant of the
+ * block of exp(matrix L) that takes those which are not 0 at x = 0 to those which must be 0 at L. */
 static double determinant(const struct beam *beam, double frequency)
 {
     const double area = beam->width;
@@ -84,9 +83,13 @@ static double determinant(const struct beam *beam, double frequency)
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             a[4 * i + j] *= beam->length * scale[j] / scale[i];
+    static const int given[BEAM_ENDS][2] = {{2, 3}, {2, 3}, {1, 3}, {0, 1}};  /* not 0 at x = 0 */
+    static const int vanish[BEAM_ENDS][2] = {{2, 3}, {0, 1}, {0, 2}, {2, 3}}; /* 0 at x = L */
+    const int *column = given[beam->ends], *row = vanish[beam->ends];
     double e[16];
     exponential(a, e);
-    return e[2 * 4 + 2] * e[3 * 4 + 3] - e[2 * 4 + 3] * e[3 * 4 + 2];
+    return e[row[0] * 4 + column[0]] * e[row[1] * 4 + column[1]] -
+           e[row[0] * 4 + column[1]] * e[row[1] * 4 + column[0]];
 }
 
 double beam_timoshenko(const struct beam *beam)
@@ -113,7 +116,8 @@ struct beam beam_of(const struct scene *scene)
                          .young = material->young / (strain ? 1 - material->poisson * material->poisson : 1),
                          .shear = material->mu,
                          .density = material->density,
-                         .poisson = material->poisson};
+                         .poisson = material->poisson,
+                         .ends = beam_ends_of(scene)};
 }
 
 double beam_plane(const struct scene *scene)
@@ -130,7 +134,7 @@ double beam_plane(const struct scene *scene)
                  {PLANE_STRESS, 10, .3975, 22.55 * .2 / 44.721360}};
     const struct material *material = &scene->material[scene->body.material];
     const struct beam beam = beam_of(scene);
-    if (scene->dimension != 2) return 0;
+    if (scene->dimension != 2 || beam.ends != BEAM_CLAMPED_FREE) return 0;
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         if (scene->plane == known[k].plane && fabs(beam.length / beam.width - known[k].ratio) < 1e-9 &&
             fabs(material->poisson - known[k].poisson) < 1e-9)
@@ -138,14 +142,26 @@ double beam_plane(const struct scene *scene)
     return 0;
 }
 
+/* Does a face keep the beam from bending, or take energy from it? */
+static bool hinders(const struct scene *scene, int face)
+{
+    const struct boundary *boundary = &scene->boundary[face];
+    const int axis = face_axis((enum face)face);
+    return axis > 0 && !boundary_is_free(boundary) && (axis == 1 || !boundary_slides(boundary));
+}
+
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
 {
     *exact = NULL;
+    bool free = true;
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        free = free && !hinders(scene, face);
     if (scene->dimension == 1 || scene->body.shape != BODY_BOX || scene->initial.kind != INITIAL_BEAM_MODE ||
-        !boundary_is_fixed(&scene->boundary[FACE_X_LOW]))
-        return fail(messages, SELAS_BAD_SCENE,
-                    "reference 'beam' needs a box in 2D or 3D, fixed at 'x-', started by &initial kind = "
-                    "'beam-mode'");
+        beam_ends_of(scene) == BEAM_ENDS || scene->loads > 0 || !free)
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "reference 'beam' needs a box in 2D or 3D without loads, started by &initial kind = 'beam-mode', "
+            "held at 'x-' and 'x+' alone: clamped-free, clamped-clamped, simply supported or free-free");
     struct solution *solution = array_new(1, sizeof *solution);
     if (solution == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the reference");
     const struct material *material = &scene->material[scene->body.material];
@@ -167,17 +183,6 @@ static void destroy(struct exact *exact)
     array_free(exact);
 }
 
-/* f'(x) of He & Seaid's Eq 30. */
-static double mode_slope(double x, double length)
-{
-    const double k = BEAM_MODE_ROOT;
-    const double z = k * x / length;
-    const double m = sin(k) + sinh(k);
-    const double n = cos(k) + cosh(k);
-    const double q = 2 * (cos(k) * sinh(k) - sin(k) * cosh(k));
-    return k / length * (-m * (sin(z) + sinh(z)) - n * (cos(z) - cosh(z))) / q;
-}
-
 static selas_status history(struct exact *exact, const double position[3], size_t n, const double *time,
                             double *value, struct messages *messages)
 {
@@ -188,8 +193,9 @@ static selas_status history(struct exact *exact, const double position[3], size_
     body_from_deck(body, position, own);
     const double x = own[0] - body->low[0];
     const double across = own[1] - 0.5 * (body->low[1] + body->high[1]);
-    const double bend = solution->speed * beam_mode(x, solution->beam.length);
-    const double turn = -across * solution->speed * mode_slope(x, solution->beam.length);
+    const struct beam *beam = &solution->beam;
+    const double bend = solution->speed * beam_mode(beam->ends, x, beam->length, 0);
+    const double turn = -across * solution->speed * beam_mode(beam->ends, x, beam->length, 1);
     const double w = solution->frequency;
     for (size_t i = 0; i < n; i++) {
         const double u[3] = {turn * sin(w * time[i]) / w, bend * sin(w * time[i]) / w, 0};
@@ -212,7 +218,9 @@ static void describe(const struct exact *exact,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     const struct solution *solution = (const struct solution *)exact;
-    tell(context, "frequency from", solution->theory);
+    char theory[64];
+    snprintf(theory, sizeof theory, "%s, linear, %s", solution->theory, beam_ends_name(solution->beam.ends));
+    tell(context, "frequency from", theory);
     tell_number(tell, context, "frequency", solution->frequency);
     tell_number(tell, context, "frequency Euler-Bernoulli", beam_euler_bernoulli(&solution->beam));
     tell_number(tell, context, "frequency Timoshenko", beam_timoshenko(&solution->beam));
@@ -226,9 +234,14 @@ static void judge(const struct exact *exact, const struct receiver *receiver, si
     const struct solution *solution = (const struct solution *)exact;
     struct messages messages = {0};
     double frequency = 0;
-    char key[NAME_SIZE + 32];
-    if (fit_frequency(rows, time, value + 1, 6, solution->frequency, &frequency, &messages) == SELAS_OK) {
-        snprintf(key, sizeof key, "frequency at %s", receiver->name);
+    char key[NAME_SIZE + 32], none[128];
+    snprintf(key, sizeof key, "frequency at %s", receiver->name);
+    if (fit_frequency(rows, time, value + 1, 6, solution->frequency, &frequency, &messages) != SELAS_OK) {
+        const char *why = messages.text != NULL ? strchr(messages.text, ' ') : NULL;
+        snprintf(none, sizeof none, "none:%.*s", why != NULL ? (int)strcspn(why, "\n") : 0,
+                 why != NULL ? why : "");
+        tell(context, key, none);
+    } else {
         tell_number(tell, context, key, frequency);
         snprintf(key, sizeof key, "frequency error at %s", receiver->name);
         tell_number(tell, context, key, frequency / solution->frequency - 1);

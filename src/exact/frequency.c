@@ -48,6 +48,7 @@ selas_status fit_frequency(size_t n, const double *time, const double *value, si
                            double *frequency, struct messages *messages)
 {
     enum { SCAN = 400, ITERATIONS = 100 };
+    static const double mostly = 0.5; /* of the motion's square that no oscillation takes up */
     if (n < 8 || !(guess > 0) || !((time[n - 1] - time[0]) * guess > 4 * M_PI))
         return fail(messages, SELAS_BAD_ARGUMENT, "a frequency needs a history of two periods");
     struct series series = {n, stride, time, value};
@@ -76,9 +77,11 @@ selas_status fit_frequency(size_t n, const double *time, const double *value, si
             break;
     }
     *frequency = gsl_min_fminimizer_x_minimum(search);
+    least = gsl_min_fminimizer_f_minimum(search);
     gsl_min_fminimizer_free(search);
     gsl_errors_as_before();
-    if (status != GSL_SUCCESS && !(*frequency > 0))
-        return fail(messages, SELAS_NOT_CONVERGED, "no frequency near %g in the history", guess);
+    if (!(least < mostly) || !(*frequency > 0))
+        return fail(messages, SELAS_NOT_CONVERGED, "the motion is no oscillation of %.4g to %.4g",
+                    guess / 1.5, 1.5 * guess);
     return SELAS_OK;
 }

@@ -37,7 +37,9 @@ static bool find_tension(struct solution *solution, const struct scene *scene)
 {
     const struct body *body = &scene->body;
     const struct material *material = &scene->material[body->material];
-    if (scene->loads > 0 && scene->load[0].face != FACE_HOLE) {
+    for (size_t k = 0; k < scene->loads; k++)
+        if (scene->load[k].face == FACE_HOLE) return false;
+    if (scene->loads > 0) {
         const struct load *load = &scene->load[0];
         solution->axis = face_axis(load->face);
         solution->far = load->amplitude * load->direction[solution->axis] * face_sign(load->face);

@@ -12,14 +12,13 @@ static selas_status check_path(selas_simulation *simulation, const char *path)
 {
     if (path == NULL || path[0] == '\0')
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the checkpoint's path is NULL or empty");
-    if (simulation->failed != SELAS_OK)
-        return fail(&simulation->messages, simulation->failed, "the simulation has failed before");
-    return SELAS_OK;
+    return simulation->failed == SELAS_OK ? SELAS_OK : simulation_consequence(simulation, simulation->failed);
 }
 
 selas_status selas_save(selas_simulation *simulation, const char *path)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status != SELAS_OK) return status;
@@ -69,12 +68,13 @@ static selas_status prepare_restore(selas_simulation *simulation)
 selas_status selas_restore(selas_simulation *simulation, const char *path)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_prepare(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
     if (status == SELAS_OK) status = prepare_restore(simulation);
     if (status != SELAS_OK) return status;
-    simulation->failed = checkpoint_read(simulation->recorder, &simulation->state, &simulation->figures, path,
-                                         &simulation->messages);
+    simulation_failed(simulation, checkpoint_read(simulation->recorder, &simulation->state,
+                                                  &simulation->figures, path, &simulation->messages));
     struct stepper *stepper = simulation->stepper;
     if (simulation->failed != SELAS_OK) return simulation->failed;
     driver_changed(&stepper->driver, 0);

@@ -35,7 +35,7 @@ static struct driven_load *driven_of(struct host *host, size_t load)
 static selas_status drive_new_load(selas_simulation *simulation, const struct driven_load *wanted)
 {
     struct host *host = &simulation->host;
-    const selas_status status = simulation_change(simulation);
+    const selas_status status = simulation_may_change(simulation);
     if (status != SELAS_OK) return status;
     struct driven_load *driven = driven_of(host, wanted->load);
     if (driven == NULL) {
@@ -50,6 +50,7 @@ static selas_status drive_new_load(selas_simulation *simulation, const struct dr
         driven = &host->load[host->loads++];
     }
     *driven = *wanted;
+    simulation_discard(simulation);
     return SELAS_OK;
 }
 
@@ -74,6 +75,7 @@ selas_status selas_set_traction(selas_simulation *simulation, const char *load,
                                 selas_vector_function traction, void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     return set_function(simulation, load, LOAD_TRACTION, traction, context);
 }
 
@@ -81,6 +83,7 @@ selas_status selas_set_body_force(selas_simulation *simulation, const char *load
                                   void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     return set_function(simulation, load, LOAD_BODY_FORCE, force, context);
 }
 
@@ -88,6 +91,7 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
                               selas_vector_function displacement, void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (displacement == NULL) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the function is NULL");
@@ -102,14 +106,17 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
             &simulation->messages, SELAS_BAD_ARGUMENT,
             "face '%s' has no &boundary of kind 'displacement' (its direction says which way it moves)",
             face);
-    status = simulation_change(simulation);
-    if (status == SELAS_OK) simulation->host.face[index] = (struct driven_face){displacement, context};
-    return status;
+    status = simulation_may_change(simulation);
+    if (status != SELAS_OK) return status;
+    simulation->host.face[index] = (struct driven_face){displacement, context};
+    simulation_discard(simulation);
+    return SELAS_OK;
 }
 
 selas_status selas_set_load(selas_simulation *simulation, const char *load, double value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     struct driven_load wanted = {.value = value};
     selas_status status = simulation_scene(simulation);
     if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
@@ -142,6 +149,7 @@ static void translate(const struct model *model, const double direction[3], doub
 selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     size_t index = 0;
     if (status == SELAS_OK) status = find_load(simulation, load, &index);

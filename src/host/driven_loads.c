@@ -31,7 +31,8 @@ static selas_status cut_of(const struct scene *scene, const struct load *load, s
     const struct body *body = &scene->body;
     *cut = (struct cut){.count = {1, 1, 1}};
     body_from_deck(body, load->centre, cut->middle);
-    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load_moves(load))
+    if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_DISC || load->face == FACE_HOLE ||
+        load_moves(load))
         return fail(
             messages, SELAS_UNSUPPORTED,
             "a function can give tractions on squares, whole faces and points at rest, and body forces");

@@ -6,6 +6,7 @@
 selas_status selas_points(selas_simulation *simulation, size_t *count, const double **position)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (count == NULL || position == NULL)
@@ -29,6 +30,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
                                 size_t *components, const double **value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     const size_t width = (size_t)field_components(field);
@@ -58,6 +60,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
 selas_status selas_energy(selas_simulation *simulation, double *kinetic, double *strain)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     const selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (kinetic == NULL || strain == NULL)

@@ -21,6 +21,7 @@ static selas_status find_receiver(selas_simulation *simulation, const char *name
 selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field, double *value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ENERGY)
@@ -35,6 +36,7 @@ selas_status selas_history(selas_simulation *simulation, const char *name, size_
                            const double **value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (!simulation->finished || rows == NULL || time == NULL || value == NULL)
@@ -53,6 +55,7 @@ selas_status selas_history(selas_simulation *simulation, const char *name, size_
 selas_status selas_record(selas_simulation *simulation)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     const selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->state.y != NULL && !simulation->recording)
@@ -73,12 +76,13 @@ static selas_status make_exact(selas_simulation *simulation)
 selas_status selas_write(selas_simulation *simulation)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (!simulation->recording)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "selas_record was not called before the first step");
-    status = selas_finish(simulation);
+    status = simulation_finish(simulation);
     if (status != SELAS_OK) return status;
     /* what was computed is written, whether there is something to compare it with or not */
     const selas_status compared = make_exact(simulation);
@@ -90,6 +94,7 @@ selas_status selas_write(selas_simulation *simulation)
 selas_status selas_write_exact(selas_simulation *simulation)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->scene->reference.kind[0] == '\0')
@@ -104,6 +109,7 @@ selas_status selas_plan(selas_simulation *simulation,
                         void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     if (tell == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");

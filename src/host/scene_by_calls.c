@@ -56,7 +56,7 @@ static void put_quoted(struct text *text, const char *value)
 static selas_status begin_word(selas_simulation *simulation, const char *word, size_t count,
                                const void *values, struct text *text)
 {
-    selas_status status = simulation_change(simulation);
+    selas_status status = simulation_may_change(simulation);
     if (status != SELAS_OK) return status;
     if (word == NULL || values == NULL || count == 0)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "%s",
@@ -70,13 +70,15 @@ static selas_status begin_word(selas_simulation *simulation, const char *word, s
     return SELAS_OK;
 }
 
+/* The scene borrows the deck's groups, which move when there is one more. */
 static selas_status end_word(selas_simulation *simulation, struct text *text)
 {
-    selas_status status = SELAS_NO_MEMORY;
     if (text->lacking)
-        fail(&simulation->messages, status, "no memory for a word of the deck");
-    else
-        status = deck_set(simulation->deck, text->start, &simulation->messages);
+        return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a word of the deck");
+    const struct deck_group *before = deck_get(simulation->deck, "method", 0);
+    const selas_status status = deck_set(simulation->deck, text->start, &simulation->messages);
+    if (status == SELAS_OK || deck_get(simulation->deck, "method", 0) != before)
+        simulation_discard(simulation);
     return status;
 }
 
@@ -84,6 +86,7 @@ selas_status selas_set_real(selas_simulation *simulation, const char *word, size
                             const double *values)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     struct text text = {0};
     selas_status status = begin_word(simulation, word, count, values, &text);
     for (size_t i = 0; status == SELAS_OK && i < count; i++) {
@@ -101,6 +104,7 @@ selas_status selas_set_real(selas_simulation *simulation, const char *word, size
 selas_status selas_set_integer(selas_simulation *simulation, const char *word, long value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     struct text text = {0};
     char piece[40];
     selas_status status = begin_word(simulation, word, 1, &value, &text);
@@ -114,6 +118,7 @@ selas_status selas_set_integer(selas_simulation *simulation, const char *word, l
 selas_status selas_set_logical(selas_simulation *simulation, const char *word, bool value)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     struct text text = {0};
     selas_status status = begin_word(simulation, word, 1, &value, &text);
     put(&text, value ? ".true." : ".false.", value ? 6 : 7);
@@ -122,10 +127,9 @@ selas_status selas_set_logical(selas_simulation *simulation, const char *word, b
     return status;
 }
 
-selas_status selas_set_text(selas_simulation *simulation, const char *word, size_t count,
-                            const char *const *values)
+static selas_status set_texts(selas_simulation *simulation, const char *word, size_t count,
+                              const char *const *values)
 {
-    AT_THE_DOOR(simulation);
     struct text text = {0};
     selas_status status = begin_word(simulation, word, count, values, &text);
     for (size_t i = 0; status == SELAS_OK && i < count; i++) {
@@ -142,28 +146,36 @@ selas_status selas_set_text(selas_simulation *simulation, const char *word, size
     return status;
 }
 
+selas_status selas_set_text(selas_simulation *simulation, const char *word, size_t count,
+                            const char *const *values)
+{
+    AT_THE_DOOR(simulation);
+    simulation_call(simulation);
+    return set_texts(simulation, word, count, values);
+}
+
 selas_status selas_add(selas_simulation *simulation, const char *group, size_t *number)
 {
     AT_THE_DOOR(simulation);
-    const selas_status status = simulation_change(simulation);
+    simulation_call(simulation);
+    const selas_status status = simulation_may_change(simulation);
     if (status != SELAS_OK) return status;
     if (group == NULL || number == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the group's name or the room for its number is NULL");
     *number = 0;
-    return deck_add(simulation->deck, group, number, &simulation->messages);
+    const selas_status added = deck_add(simulation->deck, group, number, &simulation->messages);
+    if (added == SELAS_OK) simulation_discard(simulation);
+    return added;
 }
 
 /* --- Points of the host's own --- */
 
-static void forget_points(selas_simulation *simulation)
+static void *copy_of(const void *from, size_t count, size_t size)
 {
-    array_free(simulation->point_position);
-    array_free(simulation->point_volume);
-    array_free(simulation->point_material);
-    simulation->point_position = simulation->point_volume = NULL;
-    simulation->point_material = NULL;
-    deck_hand_points(simulation->deck, NULL);
+    void *copy = from != NULL ? array_new(count, size) : NULL;
+    if (copy != NULL) memcpy(copy, from, count * size);
+    return copy;
 }
 
 static selas_status check_points(selas_simulation *simulation, size_t count, const double *position,
@@ -185,7 +197,8 @@ selas_status selas_set_points(selas_simulation *simulation, size_t count, const 
                               const double *volume, const size_t *material)
 {
     AT_THE_DOOR(simulation);
-    selas_status status = simulation_change(simulation);
+    simulation_call(simulation);
+    selas_status status = simulation_may_change(simulation);
     if (status == SELAS_OK) status = check_points(simulation, count, position, volume);
     if (status != SELAS_OK) return status;
     const size_t materials = deck_count(simulation->deck, "material");
@@ -194,22 +207,28 @@ selas_status selas_set_points(selas_simulation *simulation, size_t count, const 
             return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                         "point %zu has material %zu; the scene has &material 1 to %zu", i + 1, material[i],
                         materials);
-    forget_points(simulation);
-    simulation->point_position = array_new(3 * count, sizeof(double));
-    simulation->point_volume = array_new(count, sizeof(double));
-    if (material != NULL) simulation->point_material = array_new(count, sizeof(size_t));
-    if (simulation->point_position == NULL || simulation->point_volume == NULL ||
-        (material != NULL && simulation->point_material == NULL)) {
-        forget_points(simulation);
-        return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for %zu points", count);
-    }
-    memcpy(simulation->point_position, position, 3 * count * sizeof(double));
-    memcpy(simulation->point_volume, volume, count * sizeof(double));
-    for (size_t i = 0; material != NULL && i < count; i++)
-        simulation->point_material[i] = material[i] - 1;
-    simulation->points = (struct given_points){count, simulation->point_position, simulation->point_volume,
-                                               simulation->point_material};
-    deck_hand_points(simulation->deck, &simulation->points);
+    double *positions = copy_of(position, 3 * count, sizeof *positions);
+    double *volumes = copy_of(volume, count, sizeof *volumes);
+    size_t *materials_of = copy_of(material, count, sizeof *materials_of);
     const char *const shape[1] = {"points"};
-    return selas_set_text(simulation, "body%shape", 1, shape);
+    if (positions == NULL || volumes == NULL || (material != NULL && materials_of == NULL))
+        status = fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for %zu points", count);
+    if (status == SELAS_OK) status = set_texts(simulation, "body%shape", 1, shape);
+    if (status != SELAS_OK) {
+        array_free(positions);
+        array_free(volumes);
+        array_free(materials_of);
+        return status;
+    }
+    for (size_t i = 0; materials_of != NULL && i < count; i++)
+        materials_of[i]--;
+    array_free(simulation->point_position);
+    array_free(simulation->point_volume);
+    array_free(simulation->point_material);
+    simulation->point_position = positions;
+    simulation->point_volume = volumes;
+    simulation->point_material = materials_of;
+    simulation->points = (struct given_points){count, positions, volumes, materials_of};
+    deck_hand_points(simulation->deck, &simulation->points);
+    return SELAS_OK;
 }

@@ -114,8 +114,7 @@ selas_status selas_open_new(const char *name, selas_simulation **opened)
     return deck_new(name, &simulation->deck, &simulation->messages);
 }
 
-/* Everything behind the deck goes. */
-static void discard(selas_simulation *simulation)
+void simulation_discard(selas_simulation *simulation)
 {
     recorder_free(&simulation->recorder);
     state_free(&simulation->state);
@@ -135,13 +134,14 @@ void selas_close(selas_simulation **closed)
 {
     if (closed == NULL || *closed == NULL || (*closed)->busy) return;
     selas_simulation *simulation = *closed;
-    discard(simulation);
+    simulation_discard(simulation);
     host_free(simulation);
     array_free(simulation->point_position);
     array_free(simulation->point_volume);
     array_free(simulation->point_material);
     free(simulation->results);
     free(simulation->work);
+    free(simulation->last);
     deck_free(&simulation->deck);
     messages_free(&simulation->messages);
     free(simulation);
@@ -150,25 +150,49 @@ void selas_close(selas_simulation **closed)
 
 /* --- Building and stepping --- */
 
+void simulation_call(selas_simulation *simulation)
+{
+    if (simulation == NULL || simulation->busy) return;
+    simulation->call = simulation->messages.length;
+    simulation->consequence = false;
+}
+
+static void keep_failure(selas_simulation *simulation)
+{
+    simulation->failure[0] = simulation->call;
+    simulation->failure[1] = simulation->messages.length;
+}
+
+void simulation_failed(selas_simulation *simulation, selas_status status)
+{
+    simulation->failed = status;
+    if (status != SELAS_OK) keep_failure(simulation);
+}
+
+selas_status simulation_consequence(selas_simulation *simulation, selas_status status)
+{
+    simulation->consequence = true;
+    return status;
+}
+
 selas_status simulation_check(selas_simulation *simulation)
 {
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     if (simulation->busy)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "a function of the host may not call its own simulation");
-    if (simulation->deck == NULL)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the simulation was not opened successfully");
-    return SELAS_OK;
+    if (simulation->deck != NULL) return SELAS_OK;
+    if (simulation->failure[1] == 0) simulation->failure[1] = simulation->messages.length;
+    return simulation_consequence(simulation, SELAS_BAD_ARGUMENT);
 }
 
-selas_status simulation_change(selas_simulation *simulation)
+selas_status simulation_may_change(selas_simulation *simulation)
 {
     const selas_status status = simulation_check(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->state.step > 0 || simulation->failed != SELAS_OK || simulation->finished)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the scene cannot change after the first step");
-    discard(simulation);
     return SELAS_OK;
 }
 
@@ -176,17 +200,18 @@ selas_status simulation_scene(selas_simulation *simulation)
 {
     selas_status status = simulation_check(simulation);
     if (status != SELAS_OK || simulation->scene != NULL) return status;
-    if (simulation->broken)
-        return fail(&simulation->messages, SELAS_BAD_SCENE, "the scene cannot be built as it is (see above)");
+    if (simulation->broken) return simulation_consequence(simulation, SELAS_BAD_SCENE);
     status = deck_complete(simulation->deck, &simulation->messages);
     if (status == SELAS_OK) status = build_scene(simulation);
     simulation->broken = status != SELAS_OK;
+    if (status != SELAS_OK) keep_failure(simulation);
     return status;
 }
 
 selas_status selas_build(selas_simulation *simulation)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     return simulation_scene(simulation);
 }
 
@@ -222,7 +247,7 @@ static selas_status start(selas_simulation *simulation)
     if (status == SELAS_OK)
         status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
     if (status == SELAS_OK) status = host_answer(simulation);
-    if (status != SELAS_STOPPED) simulation->failed = status;
+    if (status != SELAS_STOPPED) simulation_failed(simulation, status);
     add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
@@ -238,8 +263,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     struct messages *messages = &simulation->messages;
-    if (simulation->failed != SELAS_OK)
-        return fail(messages, simulation->failed, "the simulation has failed before; no step can follow");
+    if (simulation->failed != SELAS_OK) return simulation_consequence(simulation, simulation->failed);
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
     const struct stopwatch begun = start_watch();
@@ -251,7 +275,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
         if (status == SELAS_OK) status = recorder_observe(simulation->recorder, &simulation->state, messages);
         if (status == SELAS_OK && stopped) status = SELAS_STOPPED;
     }
-    if (status != SELAS_STOPPED) simulation->failed = status;
+    if (status != SELAS_STOPPED) simulation_failed(simulation, status);
     add_elapsed(begun, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
     return status;
 }
@@ -259,12 +283,14 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
 selas_status selas_step(selas_simulation *simulation, unsigned long steps)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     return run_steps(simulation, steps);
 }
 
 selas_status selas_advance(selas_simulation *simulation, double time)
 {
     AT_THE_DOOR(simulation);
+    simulation_call(simulation);
     const selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK) return status;
     if (!isfinite(time))
@@ -304,9 +330,8 @@ unsigned long selas_steps_needed(selas_simulation *simulation)
     return simulation->stepper->steps + simulation->stepper->extra;
 }
 
-selas_status selas_finish(selas_simulation *simulation)
+selas_status simulation_finish(selas_simulation *simulation)
 {
-    AT_THE_DOOR(simulation);
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK || simulation->finished) return status;
     const unsigned long needed = simulation->stepper->steps + simulation->stepper->extra;
@@ -316,10 +341,27 @@ selas_status selas_finish(selas_simulation *simulation)
     return status;
 }
 
+selas_status selas_finish(selas_simulation *simulation)
+{
+    AT_THE_DOOR(simulation);
+    simulation_call(simulation);
+    return simulation_finish(simulation);
+}
+
 const char *selas_message(const selas_simulation *simulation)
 {
     if (simulation == NULL) return "no simulation (the handle is NULL)";
     return simulation->messages.text != NULL ? simulation->messages.text : "";
+}
+
+const char *selas_last_message(selas_simulation *simulation)
+{
+    if (simulation == NULL) return selas_message(NULL);
+    const size_t from = simulation->consequence ? simulation->failure[0] : simulation->call;
+    const size_t to = simulation->consequence ? simulation->failure[1] : simulation->messages.length;
+    free(simulation->last);
+    simulation->last = to > from ? strndup(simulation->messages.text + from, to - from) : NULL;
+    return simulation->last != NULL ? simulation->last : "";
 }
 
 const char *selas_output_directory(selas_simulation *simulation)

@@ -50,6 +50,10 @@ struct selas_simulation {
     bool busy;           /* a callback of the host is running */
     bool dirty;          /* loads at the time reached have changed; the acceleration has not yet */
     selas_status failed; /* why no step can follow */
+    size_t call;         /* where in the messages the last call began */
+    size_t failure[2];   /* first and last byte of the failure that keeps later calls from being done */
+    bool consequence;    /* the last call was not done because of that failure */
+    char *last;          /* what selas_last_message handed out */
     struct host host;
     struct given_points points;
     double *point_position, *point_volume;
@@ -72,16 +76,26 @@ struct c_locale door_enter(selas_simulation *simulation);
 /* An empty handle. */
 selas_status simulation_new(selas_simulation **simulation);
 
+/* A function of the library begins: what it says from here on is the message of the last call. NULL is fine. */
+void simulation_call(selas_simulation *simulation);
 /* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
 selas_status simulation_check(selas_simulation *simulation);
+/* No step can follow, for what this call has said. */
+void simulation_failed(selas_simulation *simulation, selas_status status);
+/* A call that is not done because of what an earlier one has said; that is not said again. */
+selas_status simulation_consequence(selas_simulation *simulation, selas_status status);
 /* The same, with the scene built. */
 selas_status simulation_scene(selas_simulation *simulation);
 /* The same, with model, time step and recorder, without files. */
 selas_status simulation_prepare(selas_simulation *simulation);
 /* The same, with the state at t = 0 or later and the loads as they are now. */
 selas_status simulation_begin(selas_simulation *simulation);
-/* SELAS_OK as long as the scene may still be changed: before the first step; throws the model away. */
-selas_status simulation_change(selas_simulation *simulation);
+/* Runs on as far as the finished histories need, and finishes them. */
+selas_status simulation_finish(selas_simulation *simulation);
+/* SELAS_OK as long as the scene may still be changed: before the first step. */
+selas_status simulation_may_change(selas_simulation *simulation);
+/* Throws away everything behind the deck: it has changed. */
+void simulation_discard(selas_simulation *simulation);
 
 /* host/checkpoints.c */
 /* Opens the deck that a checkpoint keeps; selas_record and selas_restore make a run of it that goes on in the

@@ -182,6 +182,8 @@ struct model {
     bool damped;        /* C is not zero */
     double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
                            [1/time] */
+    bool small_strain;  /* forces are linear in grad u: rotations must stay small */
+    bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
     enum patch_sight patch;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (

@@ -116,13 +116,28 @@ static selas_status check(const struct scene *scene, struct messages *messages)
     return SELAS_OK;
 }
 
+double cloud_filling(const struct cloud *cloud, const struct body *body)
+{
+    double volume = 0;
+    for (size_t i = 0; i < cloud->points; i++)
+        volume += cloud->volume[i];
+    return volume / body_volume(body, cloud->dimension);
+}
+
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages)
 {
     const struct body *body = &scene->body;
     *cloud = NULL;
-    if (body->shape == BODY_POINTS) return cloud_read(scene, cloud, messages);
-    selas_status status = check(scene, messages);
+    selas_status status = body->shape == BODY_POINTS ? SELAS_OK : check(scene, messages);
     if (status != SELAS_OK) return status;
+    if (body->shape == BODY_POINTS) {
+        status = cloud_read(scene, cloud, messages);
+        if (status == SELAS_OK && *cloud != NULL && (*cloud)->elements == 0 &&
+            fabs(cloud_filling(*cloud, body) - 1) < 0.02)
+            status = cloud_surface(*cloud, body, messages);
+        if (status != SELAS_OK) cloud_free(cloud);
+        return status;
+    }
     if (body->shape == BODY_PLATE_WITH_HOLE)
         status = cloud_plate(body, cloud, messages);
     else

@@ -28,11 +28,14 @@ struct cloud {
     struct face_element *element;
 };
 
-/* Points of scene->body as its shape, arrangement, jitter and seed say; SELAS_BAD_SCENE with the reason where
+/* Points of scene->body as its shape, arrangement, jitter and seed say; points from outside without areas get the
+ * surface of the box if their volumes fill it to 2 %. SELAS_BAD_SCENE with the reason where
  * they cannot be made. On failure *cloud is NULL. */
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages);
 void cloud_free(struct cloud **cloud);
 
+/* The points' volumes over that of the body's box. */
+double cloud_filling(const struct cloud *cloud, const struct body *body);
 /* Volume (area, length) of the body: box minus hole. */
 double body_volume(const struct body *body, int dimension);
 /* Angles from the hole's centre that lie in the box: all round, half or a quarter (centre on a face or a
@@ -49,6 +52,13 @@ selas_status cloud_surface(struct cloud *cloud, const struct body *body, struct 
 selas_status cloud_plate(const struct body *body, struct cloud **cloud, struct messages *messages);
 /* points/points_file.c: text or HDF5. */
 selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages);
+/* points/points_check.c: SELAS_BAD_SCENE if two points are closer than a millionth of the spacing; line [points]: where
+ * they stand in the file, or NULL. */
+selas_status points_check_apart(size_t points, const double *position, double spacing, const size_t *line,
+                                struct messages *messages);
+/* Warns of places of the box without a point within a spacing (position in the body's frame). */
+selas_status points_warn_of_gaps(const struct body *body, int dimension, size_t points,
+                                 const double *position, struct messages *messages);
 /* points/cells.c: volumes of the Voronoi cells inside the body (3D: boxes only). */
 selas_status cloud_cells(struct cloud *cloud, const struct body *body, struct messages *messages);
 

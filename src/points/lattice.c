@@ -2,6 +2,7 @@
 #include "points/lattice.h"
 
 #include "base/memory.h"
+#include "points/cloud.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -128,7 +129,9 @@ selas_status point_set_from_positions(const struct body *body, int dimension, si
                         face_name(face));
         }
     turn(body, set);
-    return SELAS_OK;
+    const selas_status looked = points_warn_of_gaps(body, dimension, points, set->own_position, messages);
+    if (looked != SELAS_OK) point_set_free(set);
+    return looked;
 }
 
 void point_set_free(struct point_set *set)

@@ -49,7 +49,8 @@ static selas_status lay_cells(struct neighbours *n, struct messages *messages)
         for (int c = 0; c < n->dimension; c++) {
             const double x = n->position[3 * i + (size_t)c];
             if (!isfinite(x))
-                return fail(messages, SELAS_BAD_ARGUMENT, "point %zu has a coordinate that is not finite", i);
+                return fail(messages, SELAS_BAD_ARGUMENT, "point %zu has a coordinate that is not finite",
+                            i + 1);
             if (i == 0 || x < n->corner[c]) n->corner[c] = x;
             if (i == 0 || x > high[c]) high[c] = x;
         }

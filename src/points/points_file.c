@@ -24,6 +24,8 @@ enum { COLUMNS = 8 };
 struct table {
     size_t rows, room;
     double (*row)[COLUMNS];
+    size_t *line; /* [rows] of a text file; else NULL */
+    size_t line_room;
 };
 
 static bool make_room(struct table *table, size_t rows)
@@ -34,6 +36,16 @@ static bool make_room(struct table *table, size_t rows)
     if (larger == NULL) return false;
     table->row = larger;
     table->room = room;
+    return true;
+}
+
+static bool make_room_for_lines(struct table *table)
+{
+    if (table->line_room == table->room) return true;
+    size_t *larger = realloc(table->line, table->room * sizeof *larger);
+    if (larger == NULL) return false;
+    table->line = larger;
+    table->line_room = table->room;
     return true;
 }
 
@@ -59,8 +71,9 @@ static selas_status add_row(struct table *table, size_t d, int count, const doub
         return fail(messages, SELAS_FILE_ERROR,
                     "%s:%zu: expected %zu numbers (position, volume) or %zu (and normal, area)", path, line,
                     d + 1, 2 * d + 2);
-    if (!make_room(table, table->rows + 1))
+    if (!make_room(table, table->rows + 1) || !make_room_for_lines(table))
         return fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+    table->line[table->rows] = line;
     double *row = table->row[table->rows++];
     memset(row, 0, sizeof *table->row);
     memcpy(row, value, d * sizeof *row);
@@ -225,8 +238,12 @@ selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct 
     if (status == SELAS_OK) {
         (*cloud)->spacing = scene->body.spacing;
         status = take(scene, &table, *cloud, messages);
+        if (status == SELAS_OK)
+            status =
+                points_check_apart(table.rows, (*cloud)->position, scene->body.spacing, table.line, messages);
     }
     free(table.row);
+    free(table.line);
     if (status != SELAS_OK) cloud_free(cloud);
     return status;
 }

@@ -47,19 +47,21 @@ static const char documentation[] =
     "\n"
     "Exit status: 0 done; 1 the run failed or A and B differ (an unstable run says\n"
     "where and when); 2 bad deck or usage.\n"
-    "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.";
+    "OMP_NUM_THREADS sets the number of threads; the results do not depend on it.\n"
+    "SELAS_PROCESSOR=x86-64, x86-64-v3 or x86-64-v4 takes the loops for that kind of processor.";
 
 struct arguments {
     const char *command; /* "run", "check", "exact", "restart", "rerun" */
     const char *deck;
     size_t overrides;
     const char **override;
-    bool quiet, strict;
+    bool quiet, strict, echo;
 };
 
 static const struct argp_option options[] = {
     {"quiet", 'q', NULL, 0, "No progress, no summary; only what is wrong", 0},
     {"strict", 's', NULL, 0, "Warnings of the deck and the scene are errors", 0},
+    {"echo", 'e', NULL, 0, "With check: measure what the faces of the box send back", 0},
     {0},
 };
 
@@ -73,6 +75,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         return 0;
     case 's':
         arguments->strict = true;
+        return 0;
+    case 'e':
+        arguments->echo = true;
         return 0;
     case ARGP_KEY_ARG:
         if (arguments->deck == NULL && strcmp(arguments->command, "") == 0) {
@@ -90,6 +95,8 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         return 0;
     case ARGP_KEY_END:
         if (arguments->deck == NULL) argp_error(state, "no deck was named; try: selas input/halfspace.nml");
+        if (arguments->echo && strcmp(arguments->command, "check") != 0)
+            argp_error(state, "--echo goes with check: selas check --echo DECK");
         if (arguments->overrides > 0 && strcmp(arguments->command, "restart") == 0)
             argp_error(state, "a restart takes no overrides: it ends as the run that was begun");
         return 0;
@@ -146,7 +153,11 @@ static selas_status be_strict(selas_simulation *simulation)
 
 static selas_status carry_out(selas_simulation *simulation, const struct arguments *arguments, size_t *told)
 {
-    if (strcmp(arguments->command, "check") == 0) return selas_plan(simulation, print_line, stdout);
+    if (strcmp(arguments->command, "check") == 0) {
+        const struct echo_deck deck = {arguments->deck, arguments->overrides, arguments->override};
+        const selas_status status = selas_plan(simulation, print_line, stdout);
+        return status == SELAS_OK && arguments->echo ? check_echo(&deck) : status;
+    }
     if (strcmp(arguments->command, "exact") == 0) {
         const selas_status status = selas_write_exact(simulation);
         if (status == SELAS_OK && !arguments->quiet) {

@@ -56,6 +56,8 @@ struct watch {
     double power, power_absorbed;      /* at the last step */
     double initial, largest;           /* energy: at the start, largest so far */
     double reference, reference_until; /* without work: largest energy up to this time */
+    double turn, strain;               /* largest rotation [rad] and strain at recorder->place */
+    double due, arrived; /* energy that was given, about when it was most, and what the body had of it */
     struct energy last;
     double largest_defect; /* largest |E - E0 - work + absorbed| */
     double last_time;
@@ -87,6 +89,9 @@ struct recorder {
     struct watch watch;
     struct watch before; /* as it was before the last step was seen */
     double before_time;  /* last_time then */
+    size_t places;       /* at which rotations are looked at */
+    struct probe *place;
+    bool looked_back; /* hindsight has told what it has to tell */
     unsigned long last_step;
     double last_time;
     bool started;

@@ -3,6 +3,7 @@
 #include "record/parts.h"
 
 #include "base/processor.h"
+#include "scene/absorbing_layers.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -80,14 +81,42 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);
     if (scene->snapshots > 0) say(teller, "snapshot groups", "%zu", scene->snapshots);
     for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].given) {
+        if (scene->boundary[face].given || boundary_damps(&scene->boundary[face])) {
             char key[32];
             snprintf(key, sizeof key, "face %s", face_name((enum face)face));
-            say(teller, key, "%s", boundary_meaning(&scene->boundary[face])->name);
+            const char *name = boundary_meaning(&scene->boundary[face])->name;
+            const char *why = layers_refusal(scene);
+            if (boundary_has_layer(&scene->boundary[face]))
+                say(teller, key, "%s, absorbing layer (C-PML)", name);
+            else if (boundary_damps(&scene->boundary[face]))
+                say(teller, key,
+                    "%s, dampers (Lysmer-Kuhlemeyer), which send back part of what meets them askew%s%s",
+                    name, why != NULL ? ": " : "", why != NULL ? why : "");
+            else
+                say(teller, key, "%s", name);
         }
     if (scene->output.low_pass > 0.0)
         say(teller, "low-pass", "exp(-(omega/%.9g)^4), zero phase, on computed histories",
             scene->output.low_pass);
+}
+
+static void say_table(const struct teller *teller, const char *what, size_t number,
+                      const struct history *history)
+{
+    if (history->kind != HISTORY_TABLE || history->rows == 0) return;
+    const size_t last = history->rows - 1;
+    char key[48];
+    snprintf(key, sizeof key, "table of &%s %zu", what, number);
+    say(teller, key, "0 before t = %.6g, straight lines between %zu rows, %.6g held from t = %.6g on",
+        history->table_time[0], history->rows, history->table_value[last], history->table_time[last]);
+}
+
+static void say_tables(const struct teller *teller, const struct scene *scene)
+{
+    for (size_t k = 0; k < scene->loads; k++)
+        say_table(teller, "load", scene->load[k].group + 1, &scene->load[k].history);
+    for (size_t face = 0; face < FACES; face++)
+        say_table(teller, "boundary", scene->boundary[face].group + 1, &scene->boundary[face].history);
 }
 
 void plan_tell(const struct recorder *recorder,
@@ -112,6 +141,7 @@ void plan_tell(const struct recorder *recorder,
     say_step(&teller, recorder->stepper);
     say_resolution(&teller, scene);
     say_parts(&teller, scene);
+    say_tables(&teller, scene);
     const double memory = memory_of(recorder);
     say(&teller, "planned memory bytes", "%.0f", memory);
     say(&teller, "planned bytes per point", "%.1f", memory / (double)(model->points > 0 ? model->points : 1));

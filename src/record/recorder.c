@@ -1,5 +1,6 @@
 /* The recorder: what a run leaves, gathered step by step and written at the end. */
 #include "record/results.h"
+#include "record/watch.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
@@ -24,6 +25,11 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
         return status;
     }
     watch_start(recorder);
+    status = hindsight_create(recorder, messages);
+    if (status != SELAS_OK) {
+        recorder_free(&recorder);
+        return status;
+    }
     *created = recorder;
     return SELAS_OK;
 }
@@ -159,6 +165,7 @@ void recorder_free(struct recorder **freed)
     struct recorder *recorder = *freed;
     run_file_close(recorder, false);
     trace_free(recorder);
+    hindsight_free(recorder);
     profile_free(recorder);
     snapshot_free(recorder);
     array_free(recorder->time);

@@ -1,7 +1,8 @@
 /* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
 #include "compare/misfit.h"
-#include "record/parts.h"
+#include "record/watch.h"
 
+#include "base/memory.h"
 #include "base/safe_file.h"
 
 #include <math.h>
@@ -119,6 +120,30 @@ static void write_precision(FILE *out, const struct recorder *recorder)
                 worst);
 }
 
+/* What the low-pass alone takes off the exact velocity: no method comes below that. */
+static void write_floor(FILE *out, const struct recorder *recorder)
+{
+    const size_t rows = recorder->rows, count = recorder->scene->receivers;
+    const double cutoff = recorder->scene->output.low_pass;
+    const bool from_rest = recorder->scene->initial.kind == INITIAL_REST;
+    struct messages unsaid = {0};
+    double *filtered = cutoff > 0 && rows > 1 ? array_new(6 * rows, sizeof *filtered) : NULL;
+    if (filtered == NULL) return;
+    fprintf(out, "error floor:");
+    for (size_t r = 0; r < count; r++) {
+        const double *exact = recorder->exact + r * rows * 6;
+        memcpy(filtered, exact, 6 * rows * sizeof *filtered);
+        if (low_pass(recorder->time[1] - recorder->time[0], cutoff, from_rest, rows, 6, filtered, &unsaid) !=
+            SELAS_OK)
+            break;
+        const struct misfit misfit = misfit_of(rows, recorder->time, filtered + 3, exact + 3, 6, 3);
+        fprintf(out, " %.4e", per(misfit.l2, misfit.l2_of));
+    }
+    fprintf(out, " (what the low-pass alone takes off the exact velocity of each receiver)\n");
+    messages_free(&unsaid);
+    array_free(filtered);
+}
+
 static void write_speed_against_error(FILE *out, const struct recorder *recorder,
                                       const struct run_figures *figures, bool brief)
 {
@@ -139,6 +164,7 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
         const double error = per(vector.l2, vector.l2_of);
         if (isnan(error) || error > worst) worst = error; /* NaN stays */
     }
+    write_floor(out, recorder);
     fprintf(out, "error largest: %.4e (L2 of the velocity vector, worst receiver)\n", worst);
 }
 
@@ -157,6 +183,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     FILE *out = file.file;
     provenance_tell(tell_line, out);
     plan_tell(recorder, tell_line, out);
+    hindsight_tell(recorder, tell_line, out);
     fprintf(out, "steps done: %lu\ntime reached: %.9g\n", recorder->last_step, recorder->last_time);
     if (exact != NULL) {
         fprintf(out, "reference: %s\n", exact->class->kind);

@@ -198,9 +198,11 @@ selas_status results_claim(const struct scene *scene, const char *names, struct 
 {
     char name[FILE_NAME_SIZE];
     char *listed = listed_in(scene->output.directory);
-    selas_status status = listed != NULL && names != NULL
-                              ? SELAS_OK
-                              : fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+    selas_status status = SELAS_OK;
+    if (listed == NULL || names == NULL) {
+        free(listed);
+        return no_memory(messages);
+    }
     for (const char *at = names; status == SELAS_OK && next_name(&at, name);)
         status = claim_one(scene, name, listed, messages);
     free(listed);
@@ -222,10 +224,9 @@ static bool is_picture(const char *name)
 selas_status results_list(const struct scene *scene, const char *names, struct messages *messages)
 {
     char *listed = listed_in(scene->output.directory);
-    const selas_status status =
-        listed != NULL && names != NULL
-            ? write_list(scene->output.directory, listed, names, messages)
-            : fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+    const selas_status status = listed != NULL && names != NULL
+                                    ? write_list(scene->output.directory, listed, names, messages)
+                                    : no_memory(messages);
     free(listed);
     return status;
 }
@@ -237,7 +238,7 @@ selas_status results_tidy(const struct scene *scene, const char *names, struct m
     char *listed = listed_in(folder);
     if (listed == NULL || names == NULL) {
         free(listed);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the results");
+        return no_memory(messages);
     }
     for (const char *at = listed; next_name(&at, name);)
         if (is_picture(name) || !has(names, name)) take_away(folder, name);

@@ -11,4 +11,14 @@ enum { WATCH_EVERY = 50 };
 selas_status watch_tell(const struct recorder *recorder, const struct state *state, const char *what,
                         struct messages *messages);
 
+/* hindsight.c: places of the body at which rotations are looked at, if it matters; each step, `settled` if all of the
+ * state is right; warns at end_time. */
+selas_status hindsight_create(struct recorder *recorder, struct messages *messages);
+void hindsight_observe(struct recorder *recorder, const struct state *state, bool settled,
+                       struct messages *messages);
+/* The warnings, as told to the report. */
+void hindsight_tell(const struct recorder *recorder,
+                    void (*tell)(void *context, const char *key, const char *value), void *context);
+void hindsight_free(struct recorder *recorder);
+
 #endif

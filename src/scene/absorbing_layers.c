@@ -1,10 +1,11 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
- * (doc/absorbing-faces.md, sections 3 and 6). */
+ * (doc/absorbing-faces.md, sections 3, 6 and 7). */
 #include "scene/absorbing_layers.h"
 
 #include "scene/echo.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The reflection that a profile is made for falls with the number of points by this factor a point; then what
  * comes back from the outer end and what the lattice makes of the profile are about equal (measured). A pulse
@@ -21,10 +22,28 @@ double layer_expected_reflection(size_t points)
     return measured_part * layer_profile_reflection(points);
 }
 
+static bool given(const struct scene *scene, const char *word)
+{
+    return scene->method.group != NULL && deck_given(scene->method.group, word);
+}
+
+const char *layers_refusal(const struct scene *scene)
+{
+    if (strcmp(scene->method.variant, "consistent") != 0) return "this method has no absorbing layers";
+    if (!body_is_box(&scene->body)) return "only boxes and half-spaces have absorbing layers";
+    if (scene->dimension == 1) return "in one dimension they send nothing back";
+    if (given(scene, "mass") && strcmp(deck_text(scene->method.group, "mass", 0), "exact") == 0)
+        return "absorbing layers need method%mass = 'vc1', 'vc2' or 'vc3'";
+    if (given(scene, "tuned") && deck_logical(scene->method.group, "tuned", 0))
+        return "absorbing layers need splines that are not tuned";
+    if (scene->stepping.scheme[0] != '\0' && strcmp(scene->stepping.scheme, "leapfrog") != 0)
+        return "absorbing layers need stepping%scheme = 'leapfrog'";
+    return NULL;
+}
+
 static bool layer_unneeded(const struct scene *scene, int face)
 {
-    if (scene->boundary[face].always || scene->receivers + scene->profiles == 0) return false;
-    return echo_path(scene, face) - 4 * scene->body.spacing > 1.02 * scene_fastest(scene) * scene->end_time;
+    return !scene->boundary[face].always && !echo_seen(scene, face, 4 * scene->body.spacing);
 }
 
 static bool layer_asked(const struct scene *scene, int face)
@@ -32,14 +51,23 @@ static bool layer_asked(const struct scene *scene, int face)
     return body_is_box(&scene->body) && boundary_has_layer(&scene->boundary[face]);
 }
 
+static size_t within_limits(double points, size_t least)
+{
+    return (size_t)fmin(fmax(points, (double)least), MOST_POINTS);
+}
+
 size_t layer_points(const struct scene *scene, int face)
 {
     const struct boundary *boundary = &scene->boundary[face];
     if (!layer_asked(scene, face) || layer_unneeded(scene, face)) return 0;
     if (boundary->layer_points > 0) return (size_t)boundary->layer_points;
-    if (!(boundary->layer_reflection > 0)) return LAYER_POINTS;
-    const double points = ceil(log(measured_part / boundary->layer_reflection) / decay_per_point - 1e-9);
-    return (size_t)fmin(fmax(points, LEAST_POINTS), MOST_POINTS);
+    if (boundary->layer_thickness > 0)
+        return within_limits(ceil(boundary->layer_thickness / scene->body.spacing - 1e-9), LEAST_POINTS);
+    if (boundary->layer_reflection > 0)
+        return within_limits(ceil(log(measured_part / boundary->layer_reflection) / decay_per_point - 1e-9),
+                             LEAST_POINTS);
+    return within_limits(fmax((double)echo_points(scene, face), (double)boundary->least_points),
+                         LAYER_POINTS);
 }
 
 bool layer_anywhere(const struct scene *scene)

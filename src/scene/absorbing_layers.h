@@ -4,6 +4,10 @@
 
 #include "scene/scene.h"
 
+/* Why the scene's method cannot have absorbing layers, so that transmitting faces have dampers where the deck
+ * does not say; NULL: it can. */
+const char *layers_refusal(const struct scene *scene);
+
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
 /* Points of the absorbing layer behind a face, 0 if it has none. */

@@ -18,9 +18,11 @@ enum driven { BY_HISTORY, BY_HOST, HELD_BY_HOST };
 struct boundary {
     enum boundary_kind kind;
     enum absorber absorber;
-    long layer_points; /* of the absorbing layer; 0: choose from layer_reflection */
-    double layer_reflection;
-    bool always; /* keep the absorbing layer even where no reflection can be seen by end_time */
+    long layer_points;       /* of the absorbing layer; 0: by one of the next two, or chosen */
+    double layer_thickness;  /* length; 0: not given */
+    double layer_reflection; /* wanted; 0: not given */
+    long least_points;       /* where they are chosen, at least so many; 0: the default */
+    bool always;             /* keep the absorbing layer even where no reflection can be seen by end_time */
     double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
     double direction[3];                /* of a moved face: unit vector in the deck's coordinates */
     double amplitude;

@@ -14,7 +14,7 @@ struct builder {
     bool body_known;     /* box and frame are right: places can be checked against them */
     bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
     double spacing;      /* ... but this one, or 0 for a first guess ... */
-    long layer_points;   /* ... with absorbing layers of so many points, where the program adds them */
+    long layer_points; /* ... with absorbing layers of at least so many points, where the program adds them */
 };
 
 /* Adds a line with the place of `name` in the group (deck_error); the building goes on. */
@@ -58,9 +58,6 @@ struct point_sources take_sources(struct builder *builder, const struct deck_gro
 /* Makes loads [sources->count] of it from the first, which holds what they have in common. */
 void read_sources(struct builder *builder, const struct deck_group *group,
                   const struct point_sources *sources, struct load *load);
-/* The box around them, read without a word; false if the &load names no file or it cannot be used. */
-bool sources_span(const struct builder *builder, const struct deck_group *group, double low[3],
-                  double high[3]);
 
 /* The parts, in this order; each reads its groups. */
 void build_materials(struct builder *builder);
@@ -82,6 +79,10 @@ double dividing_spacing(const struct body *body, int dimension, double at_most);
 
 /* fitted_box.c: chooses low, high and the treatment of the sides of a half-space; false after complaining. */
 bool choose_half_space(struct builder *builder, const struct deck_group *group);
+
+/* fitted_box.c, when all else is built: refuses what the sides of a half-space whose box the deck gives cannot
+ * serve, warns of dampers there. */
+void check_half_space(struct builder *builder);
 
 /* frame.c: sets body->frame, pivot and rotated from rotation, low and high. */
 void body_set_frame(struct body *body);

@@ -1,49 +1,129 @@
-/* The way of the first echo of a face (doc/absorbing-faces.md, section 6): what tells whether it needs an
- * absorbing layer, and whether scene%accuracy may leave it as it is. */
+/* What the faces of a box send back (see the header).
+ *
+ * The way of a wave from what acts over the face to what is looked at is no shorter than the sum of their
+ * distances from the face. A box has few faces, extents and pairs of them: all pairs are looked at. */
 #include "scene/echo.h"
+
+#include "scene/extent.h"
 
 #include <math.h>
 
-/* Distance of a place (deck coordinates) from a face, or of its mirror image where the opposite face is a
- * symmetry plane. */
-static double distance(const struct scene *scene, int face, const double position[3])
+/* Distance of an extent from a face, 0 where it reaches it; or of its mirror image where the opposite face is
+ * a symmetry plane. */
+static double distance(const struct scene *scene, int face, const struct extent *extent)
 {
-    double place[3];
-    const int opposite = face ^ 1, axis = face / 2;
-    const double plane = face_plane(&scene->body, (enum face)face);
-    body_from_deck(&scene->body, position, place);
-    const double direct = fabs(place[axis] - plane);
-    if (!boundary_mirrors(&scene->boundary[opposite])) return direct;
-    const double image = 2 * face_plane(&scene->body, (enum face)opposite) - place[axis];
-    return fmin(direct, fabs(image - plane));
+    const struct body *body = &scene->body;
+    const int axis = face / 2, sign = face % 2 == 0 ? -1 : 1;
+    const double plane = sign * (sign < 0 ? body->low[axis] : body->high[axis]);
+    const double mirror = sign * (sign < 0 ? body->high[axis] : body->low[axis]);
+    const double near = sign < 0 ? -extent->low[axis] : extent->high[axis];
+    const double far = sign < 0 ? -extent->high[axis] : extent->low[axis];
+    const bool mirrored = boundary_mirrors(&scene->boundary[face ^ 1]);
+    return fmax(0, plane - (mirrored ? fmax(near, 2 * mirror - far) : near));
 }
 
-static double source_distance(const struct scene *scene, int face)
+bool echo_seen(const struct scene *scene, int face, double less)
 {
-    double nearest = INFINITY;
-    if (scene->initial.kind != INITIAL_REST || (scene_needs(scene) & CAN_MOVE) != 0) return 0;
-    for (size_t l = 0; l < scene->loads; l++) {
-        const struct load *load = &scene->load[l];
-        if (load->shape == LOAD_FACE || load_moves(load)) return 0;
-        const double size = load->shape == LOAD_POINT ? 0 : fmax(load->size[0], load->size[1]) / 2;
-        nearest = fmin(nearest, distance(scene, face, load->centre) - size);
+    const double speed = 1.02 * scene_fastest(scene);
+    struct extent seen, acts;
+    bool looked = false;
+    for (size_t i = 0; scene_extent(scene, i, &seen); i++) {
+        if (seen.role != EXTENT_SEEN) continue;
+        looked = true;
+        for (size_t k = 0; scene_extent(scene, k, &acts); k++) {
+            const double way = distance(scene, face, &acts) + distance(scene, face, &seen) - less;
+            if (acts.role == EXTENT_ACTS && way <= speed * (seen.until - acts.from)) return true;
+        }
     }
-    return fmax(nearest, 0);
+    return !looked;
 }
 
-static double seen_distance(const struct scene *scene, int face)
+/* --- Absorbing layers ----------------------------------------------------------------------------------- */
+
+/* What a layer of n points sends back, over the velocity at the place that is looked at,
+ *   e = A (exp(-.7 n) (Lambda/h)^1.65 max(1, r/d)^1.6 + .4 exp(-.2 n) (c_p/c_s / sqrt(3))^2.6),            (15)
+ * Lambda the P wavelength, h the spacing, r the way along the face, d the way to it and back; measured
+ * (regress/studies/echo; doc/absorbing-faces.md, section 7). In the plane waves do not spread out. */
+static const double decay = .7, wavelength_power = 1.65, grazing_power = 1.6;
+static const double late_part = .4, late_decay = .2, late_power = 2.6;
+static const double in_plane = .012, in_space = .0025;
+/* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
+static const double static_reach = 4;
+/* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
+ * spacing, so this falls too, and a finer scene is never a worse one. */
+static const double most_wanted = 1e-3, coarse = 12;
+enum { MOST = 40 };
+
+/* Longest distance between two extents along the face, as far as the box goes. */
+static double way_along(const struct scene *scene, int face, const struct extent *one,
+                        const struct extent *other)
 {
-    double nearest = INFINITY;
-    if (scene->snapshots > 0) return 0;
-    for (size_t r = 0; r < scene->receivers; r++)
-        nearest = fmin(nearest, distance(scene, face, scene->receiver[r].position));
-    for (size_t p = 0; p < scene->profiles; p++)
-        nearest = fmin(nearest, fmin(distance(scene, face, scene->profile[p].from),
-                                     distance(scene, face, scene->profile[p].to)));
-    return nearest;
+    const struct body *body = &scene->body;
+    double way = 0;
+    for (int c = 0; c < scene->dimension; c++) {
+        if (c == face / 2) continue;
+        const double low = fmax(one->low[c], body->low[c]), high = fmin(one->high[c], body->high[c]);
+        const double from = fmax(other->low[c], body->low[c]), to = fmin(other->high[c], body->high[c]);
+        way = hypot(way, fmax(0, fmax(high - from, to - low)));
+    }
+    return way;
 }
 
-double echo_path(const struct scene *scene, int face)
+/* The factor of exp(-.7 n) in (15) for one pair. */
+static double early_echo(const struct scene *scene, int face, const struct extent *acts,
+                         const struct extent *seen)
 {
-    return source_distance(scene, face) + seen_distance(scene, face);
+    const double h = scene->body.spacing;
+    const double way = acts->plane ? 0 : way_along(scene, face, acts, seen);
+    const double across = fmax(distance(scene, face, acts) + distance(scene, face, seen), h);
+    const double felt = acts->plane ? INFINITY : fmax(way, across) * static_reach;
+    const double most = fmin(felt, scene_fastest(scene) * scene->end_time);
+    return pow(fmax(1, fmin(acts->wavelength, most) / h), wavelength_power) *
+           pow(fmax(1, way / across), grazing_power);
+}
+
+struct echo {
+    double early, late, wavelength;
+};
+
+static struct echo worst_echo(const struct scene *scene, int face)
+{
+    struct echo worst = {0};
+    struct extent acts, seen;
+    double ratio = sqrt(3.);
+    for (size_t m = 0; m < scene->materials; m++)
+        ratio = fmax(ratio, scene->material[m].p_speed / scene->material[m].s_speed);
+    worst.late = late_part * pow(ratio / sqrt(3.), late_power);
+    for (size_t k = 0; scene_extent(scene, k, &acts); k++) {
+        if (acts.role != EXTENT_ACTS) continue;
+        worst.wavelength = fmax(worst.wavelength, acts.wavelength);
+        for (size_t i = 0; scene_extent(scene, i, &seen); i++)
+            if (seen.role == EXTENT_SEEN)
+                worst.early = fmax(worst.early, early_echo(scene, face, &acts, &seen));
+    }
+    return worst;
+}
+
+static double of_points(const struct scene *scene, const struct echo *echo, size_t points)
+{
+    const double n = (double)points;
+    return (scene->dimension == 3 ? in_space : in_plane) *
+           (echo->early * exp(-decay * n) + echo->late * exp(-late_decay * n));
+}
+
+double echo_of_layer(const struct scene *scene, int face, size_t points)
+{
+    const struct echo echo = worst_echo(scene, face);
+    return of_points(scene, &echo, points);
+}
+
+size_t echo_points(const struct scene *scene, int face)
+{
+    const struct echo echo = worst_echo(scene, face);
+    const double finer = coarse * scene->body.spacing / echo.wavelength;
+    const double wanted = most_wanted * fmin(1, finer);
+    size_t points = 0;
+    while (points < MOST && of_points(scene, &echo, points) > wanted)
+        points++;
+    return points;
 }

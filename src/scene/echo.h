@@ -1,12 +1,18 @@
-/* When what a face sends back can be seen. */
+/* What the faces of a box send back: when it can be seen, and how much it is expected to be
+ * (doc/absorbing-faces.md, sections 6 and 7). */
 #ifndef SELAS_SCENE_ECHO_H
 #define SELAS_SCENE_ECHO_H
 
 #include "scene/scene.h"
 
-/* Shortest way from where waves begin (the edges of loads; 0 if they begin everywhere, move or fill a face)
- * to the face of the box and on to a receiver or profile (0 if snapshots look everywhere), mirror images
- * behind an opposite symmetry plane included; >= 0, infinite without loads or without anything that looks. */
-double echo_path(const struct scene *scene, int face);
+/* False if no wave reaches the face of the box and then, `less` short of the whole way, anything that is
+ * looked at in time. Without anything that acts or anything that looks: true. */
+bool echo_seen(const struct scene *scene, int face, double less);
+
+/* Relative amplitude (of the velocity where it is looked at) of what an absorbing layer of so many points
+ * behind the face sends back, for the worst pair of what acts and what is looked at. */
+double echo_of_layer(const struct scene *scene, int face, size_t points);
+/* Points of a layer that sends back little enough beside what the spacing errs; 0 to 40. */
+size_t echo_points(const struct scene *scene, int face);
 
 #endif

@@ -1,8 +1,10 @@
 /* What the faces do: one treatment a face; a face that nobody names is free. */
 #include "base/memory.h"
+#include "scene/absorbing_layers.h"
 #include "scene/build.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Index of 'all' among the choices of boundary%face; the others are those of enum face. */
@@ -41,24 +43,49 @@ static void read_motion(struct builder *builder, const struct deck_group *group,
     take_history(builder, group, purpose, &boundary->history);
 }
 
+/* What a transmitting face has where the deck does not say. */
+static enum absorber best_absorber(const struct scene *scene)
+{
+    return layers_refusal(scene) == NULL ? ABSORBER_PML : ABSORBER_LYSMER;
+}
+
+/* Why a face with dampers takes no word of a layer. */
+static const char *dampers_purpose(const struct scene *scene, const struct deck_group *group,
+                                   char purpose[160])
+{
+    const char *why = deck_values(group, "layer") == 0 ? layers_refusal(scene) : NULL;
+    snprintf(purpose, 160, "layer 'lysmer', which has no thickness%s%s%s", why != NULL ? " (" : "",
+             why != NULL ? why : "", why != NULL ? ")" : "");
+    return purpose;
+}
+
 static void read_absorber(struct builder *builder, const struct deck_group *group, struct boundary *boundary)
 {
-    static const char *const layer_words[] = {"layer_points", "layer_reflection", "always", NULL};
+    static const char *const layer_words[] = {"layer_points", "layer_thickness", "layer_reflection", "always",
+                                              NULL};
     static const char *const factor_words[] = {"normal_factor", "shear_factor", NULL};
-    boundary->absorber =
-        deck_values(group, "layer") > 0 ? (enum absorber)deck_choice(group, "layer", 0) : ABSORBER_LYSMER;
+    char purpose[160];
+    const bool factors = deck_given(group, "normal_factor") || deck_given(group, "shear_factor");
+    boundary->absorber = factors ? ABSORBER_LYSMER : best_absorber(builder->scene);
+    if (deck_values(group, "layer") > 0) boundary->absorber = (enum absorber)deck_choice(group, "layer", 0);
     boundary->normal_factor = deck_real(group, "normal_factor", 0);
     boundary->shear_factor = deck_real(group, "shear_factor", 0);
     if (boundary->absorber == ABSORBER_LYSMER) {
-        refuse(builder, group, layer_words, "layer 'lysmer', which has no thickness");
+        refuse(builder, group, layer_words, dampers_purpose(builder->scene, group, purpose));
         return;
     }
     refuse(builder, group, factor_words, "layer 'pml'");
     boundary->always = deck_logical(group, "always", 0);
-    if (deck_given(group, "layer_points") && deck_given(group, "layer_reflection"))
-        complain(builder, group, "layer_reflection", "give layer_points or layer_reflection, not both");
-    boundary->layer_points = builder->layer_points; /* scene%accuracy; else 0 */
+    if (deck_given(group, "layer_points") + deck_given(group, "layer_thickness") +
+            deck_given(group, "layer_reflection") >
+        1)
+        complain(builder, group,
+                 deck_given(group, "layer_reflection") ? "layer_reflection" : "layer_thickness",
+                 "give one of layer_points, layer_thickness and layer_reflection");
+    boundary->least_points = builder->layer_points; /* scene%accuracy; else 0 */
     if (deck_given(group, "layer_points")) boundary->layer_points = deck_integer(group, "layer_points", 0);
+    if (deck_given(group, "layer_thickness"))
+        boundary->layer_thickness = deck_real(group, "layer_thickness", 0);
     if (deck_given(group, "layer_reflection"))
         boundary->layer_reflection = deck_real(group, "layer_reflection", 0);
 }
@@ -68,7 +95,8 @@ static void read_treatment(struct builder *builder, const struct deck_group *gro
 {
     static const char *const motion_words[] = {"direction", "slip", NULL};
     static const char *const absorber_words[] = {
-        "layer", "layer_points", "layer_reflection", "normal_factor", "shear_factor", "always", NULL};
+        "layer",         "layer_points", "layer_thickness", "layer_reflection",
+        "normal_factor", "shear_factor", "always",          NULL};
     boundary->kind = (enum boundary_kind)deck_choice(group, "kind", 0);
     boundary->normal_factor = boundary->shear_factor = 1;
     const char *purpose = kinds[boundary->kind];
@@ -142,17 +170,22 @@ static void read_boundary(struct builder *builder, size_t index)
     history_free(&treatment.history);
 }
 
-/* Sides and bottom of a half-space that the program fitted absorb, if its choice needs it and the deck does
- * not name them. */
+/* Sides and bottom of a half-space that the deck does not name absorb, but where the program fitted the box so
+ * that nothing comes back; beside what moves all the surface alike the sides are rollers. */
 static void open_sides(const struct builder *builder)
 {
     struct scene *scene = builder->scene;
     const int top = 2 * scene->dimension - 2;
+    const struct body *body = &scene->body;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         if (face == top || scene->boundary[face].given) continue;
-        scene->boundary[face].kind = BOUNDARY_TRANSMITTING;
-        scene->boundary[face].absorber = ABSORBER_PML;
-        scene->boundary[face].layer_points = builder->layer_points;
+        if (body->plane && face < top) {
+            scene->boundary[face].kind = BOUNDARY_ROLLER;
+        } else if (!body->chosen || body->absorbing) {
+            scene->boundary[face].kind = BOUNDARY_TRANSMITTING;
+            scene->boundary[face].absorber = best_absorber(scene);
+            scene->boundary[face].least_points = builder->layer_points;
+        }
     }
 }
 
@@ -162,5 +195,5 @@ void build_boundaries(struct builder *builder)
         builder->scene->boundary[face].normal_factor = builder->scene->boundary[face].shear_factor = 1;
     for (size_t i = 0; i < deck_count(builder->deck, "boundary"); i++)
         read_boundary(builder, i);
-    if (builder->scene->body.absorbing) open_sides(builder);
+    if (builder->scene->body.shape == BODY_HALF_SPACE) open_sides(builder);
 }

@@ -1,19 +1,18 @@
-/* The box of a half-space whose deck gives no low and high: the smallest that holds loads, receivers and
- * profiles with absorbing layers around it, or the one so large that nothing comes back from its faces before
- * end_time, whichever has less to compute.
- *
- * Without absorbing layers the first wave back has gone from the load's edge to the face and on to the
- * outermost receiver: (X - load) + (X - receiver) >= c_p end_time, and likewise in depth. With them the box
- * ends MARGIN points beyond what it has to hold. */
+/* The box of a half-space whose deck gives no low and high: the smallest that holds all that acts and all that
+ * is looked at (extent.h) with absorbing layers around it, or the one so large that nothing comes back from its
+ * faces while anybody looks, whichever has less to compute. What has no such box is refused. */
+#include "base/memory.h"
+#include "scene/absorbing_layers.h"
 #include "scene/build.h"
+#include "scene/echo.h"
+#include "scene/extent.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* Points between what the box holds and an absorbing layer, depth of the box in points at least, and what a
- * point of such a layer costs against one of the body (regress/studies/layer-cost; doc/performance.md,
- * section 6). */
-enum { MARGIN = 4, LEAST_DEPTH = 12, LAYER = 8 };
+/* Points between what the box holds and a layer and depth of the box in points, at least, and what a layer
+ * point costs against one of the body (regress/studies/layer-cost; doc/performance.md, section 6). */
+enum { MARGIN = 4, LEAST_DEPTH = 12 };
 static const double LAYER_COST = 2.8;
 
 struct span {
@@ -26,167 +25,334 @@ static void widen(struct span *span, double low, double high)
     span->high = fmax(span->high, high);
 }
 
-struct extents {
-    struct span load[3], place[3]; /* of the loads; of receivers and profiles */
-    bool one_centre[3]; /* all loads have the same centre along this axis and are symmetric about it */
+/* What the box has to hold. */
+struct held {
+    struct span all[3], load[3];
+    bool one_centre[3]; /* all that acts has the same centre along this axis and is symmetric about it */
     double centre[3];
+    bool plane, whole; /* all moves along the depth alone; the whole body is looked at */
+    size_t acts, seen;
 };
-
-static double component(const struct deck_group *group, const char *name, int c)
-{
-    return (size_t)c < deck_values(group, name) ? deck_real(group, name, (size_t)c) : 0.0;
-}
-
-/* Half the edge of a patch along an axis of the surface. */
-static double half_size(const struct deck_group *group, int axis)
-{
-    const size_t sizes = deck_values(group, "size");
-    if (sizes == 0) return 0.0;
-    return 0.5 * deck_real(group, "size", (size_t)axis < sizes ? (size_t)axis : sizes - 1);
-}
-
-/* Whether a load at its own centre is its mirror image across an axis of the surface. */
-static bool mirrored_across(const struct deck_group *group, int axis)
-{
-    static const int shear[2][2] = {{3, 5}, {3, 4}}; /* of xx yy zz xy yz zx */
-    if (axis > 1) return true;
-    if (deck_choice(group, "kind", 0) != LOAD_MOMENT_TENSOR)
-        return component(group, "direction", axis) == 0.0;
-    return component(group, "moment", shear[axis][0]) == 0.0 &&
-           component(group, "moment", shear[axis][1]) == 0.0;
-}
-
-static void add_loads(const struct builder *builder, struct extents *extents)
-{
-    const int dimension = builder->scene->dimension;
-    for (size_t k = 0; k < deck_count(builder->deck, "load"); k++) {
-        const struct deck_group *group = deck_get(builder->deck, "load", k);
-        double low[3], high[3];
-        const bool many = sources_span(builder, group, low, high);
-        for (int c = 0; c < dimension && many; c++) {
-            const double centre = .5 * (low[c] + high[c]);
-            extents->one_centre[c] = false;
-            extents->centre[c] = centre;
-            widen(&extents->load[c], low[c], high[c]);
-        }
-        for (int c = 0; c < dimension && !many; c++) {
-            const double centre = component(group, "centre", c);
-            const double path = component(group, "velocity", c) * builder->scene->end_time;
-            const double half = c < dimension - 1 ? half_size(group, c) : 0.0;
-            if (k > 0 && centre != extents->centre[c]) extents->one_centre[c] = false;
-            if (path != 0.0 || !mirrored_across(group, c)) extents->one_centre[c] = false;
-            extents->centre[c] = centre;
-            widen(&extents->load[c], fmin(centre, centre + path) - half, fmax(centre, centre + path) + half);
-        }
-    }
-}
-
-static void add_places(const struct builder *builder, const char *kind, const char *name,
-                       struct extents *extents)
-{
-    for (size_t k = 0; k < deck_count(builder->deck, kind); k++) {
-        const struct deck_group *group = deck_get(builder->deck, kind, k);
-        for (int c = 0; c < builder->scene->dimension; c++)
-            widen(&extents->place[c], component(group, name, c), component(group, name, c));
-    }
-}
-
-static struct extents find_extents(const struct builder *builder)
-{
-    struct extents extents;
-    for (int c = 0; c < 3; c++) {
-        extents.load[c] = extents.place[c] = (struct span){INFINITY, -INFINITY};
-        extents.one_centre[c] = true;
-        extents.centre[c] = 0.0;
-    }
-    add_loads(builder, &extents);
-    add_places(builder, "receiver", "position", &extents);
-    add_places(builder, "profile", "from", &extents);
-    add_places(builder, "profile", "to", &extents);
-    for (int c = 0; c < 3; c++) /* without places the loads are what counts, and the other way round */
-        if (extents.place[c].low > extents.place[c].high)
-            extents.place[c] = extents.load[c];
-        else if (extents.load[c].low > extents.load[c].high)
-            extents.load[c] = extents.place[c];
-    return extents;
-}
 
 static double deepest_layer(const struct builder *builder)
 {
     double depth = 0.0;
     for (size_t k = 0; k < deck_count(builder->deck, "layer"); k++)
-        depth = fmax(depth, component(deck_get(builder->deck, "layer", k), "top", 0));
+        depth = fmax(depth, deck_real(deck_get(builder->deck, "layer", k), "top", 0));
     return depth;
 }
 
-/* Box on the lattice of the first load's centre. Symmetric about it where one load, or several on one centre,
- * allow mirror planes. */
-static double fit(const struct builder *builder, const struct extents *extents, bool layers,
-                  struct span box[3])
+/* --- What has a box ------------------------------------------------------------------------------------- */
+
+static bool refuse_box(struct builder *builder, const char *group, size_t index, const char *name,
+                       const char *why)
 {
-    const struct scene *scene = builder->scene;
-    const double dx = scene->body.spacing;
-    const double reach = scene_fastest(scene) * scene->end_time;
-    const int down = scene->dimension - 1;
-    double points = 1.0;
-    double with_layers = 1.0;
-    for (int c = 0; c < scene->dimension; c++) {
-        const struct span load = extents->load[c];
-        const struct span place = extents->place[c];
-        const double high = fmax(load.high, place.high);
-        const double low = fmin(load.low, place.low);
-        double above = layers ? high + MARGIN * dx : fmax(0.5 * (reach + load.high + place.high), high + dx);
-        double below = layers ? low - MARGIN * dx : fmin(0.5 * (load.low + place.low - reach), low - dx);
-        if (c == down) {
-            if (layers) above = fmax(fmax(above, LEAST_DEPTH * dx), deepest_layer(builder) + MARGIN * dx);
-            box[c] = (struct span){0.0, ceil(above / dx - 1e-6) * dx};
-        } else {
-            const double centre = extents->centre[c];
-            double up = ceil((above - centre) / dx - 1e-6);
-            double back = ceil((centre - below) / dx - 1e-6);
-            if (extents->one_centre[c]) up = back = fmax(up, back);
-            box[c] = (struct span){centre - back * dx, centre + up * dx};
-        }
-        const double count = (box[c].high - box[c].low) / dx + 1.0;
-        points *= count;
-        with_layers *= count + (c == down ? LAYER : 2 * LAYER);
+    complain(builder, deck_get(builder->deck, group, index), name,
+             "%s; give the box of the half-space (body%%low and high) and say what its faces do", why);
+    return false;
+}
+
+/* Faces of a box that the program chooses stand anywhere: only those that let waves out may be named, and beside
+ * what acts alike all over the surface, whose waves run along the sides, rollers. */
+static bool faces_fit(struct builder *builder, const struct scene *sketch, bool plane)
+{
+    const int top = 2 * sketch->dimension - 2;
+    for (int face = 0; face < 2 * sketch->dimension; face++) {
+        const struct boundary *boundary = &sketch->boundary[face];
+        const bool beside = plane && face < top;
+        if (face == top || !boundary->given) continue;
+        if (beside ? boundary->kind == BOUNDARY_ROLLER : boundary_absorbs(boundary)) continue;
+        char why[160];
+        snprintf(why, sizeof why,
+                 beside
+                     ? "what acts all over the surface sends waves along face '%s', where only a roller lets "
+                       "them pass"
+                     : "the place of face '%s' is not known, and what this one does depends on it",
+                 face_name((enum face)face));
+        return refuse_box(builder, "boundary", boundary->group, "kind", why);
     }
-    return layers ? with_layers + (LAYER_COST - 1.0) * (with_layers - points) : points;
+    return true;
+}
+
+/* Everything that acts has a place, or acts alike all over the surface and nothing else does. */
+static bool sources_fit(struct builder *builder, const struct scene *sketch, const struct held *held)
+{
+    struct extent extent;
+    for (size_t i = 0; scene_extent(sketch, i, &extent); i++) {
+        if (extent.role != EXTENT_ACTS) continue;
+        if (held->plane && !extent.plane)
+            return refuse_box(
+                builder, extent.group, extent.index, NULL,
+                "this one has a place, beside others that act all over the surface: no sides are "
+                "right for both");
+        if (!extent.plane && isinf(extent.low[0]))
+            return refuse_box(
+                builder, extent.group, extent.index, NULL,
+                "what acts here has no end, and is not alike all over the surface along its normal, "
+                "where rollers at the sides would do");
+    }
+    return true;
+}
+
+static void add(struct held *held, const struct extent *extent, int dimension)
+{
+    held->acts += extent->role == EXTENT_ACTS;
+    held->seen += extent->role == EXTENT_SEEN;
+    if (extent->role == EXTENT_SEEN && isinf(extent->low[0])) held->whole = true;
+    if (extent->role == EXTENT_ACTS && extent->plane) held->plane = true;
+    for (int c = 0; c < dimension; c++) {
+        if (isinf(extent->low[c])) continue;
+        widen(&held->all[c], extent->low[c], extent->high[c]);
+        if (extent->role != EXTENT_ACTS) continue;
+        const double centre = 0.5 * (extent->low[c] + extent->high[c]);
+        const bool first = held->load[c].low > held->load[c].high;
+        if (extent->skew[c]) held->one_centre[c] = false;
+        if (first)
+            held->centre[c] = centre;
+        else if (fabs(centre - held->centre[c]) > 1e-9 * (1 + fabs(centre)))
+            held->one_centre[c] = false;
+        widen(&held->load[c], extent->low[c], extent->high[c]);
+    }
+}
+
+static struct held find_held(const struct scene *sketch)
+{
+    struct held held = {0};
+    struct extent extent;
+    for (int c = 0; c < 3; c++) {
+        held.all[c] = held.load[c] = (struct span){INFINITY, -INFINITY};
+        held.one_centre[c] = true;
+    }
+    for (size_t i = 0; scene_extent(sketch, i, &extent); i++)
+        if (extent.role != EXTENT_IDLE) add(&held, &extent, sketch->dimension);
+    for (int c = 0; c < 3; c++)
+        if (held.all[c].low > held.all[c].high) held.all[c] = (struct span){0, 0};
+    if (held.plane) /* whatever the width, the waves are the same */
+        for (int c = 0; c < sketch->dimension - 1; c++)
+            held.centre[c] = 0.5 * (held.all[c].low + held.all[c].high);
+    return held;
+}
+
+/* --- Two boxes ------------------------------------------------------------------------------------------ */
+
+/* Puts the box on the lattice of the first load's centre, symmetric about it where all have one centre, which
+ * allows mirror planes. */
+static void put(const struct scene *scene, const struct held *held, const struct span want[3],
+                struct body *body)
+{
+    const double dx = scene->body.spacing;
+    const int down = scene->dimension - 1;
+    for (int c = 0; c < scene->dimension; c++) {
+        const double centre = c == down ? 0 : held->centre[c];
+        double up = ceil((want[c].high - centre) / dx - 1e-6);
+        double back = c == down ? 0 : ceil((centre - want[c].low) / dx - 1e-6);
+        if (c != down && held->one_centre[c]) up = back = fmax(up, back);
+        body->low[c] = centre - back * dx;
+        body->high[c] = centre + up * dx;
+    }
+}
+
+/* Work as for so many points; layers: those of the faces, as the scene has them. */
+static double cost(const struct scene *scene)
+{
+    const struct body *body = &scene->body;
+    double points = 1.0, all = 1.0;
+    for (int c = 0; c < scene->dimension; c++) {
+        const double count = (body->high[c] - body->low[c]) / body->spacing + 1.0;
+        points *= count;
+        all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
+    }
+    return all + (LAYER_COST - 1.0) * (all - points);
+}
+
+/* So large that nothing comes back: (X - load) + (X - seen) >= c_p (until - from) for all pairs. */
+static void fit_large(const struct builder *builder, const struct held *held, struct scene *sketch)
+{
+    const double dx = sketch->body.spacing, speed = scene_fastest(sketch);
+    const int down = sketch->dimension - 1;
+    struct span want[3] = {{0, 0}};
+    struct extent seen, acts;
+    for (int c = 0; c < sketch->dimension; c++)
+        want[c] = (struct span){held->all[c].low - dx, held->all[c].high + dx};
+    want[down].high = fmax(want[down].high, deepest_layer(builder) + MARGIN * dx);
+    for (size_t i = 0; scene_extent(sketch, i, &seen); i++)
+        for (size_t k = 0; seen.role == EXTENT_SEEN && scene_extent(sketch, k, &acts); k++)
+            for (int c = 0; acts.role == EXTENT_ACTS && c < sketch->dimension; c++) {
+                const double reach = speed * (seen.until - acts.from);
+                if (isinf(seen.low[c]) || (held->plane && c < down)) continue;
+                const double above = isinf(acts.high[c]) ? 0 : acts.high[c];
+                const double below = isinf(acts.low[c]) ? 0 : acts.low[c];
+                widen(&want[c], 0.5 * (below + seen.low[c] - reach), 0.5 * (above + seen.high[c] + reach));
+            }
+    put(sketch, held, want, &sketch->body);
+}
+
+/* With absorbing layers: the cheapest of some distances, since layers nearer by have to be thicker. */
+static double fit_small(const struct builder *builder, const struct held *held, struct scene *sketch)
+{
+    enum { TRIES = 12 };
+    static const double wider = 1.25;
+    const double dx = sketch->body.spacing;
+    const int down = sketch->dimension - 1;
+    double factor = 1.0, least = INFINITY;
+    struct body best = sketch->body;
+    for (int face = 0; face < 2 * sketch->dimension; face++) {
+        struct boundary *boundary = &sketch->boundary[face];
+        if (face == 2 * down || boundary->given) continue;
+        boundary->kind = held->plane && face < 2 * down ? BOUNDARY_ROLLER : BOUNDARY_TRANSMITTING;
+        boundary->absorber = ABSORBER_PML;
+        boundary->least_points = builder->layer_points;
+    }
+    for (int i = 0; i < TRIES; i++, factor *= wider) {
+        struct span want[3] = {{0, 0}};
+        for (int c = 0; c < sketch->dimension; c++) {
+            const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * dx;
+            want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
+        }
+        want[down].high =
+            fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx), deepest_layer(builder) + MARGIN * dx);
+        put(sketch, held, want, &sketch->body);
+        const double here = cost(sketch);
+        if (here < least) best = sketch->body;
+        least = fmin(least, here);
+    }
+    sketch->body = best;
+    return least;
+}
+
+static void keep(const struct body *found, const struct held *held, bool absorbing, struct body *body)
+{
+    body->chosen = true;
+    body->absorbing = absorbing;
+    body->plane = held->plane;
+    for (int c = 0; c < 3; c++) {
+        body->low[c] = found->low[c];
+        body->high[c] = found->high[c];
+    }
+}
+
+static bool choose(struct builder *builder, const struct deck_group *group, struct scene *sketch)
+{
+    const struct held held = find_held(sketch);
+    struct body *body = &builder->scene->body;
+    const char *why = layers_refusal(sketch);
+    if (held.acts + held.seen == 0) {
+        complain(builder, group, NULL,
+                 "a half-space without low and high is fitted around loads and receivers: give some");
+        return false;
+    }
+    if (!faces_fit(builder, sketch, held.plane) || !sources_fit(builder, sketch, &held)) return false;
+    for (int face = 0; face < 2 * sketch->dimension; face++)
+        if (sketch->boundary[face].given && boundary_damps(&sketch->boundary[face]))
+            why = why != NULL ? why : "the deck asks for dampers";
+    fit_large(builder, &held, sketch);
+    const struct body large = sketch->body;
+    const double large_cost = held.whole ? INFINITY : cost(sketch);
+    const double small_cost = why == NULL ? fit_small(builder, &held, sketch) : INFINITY;
+    if (isinf(small_cost) && isinf(large_cost)) {
+        char text[200];
+        snprintf(text, sizeof text,
+                 "the whole body is looked at, faces and all, and %s; give &snapshot a region", why);
+        return refuse_box(builder, "body", 0, NULL, text);
+    }
+    keep(small_cost < large_cost ? &sketch->body : &large, &held, small_cost < large_cost, body);
+    if (body->absorbing)
+        snprintf(body->choice, sizeof body->choice,
+                 "absorbing layers around a small box: work as for %.3g points, against %.3g in a box so "
+                 "large that "
+                 "nothing returns before end_time",
+                 small_cost, large_cost);
+    else
+        snprintf(body->choice, sizeof body->choice,
+                 "so large that nothing returns to what is looked at: %.3g points%s%s", large_cost,
+                 why != NULL ? "; " : ", less work than with absorbing layers", why != NULL ? why : "");
+    return true;
+}
+
+/* The scene as far as it can be read without its box: what acts, what is looked at, what faces do. */
+static bool sketch_scene(const struct builder *builder, struct scene *sketch)
+{
+    struct messages unsaid = {0}; /* the scene itself complains of all that is wrong */
+    const struct scene *scene = builder->scene;
+    struct builder drawing = *builder;
+    drawing.scene = sketch;
+    drawing.messages = &unsaid;
+    drawing.status = SELAS_OK;
+    drawing.body_known = false;
+    sketch->deck = scene->deck;
+    sketch->dimension = scene->dimension;
+    sketch->end_time = scene->end_time;
+    sketch->materials = scene->materials;
+    sketch->material = scene->material;
+    sketch->method = scene->method;
+    sketch->stepping = scene->stepping;
+    sketch->body.shape = BODY_HALF_SPACE;
+    sketch->body.spacing = scene->body.spacing;
+    body_set_frame(&sketch->body);
+    build_boundaries(&drawing);
+    for (int face = 0; face < FACES; face++) /* those that nobody named are opened when the box is known */
+        if (!sketch->boundary[face].given) sketch->boundary[face].kind = BOUNDARY_FREE;
+    build_loads(&drawing);
+    build_initial(&drawing);
+    build_receivers(&drawing);
+    build_profiles(&drawing);
+    build_snapshots(&drawing);
+    messages_free(&unsaid);
+    return drawing.status == SELAS_OK;
 }
 
 bool choose_half_space(struct builder *builder, const struct deck_group *group)
 {
     struct scene *scene = builder->scene;
-    struct body *body = &scene->body;
-    if (deck_count(builder->deck, "load") + deck_count(builder->deck, "receiver") == 0) {
-        complain(builder, group, NULL,
-                 "a half-space without low and high is fitted around loads and receivers: give some");
-        return false;
-    }
-    if (scene->materials == 0 || !take_spacing(builder, group, &body->spacing))
+    if (scene->materials == 0 || !take_spacing(builder, group, &scene->body.spacing))
         return false; /* complained of elsewhere */
-    const struct extents extents = find_extents(builder);
-    struct span small[3];
-    struct span large[3];
-    const double small_cost = fit(builder, &extents, true, small);
-    const double large_cost = fit(builder, &extents, false, large);
-    body->chosen = true;
-    body->absorbing = small_cost < large_cost;
-    for (int c = 0; c < scene->dimension; c++) {
-        const struct span *box = body->absorbing ? small : large;
-        body->low[c] = box[c].low;
-        body->high[c] = box[c].high;
-    }
-    if (body->absorbing)
-        snprintf(body->choice, sizeof body->choice,
-                 "absorbing layers around a small box: work as for %.3g points, against %.3g in a box so "
-                 "large that nothing "
-                 "returns before end_time",
-                 small_cost, large_cost);
-    else
-        snprintf(body->choice, sizeof body->choice,
-                 "so large that nothing returns before end_time: %.3g points, against work as for %.3g with "
-                 "absorbing layers",
-                 large_cost, small_cost);
-    return true;
+    if (deck_given(group, "rotation"))
+        return refuse_box(builder, "body", 0, "rotation", "a body turns about the middle of its box");
+    struct scene *sketch = scene_array(builder, 1, sizeof *sketch);
+    if (sketch == NULL) return false;
+    const bool drawn = sketch_scene(builder, sketch);
+    const bool right = drawn && choose(builder, group, sketch);
+    sketch->materials = 0;
+    sketch->material = NULL; /* the scene's */
+    scene_free(&sketch);
+    return right;
+}
+
+/* --- A box that the deck gives ------------------------------------------------------------------------- */
+
+/* Waves from all over the surface, or the body, run along the sides: rollers let those along the depth pass,
+ * nothing the others. */
+static void check_sides(struct builder *builder, const struct extent *extent)
+{
+    const struct scene *scene = builder->scene;
+    const int sides = 2 * scene->dimension - 2;
+    bool slide = true;
+    for (int face = 0; face < sides; face++)
+        slide = slide && boundary_slides(&scene->boundary[face]);
+    if (extent->role != EXTENT_ACTS || !isinf(extent->low[0]) || (extent->plane && slide)) return;
+    complain(builder, deck_get(builder->deck, extent->group, extent->index), NULL,
+             extent->plane
+                 ? "what acts all over a half-space sends waves along its sides, where only rollers let "
+                   "them pass: say &boundary kind = 'roller' of them"
+                 : "what acts here has no end, and the sides of a half-space have no place for it; a "
+                   "body of shape 'box' has sides of its own");
+}
+
+void check_half_space(struct builder *builder)
+{
+    const struct scene *scene = builder->scene;
+    struct extent extent;
+    bool damped = false;
+    if (scene->body.shape != BODY_HALF_SPACE || scene->body.chosen || builder->status != SELAS_OK) return;
+    for (size_t i = 0; scene_extent(scene, i, &extent); i++)
+        check_sides(builder, &extent);
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        damped = damped || (!scene->boundary[face].given && boundary_damps(&scene->boundary[face]));
+    if (damped)
+        deck_warning(
+            builder->deck, deck_get(builder->deck, "body", 0), "low", builder->messages,
+            "the faces of the half-space that no &boundary names have dampers, which send back a good part "
+            "of the waves that meet them askew (%s); without low and high the program chooses a box from "
+            "which nothing returns",
+            layers_refusal(scene));
 }

@@ -45,12 +45,66 @@ static void gaussian(const struct initial *initial, const double position[3], do
         displacement[c] = initial->amplitude * exp(-square / 2) * initial->direction[c];
 }
 
-double beam_mode(double x, double length)
+/* Held along y and free along x? */
+static bool supported(const struct scene *scene, enum face face)
 {
-    const double k = BEAM_MODE_ROOT, kx = k * x / length;
+    const struct boundary *boundary = &scene->boundary[face];
+    double own[3];
+    if (!boundary_moves(boundary)) return false;
+    body_direction_from_deck(&scene->body, boundary->direction, own);
+    return boundary->slip && boundary->amplitude == 0 && fabs(fabs(own[1]) - 1) < 1e-9;
+}
+
+enum beam_ends beam_ends_of(const struct scene *scene)
+{
+    const struct boundary *low = &scene->boundary[FACE_X_LOW], *high = &scene->boundary[FACE_X_HIGH];
+    if (boundary_is_fixed(low) && boundary_is_free(high)) return BEAM_CLAMPED_FREE;
+    if (boundary_is_fixed(low) && boundary_is_fixed(high)) return BEAM_CLAMPED_CLAMPED;
+    if (boundary_is_free(low) && boundary_is_free(high)) return BEAM_FREE_FREE;
+    return supported(scene, FACE_X_LOW) && supported(scene, FACE_X_HIGH) ? BEAM_SIMPLY_SUPPORTED : BEAM_ENDS;
+}
+
+const char *beam_ends_name(enum beam_ends ends)
+{
+    static const char *const name[] = {"clamped-free", "clamped-clamped", "simply supported", "free-free"};
+    return name[ends];
+}
+
+double beam_mode_root(enum beam_ends ends)
+{
+    static const double root[] = {1.8751040687119611664, 4.7300407448627040260, M_PI, 4.7300407448627040260};
+    return root[ends];
+}
+
+static double clamped_free(double k, double kx, double slope, int derivative)
+{
     const double m = sin(k) + sinh(k), n = cos(k) + cosh(k);
     const double q = 2 * (cos(k) * sinh(k) - sin(k) * cosh(k));
-    return (m * (cos(kx) - cosh(kx)) - n * (sin(kx) - sinh(kx))) / q;
+    if (derivative == 0) return (m * (cos(kx) - cosh(kx)) - n * (sin(kx) - sinh(kx))) / q;
+    return slope * (-m * (sin(kx) + sinh(kx)) - n * (cos(kx) - cosh(kx))) / q;
+}
+
+/* cosh z - sign cos z - s (sinh z - sign sin z), or its derivative: sign 1 has clamped ends, -1 free ones. */
+static double both_ends(double k, double z, double sign, int derivative)
+{
+    const double s = (cosh(k) - cos(k)) / (sinh(k) - sin(k));
+    if (derivative == 0) return cosh(z) - sign * cos(z) - s * (sinh(z) - sign * sin(z));
+    return sinh(z) + sign * sin(z) - s * (cosh(z) - sign * cos(z));
+}
+
+double beam_mode(enum beam_ends ends, double x, double length, int derivative)
+{
+    const double k = beam_mode_root(ends), z = k * x / length, slope = derivative == 0 ? 1 : k / length;
+    switch (ends) {
+    case BEAM_CLAMPED_CLAMPED:
+        return slope * both_ends(k, z, 1, derivative) / both_ends(k, k / 2, 1, 0);
+    case BEAM_FREE_FREE:
+        return slope * both_ends(k, z, -1, derivative) / both_ends(k, 0, -1, 0);
+    case BEAM_SIMPLY_SUPPORTED:
+        return slope * (derivative == 0 ? sin(z) : cos(z));
+    default:
+        return clamped_free(k, z, slope, derivative);
+    }
 }
 
 static void beam_velocity(const struct scene *scene, const double position[3], double velocity[3])
@@ -60,7 +114,7 @@ static void beam_velocity(const struct scene *scene, const double position[3], d
     double place[3], own[3] = {0, 0, 0};
     body_from_deck(body, position, place);
     own[1] = scene->initial.amplitude * sqrt(material->young / material->density) *
-             beam_mode(place[0] - body->low[0], body->high[0] - body->low[0]);
+             beam_mode(beam_ends_of(scene), place[0] - body->low[0], body->high[0] - body->low[0], 0);
     body_direction_to_deck(body, own, velocity);
 }
 

@@ -6,8 +6,8 @@
  *                     train: F(s) = sin(2 pi s / wavelength); pulse: F(s) = exp(-s^2 / (2 width^2));
  *                     c and p: p_speed and n (P), s_speed and a unit vector across n (S)
  *   gaussian          u = A d exp(-|x - centre|^2 / (2 width^2)), v = 0
- *   beam-mode         u = 0, v = A c0 e_y [M (cos kx - cosh kx) - N (sin kx - sinh kx)] / Q
- *                     (He & Seaid 2016, Eq 30; x and y in the body's frame, x from its x- face) */
+ *   beam-mode         u = 0, v = A c0 e_y f(x), f the first bending mode of Euler and Bernoulli's beam with the ends
+ *                     of the scene; x and y in the body's frame, x from its x- face */
 #ifndef SELAS_INITIAL_H
 #define SELAS_INITIAL_H
 
@@ -22,11 +22,25 @@ double plane_wave_shape(const struct initial *initial, double s, int derivative)
 /* Speed c of the plane wave in the body's material. */
 double plane_wave_speed(const struct scene *scene);
 
-/* Shape of a clamped-free beam's first bending mode at distance x from the clamp: the bracket of He & Seaid's
- * Eq 30 over Q; 0 at x = 0, 1 at x = length. */
-double beam_mode(double x, double length);
+/* How a beam is held at its faces x- and x+. */
+enum beam_ends {
+    BEAM_CLAMPED_FREE,     /* x- fixed, x+ free */
+    BEAM_CLAMPED_CLAMPED,  /* both fixed */
+    BEAM_SIMPLY_SUPPORTED, /* both held across the beam (along y) and free along it */
+    BEAM_FREE_FREE,
+    BEAM_ENDS /* none of these */
+};
+enum beam_ends beam_ends_of(const struct scene *scene);
+/* "clamped-free", ... */
+const char *beam_ends_name(enum beam_ends ends);
 
-/* kappa L of that mode: the smallest positive root of cos(k) cosh(k) = -1. */
-#define BEAM_MODE_ROOT 1.8751040687119611664
+/* Shape of the first bending mode at distance x from the face x- (derivative 0), or its slope (1). Clamped-free: the
+ * bracket of He & Seaid's Eq 30 over Q, 1 at x = length; the others (Blevins 1979, Table 8-1) are 1 in the middle or,
+ * free-free, at the ends. */
+double beam_mode(enum beam_ends ends, double x, double length, int derivative);
+
+/* kappa L of that mode: the smallest positive root of cos(k) cosh(k) = -1 (clamped-free), cos(k) cosh(k) = 1 (clamped-
+ * clamped and free-free), sin(k) = 0. */
+double beam_mode_root(enum beam_ends ends);
 
 #endif

@@ -99,23 +99,3 @@ void read_sources(struct builder *builder, const struct deck_group *group,
         if (!set_source(builder, group, i + 1, &sources->source[i], &load[i])) return;
     }
 }
-
-bool sources_span(const struct builder *builder, const struct deck_group *group, double low[3],
-                  double high[3])
-{
-    if (!deck_given(group, "sources")) return false;
-    struct messages said = {0}; /* what is wrong is said when the loads are built */
-    struct builder silent = {.deck = builder->deck, .scene = builder->scene, .messages = &said};
-    struct point_sources sources =
-        take_sources(&silent, group, (enum load_kind)deck_choice(group, "kind", 0));
-    for (size_t i = 0; i < sources.count; i++)
-        for (int c = 0; c < 3; c++) {
-            const double at = sources.source[i].position[c];
-            low[c] = i == 0 ? at : fmin(low[c], at);
-            high[c] = i == 0 ? at : fmax(high[c], at);
-        }
-    const bool any = sources.count > 0;
-    point_sources_free(&sources);
-    messages_free(&said);
-    return any;
-}

@@ -32,8 +32,34 @@ static void read_size(struct builder *builder, const struct deck_group *group, s
         load->size[i] = deck_real(group, "size", i);
 }
 
+static double half_patch(const struct load *load, int edge)
+{
+    if (load->shape == LOAD_POINT) return 0;
+    return load->size[load->shape == LOAD_DISC ? 0 : edge] / 2;
+}
+
+/* Does a moving patch, now at `place` of the body's frame, come over the face before the end? */
+static bool comes_by(const struct builder *builder, const struct load *load, const double place[3])
+{
+    const struct body *body = &builder->scene->body;
+    double velocity[3], from = 0, to = builder->scene->end_time;
+    int axes[2];
+    const int count = axes_of_face(load->face, builder->scene->dimension, axes);
+    body_direction_from_deck(body, load->velocity, velocity);
+    for (int i = 0; i < count; i++) {
+        const int axis = axes[i];
+        const double half = half_patch(load, i), speed = velocity[axis];
+        const double low = body->low[axis] - half - place[axis], high = body->high[axis] + half - place[axis];
+        if (speed == 0 && (low > 0 || high < 0)) return false;
+        if (speed == 0) continue;
+        from = fmax(from, speed > 0 ? low / speed : high / speed);
+        to = fmin(to, speed > 0 ? high / speed : low / speed);
+    }
+    return from < to;
+}
+
 /* The centre must lie in the plane of the face, where it is then put exactly, and the patch must cover some
- * of the face. */
+ * of the face, if it moves at some time. */
 static void place_patch(struct builder *builder, const struct deck_group *group, struct load *load)
 {
     const struct body *body = &builder->scene->body;
@@ -57,7 +83,9 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
         beyond[i] = fmax(0, fmax(body->low[axes[i]] - place[axes[i]], place[axes[i]] - body->high[axes[i]]));
     const double tolerance = body_tolerance(body);
     bool misses = false;
-    if (load->shape == LOAD_POINT)
+    if (load_moves(load))
+        misses = !comes_by(builder, load, place);
+    else if (load->shape == LOAD_POINT)
         misses = hypot(beyond[0], beyond[1]) > tolerance;
     else if (load->shape == LOAD_DISC)
         misses = hypot(beyond[0], beyond[1]) >= load->size[0] / 2 - tolerance;
@@ -66,7 +94,8 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
             misses = misses || beyond[i] >= load->size[i] / 2 - tolerance;
     if (misses)
         complain(builder, group, "centre",
-                 "the load lies beyond the face '%s'; no part of it acts on the body", face_name(load->face));
+                 "the load lies beyond the face '%s'%s; no part of it acts on the body",
+                 face_name(load->face), load_moves(load) ? " until the end of the run" : "");
 }
 
 static void read_velocity(struct builder *builder, const struct deck_group *group, struct load *load)
@@ -106,11 +135,12 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
     const int dimension = builder->scene->dimension;
     bool known = builder->body_known;
     if (deck_values(group, "face") == 0) {
-        complain(builder, group, NULL, "a traction needs face: x-, x+, y-, y+, z- or z+");
+        complain(builder, group, NULL, "a traction needs face: x-, x+, y-, y+, z-, z+ or hole");
         return;
     }
     load->face = (enum face)deck_choice(group, "face", 0);
-    if (load->face == FACE_HOLE || face_axis(load->face) >= dimension) {
+    const bool hole = load->face == FACE_HOLE && builder->scene->body.shape == BODY_PLATE_WITH_HOLE;
+    if (!hole && (load->face == FACE_HOLE || face_axis(load->face) >= dimension)) {
         complain(builder, group, "face", "no traction can act on a face '%s' of this body",
                  face_name(load->face));
         return;
@@ -121,9 +151,14 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
     }
     load->shape = LOAD_FACE; /* the end of a bar in 1D is a whole face whatever the shape */
     if (dimension > 1) load->shape = (enum load_shape)deck_choice(group, "shape", 0);
+    if (hole && load->shape != LOAD_FACE) {
+        complain(builder, group, "shape", "a traction on the hole acts on all of it; expected 'face'");
+        return;
+    }
+    read_velocity(builder, group, load);
     if (load->shape == LOAD_FACE) {
         refuse(builder, group, patch_words, dimension == 1 ? "a traction in 1D" : "shape 'face'");
-        if (known) { /* for those who want one: the middle of the face */
+        if (known && !hole) { /* for those who want one: the middle of the face */
             const struct body *body = &builder->scene->body;
             double middle[3] = {body->pivot[0], body->pivot[1], body->pivot[2]};
             middle[face_axis(load->face)] = face_plane(body, load->face);
@@ -137,9 +172,8 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
             read_size(builder, group, load);
         if (known) place_patch(builder, group, load);
     }
-    read_velocity(builder, group, load);
     if (need_direction(builder, group, "direction", kinds[load->kind], load->direction) &&
-        builder->body_known)
+        builder->body_known && !hole)
         warn_of_held_face(builder, group, load);
 }
 

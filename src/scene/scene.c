@@ -184,6 +184,7 @@ selas_status scene_build(const struct deck *deck, const struct scene_choice *cho
     build_receivers(&builder);
     build_profiles(&builder);
     build_snapshots(&builder);
+    check_half_space(&builder);
     if (choice != NULL) {
         choice->check(&builder);
         (*scene)->method.degree = choice->degree;

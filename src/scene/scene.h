@@ -56,6 +56,7 @@ struct body {
     struct layer *layer;
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
+    bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
@@ -73,7 +74,7 @@ struct load {
                        diameter */
     double direction[3]; /* unit vector */
     double amplitude;    /* traction (force per area; force if POINT); body force: per volume, over the body
-                            (FACE shape),    or a force at `centre` (POINT); moment tensor: scale of `moment` */
+                            (FACE shape), or a force at `centre` (POINT); moment tensor: scale of `moment` */
     double moment[6];    /* xx yy zz xy yz zx */
     double velocity[3];  /* of a moving patch; 0 = at rest */
     struct history history;
@@ -165,7 +166,7 @@ struct scene {
     struct body body;
     struct boundary boundary[FACES];
     size_t loads;
-    struct load *load;
+    struct load *load; /* the deck's in its order; behind them the pieces of those that a host drives */
     size_t receivers;
     struct receiver *receiver;
     size_t profiles;
@@ -183,7 +184,7 @@ struct scene {
 struct builder;
 struct scene_choice {
     double spacing;     /* 0: a first guess */
-    long layer_points;  /* of absorbing layers, where there are any; 0: the default */
+    long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
     int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
     const char *scheme; /* NULL: as without */
     double courant;     /* 0: the default step */
@@ -235,8 +236,7 @@ static inline bool load_moves(const struct load *load)
     return load->velocity[0] != 0 || load->velocity[1] != 0 || load->velocity[2] != 0;
 }
 
-/* questions.c. Is a component (0, 1, 2, of the body's frame) of the displacement at rest or moved on a face?
- */
+/* questions.c. Is a component (0, 1, 2, of the body's frame) at rest or moved on a face? */
 bool face_holds(const struct scene *scene, enum face face, int component);
 /* CAN_... of all faces together. */
 unsigned scene_needs(const struct scene *scene);
@@ -245,10 +245,10 @@ selas_status scene_check_faces(const struct scene *scene, unsigned can, const ch
                                struct messages *messages);
 bool scene_loads_move(const struct scene *scene); /* any of them */
 bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
-/* Part of a point source at a place (body's frame) that the body carries: a half for each symmetry plane that it
- * lies in. */
+double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
+/* Part of a point source at a place (body's frame) that the body carries: a half for each symmetry plane in
+ * which it lies. */
 double scene_carries(const struct scene *scene, const double place[3]);
-double scene_fastest(const struct scene *scene); /* speed of P waves in the fastest material */
 
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);

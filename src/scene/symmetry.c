@@ -120,8 +120,9 @@ static bool faces_are_symmetric(const struct scene *scene, int axis)
     if (low->kind != high->kind || boundary_moves(low)) return false;
     if (boundary_absorbs(low) &&
         (low->absorber != high->absorber || low->layer_points != high->layer_points ||
-         low->layer_reflection != high->layer_reflection || low->always != high->always ||
-         low->normal_factor != high->normal_factor || low->shear_factor != high->shear_factor))
+         low->layer_thickness != high->layer_thickness || low->layer_reflection != high->layer_reflection ||
+         low->always != high->always || low->normal_factor != high->normal_factor ||
+         low->shear_factor != high->shear_factor))
         return false;
     for (int face = 0; face < BOX_FACES; face++) {
         if (!boundary_moves(&scene->boundary[face])) continue;

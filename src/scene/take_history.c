@@ -47,16 +47,42 @@ static bool take_table(struct builder *builder, const struct deck_group *group, 
     return status == SELAS_OK;
 }
 
-/* Values before t = 0 are cut off: a pulse that begins earlier starts with a jump. */
-static void warn_of_cut(struct builder *builder, const struct deck_group *group,
-                        const struct history *history)
+/* Before its first row a table is 0, after its last one it holds the last value: the plan says so of each. What is
+ * hardly meant is a jump after t = 0, and a last value that is small beside the largest but not 0. */
+static void warn_of_table(struct builder *builder, const struct deck_group *group,
+                          const struct history *history)
 {
+    static const double small = .1;
+    const size_t last = history->rows - 1;
+    const double held = history->table_value[last];
+    double largest = 0;
+    for (size_t i = 0; i <= last; i++)
+        largest = fmax(largest, fabs(history->table_value[i]));
+    if (history->table_time[0] > 0 && fabs(history->table_value[0]) > 1e-3 * largest)
+        deck_warning(builder->deck, group, "file", builder->messages,
+                     "the table begins at t = %.6g with %.6g; before that the history is 0, so that it jumps "
+                     "there; a row before it with the value 0 would let it begin smoothly",
+                     history->table_time[0], history->table_value[0]);
+    if (held != 0 && fabs(held) < small * largest && history->table_time[last] < builder->scene->end_time)
+        deck_warning(
+            builder->deck, group, "file", builder->messages,
+            "the table ends at t = %.6g with %.6g, which holds from then on; a last row with the value 0 "
+            "would end it",
+            history->table_time[last], held);
+}
+
+/* Values before t = 0 are cut off: a pulse that begins earlier starts with a jump, of which history_value() gives half
+ * at t = 0 itself. */
+static void warn_of_jumps(struct builder *builder, const struct deck_group *group,
+                          const struct history *history)
+{
+    if (history->kind == HISTORY_TABLE) warn_of_table(builder, group, history);
     if (history->kind != HISTORY_RICKER && history->kind != HISTORY_GAUSSIAN &&
         history->kind != HISTORY_ERROR_FUNCTION)
         return;
     struct history raw = *history;
     raw.smoothing = raw.start = 0;
-    const double start = fabs(history_value(&raw, 0, 0));
+    const double start = 2 * fabs(history_value(&raw, 0, 0));
     if (start > 1e-3)
         deck_warning(
             builder->deck, group, "delay", builder->messages,
@@ -95,7 +121,7 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
     history->start = deck_real(group, "start", 0);
     if (right && history->kind == HISTORY_TABLE) right = take_table(builder, group, history);
     if (right)
-        warn_of_cut(builder, group, history);
+        warn_of_jumps(builder, group, history);
     else
         *history = (struct history){0};
     return right;

@@ -1,5 +1,6 @@
 /* The words of &initial: each kind has its own parameters, and takes no others. */
 #include "scene/build.h"
+#include "scene/initial.h"
 
 #include <math.h>
 
@@ -107,6 +108,13 @@ void build_initial(struct builder *builder)
         need_real(builder, group, "amplitude", purpose, &initial->amplitude);
         if (builder->scene->dimension == 1)
             complain(builder, group, "kind", "a beam cannot bend in one dimension");
+        else if (beam_ends_of(builder->scene) == BEAM_ENDS)
+            complain(builder, group, "kind",
+                     "a beam has its first mode clamped-free ('x-' fixed), clamped-clamped ('x-', 'x+' "
+                     "fixed), free-free "
+                     "(neither named), or simply supported ('x-', 'x+' of kind 'displacement', direction = "
+                     "0, 1, slip = "
+                     ".true., amplitude = 0); expected one of these");
     }
     if (initial->kind == INITIAL_PLANE_WAVE) take_plane_wave(builder, group, initial);
     if (initial->kind == INITIAL_GAUSSIAN) take_gaussian(builder, group, initial);

@@ -9,11 +9,6 @@ static double complex polynomial(double complex z, long stages)
     return 1 + z;
 }
 
-static double limit(const struct spectrum *spectrum, long stages)
-{
-    return stability_limit(polynomial, stages, spectrum);
-}
-
 static void step(struct stepper *stepper, struct state *state)
 {
     const size_t n = stepper->model->state_size;
@@ -26,10 +21,8 @@ const struct scheme_class scheme_euler = {
     .order = 1,
     .can = SCHEME_MOVING_LOADS,
     .evaluations = 1,
-    .limit = limit,
+    .polynomial = polynomial,
     .vectors = 1,
-    .start = runge_kutta_start,
-    .resume = runge_kutta_start,
+    RUNGE_KUTTA_STARTS,
     .step = step,
-    .again = runge_kutta_start,
 };

@@ -32,11 +32,6 @@ static double complex polynomial(double complex z, long stages)
     return y;
 }
 
-static double limit(const struct spectrum *spectrum, long stages)
-{
-    return stability_limit(polynomial, stages, spectrum);
-}
-
 static void step(struct stepper *stepper, struct state *state)
 {
     const size_t n = stepper->model->state_size;
@@ -60,10 +55,8 @@ const struct scheme_class scheme_lsrk54 = {
     .order = 4,
     .can = SCHEME_WAVES | SCHEME_MOVING_LOADS,
     .evaluations = STAGES,
-    .limit = limit,
+    .polynomial = polynomial,
     .vectors = 2,
-    .start = runge_kutta_start,
-    .resume = runge_kutta_start,
+    RUNGE_KUTTA_STARTS,
     .step = step,
-    .again = runge_kutta_start,
 };

@@ -11,11 +11,6 @@ static double complex polynomial(double complex z, long stages)
     return 1 + z + z * z / 2;
 }
 
-static double limit(const struct spectrum *spectrum, long stages)
-{
-    return stability_limit(polynomial, stages, spectrum);
-}
-
 static void step(struct stepper *stepper, struct state *state)
 {
     const size_t n = stepper->model->state_size;
@@ -32,10 +27,8 @@ const struct scheme_class scheme_pc2 = {
     .order = 2,
     .can = SCHEME_MOVING_LOADS,
     .evaluations = 2,
-    .limit = limit,
+    .polynomial = polynomial,
     .vectors = 2,
-    .start = runge_kutta_start,
-    .resume = runge_kutta_start,
+    RUNGE_KUTTA_STARTS,
     .step = step,
-    .again = runge_kutta_start,
 };

@@ -11,11 +11,6 @@ static double complex polynomial(double complex z, long stages)
     return 1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)));
 }
 
-static double limit(const struct spectrum *spectrum, long stages)
-{
-    return stability_limit(polynomial, stages, spectrum);
-}
-
 static void step(struct stepper *stepper, struct state *state)
 {
     const size_t n = stepper->model->state_size;
@@ -41,10 +36,8 @@ const struct scheme_class scheme_rk4 = {
     .can = SCHEME_WAVES | SCHEME_MOVING_LOADS,
     .default_for = DEFAULT_FOR_UNDAMPED,
     .evaluations = 4,
-    .limit = limit,
+    .polynomial = polynomial,
     .vectors = 3,
-    .start = runge_kutta_start,
-    .resume = runge_kutta_start,
+    RUNGE_KUTTA_STARTS,
     .step = step,
-    .again = runge_kutta_start,
 };

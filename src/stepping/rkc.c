@@ -84,11 +84,6 @@ double complex rkc_polynomial(double complex z, long stages)
     return 1 - b * walk.value[0] + b * value;
 }
 
-static double limit(const struct spectrum *spectrum, long stages)
-{
-    return stability_limit(rkc_polynomial, stages, spectrum);
-}
-
 static long rule(double argument)
 {
     const long stages = 1 + (long)floor(sqrt(1 + argument));
@@ -124,7 +119,8 @@ long rkc_best_stages(const struct spectrum *spectrum, long max_stages, double *l
         /* as long a step for each stage as the best one's: where that grows, its limit need not be found */
         const bool no_better =
             best > 0 && !stability_bounded(rkc_polynomial, stages, spectrum, best_rate * (double)stages);
-        const double longest = no_better ? 0 : limit(spectrum, stages), rate = longest / (double)stages;
+        const double longest = no_better ? 0 : stability_limit(rkc_polynomial, stages, spectrum),
+                     rate = longest / (double)stages;
         if (rate > best_rate) {
             best = stages;
             best_rate = rate;
@@ -192,11 +188,9 @@ const struct scheme_class scheme_rkc = {
     .can = SCHEME_MOVING_LOADS,
     .default_for = DEFAULT_FOR_DAMPED,
     .evaluations = 1,
-    .limit = limit,
+    .polynomial = rkc_polynomial,
     .choose_stages = choose_stages,
     .vectors = 5,
-    .start = runge_kutta_start,
-    .resume = runge_kutta_start,
+    RUNGE_KUTTA_STARTS,
     .step = step,
-    .again = runge_kutta_start,
 };

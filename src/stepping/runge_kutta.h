@@ -12,8 +12,9 @@
 /* dydt = F(time, y). A model that has only accelerate() is read as y = [u | v]: F = [v | a(u, v)]. */
 void runge_kutta_rate(struct stepper *stepper, double time, const double *y, double *dydt);
 
-/* scheme_class.start of the family: work[0] = F(t, y), state->a. */
+/* Start, restart and change of loads in the family: work[0] = F(t, y), state->a. */
 void runge_kutta_start(struct stepper *stepper, struct state *state);
+#define RUNGE_KUTTA_STARTS .start = runge_kutta_start, .resume = runge_kutta_start, .again = runge_kutta_start
 
 /* Ends a step: time and step count move on, then runge_kutta_start() for the next one. The filter of a model
  * (after_step()) belongs to leapfrog's half-step velocity and is not called: such models are refused. */

@@ -1,5 +1,6 @@
 /* The schemes of the list in deck/choices.h: a new scheme is a file and a line there. */
 #include "stepping/schemes.h"
+#include "stepping/runge_kutta.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -17,6 +18,12 @@ const struct scheme_class *scheme_find(const char *name)
 bool scheme_fits(const struct scheme_class *scheme, const struct model *model)
 {
     return !scheme->needs_acceleration || model->spatial->accelerate != NULL;
+}
+
+double scheme_limit(const struct scheme_class *scheme, const struct spectrum *spectrum, long stages)
+{
+    if (scheme->polynomial == NULL) return scheme->limit(spectrum, stages);
+    return stability_limit(scheme->polynomial, stages, spectrum);
 }
 
 const struct scheme_class *scheme_default(const struct model *model)

@@ -72,7 +72,7 @@ static selas_status choose_step(struct stepper *stepper, struct messages *messag
     stepper->dt = wanted_step(stepper);
     if (stepper->scheme->choose_stages != NULL)
         stepper->stages = stepper->scheme->choose_stages(stepper, stepper->dt);
-    stepper->limit = stepper->scheme->limit(&stepper->spectrum, stepper->stages);
+    stepper->limit = scheme_limit(stepper->scheme, &stepper->spectrum, stepper->stages);
     const double limit = stepper->limit;
     if (!(stepper->dt > 0.0) && isfinite(limit) && limit > 0.0) {
         /* whole steps to end_time, so that the last row is end_time itself */

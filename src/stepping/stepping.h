@@ -34,7 +34,9 @@ struct scheme_class {
     enum scheme_default default_for;
     bool needs_acceleration; /* uses accelerate() (second-order form); otherwise rate() */
     double evaluations;      /* operator calls a step, or a stage where their number is free */
-    /* Largest stable dt; 0 if none is, INFINITY if any is. */
+    /* R(z) of a Runge-Kutta scheme, y_(n+1) = R(dt lambda) y_n, from which its limit follows; else NULL and
+     * limit(): see scheme_limit(). */
+    double _Complex (*polynomial)(double _Complex z, long stages);
     double (*limit)(const struct spectrum *spectrum, long stages);
     /* Schemes with a free number of stages: the number for a step dt (0: dt is free too). NULL: fixed. */
     long (*choose_stages)(const struct stepper *stepper, double dt);
@@ -76,6 +78,8 @@ extern const struct scheme_class *const scheme_table[];
 const struct scheme_class *scheme_find(const char *name);
 /* True if the model has the functions that the scheme calls. */
 bool scheme_fits(const struct scheme_class *scheme, const struct model *model);
+/* Largest stable dt; 0 if none is, INFINITY if any is. */
+double scheme_limit(const struct scheme_class *scheme, const struct spectrum *spectrum, long stages);
 const struct scheme_class *scheme_default(const struct model *model);
 /* Text such as "'leapfrog' or 'rk4'": schemes that fit the model and can do all that is asked for, in words if
  * there is none. */

@@ -218,7 +218,7 @@ static selas_status first_guess(const struct tl_model *tl, struct cloud_pairs *p
             messages, SELAS_BAD_SCENE,
             "point %zu at (%g, %g, %g) has too few neighbours for a gradient: the body is too thin for "
             "its spacing",
-            lonely, tl->cloud->position[3 * lonely], tl->cloud->position[3 * lonely + 1],
+            lonely + 1, tl->cloud->position[3 * lonely], tl->cloud->position[3 * lonely + 1],
             tl->cloud->position[3 * lonely + 2]);
     antisymmetrise(pairs);
     return SELAS_OK;

@@ -249,6 +249,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.spatial = &spatial;
     c->model.scene = scene;
     c->model.self_adjoint = true;
+    c->model.small_strain = true;
     status = build(c, messages);
     if (c->pml != NULL) c->model.memory = &memory;
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);

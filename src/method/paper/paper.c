@@ -294,6 +294,7 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->model.position = paper->set.position;
     for (int c = 0; c < 3 && scene->body.jitter <= 0; c++)
         paper->model.grid[c] = paper->set.grid[c];
+    paper->model.small_strain = paper->model.leaks = true;
     paper->model.state_size = 2 * paper->model.unknowns;
     paper->model.component_stride = 1;
     paper->model.point_stride = (size_t)paper->dimension;

@@ -148,6 +148,22 @@ static double patch_area(const struct tl_model *tl, const struct load *load, con
     return area;
 }
 
+/* Fails if no element of the surface lies on a face. */
+static selas_status need_surface(const struct tl_model *tl, enum face face, struct messages *messages)
+{
+    for (size_t e = 0; e < tl->cloud->elements; e++)
+        if (tl->cloud->element[e].face == (int)face) return SELAS_OK;
+    if (tl->cloud->elements > 0)
+        return fail(messages, SELAS_BAD_SCENE,
+                    "no point has its normal and area on face '%s' of the body's box low .. high",
+                    face_name(face));
+    return fail(
+        messages, SELAS_BAD_SCENE,
+        "face '%s' is not known: the points come without areas and fill %.3g of the box low .. high (within "
+        ".02 of 1 its faces would be theirs); give normal and area with the points at the surface",
+        face_name(face), cloud_filling(tl->cloud, &tl->model.scene->body));
+}
+
 /* Forces of the uniform stress -direction x normal, into tl->force. */
 static void uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
 {
@@ -171,6 +187,8 @@ static selas_status traction_on_box(struct tl_model *tl, const struct load *load
     const double plane = face_plane(body, load->face);
     const double reach = fmin(2 * tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
     double sum = 0;
+    const selas_status known = need_surface(tl, load->face, gather->messages);
+    if (known != SELAS_OK) return known;
     uniform_stress(tl, direction, load->face);
     for (size_t i = 0; i < tl->cloud->points; i++) {
         const double *x = tl->cloud->position + 3 * i;
@@ -298,6 +316,11 @@ selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
     const size_t d = (size_t)scene->dimension;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        if (!boundary_absorbs(&scene->boundary[face])) continue;
+        const selas_status known = need_surface(tl, (enum face)face, messages);
+        if (known != SELAS_OK) return known;
+    }
     for (size_t e = 0; e < tl->cloud->elements; e++) {
         const struct face_element *element = &tl->cloud->element[e];
         if (element->face >= FACES) continue;

@@ -185,8 +185,8 @@ static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *
                 messages, SELAS_BAD_SCENE,
                 "point %zu at (%g, %g, %g) has too few neighbours for a gradient of degree %d: the body is "
                 "too thin for its spacing",
-                i, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1], tl->cloud->position[3 * i + 2],
-                tl->options.degree);
+                i + 1, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1],
+                tl->cloud->position[3 * i + 2], tl->options.degree);
         bool room = count < SIZE_MAX;
         for (size_t k = 0; room && k < count; k++)
             if (work->index[k] != i) room = tl_rows_add(rows, i, work->index[k], work->gradient + 3 * k);

@@ -219,6 +219,7 @@ static void fill_model(struct tl_model *tl)
     model->point_stride = d;
     model->damped = tl->damper != NULL || viscous;
     model->self_adjoint = true;
+    model->small_strain = tl->options.law == LAW_LINEAR;
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;
     model->bytes = sizeof *tl + tl_rows_bytes(&tl->gradient) + tl_rows_bytes(&tl->transposed) +
                    tl_rows_bytes(&tl->pair) + tl_rows_bytes(&tl->viscous) + neighbours_bytes(&tl->near) +

@@ -1,6 +1,7 @@
 /* What the plan says of absorbing layers, and where they go wrong. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "scene/absorbing_layers.h"
+#include "scene/echo.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ void layers_describe(const struct consistent *c,
 {
     const struct scene *scene = c->model.scene;
     const double cutoff = source_cutoff(scene), two_pi = 6.283185307179586477;
-    char key[32], text[200];
+    char key[32], text[256];
     for (int face = 0; face < 2 * c->dimension; face++) {
         snprintf(key, sizeof key, "layer %s", face_name((enum face)face));
         if (layer_left_out(scene, face))
@@ -30,8 +31,11 @@ void layers_describe(const struct consistent *c,
                              " = %.2g P wavelengths at the source's cutoff",
                              thickness * cutoff / (two_pi * consistent_fastest(c, face)));
         const double drag = c->pml == NULL ? 0 : c->pml->drag, points = (double)c->layer[face];
-        snprintf(text + used, sizeof text - (size_t)used, ", expected reflection %.1g %%%s",
-                 100 * (layer_expected_reflection(c->layer[face]) + dragged_part * drag / (points * points)),
+        const double expected =
+            fmax(echo_of_layer(scene, face, c->layer[face]), layer_expected_reflection(c->layer[face]));
+        snprintf(text + used, sizeof text - (size_t)used,
+                 ", expected reflection %.1g %% of the velocity at the worst place looked at%s",
+                 100 * fmin(1, expected + dragged_part * drag / (points * points)),
                  drag > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
     }

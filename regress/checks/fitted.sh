@@ -1,0 +1,123 @@
+#!/bin/sh
+# The box that the program fits around a half-space knows everything that acts and everything that is looked at, and says or
+# refuses what it cannot hold (doc/scene.md, section 8). With `night` as the second word the costly ones too.
+build=${1:-build}
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
+rock="&material name = 'rock', density = 1, lambda = 1, mu = 1 /"
+pulse="direction = 0, 0, 1, history = 'gaussian', width = 0.3, delay = 2"
+receivers="&receiver name = 'r0', position = 0, 0, 0 /
+&receiver name = 'r1', position = 1, 0, 0 /
+&receiver name = 'r2', position = 2, 0, 0 /"
+cat >"$out/f.nml" <<D
+&scene dimension = 3, end_time = 6 /
+$rock
+&body material = 'rock', shape = 'half-space', spacing = 0.25 /
+&load face = 'z-', shape = 'square', centre = 0, 0, 0, size = 1, 1, $pulse /
+$receivers
+&reference kind = 'lamb' /
+&output plots = F /
+D
+ok() { # ok TITLE CONDITION...
+    title=$1
+    shift
+    if "$@"; then echo "ok - $title"; else echo "not ok - $title"; fi
+}
+below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && a + 0 > 0 && a + 0 < b + 0) }'; }
+run() { # run NAME DECK WORDS...: to $out/NAME
+    name=$1 deck=$2
+    shift 2
+    OMP_NUM_THREADS=1 "$build/selas" -q "$out/$deck.nml" output%directory="$out/$name" "$@" >"$out/$name.log" 2>&1
+}
+largest() { sed -n 's/^error largest: \([^ ]*\).*/\1/p' "$out/$1/report.txt" 2>/dev/null; }
+plan() { # plan NAME DECK WORDS...: to $out/NAME.plan, errors too
+    name=$1 deck=$2
+    shift 2
+    "$build/selas" check "$out/$deck.nml" "$@" >"$out/$name.plan" 2>&1
+}
+refused() { # refused TITLE PATTERN DECK WORDS...
+    title=$1 pattern=$2
+    shift 2
+    plan refused "$@"
+    status=$?
+    ok "$title" test "$status$(grep -c "error: .*$pattern" "$out/refused.plan")" = 21
+}
+difference() { # relative L2 of the velocity of a receiver between two runs of the same rows
+    grep -v '^#' "$out/$2/$3.dat" >"$out/b"
+    grep -v '^#' "$out/$1/$3.dat" | paste -d ' ' - "$out/b" | awk '
+        { for (i = 5; i <= 7; i++) { d += ($i - $(i + 7)) ^ 2; s += $(i + 7) ^ 2 } }
+        END { if (s > 0 && NR > 50) print sqrt(d / s) }'
+}
+
+# Transmitting is the best that the method has: absorbing layers.
+open="boundary%face=x-,x+,y-,y+,z+ boundary%kind=transmitting"
+run open f $open scene%end_time=9 body%spacing=0.2
+ok "faces that transmit and say no more: error $(largest open)" below "$(largest open)" 0.04
+ok "the plan says that they have layers" grep -q '^face x+: transmitting, absorbing layer' "$out/open/report.txt"
+plan lysmer f $open boundary%layer=lysmer scene%end_time=9
+ok "dampers that are asked for stand where nothing comes back" \
+    grep -q '^box chosen: so large .*the deck asks for dampers' "$out/lysmer.plan"
+
+# Loads all over the surface: rollers at the sides, or no box.
+sed "s/shape = 'square', centre = 0, 0, 0, size = 1, 1/shape = 'face'/; s/'lamb'/'plane-wave'/" "$out/f.nml" >"$out/face.nml"
+run face face
+ok "a pressure all over the surface: error $(largest face)" below "$(largest face)" 0.02
+refused "layers beside a pressure all over the surface" 'only a roller' face boundary%face=x- boundary%kind=transmitting
+refused "a shear all over the surface has no box" 'has no end' face load%direction=1,0,0 reference%kind=file
+sed "/^&reference/d; s/^&load.*/\&load kind = 'body-force', $pulse \//" "$out/f.nml" >"$out/body.nml"
+refused "a force all over the body has no box" 'has no end' body
+
+# What moves at first, below all else: against a quarter so large that nothing comes back.
+sed "/^&reference/d; /^&load/d" "$out/f.nml" >"$out/deep.nml"
+echo "&initial kind = 'gaussian', amplitude = 1, width = 0.5, centre = 0, 0, 3, direction = 0, 0, 1 /" >>"$out/deep.nml"
+sed "s/shape = 'half-space'/low = 0, 0, 0, high = 7, 7, 10/" "$out/deep.nml" >"$out/quarter.nml"
+echo "&boundary face = 'x-', 'y-', kind = 'symmetry' /" >>"$out/quarter.nml"
+for name in deep quarter; do run $name $name scene%end_time=5 stepping%time_step=0.05; done
+far=$(difference deep quarter r2)
+ok "an initial state below the receivers: $far of what a large box shows" below "$far" 0.005
+refused "an initial state without end has no box" 'has no end' deep initial%kind=uniform-velocity initial%velocity=1,0,0 \
+    initial%amplitude= initial%width= initial%centre= initial%direction=
+
+# Snapshots look at the whole body, or at their region, as long as they look.
+echo "&snapshot times = 6 /" | cat "$out/f.nml" - >"$out/shown.nml"
+plan whole shown
+ok "a snapshot of the whole body asks for layers" grep -q '^box chosen: absorbing layers' "$out/whole.plan"
+plan region shown snapshot%region=-1,-1,0,1,1,9
+depth=$(sed -n 's/^lattice: .* x //p' "$out/region.plan")
+ok "a snapshot's region lies in the box: $depth points over a depth of 9" test "$depth" -ge 37
+refused "a snapshot of the whole body where there are no layers" 'give &snapshot a region' shown method%mass=exact
+
+# Receivers far away along the layers; refining helps.
+sed "s/width = 0.3, delay = 2/width = 0.6, delay = 3/; s/position = 1,/position = 5,/; s/position = 2,/position = 10,/" \
+    "$out/f.nml" >"$out/line.nml"
+run coarse line scene%end_time=14 body%spacing=0.2
+ok "a line of receivers of length 10: error $(largest coarse)" below "$(largest coarse)" 0.004
+if [ "$2" = night ]; then
+    run fine line scene%end_time=14 body%spacing=0.1
+    ok "the same at half the spacing: error $(largest fine)" below "$(largest fine)" "$(largest coarse)"
+fi
+
+# Methods without layers get the larger box.
+for words in method%mass=exact stepping%scheme=modified-equation; do
+    plan none f scene%end_time=9 $words
+    ok "$words: the larger box, and why" grep -q '^box chosen: so large .*absorbing layers need' "$out/none.plan"
+done
+
+# A half-space whose box is given: what the deck does not name absorbs.
+run given f body%low=-3,-3,0 body%high=3,3,3
+ok "sides that nobody names absorb: error $(largest given)" below "$(largest given)" 0.1
+
+refused "a pressure all over a half-space that is given" 'only rollers' face body%low=-3,-3,0 body%high=3,3,3
+plan damped f body%low=-3,-3,0 body%high=3,3,3 method%mass=exact
+ok "dampers that nobody asked for are told of" grep -q 'warning: .*have dampers' "$out/damped.plan"
+
+# Faces whose place counts.
+for face in "z+ fixed" "x- symmetry" "y+ roller" "x+ free"; do
+    refused "a face of a box that is not known: $face" 'is not known' f "boundary%face=${face% *}" "boundary%kind=${face#* }"
+done
+refused "a turned body whose box is not known" 'turns about the middle' f body%rotation=0,0,30
+
+# What comes back, measured.
+"$build/selas" check --echo "$out/f.nml" scene%end_time=9 body%low=-3,-3,0 body%high=3,3,3 >"$out/echo" 2>&1
+ok "check --echo: $(grep '^echo r2' "$out/echo")" \
+    below "$(sed -n 's/^echo r2: \([^ ]*\).*/\1/p' "$out/echo")" "$(sed -n 's/^echo expected: \([^ ]*\).*/\1/p' "$out/echo")"

@@ -1,0 +1,212 @@
+#!/bin/sh
+# Scenes whose answers would be wrong without a word are refused, or warned of with what would be right; the sound scene
+# beside each is told nothing. Argument: the build folder. Prints TAP.
+build=${1:-build}
+selas=$PWD/$build/selas
+work=$(mktemp -d "${TMPDIR:-/tmp}/selas-silence-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export OMP_NUM_THREADS=1
+failures=0
+verdict() { # verdict WHAT STATUS: 0 is right
+    if [ "$2" -eq 0 ]; then
+        echo "ok - $1"
+    else
+        echo "not ok - $1"
+        head -c 2000 said | sed 's/^/# /'
+        failures=$((failures + 1))
+    fi
+}
+told() { # told WHAT WORDS COMMAND...: the program says the words in a warning or an error
+    what=$1
+    words=$2
+    shift 2
+    "$selas" "$@" >said 2>&1
+    grep -qE "^(.*: )?(warning|error): .*$words" said
+    verdict "$what" $?
+}
+untold() { # untold WHAT COMMAND...: it runs and neither warns nor refuses
+    what=$1
+    shift
+    "$selas" "$@" >said 2>&1 && ! grep -qE '(warning|error):' said
+    verdict "$what" $?
+}
+reported() { # reported WHAT WORDS: in the last report
+    grep -q "$2" out/report.txt
+    verdict "$1" $?
+}
+
+# --- Beams ---
+cat >beam.nml <<'END'
+&scene dimension = 2, plane = 'stress', end_time = 0.7 /
+&method name = 'sph', variant = 'total-lagrangian', gradient = 'quadratic', law = 'linear' /
+&material name = 'rubber', density = 1000.0, young = 2.0e6, poisson = 0.3975 /
+&body material = 'rubber', shape = 'box', low = 0.0, 0.0, high = 0.2, 0.02, spacing = 0.005 /
+&boundary face = 'x-', kind = 'fixed' /
+&initial kind = 'beam-mode', amplitude = 0.001 /
+&receiver name = 'tip', position = 0.2, 0.01 /
+&reference kind = 'beam' /
+&output plots = .false., directory = 'out' /
+END
+splines="method%name=smoothed-point method%variant= method%gradient= method%law="
+untold "a small swing" -q beam.nml
+reported "its reference is linear" "^frequency from: .*linear, clamped-free"
+told "a large swing by small-strain theory" "turn by [34][0-9.]* degrees.*saint-venant-kirchhoff' would be right" -q beam.nml initial%amplitude=.05
+reported "the report tells too" "^warning: parts of the body turn"
+# shellcheck disable=SC2086
+told "a large swing of splines" "turn by [34][0-9.]* degrees" -q beam.nml $splines initial%amplitude=.05
+told "a large swing against a linear reference" "turn by .*reference 'beam' is linear" -q beam.nml method%law=saint-venant-kirchhoff initial%amplitude=.05
+error_of() { # error_of RECEIVER MOST: the frequency's error in the last report is below
+    awk -v most="$2" -v key="frequency error at $1" -F': ' '$1 == key {found = 1; good = $2 < most && $2 > -most}
+        END {exit !(found && good)}' out/report.txt
+}
+# Timoshenko's frequencies are .5 to 3 % from elasticity for L = 10 W; a cantilever's would be 6 times too low
+at="receiver%position=.1,.01"
+# shellcheck disable=SC2086
+"$selas" -q beam.nml $splines $at boundary%face=x-,x+ scene%end_time=.12 >said 2>&1 && error_of tip .03
+verdict "clamped at both ends" $?
+# shellcheck disable=SC2086
+"$selas" -q beam.nml $splines $at "boundary%face=x-,x+" boundary%kind=displacement boundary%direction=0,1 boundary%slip=T boundary%amplitude=0 boundary%history=step scene%end_time=.25 >said 2>&1 && error_of tip .01
+verdict "simply supported" $?
+# shellcheck disable=SC2086
+"$selas" -q beam.nml $splines $at boundary%kind=free scene%end_time=.12 >said 2>&1 && error_of tip .02
+verdict "free at both ends" $?
+told "a beam on rollers" "expected one of these" check beam.nml boundary%kind=roller
+told "a beam held from below" "held at .*alone: clamped-free" -q beam.nml "boundary(2)%face=y-" "boundary(2)%kind=roller"
+# shellcheck disable=SC2086
+"$selas" -q beam.nml $splines scene%end_time=.3 >said 2>&1
+reported "no frequency of less than two periods" "^frequency at tip: none: .* two periods"
+# shellcheck disable=SC2086
+told "a nearly incompressible beam in plane strain" "nu = 0.49, near 0.5.*degree = 3" check beam.nml $splines scene%plane=strain material%poisson=.49
+# shellcheck disable=SC2086
+untold "the same in plane stress" check beam.nml $splines material%poisson=.49
+
+# A free plate under a couple of forces turns by radians.
+cat >turn.nml <<'END'
+&scene dimension = 2, end_time = 4.0 /
+&method name = 'sph', variant = 'total-lagrangian', law = 'linear' /
+&material name = 'm', density = 1.0, lambda = 100.0, mu = 100.0 /
+&body material = 'm', shape = 'box', low = 0, 0, high = 1, 1, spacing = 0.1 /
+&load face = 'x-', shape = 'face', direction = 0, 1, history = 'triangle', duration = 1 /
+&load face = 'x+', shape = 'face', direction = 0, -1, history = 'triangle', duration = 1 /
+&receiver name = 'r', position = 1, 1 /
+&output plots = .false., directory = 'out' /
+END
+told "law = 'linear' in a body that turns" "turn by [0-9.e+]* degrees" -q turn.nml
+untold "the same by a law for any rotation" -q turn.nml method%law=saint-venant-kirchhoff
+
+# --- The method of Ding et al. ---
+cat >paper.nml <<'END'
+&scene dimension = 2, end_time = 6.0 /
+&method name = 'smoothed-point', variant = 'paper' /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, high = 8, 4, spacing = 0.25 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'lysmer' /
+&load face = 'y-', shape = 'square', centre = 4, 0, size = 1, direction = 0, 1, history = 'gaussian', width = .5, delay = 2 /
+&receiver name = 'r', position = 6, 0 /
+&output plots = .false., directory = 'out' /
+END
+told "springs to the ground" "only [0-9]* % was in the body.*row_sums = 'zero'" -q paper.nml
+untold "without them" -q paper.nml method%row_sums=zero
+
+# --- Points from a file ---
+points() { # points FILE SHIFT SKIP: 20 x 20 points .2 apart, from SHIFT on; without those whose number has SKIP
+    awk -v shift="$2" -v skip="$3" -v n="$4" 'BEGIN {
+        for (j = 0; j < n; j++) for (i = 0; i < n; i++) if (skip !~ " " i + n * j " ") print shift + .2 * i, shift + .2 * j, .04 }' >"$1"
+}
+points whole.txt .1 " " 20
+points gap.txt .1 " 210 211 212 213 214 230 231 232 233 234 " 20
+{ cat whole.txt; sed -n 6p whole.txt; } >twice.txt
+points faces.txt 0 " " 21
+points hollow.txt 0 " 220 " 21
+{ cat faces.txt; sed -n 6p faces.txt; } >twice-faces.txt
+cat >points.nml <<'END'
+&scene dimension = 2, end_time = 6.0 /
+&method name = 'sph', variant = 'total-lagrangian' /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'points', file = 'whole.txt', low = 0, 0, high = 4, 4, spacing = 0.2 /
+&boundary face = 'x-', 'x+', kind = 'roller' /
+&boundary face = 'y+', kind = 'transmitting', layer = 'lysmer' /
+&load face = 'y-', shape = 'face', direction = 0, 1, amplitude = .01, history = 'gaussian', width = .5, delay = 2 /
+&receiver name = 'r', position = 2, 2 /
+&output plots = .false., directory = 'out' /
+END
+# a P wave through a bar of impedance 1.7: all of the work is absorbed
+untold "points without areas that fill their box have its faces" -q points.nml
+awk -F': ' '$1 == "work of loads" {w = $2} $1 == "energy absorbed" {a = $2} END {exit !(a > .9 * w && a < 1.02 * w)}' out/report.txt
+verdict "and a transmitting face takes up the wave" $?
+told "points without areas that do not" "the points come without areas and fill 0.975 of the box" check points.nml body%file=gap.txt
+cloud="method%name=smoothed-point method%variant=cloud"
+paper="method%name=smoothed-point method%variant=paper"
+told "two points at one place" "points 6 and 401 coincide, lines 6 and 401" check points.nml body%file=twice.txt
+told "also for updated-Lagrangian points" "points 6 and 401 coincide" check points.nml body%file=twice.txt method%variant=updated-lagrangian
+# shellcheck disable=SC2086
+told "also for clouds" "points 6 and 442 coincide" check points.nml $cloud body%file=twice-faces.txt
+# shellcheck disable=SC2086
+told "also for the paper's method" "points 6 and 442 coincide" check points.nml $paper body%file=twice-faces.txt
+# shellcheck disable=SC2086
+told "a gap between points on faces" "no point lies within a spacing of .2, 2, 0., nor of 0 more" check points.nml $paper body%file=hollow.txt
+# shellcheck disable=SC2086
+untold "no gap" check points.nml $paper body%file=faces.txt
+
+# --- Loads and histories ---
+cat >plate.nml <<'END'
+&scene dimension = 2, end_time = 20.0 /
+&method name = 'sph', variant = 'total-lagrangian' /
+&material name = 'm', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'm', shape = 'plate-with-hole', low = 0, 0, high = 2, 2, hole_centre = 1, 1, hole_radius = .5, spacing = 0.1, arrangement = 'conformal' /
+&load face = 'hole', shape = 'face', direction = 1, 0, amplitude = 1e-3, history = 'step' /
+&receiver name = 'r', position = 1, 1.75 /
+&output plots = .false., directory = 'out' /
+END
+# 1e-3 on a rim of pi pushes a mass of 4 - pi / 4: half the acceleration times 20^2 is .19546
+untold "a traction on the hole" -q plate.nml
+awk '!/^#/ {x = $2} END {exit !(x > .193 && x < .198)}' out/r.dat
+verdict "and its force is the traction times the rim" $?
+told "a patch on the hole" "a traction on the hole acts on all of it" check plate.nml load%shape=disc load%centre=1,.5 load%size=1
+cat >train.nml <<'END'
+&scene dimension = 2, end_time = 12.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'box', low = -4, 0, high = 4, 4, spacing = 0.25 /
+&load face = 'y-', shape = 'square', centre = -5, 0, size = 1, velocity = 0.5, 0, direction = 0, 1, amplitude = .01, history = 'step', smoothing = 4 /
+&receiver name = 'r', position = 0, 0 /
+&output plots = .false., directory = 'out' /
+END
+rm -rf out
+untold "a load that comes from outside" -q train.nml
+awk '!/^#/ && $3 * $3 > most {most = $3 * $3} END {exit !(most > 1e-8)}' out/r.dat
+verdict "and presses the body when it is there" $?
+told "a load that never comes" "no part of it acts on the body" check train.nml load%velocity=-.5,0
+told "a load that comes too late" "beyond the face 'y-' until the end of the run" check train.nml scene%end_time=0.9 load%velocity=.5,0
+cat >pulse.nml <<'END'
+&scene dimension = 2, end_time = 4.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, high = 4, 4, spacing = 0.25 /
+&load face = 'y-', shape = 'face', direction = 0, 1, history = 'gaussian', width = 1, delay = 1 /
+&receiver name = 'r', position = 2, 2 /
+END
+told "a pulse that is cut" "cut at t = 0, where it is 0.607 of its peak" check pulse.nml
+told "a wavelet that is cut" "where it is 1 of its peak" check pulse.nml load%history=ricker load%width= load%frequency=.2 load%delay=0
+printf '0 0\n1 1\n2 0\n' >table.txt
+printf '0 0\n1 1\n2 0.05\n' >rest.txt
+printf '1 0.5\n2 1\n3 0\n' >late.txt
+table="load%history=table load%width= load%delay= body%spacing=.125"
+# shellcheck disable=SC2086
+untold "a table that ends with 0" check pulse.nml $table load%file=table.txt
+grep -q "^table of &load 1: 0 before t = 0, straight lines between 3 rows, 0 held from t = 2 on" said
+verdict "the plan says what it means before and after" $?
+# shellcheck disable=SC2086
+told "a table that ends with a rest" "ends at t = 2 with 0.05, which holds" check pulse.nml $table load%file=rest.txt
+# shellcheck disable=SC2086
+told "a table that begins late with a jump" "begins at t = 1 with 0.5; before that the history is 0" check pulse.nml $table load%file=late.txt
+cat >moment.nml <<'END'
+&scene dimension = 3, end_time = 1.0 /
+&method name = 'sph', gradient = 'central' /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 2, 2, 2, spacing = 0.2 /
+&load kind = 'moment-tensor', centre = 1, 1, 1, moment = 0, 0, 0, 1, 0, 0, history = 'gaussian', width = 1, delay = 5 /
+&receiver name = 'r', position = 1.5, 1, 1 /
+END
+told "a moment tensor on total-Lagrangian points" "moment tensors on total-Lagrangian points were .* 'consistent', would be right" check moment.nml
+untold "a moment tensor on splines" check moment.nml method%name=smoothed-point method%gradient=
+exit $failures

@@ -1,0 +1,102 @@
+/* Calls that are refused: each value is checked at once, nothing changes, one failure is told once, and the last
+ * call's message can be had alone. */
+#include "api_scene.h"
+
+#include <omp.h>
+
+static void test_refused_calls_change_nothing(void **state)
+{
+    (void)state;
+    selas_simulation *s = open_scene();
+    const char *const east[1] = {"east"}, *const sideways[1] = {"sideways"}, *const face[1] = {"z-"};
+    const double place[3] = {3, 2, 0}, bad = -1, good = 1, *points;
+    double value[6];
+    size_t number, count;
+    assert_int_equal(selas_add(s, "receiver", &number), SELAS_OK);
+    assert_int_equal(selas_set_text(s, "receiver(2)%name", 1, east), SELAS_OK);
+    assert_int_equal(selas_set_real(s, "receiver(2)%position", 3, place), SELAS_OK);
+    assert_int_equal(selas_points(s, &count, &points), SELAS_OK);
+    const double first = points[0];
+    /* sign, range and word are checked by the call itself */
+    wrong(s, selas_set_real(s, "body%spacing", 1, &bad));
+    assert_non_null(strstr(selas_last_message(s), "expected a number in (0, inf)"));
+    wrong(s, selas_set_real(s, "material%density", 1, &(double){0}));
+    wrong(s, selas_set_text(s, "load%shape", 1, sideways));
+    assert_non_null(strstr(selas_last_message(s), "expected one of 'square'"));
+    wrong(s, selas_set_text(s, "load(2)%shape", 1, sideways)); /* there is no second load before nor after */
+    wrong(s, selas_set_integer(s, "method%degree", 9));
+    /* which receiver? */
+    wrong(s, selas_set_text(s, "receiver%name", 1, face));
+    assert_non_null(strstr(selas_last_message(s), "which of the 2"));
+    wrong(s, selas_set_real(s, "body%low", 4, place));
+    assert_true(points[0] == first); /* what was handed out is still there */
+    assert_int_equal(selas_build(s), SELAS_OK);
+    assert_int_equal(selas_step(s, 1), SELAS_OK);
+    assert_int_equal(selas_receiver(s, "r", SELAS_VELOCITY, value), SELAS_OK);
+    assert_int_equal(selas_receiver(s, "east", SELAS_VELOCITY, value), SELAS_OK);
+    assert_string_equal(selas_last_message(s), "");
+    wrong(s, selas_set_real(s, "body%spacing", 1, &good)); /* too late */
+    selas_close(&s);
+}
+
+static size_t lines_of(const char *text)
+{
+    size_t lines = 0;
+    for (; *text != '\0'; text++)
+        lines += *text == '\n';
+    return lines;
+}
+
+static void test_one_failure_is_told_once(void **state)
+{
+    (void)state;
+    selas_simulation *s = NULL;
+    double value[6];
+    wrong_open(&s, selas_open_text("wrong", "&scene dimension = 5 /", &s));
+    size_t told = lines_of(selas_message(s));
+    for (int i = 0; i < 3; i++) {
+        wrong(s, selas_step(s, 1));
+        assert_true(isnan(selas_end_time(s)));
+        wrong(s, selas_receiver(s, "r", SELAS_VELOCITY, value));
+        assert_non_null(strstr(selas_last_message(s), "dimension"));
+    }
+    assert_int_equal(lines_of(selas_message(s)), told);
+    selas_close(&s);
+    /* a scene that cannot be built, until it is mended */
+    s = open_scene();
+    const double outside[3] = {9, 2, 0}, inside[3] = {3, 2, 0};
+    assert_int_equal(selas_set_real(s, "receiver%position", 3, outside), SELAS_OK);
+    assert_string_equal(selas_last_message(s), "");
+    wrong(s, selas_build(s));
+    assert_int_equal(lines_of(selas_message(s)), 1);
+    wrong(s, selas_step(s, 1));
+    wrong(s, selas_set_real(s, "body%spacing", 1, &(double){-1}));
+    wrong(s, selas_step(s, 1));
+    assert_non_null(strstr(selas_last_message(s), "outside the body"));
+    assert_null(strstr(selas_last_message(s), "spacing"));
+    assert_int_equal(lines_of(selas_message(s)), 2);
+    assert_int_equal(selas_set_real(s, "receiver%position", 3, inside), SELAS_OK);
+    assert_int_equal(selas_step(s, 1), SELAS_OK);
+    /* a callback that failed ends the run */
+    selas_close(&s);
+    s = open_scene();
+    struct push push = {.answer = -1};
+    assert_int_equal(selas_set_traction(s, "hammer", triangle, &push), SELAS_OK);
+    wrong(s, selas_step(s, 3));
+    wrong(s, selas_step(s, 1));
+    wrong(s, selas_save(s, "checkpoint"));
+    assert_int_equal(lines_of(selas_message(s)), 1);
+    assert_non_null(strstr(selas_last_message(s), "hammer"));
+    selas_close(&s);
+    assert_string_equal(selas_last_message(NULL), selas_message(NULL));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_refused_calls_change_nothing),
+        cmocka_unit_test(test_one_failure_is_told_once),
+    };
+    omp_set_num_threads(1);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

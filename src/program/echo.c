@@ -1,0 +1,162 @@
+/* `selas check --echo`: what the faces of the box send back, measured. The scene is run twice with coarse
+ * points, in its own box and in one twice as large (doc/absorbing-faces.md, section 7), and the velocities at
+ * the receivers are compared. */
+#include "program/commands.h"
+
+#include "host/simulation.h"
+#include "scene/absorbing_layers.h"
+#include "scene/build.h"
+#include "scene/echo.h"
+#include "scene/resolution.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Spacing against the deck's, at most; points that a wave keeps; points of the larger box's layers. */
+static const double coarsest = 2, fewest = 4;
+enum { SURE_POINTS = 20 };
+
+/* Layers as they are with the deck's points, whatever the spacing. */
+static void keep_layers(struct scene *scene)
+{
+    size_t points[BOX_FACES];
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        points[face] = layer_points(scene, face);
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        struct boundary *boundary = &scene->boundary[face];
+        if (!boundary_has_layer(boundary)) continue;
+        boundary->layer_points = (long)points[face];
+        boundary->always = points[face] > 0;
+        if (points[face] == 0) boundary->kind = BOUNDARY_FREE;
+    }
+}
+
+/* Faces that stand for what lies beyond them move away by half the length of the box. */
+static void enlarge(struct scene *scene)
+{
+    struct body *body = &scene->body;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double cells = round((body->high[axis] - body->low[axis]) / body->spacing);
+        for (int face = 2 * axis; face < 2 * axis + 2; face++) {
+            struct boundary *boundary = &scene->boundary[face];
+            const bool opened = body->chosen && !boundary->given && boundary_is_free(boundary);
+            const bool far = axis < scene->dimension - 1 || face % 2 == 1;
+            if (!boundary_absorbs(boundary) && !(opened && far)) continue;
+            const bool both = boundary_absorbs(&scene->boundary[face ^ 1]) || axis < scene->dimension - 1;
+            const double further = ceil(both ? cells / 2 : cells) * body->spacing;
+            if (face % 2 == 0)
+                body->low[axis] -= further;
+            else
+                body->high[axis] += further;
+            if (boundary_has_layer(boundary)) boundary->layer_points = SURE_POINTS;
+        }
+    }
+}
+
+/* Steps the scene to its end; *rows of velocities of all receivers, free() them. */
+static selas_status run(selas_simulation *simulation, double step, double **values, size_t *rows)
+{
+    const size_t receivers = simulation->scene->receivers;
+    if (step > 0) {
+        simulation->scene->stepping.time_step = step;
+        simulation->scene->stepping.courant = simulation->scene->stepping.safety = 0;
+    }
+    selas_status status = selas_step(simulation, 0);
+    if (status != SELAS_OK) return status;
+    *rows = simulation->stepper->steps;
+    *values = calloc(*rows * receivers * 3 + 1, sizeof **values);
+    if (*values == NULL) return SELAS_NO_MEMORY;
+    for (size_t i = 0; i < *rows && status == SELAS_OK; i++) {
+        status = selas_step(simulation, 1);
+        for (size_t r = 0; r < receivers && status == SELAS_OK; r++)
+            status = selas_receiver(simulation, simulation->scene->receiver[r].name, SELAS_VELOCITY,
+                                    *values + (i * receivers + r) * 3);
+    }
+    return status;
+}
+
+static double expected_at_worst(const struct scene *scene)
+{
+    double worst = 0;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const size_t points = layer_points(scene, face);
+        if (points > 0) worst = fmax(worst, echo_of_layer(scene, face, points));
+    }
+    return worst;
+}
+
+/* Sum of squares of a receiver's velocities, or of the differences of two runs (other not NULL). */
+static double squares(const double *values, const double *other, size_t rows, size_t receivers, size_t r)
+{
+    double sum = 0;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const size_t at = (i * receivers + r) * 3 + c;
+            sum += pow(values[at] - (other != NULL ? other[at] : 0), 2);
+        }
+    return sum;
+}
+
+/* Relative to the velocity there, or to a hundredth of the largest where hardly anything has arrived. */
+static void tell(const struct scene *scene, const double *small, const double *large, size_t rows)
+{
+    static const double hardly = 0.01;
+    const size_t receivers = scene->receivers;
+    double largest = 0;
+    for (size_t r = 0; r < receivers; r++)
+        largest = fmax(largest, squares(large, NULL, rows, receivers, r));
+    for (size_t r = 0; r < receivers; r++) {
+        const double whole = fmax(squares(large, NULL, rows, receivers, r), hardly * hardly * largest);
+        const double off = squares(small, large, rows, receivers, r);
+        printf("echo %s: %.2e (of the velocity, L2, spacing %g)\n", scene->receiver[r].name,
+               whole > 0 ? sqrt(off / whole) : 0, scene->body.spacing);
+    }
+}
+
+/* The same deck once more, its points coarse, its box larger or not. */
+static selas_status open_coarse(const struct echo_deck *deck, bool larger, selas_simulation **simulation)
+{
+    selas_status status = selas_open_deck_with(deck->path, deck->overrides, deck->override, simulation);
+    if (status != SELAS_OK) return status;
+    struct scene *scene = (*simulation)->scene;
+    const double resolved = points_per_wavelength(scene) / fewest;
+    const double coarser = resolved > 0 ? fmax(1, fmin(coarsest, resolved)) : coarsest;
+    const double spacing = dividing_spacing(&scene->body, scene->dimension, coarser * scene->body.spacing);
+    keep_layers(scene);
+    if (spacing > scene->body.spacing) scene->body.spacing = spacing;
+    scene->stepping.unwarp = false;
+    scene->stepping.unwarp_given = true;
+    if (larger) enlarge(scene);
+    return SELAS_OK;
+}
+
+selas_status check_echo(const struct echo_deck *deck)
+{
+    selas_simulation *one = NULL, *other = NULL;
+    double *small = NULL, *large = NULL;
+    size_t rows = 0;
+    selas_status status = open_coarse(deck, false, &one);
+    if (status == SELAS_OK && (!body_is_box(&one->scene->body) || one->scene->receivers == 0)) {
+        fprintf(stderr, "error: --echo needs a box or a half-space with receivers\n");
+        status = SELAS_UNSUPPORTED;
+    }
+    if (status == SELAS_OK) status = open_coarse(deck, true, &other);
+    if (status == SELAS_OK) status = run(one, 0, &small, &rows);
+    if (status == SELAS_OK) status = run(other, selas_time_step(one), &large, &rows);
+    if (status == SELAS_OK) {
+        tell(one->scene, small, large, rows);
+        if ((scene_needs(one->scene) & CAN_DAMP) != 0)
+            printf("echo expected: not known (dampers)\n");
+        else
+            printf("echo expected: %.2e (at the worst of them, this spacing)\n",
+                   expected_at_worst(one->scene));
+    } else {
+        fputs(selas_message(other != NULL ? other : one), stderr);
+    }
+    free(small);
+    free(large);
+    selas_close(&one);
+    selas_close(&other);
+    return status;
+}

@@ -1,0 +1,158 @@
+/* What only the run can tell: rotations that small-strain theory takes for small, and energy that was given and did
+ * not arrive. Told once, when end_time is reached, with what would be right (doc/results.md).
+ *
+ * Rotation w and strain e at a place are the parts of grad u = e + w (nonlinear methods: Green's strain). Small-strain
+ * theory gives a body that turns by the angle w edges that are w^2 / 2 too long. Strains are held against w because a
+ * linear scene may have any unit of load: a patch on a half-space turns places by up to 2.5 times the strain, a bent
+ * beam by .8 L / W times. */
+#include "record/watch.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PLACES = 64, LOOKS = 100 };
+static const double few_degrees = 0.05, above_strain = 3.0;
+/* Of the energy that was given; springs to the ground left .35 to .71, without them it was .89 to 1. */
+static const double most_of_it = 0.8;
+/* How much more has to be given before what has arrived is looked at again. */
+static const double more = 1.25;
+
+static bool linear_reference(const struct scene *scene)
+{
+    return scene->reference.kind[0] != '\0' && strcmp(scene->reference.kind, "file") != 0;
+}
+
+selas_status hindsight_create(struct recorder *recorder, struct messages *messages)
+{
+    struct model *model = recorder->model;
+    if (recorder->scene->dimension < 2 || (!model->small_strain && !linear_reference(recorder->scene)))
+        return SELAS_OK;
+    recorder->place = array_new(PLACES, sizeof *recorder->place);
+    if (recorder->place == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the watch over rotations");
+    for (size_t k = 0; k < PLACES; k++) {
+        const double part = fmod(0.618034 * ((double)k + 0.5), 1.0); /* evenly, along no row of a lattice */
+        double position[3];
+        struct messages unsaid = {0};
+        model_position(model, (size_t)(part * (double)model->points), position);
+        const selas_status status =
+            model->core->probe(model, position, &recorder->place[recorder->places], &unsaid);
+        messages_free(&unsaid);
+        if (status == SELAS_NO_MEMORY)
+            return fail(messages, SELAS_NO_MEMORY, "no memory for the watch over rotations");
+        if (status == SELAS_OK) recorder->places++;
+    }
+    return SELAS_OK;
+}
+
+void hindsight_free(struct recorder *recorder)
+{
+    for (size_t k = 0; k < recorder->places; k++)
+        probe_free(&recorder->place[k]);
+    array_free(recorder->place);
+}
+
+static void look_at_rotation(struct recorder *recorder, const double *y)
+{
+    const struct model *model = recorder->model;
+    const size_t d = (size_t)recorder->scene->dimension;
+    for (size_t k = 0; k < recorder->places; k++) {
+        const struct probe *probe = &recorder->place[k];
+        double slope[3][3] = {{0}}, turn = 0.0, strain = 0.0;
+        for (size_t j = 0; j < probe->count; j++)
+            for (size_t c = 0; c < d; c++) {
+                const double u = y[c * model->component_stride + probe->index[j] * model->point_stride];
+                for (size_t axis = 0; axis < d; axis++)
+                    slope[c][axis] += probe->gradient[3 * j + axis] * u;
+            }
+        for (size_t a = 0; a < d; a++)
+            for (size_t b = 0; b < d; b++) {
+                double green = 0.0;
+                for (size_t c = 0; c < d && !model->small_strain; c++)
+                    green += 0.5 * slope[c][a] * slope[c][b];
+                turn += a < b ? pow(0.5 * (slope[a][b] - slope[b][a]), 2) : 0.0;
+                strain += pow(0.5 * (slope[a][b] + slope[b][a]) + green, 2);
+            }
+        recorder->watch.turn = fmax(recorder->watch.turn, sqrt(turn));
+        recorder->watch.strain = fmax(recorder->watch.strain, sqrt(strain));
+    }
+}
+
+/* Whenever clearly more has been given than at the last look: how much of it is in the body? */
+static void look_at_arrival(struct recorder *recorder, const struct state *state)
+{
+    struct watch *watch = &recorder->watch;
+    const double due = watch->initial + watch->work - watch->absorbed;
+    if (!(due > more * watch->due)) return;
+    struct energy energy = {0};
+    recorder->model->core->energy(recorder->model, state->y, &energy);
+    watch->due = due;
+    watch->arrived = energy.kinetic + energy.strain;
+}
+
+typedef void teller(void *context, const char *key, const char *value);
+
+static void tell_rotation(const struct recorder *recorder, teller *tell, void *context)
+{
+    const struct watch *watch = &recorder->watch;
+    const struct scene *scene = recorder->scene;
+    const double degrees = watch->turn * 180.0 / acos(-1.0);
+    char text[512];
+    if (!(watch->turn > few_degrees) || !(watch->turn > above_strain * watch->strain)) return;
+    if (recorder->model->small_strain)
+        snprintf(text, sizeof text,
+                 "parts of the body turn by %.3g degrees, with strains of %.2g: the method's small-strain "
+                 "theory takes "
+                 "rotations for small%s; method%%name = 'sph', variant = 'total-lagrangian', law = "
+                 "'saint-venant-kirchhoff' would be right",
+                 degrees, watch->strain, linear_reference(scene) ? ", and so does the reference" : "");
+    else
+        snprintf(text, sizeof text,
+                 "parts of the body turn by %.3g degrees, with strains of %.2g: reference '%s' is linear and "
+                 "takes "
+                 "rotations for small, so that the error is that of the reference, too; a smaller amplitude "
+                 "would be "
+                 "right for a comparison",
+                 degrees, watch->strain, scene->reference.kind);
+    tell(context, "warning", text);
+}
+
+static void tell_arrival(const struct watch *watch, teller *tell, void *context)
+{
+    char text[512];
+    if (!(watch->arrived < most_of_it * watch->due)) return;
+    snprintf(text, sizeof text,
+             "of the energy that was given only %.2g %% was in the body when most was given: the operator as "
+             "printed "
+             "ties each point to the ground by a spring, which takes the rest, and little arrives elsewhere; "
+             "method%%row_sums = 'zero', or variant = 'consistent', would be right",
+             100.0 * watch->arrived / watch->due);
+    tell(context, "warning", text);
+}
+
+void hindsight_tell(const struct recorder *recorder, teller *tell, void *context)
+{
+    tell_rotation(recorder, tell, context);
+    tell_arrival(&recorder->watch, tell, context);
+}
+
+static void warn_of(void *context, const char *key, const char *value)
+{
+    (void)key;
+    warn(context, "%s", value);
+}
+
+void hindsight_observe(struct recorder *recorder, const struct state *state, bool settled,
+                       struct messages *messages)
+{
+    const struct stepper *stepper = recorder->stepper;
+    if (settled || (!stepper->one_pass && state->step % (1 + stepper->steps / LOOKS) == 0))
+        look_at_rotation(recorder, state->y);
+    if (recorder->model->leaks && recorder->watch.by_work) look_at_arrival(recorder, state);
+    if (state->step != stepper->steps || recorder->looked_back) return;
+    recorder->looked_back = true;
+    hindsight_tell(recorder, warn_of, messages);
+}

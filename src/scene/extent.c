@@ -1,0 +1,269 @@
+/* What each group and kind acts on or looks at (see the header). A kind that is missing in a switch does not
+ * compile (-Wswitch, an error in CI); a group that is missing in the table below fails test_extent. */
+#include "scene/extent.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A Gaussian of width w ends here: exp(-5^2 / 2) = 4e-6. */
+static const double gaussian_end = 5;
+/* Root mean square frequency of a Gaussian's slope over that of the Gaussian itself. */
+static const double slope_over_value = 1.7320508075688772;
+
+/* Sets the place to nothing, for widen(). */
+static void begin_place(struct extent *extent)
+{
+    for (int c = 0; c < 3; c++) {
+        extent->low[c] = INFINITY;
+        extent->high[c] = -INFINITY;
+    }
+}
+
+/* Takes a place of the deck, with as much on both sides along each axis of the body, into the extent. */
+static void widen(const struct scene *scene, const double position[3], const double half[3],
+                  struct extent *extent)
+{
+    double place[3];
+    body_from_deck(&scene->body, position, place);
+    for (int c = 0; c < 3; c++) {
+        extent->low[c] = fmin(extent->low[c], place[c] - half[c]);
+        extent->high[c] = fmax(extent->high[c], place[c] + half[c]);
+    }
+}
+
+/* P wavelength at the root mean square frequency of f', taken as that of f times what a Gaussian's is: kinks
+ * of f then count as what they are for a lattice. */
+static double wavelength_of(const struct scene *scene, const struct history *history)
+{
+    enum { PARTS = 4000 };
+    const double end = history_end(history);
+    const bool lasting = !(end < scene->end_time) || history_value(history, end * (1 + 1e-9), 0) != 0;
+    const double step = (lasting ? scene->end_time : end) / PARTS;
+    double value = 0, slope = 0;
+    for (int i = 0; i < PARTS; i++) {
+        value += pow(history_value(history, (i + .5) * step, 0), 2);
+        slope += pow(history_value(history, (i + .5) * step, 1), 2);
+    }
+    if (!(value > 0 && slope > 0)) return INFINITY; /* a host's, or one that never changes */
+    return 2 * M_PI * scene_fastest(scene) * sqrt(value / slope) / slope_over_value;
+}
+
+/* --- What acts ------------------------------------------------------------------------------------------ */
+
+static size_t count_loads(const struct scene *scene)
+{
+    return scene->loads;
+}
+
+static bool is_surface(const struct scene *scene, enum face face)
+{
+    return (int)face == 2 * (scene->dimension - 1);
+}
+
+static bool along_normal(const struct scene *scene, const double direction[3])
+{
+    double own[3];
+    body_direction_from_deck(&scene->body, direction, own);
+    return fabs(own[scene->dimension - 1]) > 1 - 1e-9;
+}
+
+/* Is a load at its own centre another one than its mirror image across an axis? */
+static bool is_skew(const struct scene *scene, const struct load *load, int axis)
+{
+    static const int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}}; /* of xx yy zz xy yz zx */
+    double own[3];
+    if (load->kind == LOAD_MOMENT_TENSOR)
+        return scene->body.rotated || load->moment[shear[axis][0]] != 0 || load->moment[shear[axis][1]] != 0;
+    body_direction_from_deck(&scene->body, load->direction, own);
+    return own[axis] != 0;
+}
+
+static void state_load(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct load *load = &scene->load[index];
+    double half[3] = {0}, end[3];
+    int side = 0;
+    extent->role = EXTENT_ACTS;
+    extent->index = load->group; /* of which there may be several (listed_loads.c) */
+    extent->wavelength = wavelength_of(scene, &load->history);
+    switch (load->shape) {
+    case LOAD_FACE:
+        extent->plane = load->kind == LOAD_TRACTION && is_surface(scene, load->face) &&
+                        along_normal(scene, load->direction);
+        return; /* wherever the body is */
+    case LOAD_SQUARE:
+        for (int c = 0; c < scene->dimension; c++)
+            if (c != face_axis(load->face)) half[c] = load->size[side++] / 2;
+        break;
+    case LOAD_DISC:
+        for (int c = 0; c < scene->dimension; c++)
+            if (c != face_axis(load->face)) half[c] = load->size[0] / 2;
+        break;
+    case LOAD_POINT:
+        break;
+    }
+    for (int c = 0; c < 3; c++) {
+        end[c] = load->centre[c] + load->velocity[c] * scene->end_time;
+        extent->skew[c] = is_skew(scene, load, c);
+    }
+    begin_place(extent);
+    widen(scene, load->centre, half, extent);
+    widen(scene, end, half, extent);
+}
+
+static size_t count_faces(const struct scene *scene)
+{
+    return 2 * (size_t)scene->dimension;
+}
+
+static void state_face(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct boundary *boundary = &scene->boundary[index];
+    if (!boundary_moves(boundary)) return;
+    extent->role = EXTENT_ACTS;
+    extent->index = boundary->group;
+    extent->wavelength = wavelength_of(scene, &boundary->history);
+    extent->plane = is_surface(scene, (enum face)index) && along_normal(scene, boundary->direction);
+}
+
+static size_t count_initial(const struct scene *scene)
+{
+    (void)scene;
+    return 1;
+}
+
+static void state_initial(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct initial *initial = &scene->initial;
+    const double wide = gaussian_end * initial->width, half[3] = {wide, wide, wide};
+    (void)index;
+    extent->role = EXTENT_ACTS;
+    extent->wavelength = 2 * M_PI * initial->width * sqrt(2.) / slope_over_value;
+    switch (initial->kind) {
+    case INITIAL_REST:
+        extent->role = EXTENT_IDLE;
+        return;
+    case INITIAL_GAUSSIAN:
+        begin_place(extent);
+        widen(scene, initial->centre, half, extent);
+        return;
+    case INITIAL_PLANE_WAVE:
+        extent->plane = !initial->shear && initial->width > 0 && along_normal(scene, initial->direction);
+        if (extent->plane) {
+            double place[3];
+            const int down = scene->dimension - 1;
+            body_from_deck(&scene->body, initial->centre, place);
+            extent->low[down] = place[down] - wide;
+            extent->high[down] = place[down] + wide;
+        } else {
+            extent->wavelength = initial->wavelength;
+        }
+        return;
+    case INITIAL_UNIFORM_VELOCITY:
+    case INITIAL_BEAM_MODE:
+        extent->wavelength = INFINITY;
+        return;
+    }
+}
+
+/* --- What is looked at ---------------------------------------------------------------------------------- */
+
+static const double nothing[3] = {0};
+
+static size_t count_receivers(const struct scene *scene)
+{
+    return scene->receivers;
+}
+
+static void state_receiver(const struct scene *scene, size_t index, struct extent *extent)
+{
+    extent->role = EXTENT_SEEN;
+    begin_place(extent);
+    widen(scene, scene->receiver[index].position, nothing, extent);
+}
+
+static size_t count_profiles(const struct scene *scene)
+{
+    return scene->profiles;
+}
+
+static void state_profile(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct profile *profile = &scene->profile[index];
+    extent->role = EXTENT_SEEN;
+    extent->until = profile->time[profile->times - 1];
+    begin_place(extent);
+    widen(scene, profile->from, nothing, extent);
+    widen(scene, profile->to, nothing, extent);
+}
+
+static size_t count_snapshots(const struct scene *scene)
+{
+    return scene->snapshots;
+}
+
+static void state_snapshot(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct snapshot *snapshot = &scene->snapshot[index];
+    extent->role = EXTENT_SEEN;
+    if (snapshot->times > 0) extent->until = snapshot->time[snapshot->times - 1];
+    if (snapshot->whole) return;
+    begin_place(extent);
+    for (int corner = 0; corner < 8; corner++) {
+        double place[3];
+        for (int c = 0; c < 3; c++)
+            place[c] = corner >> c & 1 ? snapshot->region_high[c] : snapshot->region_low[c];
+        widen(scene, place, nothing, extent);
+    }
+}
+
+/* --- All of them ---------------------------------------------------------------------------------------- */
+
+static const struct kind {
+    const char *group;
+    size_t (*count)(const struct scene *scene); /* NULL: neither acts nor looks */
+    void (*state)(const struct scene *scene, size_t index, struct extent *extent);
+} kinds[] = {
+    {"load", count_loads, state_load},
+    {"boundary", count_faces, state_face},
+    {"initial", count_initial, state_initial},
+    {"receiver", count_receivers, state_receiver},
+    {"profile", count_profiles, state_profile},
+    {"snapshot", count_snapshots, state_snapshot},
+    {"scene", NULL, NULL},
+    {"method", NULL, NULL},
+    {"stepping", NULL, NULL},
+    {"material", NULL, NULL},
+    {"body", NULL, NULL},
+    {"layer", NULL, NULL},
+    {"output", NULL, NULL},
+    {"reference", NULL, NULL}, /* its histories are those of receivers */
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+bool extent_stated(const char *group)
+{
+    for (size_t k = 0; k < KINDS; k++)
+        if (strcmp(kinds[k].group, group) == 0) return true;
+    return false;
+}
+
+bool scene_extent(const struct scene *scene, size_t index, struct extent *extent)
+{
+    for (size_t k = 0; k < KINDS; k++) {
+        const size_t count = kinds[k].count != NULL ? kinds[k].count(scene) : 0;
+        if (index >= count) {
+            index -= count;
+            continue;
+        }
+        *extent = (struct extent){.group = kinds[k].group,
+                                  .index = index,
+                                  .low = {-INFINITY, -INFINITY, -INFINITY},
+                                  .high = {INFINITY, INFINITY, INFINITY},
+                                  .until = scene->end_time,
+                                  .wavelength = INFINITY};
+        kinds[k].state(scene, index, extent);
+        return true;
+    }
+    return false;
+}
