@@ -27,13 +27,14 @@ bool echo_seen(const struct scene *scene, int face, double less)
     const double speed = 1.02 * scene_fastest(scene);
     struct extent seen, acts;
     bool looked = false;
-    for (size_t i = 0; scene_extent(scene, i, &seen); i++) {
-        if (seen.role != EXTENT_SEEN) continue;
-        looked = true;
-        for (size_t k = 0; scene_extent(scene, k, &acts); k++) {
-            const double way = distance(scene, face, &acts) + distance(scene, face, &seen) - less;
-            if (acts.role == EXTENT_ACTS && way <= speed * (seen.until - acts.from)) return true;
-        }
+    for (size_t k = 0; scene_extent(scene, k, &acts); k++)
+        looked = looked || acts.role == EXTENT_SEEN;
+    for (size_t k = 0; scene_extent(scene, k, &acts); k++) {
+        const double left = distance(scene, face, &acts) - less;
+        for (size_t i = 0; acts.role == EXTENT_ACTS && scene_extent(scene, i, &seen); i++)
+            if (seen.role == EXTENT_SEEN &&
+                left + distance(scene, face, &seen) <= speed * (seen.until - acts.from))
+                return true;
     }
     return !looked;
 }

@@ -35,24 +35,30 @@ static void widen(const struct scene *scene, const double position[3], const dou
  * of f then count as what they are for a lattice. */
 static double wavelength_of(const struct scene *scene, const struct history *history)
 {
-    enum { PARTS = 4000 };
-    const double end = history_end(history);
-    const bool lasting = !(end < scene->end_time) || history_value(history, end * (1 + 1e-9), 0) != 0;
-    const double step = (lasting ? scene->end_time : end) / PARTS;
-    double value = 0, slope = 0;
-    for (int i = 0; i < PARTS; i++) {
-        value += pow(history_value(history, (i + .5) * step, 0), 2);
-        slope += pow(history_value(history, (i + .5) * step, 1), 2);
-    }
-    if (!(value > 0 && slope > 0)) return INFINITY; /* a host's, or one that never changes */
-    return 2 * M_PI * scene_fastest(scene) * sqrt(value / slope) / slope_over_value;
+    if (!(history->rate > 0)) return INFINITY; /* a host's, or one that never changes */
+    return 2 * M_PI * scene_fastest(scene) / history->rate / slope_over_value;
 }
 
 /* --- What acts ------------------------------------------------------------------------------------------ */
 
+/* All loads of one &load (a file of sources has many) are one extent; they stand side by side. */
 static size_t count_loads(const struct scene *scene)
 {
-    return scene->loads;
+    return scene->loads > 0 ? scene->load[scene->loads - 1].group + 1 : 0;
+}
+
+/* The first load of a group or of one after it. */
+static size_t first_of_group(const struct scene *scene, size_t group)
+{
+    size_t first = 0, past = scene->loads;
+    while (first < past) {
+        const size_t middle = first + (past - first) / 2;
+        if (scene->load[middle].group < group)
+            first = middle + 1;
+        else
+            past = middle;
+    }
+    return first;
 }
 
 static bool is_surface(const struct scene *scene, enum face face)
@@ -78,13 +84,27 @@ static bool is_skew(const struct scene *scene, const struct load *load, int axis
     return own[axis] != 0;
 }
 
-static void state_load(const struct scene *scene, size_t index, struct extent *extent)
+/* Where a load of a place of its own acts, wherever it moves to. */
+static void widen_by_load(const struct scene *scene, const struct load *load, struct extent *extent)
 {
-    const struct load *load = &scene->load[index];
     double half[3] = {0}, end[3];
     int side = 0;
+    for (int c = 0; c < scene->dimension; c++) {
+        if (load->shape == LOAD_DISC && c != face_axis(load->face)) half[c] = load->size[0] / 2;
+        if (load->shape == LOAD_SQUARE && c != face_axis(load->face)) half[c] = load->size[side++] / 2;
+    }
+    for (int c = 0; c < 3; c++)
+        end[c] = load->centre[c] + load->velocity[c] * scene->end_time;
+    widen(scene, load->centre, half, extent);
+    widen(scene, end, half, extent);
+}
+
+static void state_load(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const size_t first = first_of_group(scene, index), past = first_of_group(scene, index + 1);
+    const struct load *load = &scene->load[first];
+    if (first == past) return;
     extent->role = EXTENT_ACTS;
-    extent->index = load->group; /* of which there may be several (listed_loads.c) */
     extent->wavelength = wavelength_of(scene, &load->history);
     switch (load->shape) {
     case LOAD_FACE:
@@ -92,23 +112,15 @@ static void state_load(const struct scene *scene, size_t index, struct extent *e
                         along_normal(scene, load->direction);
         return; /* wherever the body is */
     case LOAD_SQUARE:
-        for (int c = 0; c < scene->dimension; c++)
-            if (c != face_axis(load->face)) half[c] = load->size[side++] / 2;
-        break;
     case LOAD_DISC:
-        for (int c = 0; c < scene->dimension; c++)
-            if (c != face_axis(load->face)) half[c] = load->size[0] / 2;
-        break;
     case LOAD_POINT:
         break;
     }
-    for (int c = 0; c < 3; c++) {
-        end[c] = load->centre[c] + load->velocity[c] * scene->end_time;
-        extent->skew[c] = is_skew(scene, load, c);
-    }
     begin_place(extent);
-    widen(scene, load->centre, half, extent);
-    widen(scene, end, half, extent);
+    for (size_t k = first; k < past; k++)
+        widen_by_load(scene, &scene->load[k], extent);
+    for (int c = 0; c < 3; c++)
+        extent->skew[c] = past - first > 1 || is_skew(scene, load, c);
 }
 
 static size_t count_faces(const struct scene *scene)

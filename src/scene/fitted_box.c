@@ -175,9 +175,9 @@ static void fit_large(const struct builder *builder, const struct held *held, st
     for (int c = 0; c < sketch->dimension; c++)
         want[c] = (struct span){held->all[c].low - dx, held->all[c].high + dx};
     want[down].high = fmax(want[down].high, deepest_layer(builder) + MARGIN * dx);
-    for (size_t i = 0; scene_extent(sketch, i, &seen); i++)
-        for (size_t k = 0; seen.role == EXTENT_SEEN && scene_extent(sketch, k, &acts); k++)
-            for (int c = 0; acts.role == EXTENT_ACTS && c < sketch->dimension; c++) {
+    for (size_t k = 0; scene_extent(sketch, k, &acts); k++)
+        for (size_t i = 0; acts.role == EXTENT_ACTS && scene_extent(sketch, i, &seen); i++)
+            for (int c = 0; seen.role == EXTENT_SEEN && c < sketch->dimension; c++) {
                 const double reach = speed * (seen.until - acts.from);
                 if (isinf(seen.low[c]) || (held->plane && c < down)) continue;
                 const double above = isinf(acts.high[c]) ? 0 : acts.high[c];

@@ -330,6 +330,20 @@ bool history_same(const struct history *a, const struct history *b)
                             memcmp(a->table_value, b->table_value, bytes) == 0);
 }
 
+void history_set_rate(struct history *history, double end_time)
+{
+    enum { PARTS = 4000 };
+    const double end = history_end(history);
+    const bool lasting = !(end < end_time) || history_value(history, end * (1 + 1e-9), 0) != 0;
+    const double step = (lasting ? end_time : end) / PARTS;
+    double value = 0, slope = 0;
+    for (int i = 0; i < PARTS; i++) {
+        value += pow(history_value(history, (i + .5) * step, 0), 2);
+        slope += pow(history_value(history, (i + .5) * step, 1), 2);
+    }
+    history->rate = value > 0 ? sqrt(slope / value) : 0;
+}
+
 double history_rate_norm(const struct history *history)
 {
     enum { STEPS = 2000 };

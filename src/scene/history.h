@@ -19,6 +19,7 @@ struct history {
     double duration, frequency, delay, width, cycles, smoothing, start;
     size_t rows; /* table */
     double *table_time, *table_value;
+    double rate; /* root mean square of f' over that of f while it acts, 0 without one: history_set_rate() */
 };
 
 /* Derivative of order `derivative` = -1 (integral from 0), 0, 1 or 2 at time t; kinks and jumps without
@@ -43,6 +44,9 @@ bool history_same(const struct history *a, const struct history *b);
 /* Time after which f stays constant; INFINITY if never (not for kinds of
  * today). */
 double history_end(const struct history *history);
+
+/* Sets `rate`, for runs to this time. */
+void history_set_rate(struct history *history, double end_time);
 
 /* L2 norm of f' over all time, impulses left out. */
 double history_rate_norm(const struct history *history);

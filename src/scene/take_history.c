@@ -120,9 +120,11 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
     history->smoothing = deck_real(group, "smoothing", 0);
     history->start = deck_real(group, "start", 0);
     if (right && history->kind == HISTORY_TABLE) right = take_table(builder, group, history);
-    if (right)
-        warn_of_jumps(builder, group, history);
-    else
+    if (!right) {
         *history = (struct history){0};
-    return right;
+        return false;
+    }
+    warn_of_jumps(builder, group, history);
+    history_set_rate(history, builder->scene->end_time);
+    return true;
 }
