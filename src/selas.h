@@ -117,8 +117,8 @@ SELAS_API selas_status selas_plan(selas_simulation *simulation,
  * failure that keeps all later calls from being done (a deck that cannot be opened, a scene that cannot be
  * built, a run that went unstable) is told once. */
 SELAS_API const char *selas_message(const selas_simulation *simulation);
-/* What the last call that returns a status said, "" if nothing; of a call that was not done because an earlier one had failed, what
- * that one said. Valid until the next call of this function. Never NULL. */
+/* What the last call that returns a status said, "" if nothing; of a call that was not done because an
+ * earlier one had failed, what that one said. Valid until the next call of this function. Never NULL. */
 SELAS_API const char *selas_last_message(selas_simulation *simulation);
 /* Folder that selas_write fills; "" if the simulation has none. */
 SELAS_API const char *selas_output_directory(selas_simulation *simulation);
@@ -130,8 +130,9 @@ SELAS_API void selas_close(selas_simulation **simulation);
  *
  * A scene has the words of a deck (doc/deck.md), set one by one; what is not set has the deck's default. Each
  * value is checked at once, as those of a deck are (name, type, number, range, choice); a call that is refused
- * changes nothing. What the words mean together is checked when the scene is first used, or by selas_build. The calls also change a simulation that was opened from a deck. All of them, and the functions
- * further below that say so, must come before the first step. */
+ * changes nothing. What the words mean together is checked when the scene is first used, or by selas_build.
+ * The calls also change a simulation that was opened from a deck. All of them, and the functions further below
+ * that say so, must come before the first step. */
 
 /* A scene with nothing in it; name is that of a deck: results go to output/NAME. */
 SELAS_API selas_status selas_open_new(const char *name, selas_simulation **simulation);

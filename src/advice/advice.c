@@ -46,8 +46,8 @@ static void look_at_start(struct adviser *adviser)
                wave / spacing, fewest, wave / fewest);
 }
 
-/* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency of a beam in
- * plane strain, L = 5 W, 5 and 10 points across, against degree 4 (doc/results.md). */
+/* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency
+ * of a beam in plane strain, L = 5 W, 5 and 10 points across, against degree 4 (doc/results.md). */
 static void look_at_incompressible(struct adviser *adviser)
 {
     static const double nearly = 0.45;
@@ -68,7 +68,8 @@ static void look_at_incompressible(struct adviser *adviser)
            stiff->name, stiff->poisson);
 }
 
-/* A moment tensor pulls at one point's neighbours: by gradients of total-Lagrangian points it is coarse (doc/sources.md). */
+/* A moment tensor pulls at one point's neighbours: by gradients of total-Lagrangian points it is coarse
+ * (doc/sources.md). */
 static void look_at_moments(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;

@@ -19,8 +19,8 @@ struct beam beam_of(const struct scene *scene);
 double beam_euler_bernoulli(const struct beam *beam);
 /* With shear and rotary inertia, shear factor 10 (1 + nu) / (12 + 11 nu) of Cowper (1966). */
 double beam_timoshenko(const struct beam *beam);
-/* Two-dimensional elasticity of the clamped-free beam where it is known (numerics B4: L / W = 5 and 10, poisson .35 or .3975, by two
- * finite-element programs, 2e-5): 0 elsewhere. */
+/* Two-dimensional elasticity of the clamped-free beam where it is known (numerics B4: L / W = 5 and 10,
+ * poisson .35 or .3975, by two finite-element programs, 2e-5): 0 elsewhere. */
 double beam_plane(const struct scene *scene);
 
 #endif
