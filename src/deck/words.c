@@ -35,6 +35,8 @@ static const struct word method_words[] = {
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", OPTIONAL,
      "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
      "else vc3)"},
+    {"operator", WORD_CHOICE, 1, "'layered'", "layered|general", OPTIONAL,
+     "operator for even or layered ground, or for ground that varies in all directions (consistent)"},
     {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "splines along the surface tuned for short waves (consistent, degree 4, exact mass; the default on "
      "layered "

@@ -8,6 +8,7 @@
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/moving_load.h"
+#include "method/consistent/general/general.h"
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
@@ -20,6 +21,7 @@ static void destroy(struct model *model)
 {
     struct consistent *c = consistent_of(model);
     pml_free(c);
+    general_free(c);
     fused_free(c->fused);
     hform_free(c);
     forces_free(c);
@@ -91,8 +93,10 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
                        const double *v, double *a)
 {
     struct consistent *c = consistent_of(model);
-    moving_loads_place(c, drive->time, c->hform != NULL);
-    if (c->hform != NULL)
+    moving_loads_place(c, drive->time, c->hform != NULL && c->general == NULL);
+    if (c->general != NULL)
+        general_accelerate(c, drive, half_step, u, v, a);
+    else if (c->hform != NULL)
         hform_accelerate(c, drive, half_step, u, v, a);
     else
         exact_accelerate(c, drive, half_step, u, v, a);
@@ -107,6 +111,10 @@ static void energy(struct model *model, const double *y, struct energy *energy)
     bool moving = false;
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
+    if (c->general != NULL) {
+        general_energy(c, y, energy);
+        return;
+    }
     if (c->hform != NULL && !moving) {
         hform_energy(c, y, energy);
         return;
@@ -118,6 +126,10 @@ static void energy(struct model *model, const double *y, struct energy *energy)
 static void weigh(struct model *model, const double *v, double *product)
 {
     struct consistent *c = consistent_of(model);
+    if (c->general != NULL) {
+        general_weigh(c, v, product);
+        return;
+    }
     if (c->hform != NULL) {
         hform_weigh(c, v, product);
         return;
@@ -145,7 +157,9 @@ static void power(struct model *model, const struct drive *drive, const double *
         moving_loads_place(c, drive->time, false);
         *load += moving_loads_power(c, drive, v);
     }
-    *absorbed = c->hform != NULL ? hform_damper_power(c, v) : dampers_power(c, v);
+    *absorbed = c->general != NULL ? general_damper_power(c, v)
+                : c->hform != NULL ? hform_damper_power(c, v)
+                                   : dampers_power(c, v);
     if (c->hform != NULL) *absorbed += hform_dissipation_power(c, v);
 }
 
@@ -203,6 +217,7 @@ static selas_status build(struct consistent *c, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
+    if (status == SELAS_OK && c->options.general) return general_create(c, messages);
     if (status == SELAS_OK && c->hform != NULL && !c->options.unfused && !fused_create(c))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the fused operator");
     if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
@@ -262,8 +277,8 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
     c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
-                     forces_bytes(c) + hform_bytes(c) + (c->fused != NULL ? c->fused->bytes : 0) +
-                     (c->pml != NULL ? c->pml->bytes : 0);
+                     forces_bytes(c) + hform_bytes(c) + (c->general != NULL ? c->general->bytes : 0) +
+                     (c->fused != NULL ? c->fused->bytes : 0) + (c->pml != NULL ? c->pml->bytes : 0);
     *model = &c->model;
     return SELAS_OK;
 }

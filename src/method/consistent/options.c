@@ -12,6 +12,32 @@ static bool tunable(const struct scene *scene, const struct consistent_options *
            scene->initial.kind == INITIAL_REST;
 }
 
+/* What the general operator has and has not. */
+static selas_status check_general(const struct scene *scene, const struct consistent_options *options,
+                                  struct messages *messages)
+{
+    if (options->degree != 2 || options->sweeps != 3 || options->mapped || options->tuned ||
+        options->dissipation > 0)
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "method%%operator = 'general' needs method%%degree = 2, method%%mass = 'vc3', method%%ends "
+            "= 'open', splines that are not tuned and no dissipation");
+    if (scene->dimension == 1)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "method%%operator = 'general' needs two or three dimensions; in one take 'layered'");
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        if (boundary_moves(&scene->boundary[face]))
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: method%%operator = 'general' has no faces with a prescribed motion",
+                        face_name((enum face)face));
+        if (layer_points(scene, face) > 0)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: method%%operator = 'general' has no layer 'pml'; take layer = 'lysmer'",
+                        face_name((enum face)face));
+    }
+    return SELAS_OK;
+}
+
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
                               struct messages *messages)
 {
@@ -39,6 +65,7 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
                         "layer = 'lysmer'",
                         face_name((enum face)face));
     }
+    if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }
 
@@ -54,9 +81,10 @@ static bool given(const struct deck_group *group, const char *word)
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
-    struct consistent_options options = {.degree = 2, .sweeps = 3};
-    if (body_is_layered(&scene->body) && !layer_anywhere(scene) && !given(group, "mass") &&
-        !given(group, "depth_mass") && !given(group, "dissipation")) {
+    struct consistent_options options = {
+        .degree = 2, .sweeps = 3, .general = deck_chosen(group, "operator", "general")};
+    if (!options.general && body_is_layered(&scene->body) && !layer_anywhere(scene) &&
+        !given(group, "mass") && !given(group, "depth_mass") && !given(group, "dissipation")) {
         options.degree = 4;
         options.sweeps = 0;
     }
@@ -75,7 +103,7 @@ struct consistent_options consistent_options_of(const struct scene *scene)
     options.single = deck_chosen(group, "precision", "single");
     if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
     options.mapped = deck_chosen(group, "ends", "mapped");
-    options.tuned = body_is_layered(&scene->body) && tunable(scene, &options);
+    options.tuned = !options.general && body_is_layered(&scene->body) && tunable(scene, &options);
     if (given(group, "tuned")) options.tuned = deck_logical(group, "tuned", 0);
     return options;
 }

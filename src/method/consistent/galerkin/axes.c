@@ -66,7 +66,8 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
         choice.low -= (double)c->layer[2 * axis] * choice.spacing;
         choice.high += (double)c->layer[2 * axis + 1] * choice.spacing;
         c->slot[axis] = slots[c->dimension - 1][axis];
-        if (c->slot[axis] == DEPTH) choice.interfaces = interfaces(body, axis, interface);
+        if (c->slot[axis] == DEPTH && !c->options.general)
+            choice.interfaces = interfaces(body, axis, interface);
         const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
         for (int end = 0; end < 2; end++)
             choice.mirror[end] = boundary_mirrors(&boundary[end]);
@@ -104,7 +105,7 @@ static bool lay_material(struct consistent *c)
 {
     const struct scene *scene = c->model.scene;
     properties(&scene->material[scene->body.material], c->property);
-    if (scene->body.layers == 0) return true;
+    if (scene->body.layers == 0 || c->options.general) return true;
     const struct spline *spline = c->layout[DEPTH];
     for (int weight = 0; weight < WEIGHT_NONE; weight++) {
         c->weighted[weight] = array_new(spline->elements, sizeof(double));

@@ -21,6 +21,7 @@ struct consistent_options {
         dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
     double quiet;    /* fused operator: displacements below this times the largest move nothing; 0: all do */
     bool single;     /* layers: tables for steps in single precision, too */
+    bool general;    /* the general operator (general/general.h) in place of the H-form */
     bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
 };
 
@@ -84,6 +85,7 @@ struct consistent {
     double *line_buffer;     /* [threads * (n[0] + n[1])] */
     double *face_buffer;     /* [dimension * plane] */
     struct hform *hform;     /* NULL: exact mass */
+    struct general *general; /* NULL: the H-form or the exact mass */
     struct fused *fused;     /* NULL: the scene is none for it, or it is not wanted */
     int threads;
     struct tuned_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */

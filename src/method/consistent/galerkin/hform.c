@@ -16,6 +16,13 @@
 
 #include <string.h>
 
+const double *hform_series(const struct consistent *c, int *terms)
+{
+    static const double plain[] = {1, 1, 1, 1}, general[] = {1, 1, .8962, 1.6064};
+    *terms = c->options.sweeps + 1;
+    return c->options.general ? general : plain;
+}
+
 struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd)
 {
     const struct spline *spline = c->spline[axis];
@@ -31,6 +38,8 @@ struct band *hform_inverse(const struct consistent *c, int component, int axis, 
         band_free(sum);
         return NULL;
     }
+    int terms;
+    const double *series = hform_series(c, &terms);
     bool held[2], cut[2]; /* cut: the even functions of a mirror plane keep what odd ones have not */
     for (int end = 0; end < 2; end++) {
         held[end] = c->held[component][2 * axis + end];
@@ -42,15 +51,15 @@ struct band *hform_inverse(const struct consistent *c, int component, int axis, 
         for (size_t j = 0; j < n; j++)
             if (!((cut[0] && j == 0) || (cut[1] && j == n - 1))) row_sum += band_get(even, i, j);
         band_add(diagonal, i, i, 1 / row_sum);
-        band_add(sum, i, i, 1 / row_sum);
+        band_add(sum, i, i, series[terms - 1] / row_sum);
         for (size_t j = 0; j < n; j++)
             if (band_get(mass, i, j) != 0) band_add(rest, i, j, -band_get(mass, i, j) / row_sum);
         band_add(rest, i, i, 1);
     }
-    for (int sweep = 0; sweep < c->options.sweeps && sum != NULL; sweep++) {
+    for (int term = terms - 2; term >= 0 && sum != NULL; term--) {
         struct band *product = band_product(rest, sum);
         band_free(sum);
-        sum = product == NULL ? NULL : band_sum(product, 1, diagonal);
+        sum = product == NULL ? NULL : band_sum(product, series[term], diagonal);
         band_free(product);
     }
     band_free(rest);
@@ -351,8 +360,8 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     h->work = array_new(c->model.unknowns, sizeof *h->work);
     h->face[0] = array_new(largest, sizeof(double));
     h->face[1] = array_new(largest, sizeof(double));
-    if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) || !lay_plan(c) ||
-        !lay_forces(c) || !hform_dissipation_create(c))
+    if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) ||
+        (!c->options.general && (!lay_plan(c) || !lay_forces(c) || !hform_dissipation_create(c))))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     return SELAS_OK;
 }
@@ -361,7 +370,8 @@ size_t hform_bytes(const struct consistent *c)
 {
     const struct hform *h = c->hform;
     if (h == NULL) return 0;
-    return sizeof *h + c->model.unknowns * sizeof *h->work + tensor_plan_bytes(h->acceleration) +
+    return sizeof *h + c->model.unknowns * sizeof *h->work +
+           (h->acceleration != NULL ? tensor_plan_bytes(h->acceleration) : 0) +
            (h->dissipation != NULL ? tensor_plan_bytes(h->dissipation) : 0);
 }
 

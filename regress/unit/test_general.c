@@ -1,0 +1,334 @@
+/* The general operator of the consistent method on random ground: symmetry, sign, rigid motions, plane waves,
+ * the largest step, energy, dampers, symmetry planes, threads (doc/general-ground.md). */
+#include "consistent_run.h"
+
+#include "method/consistent/general/general.h"
+#include "stepping/stepping.h"
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_sort_vector.h>
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+static struct consistent_options general(void)
+{
+    return (struct consistent_options){.degree = 2, .sweeps = 3, .depth_exact = true, .general = true};
+}
+
+static uint64_t bits = 11;
+static double chance(double low, double high)
+{
+    bits = bits * 6364136223846793005u + 1442695040888963407u;
+    return low * pow(high / low, (double)(bits >> 11) * 0x1p-53);
+}
+
+/* Multiplies the moduli at every point and the mass of every control value by numbers from 1/2 to 2. */
+static void make_random(struct consistent *c)
+{
+    double *mass = calloc(c->volume, sizeof *mass);
+    for (int f = 0; f < 3; f++) {
+        struct family *family = &c->general->family[f];
+        for (size_t i = 0; i < family->n[0] * family->n[1] * family->n[2]; i++) {
+            family->lambda[i] *= chance(.5, 2);
+            family->mu[i] *= chance(.5, 2);
+        }
+    }
+    for (size_t i = 0; i < c->volume; i++)
+        mass[i] = chance(.5, 2) * pow(c->model.scene->body.spacing, c->dimension);
+    assert_true(general_scale(c, mass));
+    free(mass);
+}
+
+static struct run random_run(struct plain_scene *plain, int dimension, const double size[3])
+{
+    plain_box(plain, dimension, size, .25);
+    struct run run = run_new(plain, general());
+    make_random(consistent_of(run.model));
+    return run;
+}
+
+static void test_symmetric_and_positive(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct plain_scene plain;
+        struct run run = random_run(&plain, dimension, (double[]){1, .75, .75});
+        struct consistent *c = consistent_of(run.model);
+        gsl_matrix *k = gsl_matrix_alloc(run.n, run.n);
+        double off = 0, largest = 0;
+        for (size_t j = 0; j < run.n; j++) {
+            memset(run.y, 0, run.n * sizeof *run.y);
+            run.y[j] = 1;
+            general_forces(c, run.y, run.a);
+            for (size_t i = 0; i < run.n; i++)
+                gsl_matrix_set(k, i, j, -run.a[i]);
+        }
+        for (size_t i = 0; i < run.n; i++)
+            for (size_t j = 0; j < i; j++) {
+                off = fmax(off, fabs(gsl_matrix_get(k, i, j) - gsl_matrix_get(k, j, i)));
+                largest = fmax(largest, fabs(gsl_matrix_get(k, i, j)));
+            }
+        assert_true(off < 1e-14 * largest);
+        gsl_vector *values = gsl_vector_alloc(run.n);
+        gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(run.n);
+        gsl_eigen_symm(k, values, work);
+        gsl_sort_vector(values);
+        const double top = gsl_vector_get(values, run.n - 1);
+        const size_t rigid = dimension == 2 ? 3 : 6;
+        assert_true(gsl_vector_get(values, 0) > -1e-13 * top);
+        assert_true(gsl_vector_get(values, rigid - 1) < 1e-13 * top); /* and no other null modes */
+        assert_true(gsl_vector_get(values, rigid) > 1e-5 * top);
+        gsl_eigen_symm_free(work);
+        gsl_vector_free(values);
+        gsl_matrix_free(k);
+        run_free(&run);
+    }
+}
+
+/* u_from = the coordinate along to, u_to = -s times that along from; control values of coordinates are the
+ * Greville points. */
+static void test_rigid_motions(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    struct run run = random_run(&plain, 3, (double[]){2, 1.5, 1.25});
+    struct consistent *c = consistent_of(run.model);
+    double scale[2] = {0, 0};
+    for (int s = -1; s <= 1; s += 2) /* a pure shear moves things, a rotation does not */
+        for (int from = 0; from < 3; from++) {
+            const int to = (from + 1) % 3;
+            memset(run.y, 0, run.n * sizeof *run.y);
+            for (size_t i = 0; i < c->volume; i++) {
+                const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
+                run.y[(size_t)from * c->volume + i] = 1 + c->spline[to]->greville[at[to]];
+                run.y[(size_t)to * c->volume + i] = 2 - s * c->spline[from]->greville[at[from]];
+            }
+            general_forces(c, run.y, run.a);
+            for (size_t i = 0; i < run.n; i++)
+                scale[s > 0] = fmax(scale[s > 0], fabs(run.a[i]));
+        }
+    assert_true(scale[1] < 1e-14 * scale[0]);
+    run_free(&run);
+}
+
+/* Worst relative error of P and S over three directions, from the operator itself: cosines inside a box. */
+static double dispersion(struct run *run, double points)
+{
+    static const double directions[3][3] = {
+        {1, 0, 0}, {M_SQRT1_2, M_SQRT1_2, 0}, {.57735027, .57735027, .57735027}};
+    struct consistent *c = consistent_of(run->model);
+    const struct material *m = &run->model->scene->material[0];
+    const double wavenumber = 2 * M_PI / points; /* times the spacing */
+    const size_t middle = c->n[0] / 2 + c->n[0] * (c->n[1] / 2) + c->plane * (c->n[2] / 2);
+    double worst = 0;
+    gsl_matrix *symbol = gsl_matrix_alloc(3, 3);
+    gsl_vector *values = gsl_vector_alloc(3);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(3);
+    for (int d = 0; d < 3; d++) {
+        for (size_t from = 0; from < 3; from++) {
+            memset(run->y, 0, run->n * sizeof *run->y);
+            for (size_t p = 0; p < c->volume; p++) {
+                const double i = (double)(p % c->n[0]) - (double)(c->n[0] / 2);
+                const double j = (double)(p / c->n[0] % c->n[1]) - (double)(c->n[1] / 2);
+                const double k = (double)(p / c->plane) - (double)(c->n[2] / 2);
+                run->y[from * c->volume + p] =
+                    cos(wavenumber * (i * directions[d][0] + j * directions[d][1] + k * directions[d][2]));
+            }
+            run->model->spatial->accelerate(run->model, &(struct drive){0}, 0, run->y, NULL, run->a);
+            for (size_t to = 0; to < 3; to++)
+                gsl_matrix_set(symbol, to, from, -run->a[to * c->volume + middle]);
+        }
+        gsl_eigen_symm(symbol, values, work);
+        gsl_sort_vector(values);
+        for (size_t i = 0; i < 3; i++) {
+            const double speed = i < 2 ? m->s_speed : m->p_speed, h = run->model->scene->body.spacing;
+            worst = fmax(worst, fabs(sqrt(gsl_vector_get(values, i)) * h / (wavenumber * speed) - 1));
+        }
+    }
+    gsl_matrix_free(symbol);
+    gsl_vector_free(values);
+    gsl_eigen_symm_free(work);
+    return worst;
+}
+
+/* The table of doc/general-ground.md, for Poisson's ratio 1/4 (worst of 150 directions there, three here). */
+static void test_plane_waves(void **state)
+{
+    (void)state;
+    static const double table[][2] = {{10, 1.3e-4}, {6, 8.6e-4}, {5, 2.4e-3}, {4, 6.9e-3}};
+    struct plain_scene plain;
+    plain_box(&plain, 3, (double[]){4.5, 4.5, 4.5}, .25);
+    plain_material(&plain.material[0], 1, 1, 1);
+    struct run run = run_new(&plain, general());
+    for (size_t i = 0; i < 4; i++) {
+        const double error = dispersion(&run, table[i][0]);
+        assert_true(fabs(error / table[i][1] - 1) < .05);
+    }
+    run_free(&run);
+}
+
+/* Grows beyond the limit that the program finds, not below it. */
+static bool grows(struct run *run, double dt)
+{
+    noise(run->n, run->y);
+    memset(run->y + run->n, 0, run->n * sizeof *run->y);
+    for (int step = 0; step < 3000; step++)
+        leap(run, &(struct drive){0}, dt);
+    double most = 0;
+    for (size_t i = 0; i < run->n; i++)
+        most += fabs(run->y[i]);
+    return !(most < 1e4 * (double)run->n);
+}
+
+static void test_largest_step(void **state)
+{
+    (void)state;
+    for (int ground = 0; ground < 6; ground++) {
+        struct plain_scene plain;
+        struct run run = random_run(&plain, 2 + ground % 2, (double[]){1.5, 1.25, 1.5});
+        struct messages messages = {0};
+        double omega, error;
+        assert_int_equal(largest_frequency(run.model, &omega, &error, &messages), SELAS_OK);
+        assert_false(grows(&run, .995 * 2 / omega));
+        assert_true(grows(&run, 1.01 * 2 / omega));
+        run_free(&run);
+    }
+}
+
+static double leapfrog_energy(struct run *run, double dt)
+{
+    struct energy now;
+    run->model->core->energy(run->model, run->y, &now);
+    run->model->spatial->accelerate(run->model, &(struct drive){0}, 0, run->y, NULL, run->a);
+    double *product = calloc(run->n, sizeof *product);
+    run->model->spatial->weigh(run->model, run->a, product);
+    const double correction = dt * dt / 8 * dot(run->n, run->a, product);
+    free(product);
+    return now.kinetic + now.strain - correction;
+}
+
+/* v is brought half a step on for the energy, which leapfrog keeps but for (dt^2 / 8) a.Ma. */
+static double energy_at(struct run *run, double dt)
+{
+    double *v = run->y + run->n;
+    run->model->spatial->accelerate(run->model, &(struct drive){0}, 0, run->y, NULL, run->a);
+    for (size_t i = 0; i < run->n; i++)
+        v[i] += dt / 2 * run->a[i];
+    const double energy = leapfrog_energy(run, dt);
+    for (size_t i = 0; i < run->n; i++)
+        v[i] -= dt / 2 * run->a[i];
+    return energy;
+}
+
+static void test_energy(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    struct run run = random_run(&plain, 3, (double[]){1.5, 1.25, 1});
+    struct messages messages = {0};
+    double omega, error;
+    assert_int_equal(largest_frequency(run.model, &omega, &error, &messages), SELAS_OK);
+    const double dt = .9 * 2 / omega;
+    noise(run.n, run.y);
+    const double before = energy_at(&run, dt);
+    for (int step = 0; step < 2000; step++)
+        leap(&run, &(struct drive){0}, dt);
+    assert_true(fabs(energy_at(&run, dt) / before - 1) < 1e-13);
+    run_free(&run);
+}
+
+/* Dampers on all faces: energy falls, at any step below the limit of the undamped body. */
+static void test_dampers(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    plain_box(&plain, 3, (double[]){1.5, 1.25, 1}, .25);
+    for (int face = 0; face < BOX_FACES; face++)
+        plain.scene.boundary[face].kind = BOUNDARY_TRANSMITTING;
+    struct run run = run_new(&plain, general());
+    make_random(consistent_of(run.model));
+    struct messages messages = {0};
+    double omega, error;
+    assert_int_equal(largest_frequency(run.model, &omega, &error, &messages), SELAS_OK);
+    noise(run.n, run.y);
+    struct energy first, now;
+    run.model->core->energy(run.model, run.y, &first);
+    for (int step = 0; step < 2000; step++)
+        leap(&run, &(struct drive){0}, .99 * 2 / omega);
+    memset(run.y, 0, run.n * sizeof *run.y);
+    run.model->core->energy(run.model, run.y, &now);
+    assert_true(now.kinetic < 1e-4 * first.strain);
+    double load, absorbed;
+    noise(run.n, run.y + run.n);
+    run.model->core->power(run.model, &(struct drive){0}, run.y, &load, &absorbed);
+    assert_true(absorbed > 0);
+    run_free(&run);
+}
+
+/* A quarter with symmetry planes gives what the whole gives. */
+static void test_quarter(void **state)
+{
+    (void)state;
+    struct plain_scene plain[2];
+    struct run run[2];
+    double value[2][3];
+    for (int half = 0; half < 2; half++) {
+        plain_box(&plain[half], 3, (double[]){2, 2, 1.5}, .25);
+        if (half)
+            for (int axis = 0; axis < 2; axis++) {
+                plain[half].scene.body.low[axis] = 1;
+                plain[half].scene.boundary[2 * axis].kind = BOUNDARY_SYMMETRY;
+            }
+        struct load *load = plain_face_load(&plain[half], FACE_Z_LOW, (double[]){0, 0, 1});
+        load->shape = LOAD_SQUARE;
+        load->size[0] = load->size[1] = 1;
+        load->centre[0] = load->centre[1] = 1;
+        run[half] = run_new(&plain[half], general());
+        const double amplitude = 1;
+        for (int step = 0; step < 30; step++)
+            leap(&run[half], &(struct drive){.load = &amplitude}, .04);
+        velocity_at(&run[half], (double[]){1.3, 1.6, .2}, value[half]);
+        run_free(&run[half]);
+    }
+    for (int i = 0; i < 3; i++)
+        assert_true(fabs(value[0][i] - value[1][i]) < 1e-12 * fabs(value[0][2]));
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    double *kept = NULL;
+    for (int threads = 1; threads <= 3; threads += 2) {
+        struct plain_scene plain;
+        omp_set_num_threads(threads);
+        bits = 5;
+        struct run run = random_run(&plain, 3, (double[]){6, 5, 4});
+        assert_int_equal(consistent_of(run.model)->threads, threads);
+        noise(run.n, run.y);
+        for (int step = 0; step < 3; step++)
+            leap(&run, &(struct drive){0}, .02);
+        if (kept == NULL) {
+            kept = calloc(run.n, sizeof *kept);
+            memcpy(kept, run.y, run.n * sizeof *kept);
+        } else
+            assert_memory_equal(kept, run.y, run.n * sizeof *kept);
+        run_free(&run);
+    }
+    free(kept);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_symmetric_and_positive),
+        cmocka_unit_test(test_rigid_motions),
+        cmocka_unit_test(test_plane_waves),
+        cmocka_unit_test(test_largest_step),
+        cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_dampers),
+        cmocka_unit_test(test_quarter),
+        cmocka_unit_test(test_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

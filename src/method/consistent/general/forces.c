@@ -1,0 +1,211 @@
+/* Forces of the general operator: planes of points across depth, one after the other, each pulling at the
+ * planes of control values next to it (doc/general-ground.md, section 2).
+ *
+ * A thread makes the forces of some planes of control values, from all points that reach them, in the same
+ * order whatever the threads: the same bits. */
+#include "method/consistent/general/general.h"
+
+#include "method/spline/passes.h"
+
+#include <omp.h>
+#include <string.h>
+
+/* Rows of the buffers: values, slopes, pulls of values and of slopes, of each component. */
+enum field { VALUE, SLOPE, PULL_VALUE, PULL_SLOPE, FIELDS };
+
+static double *field_of(const struct consistent *c, double *buffer, enum field field, int slot)
+{
+    return buffer + (size_t)(3 * (int)field + slot) * c->n[1] * c->general->pitch;
+}
+
+static double *scratch_of(const struct consistent *c, double *buffer)
+{
+    return buffer + (size_t)(3 * FIELDS) * c->n[1] * c->general->pitch;
+}
+
+/* Control values of the unclamped splines at both ends of a row (G3); row[shift] is the first one of the open
+ * ends'. */
+static void unclamp(const struct spline *spline, bool odd, size_t cells, double *row)
+{
+    const double sign = odd ? -1 : 1;
+    row[0] = spline->mirror[0] ? sign * row[1] : 2 * row[0] - row[1];
+    row[cells + 1] = spline->mirror[1] ? sign * row[cells] : 2 * row[cells + 1] - row[cells];
+}
+
+/* Its transpose. */
+static void clamp(const struct spline *spline, bool odd, size_t cells, double *row)
+{
+    const double sign = odd ? -1 : 1, low = row[0], high = row[cells + 1];
+    if (spline->mirror[0])
+        row[1] += sign * low;
+    else {
+        row[0] = 2 * low;
+        row[1] -= low;
+    }
+    if (spline->mirror[1])
+        row[cells] += sign * high;
+    else {
+        row[cells + 1] = 2 * high;
+        row[cells] -= high;
+    }
+}
+
+/* Does any of the rows of control values that a row of points reads move anything? */
+static bool row_is_loud(const struct consistent *c, const struct taps *y, const struct taps *z)
+{
+    for (size_t k = z->first; k < z->first + z->count; k++)
+        for (size_t j = y->first; j < y->first + y->count; j++)
+            if (c->general->loud[k * c->n[1] + j]) return true;
+    return false;
+}
+
+static const struct taps *taps_at(const struct consistent *c, int slot, bool odd, enum at at, size_t i)
+{
+    return &c->general->taps[slot][odd][at][i];
+}
+
+/* Values and slopes over depth at a plane of points. */
+static void read_depth(const struct consistent *c, enum at at, size_t m, const double *u, double *buffer)
+{
+    const struct general *g = c->general;
+    const struct point_kernels *kernels = taken_point_kernels();
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const int slot = c->slot[axis];
+        const struct taps *z = taps_at(c, DEPTH, slot == DEPTH, at, m);
+        const size_t shift = ROW_ROOM + (c->layout[0]->mirror[0] ? 1 : 0);
+        for (size_t j = 0; j < c->n[1]; j++) {
+            const double *from = u + (size_t)axis * c->volume + z->first * c->plane + j * c->n[0];
+            for (int f = VALUE; f <= SLOPE; f++) {
+                double *row = field_of(c, buffer, (enum field)f, slot) + j * g->pitch;
+                if (f == VALUE)
+                    kernels->depth(z, from, c->plane, c->n[0], row + shift,
+                                   field_of(c, buffer, SLOPE, slot) + j * g->pitch + shift);
+                unclamp(c->layout[0], slot == 0, g->cells[0], row + ROW_ROOM);
+            }
+        }
+        for (int f = PULL_VALUE; f <= PULL_SLOPE; f++)
+            memset(field_of(c, buffer, (enum field)f, slot), 0, c->n[1] * g->pitch * sizeof *buffer);
+    }
+}
+
+/* All rows of points of a family in a plane. */
+static void rows_of(const struct consistent *c, const struct family *family, size_t m, double *buffer)
+{
+    const struct general *g = c->general;
+    const struct point_kernels *kernels = taken_point_kernels();
+    struct point_plane plane = {.flat = c->dimension == 2,
+                                .knots = family->at[0] == AT_KNOTS,
+                                .cells = g->cells[0],
+                                .pitch = g->pitch,
+                                .scale = (double)g->cells[0] / (c->layout[0]->high - c->layout[0]->low),
+                                .scratch = scratch_of(c, buffer)};
+    for (int odd = 0; odd < 2; odd++)
+        plane.y[odd] = g->taps[1][odd][family->at[1]];
+    for (int slot = 0; slot < 3; slot++) {
+        plane.value[slot] = field_of(c, buffer, VALUE, slot);
+        plane.slope[slot] = field_of(c, buffer, SLOPE, slot);
+        plane.pull_value[slot] = field_of(c, buffer, PULL_VALUE, slot);
+        plane.pull_slope[slot] = field_of(c, buffer, PULL_SLOPE, slot);
+    }
+    const struct taps *z = taps_at(c, DEPTH, false, family->at[DEPTH], m);
+    for (size_t j = 0; j < family->n[1]; j++) {
+        if (!row_is_loud(c, taps_at(c, 1, false, family->at[1], j), z)) continue;
+        const size_t row = m * family->n[1] + j, from = row * family->n[0];
+        const size_t run = family->runs > 0 ? family->first_run[row] : 0;
+        const size_t runs = family->runs > 0 ? family->first_run[row + 1] - run : 0;
+        kernels->row(&plane, j, family->lambda + from, family->mu + from, family->run + run, runs,
+                     family->stiffness);
+    }
+}
+
+/* Takes the pulls off the forces of planes from .. end - 1. */
+static void write_depth(const struct consistent *c, enum at at, size_t m, size_t from, size_t end,
+                        double *buffer, double *force)
+{
+    const struct general *g = c->general;
+    const struct point_kernels *kernels = taken_point_kernels();
+    const size_t shift = ROW_ROOM + (c->layout[0]->mirror[0] ? 1 : 0);
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const int slot = c->slot[axis];
+        const struct taps *z = taps_at(c, DEPTH, slot == DEPTH, at, m);
+        for (size_t j = 0; j < c->n[1]; j++) {
+            double *value = field_of(c, buffer, PULL_VALUE, slot) + j * g->pitch;
+            double *slope = field_of(c, buffer, PULL_SLOPE, slot) + j * g->pitch;
+            clamp(c->layout[0], slot == 0, g->cells[0], value + ROW_ROOM);
+            clamp(c->layout[0], slot == 0, g->cells[0], slope + ROW_ROOM);
+            for (size_t d = 0; d < z->count; d++) {
+                const size_t k = z->first + d;
+                if (k < from || k >= end) continue;
+                kernels->add(c->n[0], -z->value[d], value + shift, -z->slope[d], slope + shift,
+                             force + (size_t)axis * c->volume + k * c->plane + j * c->n[0]);
+            }
+        }
+    }
+}
+
+/* Does a plane of points reach planes from .. end - 1, and does it move anything? */
+static bool plane_counts(const struct consistent *c, enum at at, size_t m, size_t from, size_t end)
+{
+    bool reaches = false, loud = false;
+    for (int odd = 0; odd < 2; odd++) {
+        const struct taps *z = taps_at(c, DEPTH, odd, at, m);
+        reaches = reaches || (z->first < end && z->first + z->count > from);
+        for (size_t i = z->first * c->n[1]; i < (z->first + z->count) * c->n[1]; i++)
+            loud = loud || c->general->loud[i];
+    }
+    return reaches && loud;
+}
+
+/* Forces of planes from .. end - 1. */
+static void make_planes(const struct consistent *c, int thread, size_t from, size_t end, const double *u,
+                        double *force)
+{
+    const struct general *g = c->general;
+    double *buffer = g->buffer[thread];
+    for (int axis = 0; axis < c->dimension; axis++)
+        memset(force + (size_t)axis * c->volume + from * c->plane, 0,
+               (end - from) * c->plane * sizeof *force);
+    for (size_t m = 0; m <= g->cells[DEPTH]; m++)
+        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++) {
+            if (m == g->cells[DEPTH] && at == AT_MIDDLES) continue;
+            if (!plane_counts(c, (enum at)at, m, from, end)) continue;
+            read_depth(c, (enum at)at, m, u, buffer);
+            for (int f = 0; f < 3; f++)
+                if (g->family[f].at[DEPTH] == (enum at)at) rows_of(c, &g->family[f], m, buffer);
+            write_depth(c, (enum at)at, m, from, end, buffer, force);
+        }
+}
+
+/* Rows of control values whose displacements are not below `quiet` times the largest. */
+static void look(struct consistent *c, const double *u)
+{
+    struct general *g = c->general;
+    const struct passes *passes = taken_passes();
+    const size_t rows = c->n[1] * c->n[2];
+    double *most = g->work, largest = 0;
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
+    for (size_t row = 0; row < rows; row++) {
+        most[row] = 0;
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const double size =
+                passes->largest_size_double(u + (size_t)axis * c->volume + row * c->n[0], c->n[0]);
+            most[row] = size > most[row] || size != size ? size : most[row];
+        }
+        largest = most[row] > largest ? most[row] : largest;
+    }
+    for (size_t row = 0; row < rows; row++)
+        g->loud[row] = !(most[row] <= c->options.quiet * largest);
+}
+
+void general_forces(struct consistent *c, const double *u, double *force)
+{
+    look(c, u);
+    const size_t block = (c->n[DEPTH] + (size_t)c->threads - 1) / (size_t)c->threads;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (int thread = 0; thread < c->threads; thread++) {
+        const size_t from = (size_t)thread * block, next = from + block;
+        const size_t end = next < c->n[DEPTH] ? next : c->n[DEPTH];
+        if (from < end) make_planes(c, omp_get_thread_num(), from, end, u, force);
+    }
+    general_corners(c, u, force);
+}

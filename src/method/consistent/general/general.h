@@ -1,0 +1,73 @@
+/* The general operator of the consistent method: material that varies in all directions
+ * (doc/general-ground.md).
+ *
+ * The strain energy is taken at three families of points, on the knots of one axis and in the middles of the
+ * cells of the others (G1), for splines of degree 2; the mass inverse is that of an even ground between two
+ * diagonals (G4). */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_GENERAL_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_GENERAL_H
+
+#include "method/consistent/galerkin/hform.h"
+#include "method/consistent/general/points.h"
+
+/* Points of one family: n[slot] of them, x fastest. Moduli are times the weight of the point (G2). */
+struct family {
+    size_t n[3];
+    enum at at[3]; /* by slot */
+    double *lambda, *mu;
+    size_t runs, *first_run; /* [n[1] * n[2] + 1]: the first run of each row */
+    struct run_of_points *run;
+    double *stiffness; /* of all runs */
+};
+
+/* A point on a corner where three free faces meet (corners.c), by slot. */
+struct corner {
+    bool high[3];
+    double slope[3]; /* of the control value next to the corner's */
+    double lambda, mu;
+};
+
+struct general {
+    size_t cells[3];            /* by slot */
+    struct taps *taps[3][2][2]; /* [slot][odd][at] */
+    struct family family[3];
+    size_t corners;
+    struct corner corner[8];
+    double *root;                /* 1 / sqrt(R) at the control values (G4, G5) */
+    struct tensor_plan *inverse; /* N */
+    double *force;               /* [unknowns] F - K u, times root */
+    double *work;                /* [unknowns] */
+    bool *loud;                  /* [n[1] * n[2]] rows of control values that move anything */
+    double **buffer;             /* [threads] */
+    size_t pitch, buffer_size;   /* of rows in the buffers; numbers of a buffer */
+    size_t bytes;
+};
+
+/* Builds c->general; needs c->hform and the loads. */
+selas_status general_create(struct consistent *c, struct messages *messages);
+void general_free(struct consistent *c);
+
+/* Position of a point of an axis, by slot; 0 where there is no such axis. */
+double general_place(const struct consistent *c, int slot, enum at at, size_t i);
+
+/* a = M^-1 (F - K u - C v), as hform_accelerate(). */
+void general_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
+                        const double *v, double *a);
+void general_weigh(struct consistent *c, const double *v, double *product); /* M v */
+void general_energy(struct consistent *c, const double *y, struct energy *energy);
+double general_damper_power(struct consistent *c, const double *v);
+
+/* forces.c: force := -K u. */
+void general_forces(struct consistent *c, const double *u, double *force);
+
+/* corners.c: lays the corners; adds -K u of their points. */
+void general_lay_corners(struct consistent *c);
+void general_corners(const struct consistent *c, const double *u, double *force);
+
+/* material.c: lays moduli at the points, and the mass of each control value. SELAS_NO_MEMORY. */
+selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
+
+/* scaling.c: R from the mass of each control value (G5); false: no memory. */
+bool general_scale(struct consistent *c, const double *mass);
+
+#endif

@@ -1,0 +1,54 @@
+/* Points of quadrature of the general operator and the loops over a plane of them, for each kind of
+ * processor (points_double.c). */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_POINTS_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_POINTS_H
+
+#include "base/processor.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum at { AT_KNOTS, AT_MIDDLES };
+
+/* Functions that are not zero at a point of an axis: control values first .. first + count - 1. */
+struct taps {
+    size_t first, count;
+    double value[3], slope[3];
+};
+
+/* Points of a row, one after the other, whose solid is not isotropic: number m of `count` has the stiffness
+ * stiffness[at + n * count + m], n < 21, the upper triangle of C in Voigt's order xx yy zz yz zx xy by rows,
+ * times the weight of the point. */
+struct run_of_points {
+    size_t from, count, at;
+};
+enum { STIFFNESSES = 21, STRESSES = 6 };
+
+/* A plane of points across depth. Rows of control values are those of the unclamped splines along x (G3):
+ * two more than the cells. Index by slot: component, then direction of the slope. */
+struct point_plane {
+    bool flat;  /* two dimensions: one row, no component and no slope along y */
+    bool knots; /* points on x are knots, else middles */
+    size_t cells;
+    size_t pitch;                      /* of rows */
+    double scale;                      /* 1 / spacing along x */
+    const struct taps *y[2];           /* [odd][rows of points] */
+    const double *value[3], *slope[3]; /* [component] rows of values and slopes along depth */
+    double *pull_value[3], *pull_slope[3];
+    double *scratch; /* [SCRATCH_ROWS * pitch] zeros to begin with */
+};
+enum { SCRATCH_ROWS = 9 + STRESSES, ROW_ROOM = 8 }; /* numbers before the first of a row */
+
+struct point_kernels {
+    /* Row j of points: adds B^T of the stresses to the pulls. lambda, mu: of the row; runs may be none. */
+    void (*row)(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
+                const struct run_of_points *run, size_t runs, const double *stiffness);
+    /* out[i] += v * in[i] + s * slope[i], i < n */
+    void (*add)(size_t n, double v, const double *value, double s, const double *slope, double *out);
+    /* value := sum of weight[d] rows of u, slope alike with weight slope; d < count, n numbers each. */
+    void (*depth)(const struct taps *taps, const double *u, size_t stride, size_t n, double *value,
+                  double *slope);
+};
+EACH_PROCESSOR(struct point_kernels, point_kernels)
+
+#endif
