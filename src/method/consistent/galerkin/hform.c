@@ -16,12 +16,8 @@
 
 #include <string.h>
 
-const double *hform_series(const struct consistent *c, int *terms)
-{
-    static const double plain[] = {1, 1, 1, 1}, general[] = {1, 1, .8962, 1.6064};
-    *terms = c->options.sweeps + 1;
-    return c->options.general ? general : plain;
-}
+/* Factors of van Cittert's series; those of the general operator are tuned for its points (G7). */
+static const double plain_series[] = {1, 1, 1, 1}, general_series[] = {1, 1, .8962, 1.6064};
 
 struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd)
 {
@@ -38,8 +34,7 @@ struct band *hform_inverse(const struct consistent *c, int component, int axis, 
         band_free(sum);
         return NULL;
     }
-    int terms;
-    const double *series = hform_series(c, &terms);
+    const double *series = c->options.general ? general_series : plain_series;
     bool held[2], cut[2]; /* cut: the even functions of a mirror plane keep what odd ones have not */
     for (int end = 0; end < 2; end++) {
         held[end] = c->held[component][2 * axis + end];
@@ -51,12 +46,12 @@ struct band *hform_inverse(const struct consistent *c, int component, int axis, 
         for (size_t j = 0; j < n; j++)
             if (!((cut[0] && j == 0) || (cut[1] && j == n - 1))) row_sum += band_get(even, i, j);
         band_add(diagonal, i, i, 1 / row_sum);
-        band_add(sum, i, i, series[terms - 1] / row_sum);
+        band_add(sum, i, i, series[c->options.sweeps] / row_sum);
         for (size_t j = 0; j < n; j++)
             if (band_get(mass, i, j) != 0) band_add(rest, i, j, -band_get(mass, i, j) / row_sum);
         band_add(rest, i, i, 1);
     }
-    for (int term = terms - 2; term >= 0 && sum != NULL; term--) {
+    for (int term = c->options.sweeps - 1; term >= 0 && sum != NULL; term--) {
         struct band *product = band_product(rest, sum);
         band_free(sum);
         sum = product == NULL ? NULL : band_sum(product, series[term], diagonal);

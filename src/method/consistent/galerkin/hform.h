@@ -40,8 +40,6 @@ struct hform {
 selas_status hform_create(struct consistent *c, struct messages *messages);
 void hform_free(struct consistent *c);
 size_t hform_bytes(const struct consistent *c); /* fields and buffers; 0 without H-form */
-/* Factors of van Cittert's series, those of the general operator tuned for its points (G6); how many. */
-const double *hform_series(const struct consistent *c, int *terms);
 /* New van Cittert inverse of an axis's mass between functions that are even or odd at symmetry planes, 0
  * where the component is held. NULL: no memory. */
 struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd);

@@ -46,8 +46,7 @@ INLINED void isotropic(const bool knots, size_t n, size_t pitch, const double *i
     ROWS(2)
     STRESS_ROWS
 #pragma omp simd
-        for (size_t i = 0; i < n; i++)
-    {
+    for (size_t i = 0; i < n; i++) {
         const double exx = SLOPE(a0), eyy = VALUE(b1), ezz = VALUE(c2), twice = 2 * mu[i];
         const double pressure = lambda[i] * (exx + eyy + ezz);
         xx[i] = pressure + twice * exx;

@@ -1,7 +1,9 @@
-/* What the ground is at the points of the general operator (doc/general-ground.md, sections 2 to 4). */
-#include "method/consistent/general/general.h"
+/* What the ground is at the points of the general operator (doc/general-ground.md, sections 1, 3 and 4). */
+#include "method/consistent/general/medium.h"
 
 #include "base/memory.h"
+
+#include <string.h>
 
 /* Weight of a point along an axis: the cell, half of it for a knot at an end. */
 static double weight_of(const struct consistent *c, int slot, enum at at, size_t i)
@@ -12,9 +14,13 @@ static double weight_of(const struct consistent *c, int slot, enum at at, size_t
     return at == AT_KNOTS && (i == 0 || i == spline->cells) ? spacing / 2 : spacing;
 }
 
-/* weight * density and weight to the control values that a point moves. */
+/* Sums over the points about each control value: weight times density, and weight. */
+struct sums {
+    double *mass, *even;
+};
+
 static void add_mass(const struct consistent *c, const struct taps *const at[3], double weight,
-                     double density, double *mass, double *even)
+                     double density, const struct sums *sums)
 {
     for (size_t k = 0; k < at[2]->count; k++)
         for (size_t j = 0; j < at[1]->count; j++)
@@ -22,30 +28,110 @@ static void add_mass(const struct consistent *c, const struct taps *const at[3],
                 const size_t to =
                     at[0]->first + i + c->n[0] * (at[1]->first + j) + c->plane * (at[2]->first + k);
                 const double value = weight * at[0]->value[i] * at[1]->value[j] * at[2]->value[k];
-                mass[to] += value * density;
-                even[to] += value;
+                sums->mass[to] += value * density;
+                sums->even[to] += value;
             }
 }
 
-static void lay_family(struct consistent *c, struct family *family, double *mass, double *even)
+/* Points of a family that are not isotropic, while they are found. */
+struct found {
+    size_t runs, room_of_runs, numbers, room_of_numbers;
+};
+
+/* Makes room for one more entry of `size` bytes behind `used` of them; false: no memory. */
+static bool grow(void **array, size_t *room, size_t used, size_t more, size_t size)
 {
-    const struct general *g = c->general;
-    const struct material *material = &c->model.scene->material[c->model.scene->body.material];
-    size_t point = 0;
-    for (size_t k = 0; k < family->n[2]; k++)
+    if (used + more <= *room) return true;
+    const size_t wanted = 2 * (used + more);
+    void *larger = array_new(wanted, size);
+    if (larger == NULL) return false;
+    if (used > 0) memcpy(larger, *array, used * size);
+    array_free(*array);
+    *array = larger;
+    *room = wanted;
+    return true;
+}
+
+/* Adds point i, the next one that is not isotropic, to the run that it goes on or to a new one. The numbers of
+ * a run stand point by point until turn_runs(). */
+static bool add_point(struct family *family, struct found *found, size_t row, size_t i,
+                      const double stiffness[STIFFNESSES], double weight)
+{
+    void *runs = family->run, *numbers = family->stiffness;
+    const bool good = grow(&runs, &found->room_of_runs, found->runs, 1, sizeof *family->run) &&
+                      grow(&numbers, &found->room_of_numbers, found->numbers, STIFFNESSES, sizeof(double));
+    family->run = runs;
+    family->stiffness = numbers;
+    if (!good) return false;
+    struct run_of_points *last = found->runs > 0 ? &family->run[found->runs - 1] : NULL;
+    if (last == NULL || found->runs == family->first_run[row] || last->from + last->count != i) {
+        last = &family->run[found->runs++];
+        *last = (struct run_of_points){.from = i, .at = found->numbers};
+    }
+    last->count++;
+    for (int n = 0; n < STIFFNESSES; n++)
+        family->stiffness[found->numbers++] = weight * stiffness[n];
+    return true;
+}
+
+/* Brings the numbers of each run into the order of run_of_points. */
+static bool turn_runs(struct family *family)
+{
+    size_t longest = 0;
+    for (size_t r = 0; r < family->runs; r++)
+        longest = family->run[r].count > longest ? family->run[r].count : longest;
+    double *turned = array_new(longest * STIFFNESSES, sizeof *turned);
+    for (size_t r = 0; r < family->runs && turned != NULL; r++) {
+        const size_t count = family->run[r].count;
+        double *numbers = family->stiffness + family->run[r].at;
+        for (size_t m = 0; m < count; m++)
+            for (size_t n = 0; n < STIFFNESSES; n++)
+                turned[n * count + m] = numbers[m * STIFFNESSES + n];
+        memcpy(numbers, turned, count * STIFFNESSES * sizeof *numbers);
+    }
+    array_free(turned);
+    return turned != NULL;
+}
+
+static bool lay_row(struct consistent *c, struct family *family, const struct medium *medium, size_t j,
+                    size_t k, struct found *found, const struct sums *sums)
+{
+    const size_t row = k * family->n[1] + j;
+    family->first_run[row] = found->runs;
+    for (size_t i = 0; i < family->n[0]; i++) {
+        const size_t place[3] = {i, j, k}, point = row * family->n[0] + i;
+        const struct taps *at[3];
+        struct averaged averaged;
+        double weight = 1. / 3, lambda, mu, stiffness[STIFFNESSES];
+        for (int slot = 0; slot < 3; slot++) {
+            at[slot] = &c->general->taps[slot][0][family->at[slot]][place[slot]];
+            weight *= weight_of(c, slot, family->at[slot], place[slot]);
+        }
+        medium_point(medium, i, j, &averaged);
+        if (medium_stiffness(&averaged, stiffness, &lambda, &mu) &&
+            !add_point(family, found, row, i, stiffness, weight))
+            return false;
+        family->lambda[point] = weight * lambda;
+        family->mu[point] = weight * mu;
+        add_mass(c, at, weight, averaged.mean[MEAN_DENSITY], sums);
+    }
+    return true;
+}
+
+static bool lay_family(struct consistent *c, struct family *family, struct medium *medium,
+                       const struct sums *sums)
+{
+    struct found found = {0};
+    family->first_run = array_new(family->n[1] * family->n[2] + 1, sizeof *family->first_run);
+    if (family->first_run == NULL) return false;
+    for (size_t k = 0; k < family->n[2]; k++) {
+        medium_plane(medium, family->at, k);
         for (size_t j = 0; j < family->n[1]; j++)
-            for (size_t i = 0; i < family->n[0]; i++, point++) {
-                const size_t place[3] = {i, j, k};
-                const struct taps *at[3];
-                double weight = 1. / 3;
-                for (int slot = 0; slot < 3; slot++) {
-                    at[slot] = &g->taps[slot][0][family->at[slot]][place[slot]];
-                    weight *= weight_of(c, slot, family->at[slot], place[slot]);
-                }
-                family->lambda[point] = weight * material->plane_lambda;
-                family->mu[point] = weight * material->mu;
-                add_mass(c, at, weight, material->density, mass, even);
-            }
+            if (!lay_row(c, family, medium, j, k, &found, sums)) return false;
+    }
+    family->runs = family->first_run[family->n[1] * family->n[2]] = found.runs;
+    c->general->bytes += found.room_of_numbers * sizeof(double);
+    return turn_runs(family);
 }
 
 /* The integral of a control value's function. */
@@ -67,14 +153,16 @@ static double integral(const struct consistent *c, const struct band *const mass
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages)
 {
     const struct band *band[3] = {NULL, NULL, NULL};
-    double *even = array_new(c->volume, sizeof *even);
-    if (even == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
-    for (int f = 0; f < 3; f++)
-        lay_family(c, &c->general->family[f], mass, even);
+    const struct sums sums = {mass, array_new(c->volume, sizeof *mass)};
+    struct medium *medium = medium_new(c);
+    bool good = sums.even != NULL && medium != NULL;
+    for (int f = 0; good && f < 3; f++)
+        good = lay_family(c, &c->general->family[f], medium, &sums);
     for (int axis = 0; axis < c->dimension; axis++)
         band[c->slot[axis]] = consistent_matrix(c, axis, 0, false, 0, false, WEIGHT_NONE);
-    for (size_t i = 0; i < c->volume; i++)
-        mass[i] *= integral(c, band, i) / even[i];
-    array_free(even);
-    return SELAS_OK;
+    for (size_t i = 0; good && i < c->volume; i++)
+        mass[i] *= integral(c, band, i) / sums.even[i];
+    array_free(sums.even);
+    medium_free(medium);
+    return good ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
 }

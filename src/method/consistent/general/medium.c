@@ -1,0 +1,242 @@
+/* Averages of the ground about the points of the general operator: Backus's quantities with kernels of zero
+ * second moment (doc/general-ground.md, section 4). Along depth between the places where the rock jumps, so
+ * exact for layers; along the axes of the surface, where the ground varies along them, over columns of a
+ * fraction of the spacing. */
+#include "method/consistent/general/medium.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    COLUMNS = 8, /* a cell; even, so that cells' middles lie between two */
+    BEYOND = 3,  /* cells of columns on either side of the body */
+    PIECES = 10  /* of half a cell, that the widest kernel reaches over */
+};
+static const double sharpening = 1. / 6, normal_reach = 1.5, least_part = .3;
+
+struct columns {
+    size_t count, points;
+    double from, step, spacing; /* place of column n: from + n step */
+    bool varies;
+};
+
+struct medium {
+    const struct consistent *c;
+    struct columns along[2]; /* by slot */
+    enum at at[3];
+    struct averaged *column, *row, *point;
+    double *jump; /* [threads * room] */
+    size_t room;
+};
+
+static double hat(double t)
+{
+    return fmax(0, 1 - fabs(t));
+}
+
+static double at_knots(double t)
+{
+    return (1 + 2 * sharpening) * hat(t) - sharpening * (hat(t - 1) + hat(t + 1));
+}
+
+/* (G11): t in cells from the point. */
+static double kernel(enum at at, double t)
+{
+    return at == AT_KNOTS ? at_knots(t) : (at_knots(t - .5) + at_knots(t + .5)) / 2;
+}
+
+static void quantities(const struct rock *rock, double value[AVERAGES])
+{
+    const double m = rock->lambda + 2 * rock->mu;
+    value[MEAN_DENSITY] = rock->density;
+    value[MEAN_SOFTNESS] = 1 / m;
+    value[MEAN_SLIP] = 1 / rock->mu;
+    value[MEAN_SHEAR] = rock->mu;
+    value[MEAN_SPREAD] = rock->mu * (3 * rock->lambda + 2 * rock->mu) / m;
+    value[MEAN_RATIO] = rock->lambda / m;
+}
+
+/* One sample of the rock, `t` cells from the point, for `part` of a cell. */
+static void add_sample(const struct rock *rock, enum at at, double t, double part, struct averaged *sum)
+{
+    double value[AVERAGES];
+    const double weight = part * kernel(at, t), logarithm = log(rock->lambda + 2 * rock->mu);
+    quantities(rock, value);
+    for (int n = 0; n < AVERAGES; n++)
+        sum->mean[n] += weight * value[n];
+    for (int n = 0; n < POSITIVE; n++)
+        sum->least[n] = fmin(sum->least[n], value[n]);
+    if (fabs(t) > normal_reach) return;
+    sum->level += part / (2 * normal_reach) * logarithm;
+    sum->rise[DEPTH] += (t > 0 ? part : -part) / normal_reach * logarithm;
+}
+
+static int ascending(const void *one, const void *other)
+{
+    const double a = *(const double *)one, b = *(const double *)other;
+    return (a > b) - (a < b);
+}
+
+/* Averages over depth of one column about a point. place: of the column, by axis; middle: of the point. */
+static void average_column(const struct medium *medium, double place[3], double middle, double *jump,
+                           struct averaged *sum)
+{
+    const struct scene *scene = medium->c->model.scene;
+    const struct spline *spline = medium->c->layout[DEPTH];
+    const int axis = medium->c->dimension - 1;
+    const double h = (spline->high - spline->low) / (double)spline->cells, reach = PIECES / 4. * h;
+    const enum at at = medium->at[DEPTH];
+    size_t count = ground_jumps(scene, place, axis, middle - reach, middle + reach, jump);
+    *sum = (struct averaged){.even = count == 0 && !ground_grades(scene)};
+    for (int n = 0; n < POSITIVE; n++)
+        sum->least[n] = INFINITY;
+    if (sum->even) {
+        place[axis] = middle;
+        const struct rock rock = ground_at(scene, place);
+        quantities(&rock, sum->mean);
+        memcpy(sum->least, sum->mean, sizeof sum->least);
+        sum->level = log(rock.lambda + 2 * rock.mu);
+        return;
+    }
+    for (int piece = 0; piece <= PIECES; piece++)
+        jump[count++] = middle - reach + piece * h / 2;
+    qsort(jump, count, sizeof *jump, ascending);
+    for (size_t piece = 0; piece + 1 < count; piece++) {
+        const double length = jump[piece + 1] - jump[piece];
+        for (int side = -1; side <= 1 && length > 0; side += 2) { /* Gauss, two points */
+            place[axis] = (jump[piece] + jump[piece + 1]) / 2 + side * length / (2 * sqrt(3));
+            const struct rock rock = ground_at(scene, place);
+            add_sample(&rock, at, (place[axis] - middle) / h, length / (2 * h), sum);
+        }
+    }
+}
+
+static bool alike(const struct averaged *one, const struct averaged *other)
+{
+    return one->even && other->even && one->mean[MEAN_DENSITY] == other->mean[MEAN_DENSITY] &&
+           one->mean[MEAN_SHEAR] == other->mean[MEAN_SHEAR] &&
+           one->mean[MEAN_SOFTNESS] == other->mean[MEAN_SOFTNESS];
+}
+
+/* Averages along a slot of the surface about point i from columns `stride` apart. */
+static void average_along(const struct medium *medium, int slot, size_t i, const struct averaged *column,
+                          size_t stride, struct averaged *sum)
+{
+    const struct columns *columns = &medium->along[slot];
+    if (!columns->varies) {
+        *sum = *column;
+        return;
+    }
+    const enum at at = medium->at[slot];
+    const size_t width = COLUMNS * PIECES / 2;
+    const size_t first = (i + BEYOND) * COLUMNS + (at == AT_MIDDLES ? COLUMNS / 2 : 0) - width / 2;
+    const struct averaged *from = column + first * stride;
+    bool same = true;
+    for (size_t n = 1; n < width && same; n++)
+        same = alike(from, from + n * stride);
+    *sum = *from;
+    if (same) return;
+    *sum = (struct averaged){.level = 0};
+    memcpy(sum->least, from->least, sizeof sum->least);
+    for (size_t n = 0; n < width; n++) {
+        const struct averaged *one = from + n * stride;
+        const double t = ((double)n + .5) / COLUMNS - PIECES / 4., weight = kernel(at, t) / COLUMNS;
+        for (int q = 0; q < AVERAGES; q++)
+            sum->mean[q] += weight * one->mean[q];
+        for (int q = 0; q < POSITIVE; q++)
+            sum->least[q] = fmin(sum->least[q], one->least[q]);
+        if (fabs(t) > normal_reach) continue;
+        const double even = 1 / (2 * normal_reach * COLUMNS);
+        sum->level += even * one->level;
+        for (int s = 0; s < 3; s++)
+            sum->rise[s] += even * one->rise[s];
+        sum->rise[slot] += (t > 0 ? 2 : -2) * even * one->level;
+    }
+}
+
+static void lay_columns(struct medium *medium, int slot)
+{
+    const struct consistent *c = medium->c;
+    struct columns *columns = &medium->along[slot];
+    const struct spline *spline = c->layout[slot];
+    columns->points = spline == NULL ? 1 : spline->cells + 1;
+    columns->varies = spline != NULL && ground_varies(c->model.scene, slot);
+    columns->count = 1;
+    if (spline == NULL) return;
+    columns->spacing = (spline->high - spline->low) / (double)spline->cells;
+    columns->from = spline->low;
+    if (!columns->varies) return;
+    columns->count = (spline->cells + 2 * BEYOND) * COLUMNS;
+    columns->step = columns->spacing / COLUMNS;
+    columns->from += columns->step / 2 - BEYOND * columns->spacing;
+}
+
+struct medium *medium_new(const struct consistent *c)
+{
+    struct medium *medium = array_new(1, sizeof *medium);
+    if (medium == NULL) return NULL;
+    medium->c = c;
+    const struct columns *along = medium->along;
+    lay_columns(medium, 0);
+    lay_columns(medium, 1);
+    medium->room = ground_jumps_at_most(c->model.scene) + PIECES + 1;
+    medium->column = array_new(along[0].count * along[1].count, sizeof *medium->column);
+    medium->row = array_new(along[0].points * along[1].count, sizeof *medium->row);
+    medium->point = array_new(along[0].points * along[1].points, sizeof *medium->point);
+    medium->jump = array_new((size_t)c->threads * medium->room, sizeof *medium->jump);
+    if (medium->column != NULL && medium->row != NULL && medium->point != NULL && medium->jump != NULL)
+        return medium;
+    medium_free(medium);
+    return NULL;
+}
+
+void medium_free(struct medium *medium)
+{
+    if (medium == NULL) return;
+    array_free(medium->column);
+    array_free(medium->row);
+    array_free(medium->point);
+    array_free(medium->jump);
+    array_free(medium);
+}
+
+static double column_place(const struct columns *columns, size_t n)
+{
+    return columns->from + (double)n * columns->step;
+}
+
+void medium_plane(struct medium *medium, const enum at at[3], size_t k)
+{
+    const struct consistent *c = medium->c;
+    const struct columns *x = &medium->along[0], *y = &medium->along[1];
+    const double middle = general_place(c, DEPTH, at[DEPTH], k);
+    memcpy(medium->at, at, sizeof medium->at);
+#pragma omp parallel for num_threads(c->threads) schedule(dynamic)
+    for (size_t j = 0; j < y->count; j++) {
+        double place[3] = {0};
+        for (size_t i = 0; i < x->count; i++) {
+            place[0] = column_place(x, i);
+            if (c->dimension == 3) place[1] = column_place(y, j);
+            average_column(medium, place, middle, medium->jump + (size_t)omp_get_thread_num() * medium->room,
+                           &medium->column[j * x->count + i]);
+        }
+        for (size_t i = 0; i < x->points - (at[0] == AT_MIDDLES ? 1 : 0); i++)
+            average_along(medium, 0, i, &medium->column[j * x->count], 1, &medium->row[j * x->points + i]);
+    }
+    const size_t rows = y->points - (c->dimension == 3 && at[1] == AT_MIDDLES ? 1 : 0);
+#pragma omp parallel for num_threads(c->threads) schedule(dynamic)
+    for (size_t j = 0; j < rows; j++)
+        for (size_t i = 0; i < x->points - (at[0] == AT_MIDDLES ? 1 : 0); i++)
+            average_along(medium, 1, j, &medium->row[i], x->points, &medium->point[j * x->points + i]);
+}
+
+void medium_point(const struct medium *medium, size_t i, size_t j, struct averaged *averaged)
+{
+    *averaged = medium->point[j * medium->along[0].points + i];
+    for (int n = 0; n < POSITIVE; n++)
+        averaged->mean[n] = fmax(averaged->mean[n], least_part * averaged->least[n]);
+}

@@ -1,0 +1,39 @@
+/* The effective medium at the points of the general operator (doc/general-ground.md, section 4). */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_MEDIUM_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_MEDIUM_H
+
+#include "method/consistent/general/general.h"
+#include "scene/ground.h"
+
+/* What is averaged, in this order, M = lambda + 2 mu (G10): all but the last two must stay positive. */
+enum average {
+    MEAN_DENSITY,
+    MEAN_SOFTNESS, /* 1 / M */
+    MEAN_SLIP,     /* 1 / mu */
+    MEAN_SHEAR,    /* mu */
+    MEAN_SPREAD,   /* mu (3 lambda + 2 mu) / M */
+    MEAN_RATIO,    /* lambda / M */
+    AVERAGES,
+    POSITIVE = MEAN_RATIO
+};
+
+/* At a place: averages, the least of what they are of, and where the logarithm of M rises to, by slot. */
+struct averaged {
+    double mean[AVERAGES], least[POSITIVE], rise[3], level;
+    bool even; /* one rock all around */
+};
+
+/* C of the effective medium in Voigt's order of the slots (points.h), the upper triangle by rows. False: it is
+ * isotropic, with this lambda and mu. */
+bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
+                      double *mu);
+
+/* Averages over a plane of points of a family. */
+struct medium;
+struct medium *medium_new(const struct consistent *c); /* NULL: no memory */
+void medium_free(struct medium *medium);
+void medium_plane(struct medium *medium, const enum at at[3], size_t k);
+/* Of point i, j of that plane. */
+void medium_point(const struct medium *medium, size_t i, size_t j, struct averaged *averaged);
+
+#endif

@@ -1,0 +1,52 @@
+/* Stiffness of the effective medium of Backus (1962): transversely isotropic about the normal n of the layering
+ * (doc/general-ground.md, G10 and G12). */
+#include "method/consistent/general/medium.h"
+
+#include <math.h>
+
+static const double rounding = 1e-12;
+
+/* C_ijkl of a solid that is isotropic about n:
+ *
+ *   C12 d_ij d_kl + C66 (d_ik d_jl + d_il d_jk) + (C13 - C12)(d_ij n_k n_l + d_kl n_i n_j)
+ *   + (C55 - C66)(d_ik n_j n_l + d_il n_j n_k + d_jk n_i n_l + d_jl n_i n_k)
+ *   + (C11 + C33 - 2 C13 - 4 C55) n_i n_j n_k n_l. */
+static double about_axis(double c11, double c33, double c13, double c55, double c66, const double n[3],
+                         const int p[2], const int q[2])
+{
+    const int i = p[0], j = p[1], k = q[0], l = q[1];
+    const double c12 = c11 - 2 * c66;
+    double sum = (c11 + c33 - 2 * c13 - 4 * c55) * n[i] * n[j] * n[k] * n[l];
+    if (i == j) sum += (c13 - c12) * n[k] * n[l];
+    if (k == l) sum += (c13 - c12) * n[i] * n[j];
+    if (i == j && k == l) sum += c12;
+    if (i == k) sum += (c55 - c66) * n[j] * n[l] + (j == l ? c66 : 0);
+    if (i == l) sum += (c55 - c66) * n[j] * n[k] + (j == k ? c66 : 0);
+    if (j == k) sum += (c55 - c66) * n[i] * n[l];
+    if (j == l) sum += (c55 - c66) * n[i] * n[k];
+    return sum;
+}
+
+bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
+                      double *mu)
+{
+    static const int pair[STRESSES][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+    const double *mean = averaged->mean, *rise = averaged->rise;
+    const double c33 = 1 / mean[MEAN_SOFTNESS], c13 = mean[MEAN_RATIO] * c33, c66 = mean[MEAN_SHEAR];
+    const double c55 = 1 / mean[MEAN_SLIP];
+    const double c11 = mean[MEAN_SPREAD] + c66 + mean[MEAN_RATIO] * c13;
+    const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+    *mu = c66;
+    *lambda = c11 - 2 * c66;
+    if (averaged->even || (fabs(c33 - c11) <= rounding * c11 && fabs(c55 - c66) <= rounding * c66 &&
+                           fabs(c13 - *lambda) <= rounding * c11))
+        return false;
+    double normal[3] = {0, 0, 1};
+    for (int s = 0; s < 3 && length > 0; s++)
+        normal[s] = rise[s] / length;
+    int at = 0;
+    for (int p = 0; p < STRESSES; p++)
+        for (int q = p; q < STRESSES; q++)
+            stiffness[at++] = about_axis(c11, c33, c13, c55, c66, normal, pair[p], pair[q]);
+    return true;
+}

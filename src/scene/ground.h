@@ -1,0 +1,23 @@
+/* The ground as a field: what the rock is at any place of the body, and where it jumps. */
+#ifndef SELAS_SCENE_GROUND_H
+#define SELAS_SCENE_GROUND_H
+
+#include "scene/scene.h"
+
+struct rock {
+    double density, lambda, mu; /* lambda: that of the scene's dimension and plane */
+};
+
+/* Rock at a place in the body's frame; outside the body that of its nearest face or beyond. */
+struct rock ground_at(const struct scene *scene, const double place[3]);
+/* Places from < x < to along a line through `place` at which the rock may jump, in no order; at most
+ * ground_jumps_at_most(). */
+size_t ground_jumps(const struct scene *scene, const double place[3], int axis, double from, double to,
+                    double *at);
+size_t ground_jumps_at_most(const struct scene *scene);
+/* Does the rock change smoothly anywhere? */
+bool ground_grades(const struct scene *scene);
+/* Can the rock be another one further along this axis? */
+bool ground_varies(const struct scene *scene, int axis);
+
+#endif
