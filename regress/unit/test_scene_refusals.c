@@ -54,7 +54,7 @@ static void materials(void **unused)
          {"already", "&material 1", "another name"}},
         {"&scene dimension=3, end_time=6 /\n" ROCK "&material name='mud', density=2, lambda=3, mu=5 /\n" BODY,
          "t.nml:3:11: error:",
-         {"'mud' is used by no &body and no &layer"}},
+         {"'mud' is used by no &body, &layer or &block"}},
         {"&scene dimension=3, end_time=6 /\n" BODY, "t.nml:1:1: error:", {"no &material"}},
         {"&scene dimension=3, end_time=6 /\n&material name='', density=2, lambda=3, mu=5 /\n" BODY,
          "t.nml:2:11: error:",

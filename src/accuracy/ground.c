@@ -1,6 +1,7 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
  * 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
+#include "scene/ground.h"
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
 #include "accuracy/surface.h"
@@ -44,6 +45,7 @@ static bool looks_like(const struct scene *scene)
 static const char *refusal(const struct scene *scene)
 {
     if (!body_is_box(&scene->body)) return "half-spaces and boxes";
+    if (ground_is_general(scene)) return "level layers of one material each, without &block";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].shape != LOAD_SQUARE && scene->load[k].shape != LOAD_DISC)

@@ -76,6 +76,10 @@
     X(BODY_PLATE_WITH_HOLE, "plate-with-hole")                                                               \
     X(BODY_POINTS, "points")
 
+#define BLOCK_SHAPES(X)                                                                                      \
+    X(BLOCK_BOX, "box")                                                                                      \
+    X(BLOCK_ELLIPSOID, "ellipsoid")
+
 #define ARRANGEMENTS(X)                                                                                      \
     X(ARRANGEMENT_LATTICE, "lattice")                                                                        \
     X(ARRANGEMENT_RADIAL, "radial")                                                                          \

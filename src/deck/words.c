@@ -35,8 +35,9 @@ static const struct word method_words[] = {
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", OPTIONAL,
      "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
      "else vc3)"},
-    {"operator", WORD_CHOICE, 1, "'layered'", "layered|general", OPTIONAL,
-     "operator for even or layered ground, or for ground that varies in all directions (consistent)"},
+    {"operator", WORD_CHOICE, 1, NULL, "layered|general", OPTIONAL,
+     "operator for even or layered ground, or for ground that varies in all directions; else the one that "
+     "the ground needs (consistent)"},
     {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "splines along the surface tuned for short waves (consistent, degree 4, exact mass; the default on "
      "layered "
@@ -194,7 +195,23 @@ static const struct word boundary_words[] = {
 static const struct word layer_words[] = {
     {"body", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of the body"},
     {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
-    {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, OBLIGATORY, "depth of the upper face [length]"},
+    {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, OBLIGATORY,
+     "depth of the upper face [length]; of a tilted one where x = y = 0"},
+    {"dip", WORD_REAL, 1, "0", "[0, 80]", OPTIONAL,
+     "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},
+    {"strike", WORD_REAL, 1, "0", NULL, OPTIONAL,
+     "direction along which a tilted face is level, from x towards y; it deepens to the right of it, "
+     "towards strike + 90 [degrees]"},
+    {"bottom", WORD_TEXT, 1, NULL, NULL, OPTIONAL,
+     "name of a material whose speeds and density the layer reaches at its lower face, going evenly with "
+     "depth (consistent, operator 'general'); else the same throughout"},
+};
+
+static const struct word block_words[] = {
+    {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
+    {"shape", WORD_CHOICE, 1, "'box'", CHOICES(BLOCK_SHAPES), OPTIONAL, "shape"},
+    {"centre", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "centre, in the body's own frame [length]"},
+    {"size", WORD_REAL, 3, NULL, POSITIVE, OBLIGATORY, "edges, or axes of the ellipsoid [length]"},
 };
 
 static const struct word initial_words[] = {
@@ -287,6 +304,9 @@ static const struct word_group groups[] = {
     GROUP(body, GROUP_ONCE, "the body of points"),
     GROUP(boundary, GROUP_MANY, "what one or more faces do; a face that no boundary names is free"),
     GROUP(layer, GROUP_MANY, "ground that varies with depth; below the last layer it goes on"),
+    GROUP(block, GROUP_MANY,
+          "a part of the ground of another material, also in layers and earlier blocks (consistent, operator "
+          "'general')"),
     GROUP(initial, GROUP_ONCE, "state at t = 0"),
     GROUP(load, GROUP_MANY, "traction or other source"),
     GROUP(receiver, GROUP_MANY, "a place where histories are taken"),

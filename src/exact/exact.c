@@ -1,6 +1,8 @@
 /* The exact solutions of the list in deck/choices.h: a new one is a file and a line there. */
 #include "exact/exact.h"
 
+#include "scene/ground.h"
+
 #include <string.h>
 
 #define DECLARE(symbol, word) extern const struct exact_class exact_##symbol;
@@ -28,6 +30,10 @@ selas_status exact_create(const struct scene *scene, struct exact **exact, struc
                 messages, SELAS_BAD_SCENE,
                 "reference '%s' is undamped, but material '%s' has q_p and q_s; take reference 'layered'",
                 class->kind, scene->material[i].name);
+    if (ground_is_general(scene) && !class->any_ground)
+        return fail(messages, SELAS_BAD_SCENE,
+                    "reference '%s' takes no &block and no tilted or graded &layer; expected 'file'",
+                    class->kind);
     return class->create(scene, exact, messages);
 }
 

@@ -9,6 +9,7 @@ struct exact;
 
 struct exact_class {
     const char *kind; /* as in &reference */
+    bool any_ground;  /* takes blocks, tilted and graded layers */
     bool damped;      /* takes materials with q_p and q_s */
     /* Says in messages why a scene has no such solution (SELAS_BAD_SCENE). May compute tables shared by all
      * positions. */

@@ -3,6 +3,7 @@
 
 #include "base/processor.h"
 #include "method/mirror.h"
+#include "scene/ground.h"
 #include "scene/symmetry.h"
 
 #include <stdio.h>
@@ -40,6 +41,11 @@ static selas_status check_abilities(const struct method *method, const struct sc
                     "%s has no materials point by point, only &layer where it takes layers; expected '%s', "
                     "'%s'",
                     name, other->name, other->variant);
+    if (ground_is_general(scene) && !method->any_ground)
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "%s takes no &block and no tilted or graded &layer; expected 'smoothed-point', 'consistent'",
+            name);
     return scene_check_faces(scene, method->faces, name, messages);
 }
 

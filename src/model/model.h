@@ -71,6 +71,7 @@ struct method {
                        method/mirror.h */
     unsigned faces;       /* what it can do at faces: CAN_... (scene/boundary.h) */
     bool single;          /* some scenes may keep the state in single precision */
+    bool any_ground;      /* takes blocks, tilted and graded layers */
     bool point_materials; /* each point that a host gives may have a material of its own */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);

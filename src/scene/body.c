@@ -7,20 +7,18 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Index of a material by name, or scene->materials after complaining. */
-static size_t find_material(struct builder *builder, const struct deck_group *group)
+size_t find_material(struct builder *builder, const struct deck_group *group, const char *word)
 {
     const struct scene *scene = builder->scene;
-    const char *name = deck_text(group, "material", 0);
+    const char *name = deck_text(group, word, 0);
     for (size_t i = 0; i < scene->materials; i++)
         if (strcmp(scene->material[i].name, name) == 0) return i;
     if (scene->materials == 1)
-        complain(builder, group, "material", "no &material is named '%s'; expected '%s'", name,
+        complain(builder, group, word, "no &material is named '%s'; expected '%s'", name,
                  scene->material[0].name);
     else if (scene->materials > 1)
-        complain(builder, group, "material",
-                 "no &material is named '%s'; expected one of the %zu, '%s' to '%s'", name, scene->materials,
-                 scene->material[0].name, scene->material[scene->materials - 1].name);
+        complain(builder, group, word, "no &material is named '%s'; expected one of the %zu, '%s' to '%s'",
+                 name, scene->materials, scene->material[0].name, scene->material[scene->materials - 1].name);
     return scene->materials;
 }
 
@@ -243,7 +241,7 @@ void build_body(struct builder *builder)
     const struct deck_group *group = deck_get(builder->deck, "body", 0);
     take_name(builder, group, "name", body->name);
     if (deck_values(group, "material") > 0)
-        body->material = find_material(builder, group);
+        body->material = find_material(builder, group, "material");
     else
         body->material = scene->materials; /* build_layers complains unless layers fill the body */
     body->arrangement = (enum arrangement)deck_choice(group, "arrangement", 0);
@@ -278,8 +276,9 @@ static void read_layer(struct builder *builder, const struct deck_group *group, 
     if (deck_given(group, "body") && strcmp(deck_text(group, "body", 0), scene->body.name) != 0)
         complain(builder, group, "body", "no &body is named '%s'; expected '%s'", deck_text(group, "body", 0),
                  scene->body.name);
-    layer->material = find_material(builder, group);
+    layer->material = find_material(builder, group, "material");
     layer->top = deck_real(group, "top", 0);
+    read_tilt_and_grade(builder, group, layer);
     const double depth = scene->body.high[2] - scene->body.low[2];
     if (builder->body_known && layer->top >= depth)
         complain(builder, group, "top", "the layer begins at depth %g, below the body; expected less than %g",
@@ -293,10 +292,13 @@ static void check_materials_used(struct builder *builder)
         bool used =
             scene->body.material == i || (scene->body.given != NULL && scene->body.given->material != NULL);
         for (size_t k = 0; k < scene->body.layers; k++)
-            used = used || scene->body.layer[k].material == i;
+            used = used || scene->body.layer[k].material == i ||
+                   (scene->body.layer[k].graded && scene->body.layer[k].bottom == i);
+        for (size_t k = 0; k < scene->body.blocks; k++)
+            used = used || scene->body.block[k].material == i;
         if (!used)
             complain(builder, deck_get(builder->deck, "material", i), "name",
-                     "material '%s' is used by no &body and no &layer; leave it out or use it",
+                     "material '%s' is used by no &body, &layer or &block; leave it out or use it",
                      scene->material[i].name);
     }
 }
@@ -332,5 +334,6 @@ void build_layers(struct builder *builder)
                  "the body needs material: the name of a &material (or layers from depth 0 on)");
     else if (deck_values(group, "material") == 0)
         body->material = body->layer[0].material;
+    build_blocks(builder);
     if (before == SELAS_OK && builder->status == SELAS_OK) check_materials_used(builder);
 }

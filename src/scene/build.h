@@ -70,6 +70,13 @@ void build_receivers(struct builder *builder);
 void build_profiles(struct builder *builder);
 void build_snapshots(struct builder *builder);
 
+/* body.c: index of the material that a word names, or scene->materials after complaining. */
+size_t find_material(struct builder *builder, const struct deck_group *group, const char *word);
+/* blocks.c */
+void build_blocks(struct builder *builder);
+/* blocks.c: dip, strike, bottom of a layer. */
+void read_tilt_and_grade(struct builder *builder, const struct deck_group *group, struct layer *layer);
+
 /* body.c: spacing of the deck, or the one chosen for it; false (without complaint) if there is none. */
 bool take_spacing(const struct builder *builder, const struct deck_group *group, double *spacing);
 

@@ -1,17 +1,67 @@
-/* The ground as a field (doc/general-ground.md, section 4). */
+/* The ground as a field (doc/general-ground.md, section 4): layers, each from its upper face down, over them the
+ * blocks in the deck's order. */
 #include "scene/ground.h"
 
 #include <math.h>
 
-static struct rock rock_of(const struct material *material)
+static double depth_of(const struct scene *scene, const double place[3])
 {
-    return (struct rock){material->density, material->plane_lambda, material->mu};
+    const int last = scene->dimension - 1;
+    return place[last] - scene->body.low[last];
+}
+
+/* Depth of a layer's upper face above or below a place. */
+static double top_at(const struct layer *layer, const double place[3])
+{
+    return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1];
+}
+
+static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3])
+{
+    double square = 0, most = 0;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double part = fabs(place[axis] - block->centre[axis]) / block->half[axis];
+        square += part * part;
+        most = fmax(most, part);
+    }
+    return (block->shape == BLOCK_BOX ? most : square) < 1;
+}
+
+/* Speeds and density between those of two materials. */
+static struct rock between(const struct material *one, const struct material *other, double part)
+{
+    const double density = one->density + part * (other->density - one->density);
+    const double p = one->p_speed + part * (other->p_speed - one->p_speed);
+    const double s = one->s_speed + part * (other->s_speed - one->s_speed);
+    return (struct rock){density, density * (p * p - 2 * s * s), density * s * s};
+}
+
+/* Index of the layer at a place, or the number of layers: the body's own material. */
+static size_t layer_at(const struct body *body, const double place[3], double depth)
+{
+    size_t found = body->layers;
+    for (size_t i = 0; i < body->layers; i++)
+        if (top_at(&body->layer[i], place) <= depth || body->layer[i].top == 0) found = i;
+    return found;
 }
 
 struct rock ground_at(const struct scene *scene, const double place[3])
 {
-    const int last = scene->dimension - 1;
-    return rock_of(scene_material_at(scene, fmax(0, place[last] - scene->body.low[last])));
+    const struct body *body = &scene->body;
+    const double depth = fmax(0, depth_of(scene, place));
+    const size_t layer = layer_at(body, place, depth);
+    const struct material *material =
+        &scene->material[layer < body->layers ? body->layer[layer].material : body->material];
+    bool graded = layer + 1 < body->layers && body->layer[layer].graded;
+    for (size_t i = 0; i < body->blocks; i++)
+        if (inside(scene, &body->block[i], place)) {
+            material = &scene->material[body->block[i].material];
+            graded = false;
+        }
+    if (!graded) return (struct rock){material->density, material->plane_lambda, material->mu};
+    const double top = top_at(&body->layer[layer], place), end = top_at(&body->layer[layer + 1], place);
+    const double part = end > top ? (depth - top) / (end - top) : 0;
+    return between(material, &scene->material[body->layer[layer].bottom], fmin(fmax(part, 0), 1));
 }
 
 size_t ground_jumps(const struct scene *scene, const double place[3], int axis, double from, double to,
@@ -19,26 +69,46 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
 {
     const struct body *body = &scene->body;
     size_t count = 0;
-    (void)place;
     for (size_t i = 0; i < body->layers && axis == scene->dimension - 1; i++) {
-        const double x = body->low[axis] + body->layer[i].top;
+        const double x = body->low[axis] + top_at(&body->layer[i], place);
         if (x > fmax(from, body->low[axis]) && x < to) at[count++] = x;
+    }
+    for (size_t i = 0; i < body->blocks; i++) {
+        const struct ground_block *block = &body->block[i];
+        double rest = 1;
+        for (int other = 0; other < scene->dimension && block->shape == BLOCK_ELLIPSOID; other++)
+            if (other != axis) rest -= pow((place[other] - block->centre[other]) / block->half[other], 2);
+        for (int side = -1; side <= 1 && rest > 0; side += 2) {
+            const double x = block->centre[axis] + side * sqrt(rest) * block->half[axis];
+            if (x > from && x < to) at[count++] = x;
+        }
     }
     return count;
 }
 
 size_t ground_jumps_at_most(const struct scene *scene)
 {
-    return scene->body.layers;
+    return scene->body.layers + 2 * scene->body.blocks;
 }
 
 bool ground_grades(const struct scene *scene)
 {
-    (void)scene;
+    for (size_t i = 0; i < scene->body.layers; i++)
+        if (scene->body.layer[i].graded) return true;
     return false;
 }
 
 bool ground_varies(const struct scene *scene, int axis)
 {
-    return axis == scene->dimension - 1 && body_is_layered(&scene->body);
+    const struct body *body = &scene->body;
+    if (body->blocks > 0) return true;
+    for (size_t i = 0; i < body->layers && axis < 2; i++)
+        if (body->layer[i].slope[axis] != 0) return true;
+    return axis == scene->dimension - 1 && body_is_layered(body);
+}
+
+bool ground_is_general(const struct scene *scene)
+{
+    return ground_varies(scene, 0) || (scene->dimension == 3 && ground_varies(scene, 1)) ||
+           ground_grades(scene);
 }

@@ -20,4 +20,7 @@ bool ground_grades(const struct scene *scene);
 /* Can the rock be another one further along this axis? */
 bool ground_varies(const struct scene *scene, int axis);
 
+/* More than layers of even rock: what only the general operator takes. */
+bool ground_is_general(const struct scene *scene);
+
 #endif

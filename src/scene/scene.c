@@ -213,6 +213,7 @@ void scene_free(struct scene **scene)
     for (size_t i = 0; i < old->snapshots; i++)
         array_free(old->snapshot[i].time);
     array_free(old->body.layer);
+    array_free(old->body.block);
     array_free(old->body.file);
     array_free(old->output.directory);
     array_free(old->reference.file);

@@ -29,11 +29,22 @@ struct material {
 };
 
 enum body_shape { BODY_SHAPES(CHOICE_SYMBOL) };
+enum block_shape { BLOCK_SHAPES(CHOICE_SYMBOL) };
 enum arrangement { ARRANGEMENTS(CHOICE_SYMBOL) };
 
 struct layer {
     size_t material; /* index into scene->materials */
-    double top;      /* depth (distance from the z- face) of its upper face */
+    double top;      /* depth (distance from the z- face) of its upper face; tilted: where x = y = 0 ... */
+    double slope[2]; /* ... and what it gains along x and y of the body's frame; 0, 0: level */
+    bool graded;     /* speeds and density go over to those of `bottom` at the next layer's upper face */
+    size_t bottom;
+};
+
+/* A part of the ground of another material, in the body's frame. */
+struct ground_block {
+    enum block_shape shape;
+    size_t material;
+    double centre[3], half[3]; /* half edges or axes */
 };
 
 struct body {
@@ -54,7 +65,9 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
-    bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
+    size_t blocks;
+    struct ground_block *block; /* later ones lie in earlier ones */
+    bool chosen;         /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
     bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     char choice[200];   /* ... which box and why, for the plan */

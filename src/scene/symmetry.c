@@ -4,6 +4,7 @@
  * -v_a. The scene has this symmetry if the set of loads, the treatment of the faces and the ground map onto
  * themselves; the solution then has it too. */
 #include "scene/symmetry.h"
+#include "scene/ground.h"
 
 #include <math.h>
 #include <string.h>
@@ -153,7 +154,7 @@ unsigned scene_mirror_axes(const struct scene *scene)
     if (scene->initial.kind != INITIAL_REST || body->jitter != 0.0) return 0;
     unsigned axes = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
-        if (axis == scene->dimension - 1 && body->layers > 0) continue; /* ground varies over depth */
+        if (ground_varies(scene, axis)) continue;
         const double middle = 0.5 * (body->low[axis] + body->high[axis]);
         const double length = body->high[axis] - body->low[axis];
         if (has_middle_points(scene, axis) && faces_are_symmetric(scene, axis) &&

@@ -295,5 +295,6 @@ const struct method method_consistent = {
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP | CAN_ABSORB,
     .mirrors = true,
     .single = true,
+    .any_ground = true,
     .create = create,
 };

@@ -5,6 +5,7 @@
 #include "method/consistent/fused/fused.h"
 
 #include "base/memory.h"
+#include "scene/ground.h"
 #include "scene/initial.h"
 
 #include <string.h>
@@ -70,6 +71,16 @@ static const struct material *material_at(const struct consistent *c, double dep
     return scene_material_at(scene, depth_position - scene->body.low[c->dimension - 1]);
 }
 
+/* The same on any ground; what Hooke's law and energies need of it. */
+static const struct material *general_material_at(const struct consistent *c, const double place[3],
+                                                  struct material *material)
+{
+    const struct rock rock = ground_at(c->model.scene, place);
+    *material = (struct material){
+        .density = rock.density, .lambda = rock.lambda, .plane_lambda = rock.lambda, .mu = rock.mu};
+    return material;
+}
+
 static void to_body(const struct consistent *c, const double position[3], double place[3])
 {
     memcpy(place, position, 3 * sizeof *place);
@@ -89,7 +100,9 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
             tuned_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
             place.at[axis][odd] = &at[axis][odd];
         }
-    field_at(c, &place, probe->material, field, y, a, value);
+    struct material here;
+    field_at(c, &place, c->general == NULL ? probe->material : general_material_at(c, position, &here), field,
+             y, a, value);
 }
 
 /* What consistent_observe() reads there. */
@@ -182,9 +195,13 @@ void consistent_field(struct model *model, selas_field field, const double *y, c
         for (int axis = 0; axis < c->dimension; axis++)
             for (int odd = 0; odd < 2; odd++)
                 place.at[axis][odd] = &c->lattice[axis][odd][at[axis]];
-        const int last = c->dimension - 1;
-        field_at(c, &place, material_at(c, lattice_position(c, last, at[last])), field, y, a,
-                 value + components * p);
+        double position[3] = {0};
+        for (int axis = 0; axis < c->dimension; axis++)
+            position[axis] = lattice_position(c, axis, at[axis]);
+        struct material here;
+        const struct material *material = c->general != NULL ? general_material_at(c, position, &here)
+                                                             : material_at(c, position[c->dimension - 1]);
+        field_at(c, &place, material, field, y, a, value + components * p);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "method/consistent/consistent.h"
 #include "method/consistent/galerkin/galerkin.h"
 #include "scene/absorbing_layers.h"
+#include "scene/ground.h"
 
 #include <string.h>
 
@@ -25,6 +26,9 @@ static selas_status check_general(const struct scene *scene, const struct consis
     if (scene->dimension == 1)
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%operator = 'general' needs two or three dimensions; in one take 'layered'");
+    if (scene->dimension == 2 && scene->plane == PLANE_STRESS)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "method%%operator = 'general' takes plane strain, not plane stress");
     for (int face = 0; face < 2 * scene->dimension; face++) {
         if (boundary_moves(&scene->boundary[face]))
             return fail(messages, SELAS_UNSUPPORTED,
@@ -36,6 +40,14 @@ static selas_status check_general(const struct scene *scene, const struct consis
                         face_name((enum face)face));
     }
     return SELAS_OK;
+}
+
+/* The operator that the deck names, else the one that the ground needs. */
+static bool wants_general(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    if (group == NULL || !deck_given(group, "operator")) return ground_is_general(scene);
+    return deck_chosen(group, "operator", "general");
 }
 
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
@@ -65,6 +77,9 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
                         "layer = 'lysmer'",
                         face_name((enum face)face));
     }
+    if (!options->general && ground_is_general(scene))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "&block and tilted or graded &layer need method%%operator = 'general'");
     if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }
@@ -81,8 +96,7 @@ static bool given(const struct deck_group *group, const char *word)
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
-    struct consistent_options options = {
-        .degree = 2, .sweeps = 3, .general = deck_chosen(group, "operator", "general")};
+    struct consistent_options options = {.degree = 2, .sweeps = 3, .general = wants_general(scene)};
     if (!options.general && body_is_layered(&scene->body) && !layer_anywhere(scene) &&
         !given(group, "mass") && !given(group, "depth_mass") && !given(group, "dissipation")) {
         options.degree = 4;

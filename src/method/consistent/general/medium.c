@@ -16,7 +16,8 @@ enum {
     BEYOND = 3,  /* cells of columns on either side of the body */
     PIECES = 10  /* of half a cell, that the widest kernel reaches over */
 };
-static const double sharpening = 1. / 6, normal_reach = 1.5, least_part = .3;
+static const double sharpening = 1. / 6, least_part = .3;
+static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
 
 struct columns {
     size_t count, points;
@@ -70,9 +71,8 @@ static void add_sample(const struct rock *rock, enum at at, double t, double par
         sum->mean[n] += weight * value[n];
     for (int n = 0; n < POSITIVE; n++)
         sum->least[n] = fmin(sum->least[n], value[n]);
-    if (fabs(t) > normal_reach) return;
-    sum->level += part / (2 * normal_reach) * logarithm;
-    sum->rise[DEPTH] += (t > 0 ? part : -part) / normal_reach * logarithm;
+    sum->level += part / (2 * reach_of_kernel) * logarithm;
+    sum->rise[DEPTH] += (t > 0 ? part : -part) / reach_of_kernel * logarithm;
 }
 
 static int ascending(const void *one, const void *other)
@@ -88,7 +88,7 @@ static void average_column(const struct medium *medium, double place[3], double 
     const struct scene *scene = medium->c->model.scene;
     const struct spline *spline = medium->c->layout[DEPTH];
     const int axis = medium->c->dimension - 1;
-    const double h = (spline->high - spline->low) / (double)spline->cells, reach = PIECES / 4. * h;
+    const double h = (spline->high - spline->low) / (double)spline->cells, reach = reach_of_kernel * h;
     const enum at at = medium->at[DEPTH];
     size_t count = ground_jumps(scene, place, axis, middle - reach, middle + reach, jump);
     *sum = (struct averaged){.even = count == 0 && !ground_grades(scene)};
@@ -144,13 +144,12 @@ static void average_along(const struct medium *medium, int slot, size_t i, const
     memcpy(sum->least, from->least, sizeof sum->least);
     for (size_t n = 0; n < width; n++) {
         const struct averaged *one = from + n * stride;
-        const double t = ((double)n + .5) / COLUMNS - PIECES / 4., weight = kernel(at, t) / COLUMNS;
+        const double t = ((double)n + .5) / COLUMNS - reach_of_kernel, weight = kernel(at, t) / COLUMNS;
         for (int q = 0; q < AVERAGES; q++)
             sum->mean[q] += weight * one->mean[q];
         for (int q = 0; q < POSITIVE; q++)
             sum->least[q] = fmin(sum->least[q], one->least[q]);
-        if (fabs(t) > normal_reach) continue;
-        const double even = 1 / (2 * normal_reach * COLUMNS);
+        const double even = 1. / (double)width;
         sum->level += even * one->level;
         for (int s = 0; s < 3; s++)
             sum->rise[s] += even * one->rise[s];
@@ -204,9 +203,15 @@ void medium_free(struct medium *medium)
     array_free(medium);
 }
 
-static double column_place(const struct columns *columns, size_t n)
+/* Place of column n; beyond a symmetry plane its mirror image. */
+static double column_place(const struct medium *medium, int slot, size_t n)
 {
-    return columns->from + (double)n * columns->step;
+    const struct columns *columns = &medium->along[slot];
+    const struct spline *spline = medium->c->layout[slot];
+    const double place = columns->from + (double)n * columns->step;
+    if (place < spline->low && spline->mirror[0]) return 2 * spline->low - place;
+    if (place > spline->high && spline->mirror[1]) return 2 * spline->high - place;
+    return place;
 }
 
 void medium_plane(struct medium *medium, const enum at at[3], size_t k)
@@ -219,8 +224,8 @@ void medium_plane(struct medium *medium, const enum at at[3], size_t k)
     for (size_t j = 0; j < y->count; j++) {
         double place[3] = {0};
         for (size_t i = 0; i < x->count; i++) {
-            place[0] = column_place(x, i);
-            if (c->dimension == 3) place[1] = column_place(y, j);
+            place[0] = column_place(medium, 0, i);
+            if (c->dimension == 3) place[1] = column_place(medium, 1, j);
             average_column(medium, place, middle, medium->jump + (size_t)omp_get_thread_num() * medium->room,
                            &medium->column[j * x->count + i]);
         }
