@@ -60,7 +60,7 @@ static void test_symmetric_and_positive(void **state)
         for (size_t j = 0; j < run.n; j++) {
             memset(run.y, 0, run.n * sizeof *run.y);
             run.y[j] = 1;
-            general_forces(c, run.y, run.a);
+            general_forces(c, run.y, NULL, run.a);
             for (size_t i = 0; i < run.n; i++)
                 gsl_matrix_set(k, i, j, -run.a[i]);
         }
@@ -104,7 +104,7 @@ static void test_rigid_motions(void **state)
                 run.y[(size_t)from * c->volume + i] = 1 + c->spline[to]->greville[at[to]];
                 run.y[(size_t)to * c->volume + i] = 2 - s * c->spline[from]->greville[at[from]];
             }
-            general_forces(c, run.y, run.a);
+            general_forces(c, run.y, NULL, run.a);
             for (size_t i = 0; i < run.n; i++)
                 scale[s > 0] = fmax(scale[s > 0], fabs(run.a[i]));
         }

@@ -20,8 +20,8 @@
 static void destroy(struct model *model)
 {
     struct consistent *c = consistent_of(model);
-    pml_free(c);
     general_free(c);
+    pml_free(c);
     fused_free(c->fused);
     hform_free(c);
     forces_free(c);
@@ -217,7 +217,11 @@ static selas_status build(struct consistent *c, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
     if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
-    if (status == SELAS_OK && c->options.general) return general_create(c, messages);
+    if (status == SELAS_OK && c->options.general) {
+        status = general_create(c, messages);
+        if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
+        return status == SELAS_OK && c->pml != NULL ? general_layers_create(c, messages) : status;
+    }
     if (status == SELAS_OK && c->hform != NULL && !c->options.unfused && !fused_create(c))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the fused operator");
     if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
@@ -227,7 +231,8 @@ static selas_status build(struct consistent *c, struct messages *messages)
 static void remember(struct model *model, double dt, double *y)
 {
     double *v = y + model->unknowns;
-    pml_remember(consistent_of(model), dt, -dt / 2, y, v, v + model->unknowns);
+    struct consistent *c = consistent_of(model);
+    (c->general != NULL ? general_layers_remember : pml_remember)(c, dt, -dt / 2, y, v, v + model->unknowns);
     pml_damp(consistent_of(model), dt, v);
 }
 

@@ -34,10 +34,6 @@ static selas_status check_general(const struct scene *scene, const struct consis
             return fail(messages, SELAS_UNSUPPORTED,
                         "face %s: method%%operator = 'general' has no faces with a prescribed motion",
                         face_name((enum face)face));
-        if (layer_points(scene, face) > 0)
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "face %s: method%%operator = 'general' has no layer 'pml'; take layer = 'lysmer'",
-                        face_name((enum face)face));
     }
     return SELAS_OK;
 }

@@ -160,7 +160,7 @@ static void drag(const struct consistent *c, const struct slab *slab, double dt,
             }
 }
 
-void pml_remember(const struct consistent *c, double dt, double to_middle, const double *u, const double *v,
+void pml_remember(struct consistent *c, double dt, double to_middle, const double *u, const double *v,
                   double *extra)
 {
     if (c->pml->fast != NULL) {

@@ -33,6 +33,7 @@ struct slab {
     struct block inside;  /* control values with d > 0 */
     struct block region;  /* and those that the matrices reach from them */
     size_t inner, volume; /* numbers of a memory variable (with padding, pml_fast.h); in the region */
+    double most, edge;    /* largest d; where the body ends */
     double relaxation;    /* alpha: the rate at which the layer forgets */
     double *damping;      /* d at the control values inside, along the axis */
     double *drag;         /* rates at which velocities there are damped besides; NULL: not at all */
@@ -65,7 +66,11 @@ void layers_describe(const struct consistent *c,
  */
 void layers_fastest(struct model *model, const double *y, struct unseen *found);
 
-/* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. */
+/* d at a place along the slab's axis. */
+double pml_damping_at(const struct consistent *c, const struct slab *slab, double x);
+
+/* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. With the general
+ * operator the slabs alone: it has memory and steps of its own. */
 selas_status pml_create(struct consistent *c, struct messages *messages);
 void pml_free(struct consistent *c);
 /* a += factor * what the memory variables do: nothing at control values that are held at rest. */
@@ -73,7 +78,7 @@ void pml_accelerate(const struct consistent *c, double factor, const double *ext
 /* Brings the memory variables from one step to the next (Eq 10): u + to_middle * v are the displacements in
  * the middle of the step, v being the mean velocity over it, u those of its end (to_middle = -dt/2) or start
  * (dt/2). */
-void pml_remember(const struct consistent *c, double dt, double to_middle, const double *u, const double *v,
+void pml_remember(struct consistent *c, double dt, double to_middle, const double *u, const double *v,
                   double *extra);
 /* Velocities after a step where layers damp them besides (Eq 11): only if c->pml->drag > 0. In single
  * precision pml_fast_accelerate_single() and pml_fast_remember_single() serve (pml_fast.h) where

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
+#include "scene/ground.h"
 
 #include <math.h>
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
@@ -26,7 +27,10 @@ static double drag_share(const struct consistent *c)
         }
         if (ways_out == 0 && mirrors < 2) return plate;
     }
-    return c->weighted[WEIGHT_DENSITY] != NULL ? ground : 0;
+    return c->weighted[WEIGHT_DENSITY] != NULL || body_is_layered(&c->model.scene->body) ||
+                   ground_is_general(c->model.scene)
+               ? ground
+               : 0;
 }
 
 static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count, double most)
@@ -43,6 +47,13 @@ static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count
 
 /* d(x) = (p + 1) c_p ln(1/R) / (2 L) * (distance / L)^p: then the integral of d over the layer's thickness L,
  * there and back, takes the amplitude down to R at normal incidence (Eq 10). */
+double pml_damping_at(const struct consistent *c, const struct slab *slab, double x)
+{
+    const struct spline *spline = c->spline[slab->axis];
+    const double thickness = slab->end == 0 ? slab->edge - spline->low : spline->high - slab->edge;
+    return slab->most * pow(fabs(x - slab->edge) / thickness, LAYER_POWER);
+}
+
 static bool lay_damping(struct consistent *c, struct slab *slab)
 {
     const struct body *body = &c->model.scene->body;
@@ -53,6 +64,8 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     const double reflection = layer_profile_reflection(c->layer[face]);
     const double fastest = consistent_fastest(c, face);
     const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness);
+    slab->most = most;
+    slab->edge = edge;
     slab->relaxation = layer_relaxation * fastest / thickness;
     size_t count = 0, first = 0;
     for (size_t i = 0; i < spline->count; i++) {
@@ -63,7 +76,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     slab->damping = array_new(count, sizeof *slab->damping);
     if (slab->damping == NULL) return false;
     for (size_t i = 0; i < count; i++)
-        slab->damping[i] = most * pow(fabs(spline->greville[first + i] - edge) / thickness, LAYER_POWER);
+        slab->damping[i] = pml_damping_at(c, slab, spline->greville[first + i]);
     slab->inside = (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
     slab->inside.at[slot] = first;
     slab->inside.n[slot] = count;
@@ -133,6 +146,7 @@ selas_status pml_create(struct consistent *c, struct messages *messages)
         good = lay_damping(c, slab);
         if (good) lay_region(c, slab);
     }
+    if (good && c->options.general) return SELAS_OK;
     good = good && pml_fast_create(c) && (c->pml->fast != NULL || lay_regions(c));
     if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
     for (size_t s = 0; s < c->pml->slabs; s++) {

@@ -25,23 +25,25 @@ static double *scratch_of(const struct consistent *c, double *buffer)
 
 /* Control values of the unclamped splines at both ends of a row (G3); row[shift] is the first one of the open
  * ends'. */
-static void unclamp(const struct spline *spline, bool odd, size_t cells, double *row)
+static void unclamp(const struct spline *spline, bool odd, size_t cells, const struct part *part, double *row)
 {
     const double sign = odd ? -1 : 1;
-    row[0] = spline->mirror[0] ? sign * row[1] : 2 * row[0] - row[1];
+    if (part->from == 0) row[0] = spline->mirror[0] ? sign * row[1] : 2 * row[0] - row[1];
+    if (part->end < cells + 2) return;
     row[cells + 1] = spline->mirror[1] ? sign * row[cells] : 2 * row[cells + 1] - row[cells];
 }
 
 /* Its transpose. */
-static void clamp(const struct spline *spline, bool odd, size_t cells, double *row)
+static void clamp(const struct spline *spline, bool odd, size_t cells, const struct part *part, double *row)
 {
     const double sign = odd ? -1 : 1, low = row[0], high = row[cells + 1];
-    if (spline->mirror[0])
+    if (part->from == 0 && spline->mirror[0])
         row[1] += sign * low;
-    else {
+    else if (part->from == 0) {
         row[0] = 2 * low;
         row[1] -= low;
     }
+    if (part->end < cells + 2) return;
     if (spline->mirror[1])
         row[cells] += sign * high;
     else {
@@ -50,8 +52,12 @@ static void clamp(const struct spline *spline, bool odd, size_t cells, double *r
     }
 }
 
-/* Does any of the rows of control values that a row of points reads move anything? */
-static bool row_is_loud(const struct consistent *c, const struct taps *y, const struct taps *z)
+struct part general_whole(const struct consistent *c)
+{
+    return (struct part){0, c->n[1], 0, c->general->cells[0] + 2};
+}
+
+bool general_row_is_loud(const struct consistent *c, const struct taps *y, const struct taps *z)
 {
     for (size_t k = z->first; k < z->first + z->count; k++)
         for (size_t j = y->first; j < y->first + y->count; j++)
@@ -64,35 +70,43 @@ static const struct taps *taps_at(const struct consistent *c, int slot, bool odd
     return &c->general->taps[slot][odd][at][i];
 }
 
-/* Values and slopes over depth at a plane of points. */
-static void read_depth(const struct consistent *c, enum at at, size_t m, const double *u, double *buffer)
+/* Control values of a row that numbers from .. end - 1 of the unclamped splines stand for. */
+static void control_range(const struct consistent *c, const struct part *part, size_t *from, size_t *end)
+{
+    const size_t shift = c->layout[0]->mirror[0] ? 1 : 0;
+    *from = part->from < shift ? 0 : part->from - shift;
+    *end = part->end - shift < c->n[0] ? part->end - shift : c->n[0];
+}
+
+void general_read(const struct consistent *c, enum at at, size_t m, const struct part *part, const double *u,
+                  double *buffer)
 {
     const struct general *g = c->general;
+    size_t first, end;
+    control_range(c, part, &first, &end);
     const struct point_kernels *kernels = taken_point_kernels();
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
         const struct taps *z = taps_at(c, DEPTH, slot == DEPTH, at, m);
         const size_t shift = ROW_ROOM + (c->layout[0]->mirror[0] ? 1 : 0);
-        for (size_t j = 0; j < c->n[1]; j++) {
+        for (size_t j = part->row; j < part->row_end; j++) {
             const double *from = u + (size_t)axis * c->volume + z->first * c->plane + j * c->n[0];
-            for (int f = VALUE; f <= SLOPE; f++) {
-                double *row = field_of(c, buffer, (enum field)f, slot) + j * g->pitch;
-                if (f == VALUE)
-                    kernels->depth(z, from, c->plane, c->n[0], row + shift,
-                                   field_of(c, buffer, SLOPE, slot) + j * g->pitch + shift);
-                unclamp(c->layout[0], slot == 0, g->cells[0], row + ROW_ROOM);
-            }
+            double *value = field_of(c, buffer, VALUE, slot) + j * g->pitch;
+            double *slope = field_of(c, buffer, SLOPE, slot) + j * g->pitch;
+            kernels->depth(z, from + first, c->plane, end - first, value + shift + first,
+                           slope + shift + first);
+            unclamp(c->layout[0], slot == 0, g->cells[0], part, value + ROW_ROOM);
+            unclamp(c->layout[0], slot == 0, g->cells[0], part, slope + ROW_ROOM);
         }
         for (int f = PULL_VALUE; f <= PULL_SLOPE; f++)
-            memset(field_of(c, buffer, (enum field)f, slot), 0, c->n[1] * g->pitch * sizeof *buffer);
+            memset(field_of(c, buffer, (enum field)f, slot) + part->row * g->pitch, 0,
+                   (part->row_end - part->row) * g->pitch * sizeof *buffer);
     }
 }
 
-/* All rows of points of a family in a plane. */
-static void rows_of(const struct consistent *c, const struct family *family, size_t m, double *buffer)
+struct point_plane general_plane(const struct consistent *c, const struct family *family, double *buffer)
 {
     const struct general *g = c->general;
-    const struct point_kernels *kernels = taken_point_kernels();
     struct point_plane plane = {.flat = c->dimension == 2,
                                 .knots = family->at[0] == AT_KNOTS,
                                 .cells = g->cells[0],
@@ -107,44 +121,61 @@ static void rows_of(const struct consistent *c, const struct family *family, siz
         plane.pull_value[slot] = field_of(c, buffer, PULL_VALUE, slot);
         plane.pull_slope[slot] = field_of(c, buffer, PULL_SLOPE, slot);
     }
+    return plane;
+}
+
+/* All rows of points of a family in a plane. */
+static void rows_of(const struct consistent *c, const struct family *family, size_t m, const double *extra,
+                    double *buffer)
+{
+    const struct point_kernels *kernels = taken_point_kernels();
+    const struct point_plane plane = general_plane(c, family, buffer);
     const struct taps *z = taps_at(c, DEPTH, false, family->at[DEPTH], m);
     for (size_t j = 0; j < family->n[1]; j++) {
-        if (!row_is_loud(c, taps_at(c, 1, false, family->at[1], j), z)) continue;
+        if (!general_row_is_loud(c, taps_at(c, 1, false, family->at[1], j), z)) continue;
         const size_t row = m * family->n[1] + j, from = row * family->n[0];
         const size_t run = family->runs > 0 ? family->first_run[row] : 0;
         const size_t runs = family->runs > 0 ? family->first_run[row + 1] - run : 0;
-        kernels->row(&plane, j, family->lambda + from, family->mu + from, family->run + run, runs,
-                     family->stiffness);
+        if (extra == NULL) {
+            kernels->row(&plane, j, family->lambda + from, family->mu + from, family->run + run, runs,
+                         family->stiffness);
+            continue;
+        }
+        kernels->slopes(&plane, j, 0, family->n[0]);
+        general_layers_add(c, &plane, family, j, m, 0, family->n[0], extra);
+        kernels->pulls(&plane, j, 0, family->n[0], family->lambda + from, family->mu + from,
+                       family->run + run, runs, family->stiffness, 7);
     }
 }
 
-/* Takes the pulls off the forces of planes from .. end - 1. */
-static void write_depth(const struct consistent *c, enum at at, size_t m, size_t from, size_t end,
-                        double *buffer, double *force)
+void general_write(const struct consistent *c, enum at at, size_t m, const struct part *part, size_t from,
+                   size_t end, double *buffer, double *force)
 {
     const struct general *g = c->general;
+    size_t first, last;
+    control_range(c, part, &first, &last);
     const struct point_kernels *kernels = taken_point_kernels();
     const size_t shift = ROW_ROOM + (c->layout[0]->mirror[0] ? 1 : 0);
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
         const struct taps *z = taps_at(c, DEPTH, slot == DEPTH, at, m);
-        for (size_t j = 0; j < c->n[1]; j++) {
+        for (size_t j = part->row; j < part->row_end; j++) {
             double *value = field_of(c, buffer, PULL_VALUE, slot) + j * g->pitch;
             double *slope = field_of(c, buffer, PULL_SLOPE, slot) + j * g->pitch;
-            clamp(c->layout[0], slot == 0, g->cells[0], value + ROW_ROOM);
-            clamp(c->layout[0], slot == 0, g->cells[0], slope + ROW_ROOM);
+            clamp(c->layout[0], slot == 0, g->cells[0], part, value + ROW_ROOM);
+            clamp(c->layout[0], slot == 0, g->cells[0], part, slope + ROW_ROOM);
             for (size_t d = 0; d < z->count; d++) {
                 const size_t k = z->first + d;
                 if (k < from || k >= end) continue;
-                kernels->add(c->n[0], -z->value[d], value + shift, -z->slope[d], slope + shift,
-                             force + (size_t)axis * c->volume + k * c->plane + j * c->n[0]);
+                kernels->add(last - first, -z->value[d], value + shift + first, -z->slope[d],
+                             slope + shift + first,
+                             force + (size_t)axis * c->volume + k * c->plane + j * c->n[0] + first);
             }
         }
     }
 }
 
-/* Does a plane of points reach planes from .. end - 1, and does it move anything? */
-static bool plane_counts(const struct consistent *c, enum at at, size_t m, size_t from, size_t end)
+bool general_plane_counts(const struct consistent *c, enum at at, size_t m, size_t from, size_t end)
 {
     bool reaches = false, loud = false;
     for (int odd = 0; odd < 2; odd++) {
@@ -158,8 +189,9 @@ static bool plane_counts(const struct consistent *c, enum at at, size_t m, size_
 
 /* Forces of planes from .. end - 1. */
 static void make_planes(const struct consistent *c, int thread, size_t from, size_t end, const double *u,
-                        double *force)
+                        const double *extra, double *force)
 {
+    const struct part whole = general_whole(c);
     const struct general *g = c->general;
     double *buffer = g->buffer[thread];
     for (int axis = 0; axis < c->dimension; axis++)
@@ -168,16 +200,15 @@ static void make_planes(const struct consistent *c, int thread, size_t from, siz
     for (size_t m = 0; m <= g->cells[DEPTH]; m++)
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++) {
             if (m == g->cells[DEPTH] && at == AT_MIDDLES) continue;
-            if (!plane_counts(c, (enum at)at, m, from, end)) continue;
-            read_depth(c, (enum at)at, m, u, buffer);
+            if (!general_plane_counts(c, (enum at)at, m, from, end)) continue;
+            general_read(c, (enum at)at, m, &whole, u, buffer);
             for (int f = 0; f < 3; f++)
-                if (g->family[f].at[DEPTH] == (enum at)at) rows_of(c, &g->family[f], m, buffer);
-            write_depth(c, (enum at)at, m, from, end, buffer, force);
+                if (g->family[f].at[DEPTH] == (enum at)at) rows_of(c, &g->family[f], m, extra, buffer);
+            general_write(c, (enum at)at, m, &whole, from, end, buffer, force);
         }
 }
 
-/* Rows of control values whose displacements are not below `quiet` times the largest. */
-static void look(struct consistent *c, const double *u)
+void general_look(struct consistent *c, const double *u)
 {
     struct general *g = c->general;
     const struct passes *passes = taken_passes();
@@ -197,15 +228,15 @@ static void look(struct consistent *c, const double *u)
         g->loud[row] = !(most[row] <= c->options.quiet * largest);
 }
 
-void general_forces(struct consistent *c, const double *u, double *force)
+void general_forces(struct consistent *c, const double *u, const double *extra, double *force)
 {
-    look(c, u);
+    general_look(c, u);
     const size_t block = (c->n[DEPTH] + (size_t)c->threads - 1) / (size_t)c->threads;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (int thread = 0; thread < c->threads; thread++) {
         const size_t from = (size_t)thread * block, next = from + block;
         const size_t end = next < c->n[DEPTH] ? next : c->n[DEPTH];
-        if (from < end) make_planes(c, omp_get_thread_num(), from, end, u, force);
+        if (from < end) make_planes(c, omp_get_thread_num(), from, end, u, extra, force);
     }
     general_corners(c, u, force);
 }

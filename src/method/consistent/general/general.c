@@ -136,6 +136,7 @@ void general_free(struct consistent *c)
 {
     struct general *g = c->general;
     if (g == NULL) return;
+    general_layers_free(c);
     for (int slot = 0; slot < 3; slot++)
         for (int odd = 0; odd < 2; odd++)
             for (int at = 0; at < 2; at++)
@@ -191,7 +192,9 @@ void general_accelerate(struct consistent *c, const struct drive *drive, double 
                         const double *v, double *a)
 {
     struct general *g = c->general;
-    general_forces(c, u, g->force);
+    const double *extra = c->pml != NULL ? drive->extra : NULL;
+    general_forces(c, u, extra, g->force);
+    if (extra != NULL) general_layers_pull(c, extra, g->force);
     for (int component = 0; component < c->dimension; component++)
         for (size_t k = 0; k < c->n[DEPTH]; k++) {
             double *plane = g->force + (size_t)component * c->volume + k * c->plane;
@@ -227,7 +230,7 @@ void general_energy(struct consistent *c, const double *y, struct energy *energy
     const size_t n = c->model.unknowns;
     general_weigh(c, y + n, g->work);
     energy->kinetic = sum_of_products(n, g->work, y + n, c->threads) / 2;
-    general_forces(c, y, g->force);
+    general_forces(c, y, NULL, g->force);
     energy->strain = -sum_of_products(n, g->force, y, c->threads) / 2;
 }
 

@@ -33,6 +33,9 @@ struct general {
     struct family family[3];
     size_t corners;
     struct corner corner[8];
+    struct general_layer *layer; /* [layers] */
+    size_t layers;
+    double *middle;              /* memory of slopes at the middle of a step, as in extra */
     double *root;                /* 1 / sqrt(R) at the control values (G4, G5) */
     struct tensor_plan *inverse; /* N */
     double *force;               /* [unknowns] F - K u, times root */
@@ -57,8 +60,41 @@ void general_weigh(struct consistent *c, const double *v, double *product); /* M
 void general_energy(struct consistent *c, const double *y, struct energy *energy);
 double general_damper_power(struct consistent *c, const double *v);
 
-/* forces.c: force := -K u. */
-void general_forces(struct consistent *c, const double *u, double *force);
+/* forces.c: force := -K u, with the memory of absorbing layers if extra is not NULL. */
+void general_forces(struct consistent *c, const double *u, const double *extra, double *force);
+
+/* Part of a plane: rows of control values row .. row_end - 1, numbers from .. end - 1 of the unclamped splines
+ * along x. */
+struct part {
+    size_t row, row_end, from, end;
+};
+struct part general_whole(const struct consistent *c);
+/* Values and slopes over depth of a part of plane m of points into a buffer; no pulls there. */
+void general_read(const struct consistent *c, enum at at, size_t m, const struct part *part, const double *u,
+                  double *buffer);
+/* Takes the pulls of a part off the forces of planes from .. end - 1. */
+void general_write(const struct consistent *c, enum at at, size_t m, const struct part *part, size_t from,
+                   size_t end, double *buffer, double *force);
+struct point_plane general_plane(const struct consistent *c, const struct family *family, double *buffer);
+/* Rows of control values whose displacements are not below `quiet` times the largest: c->general->loud. */
+void general_look(struct consistent *c, const double *u);
+/* Does any of the rows of control values that a row of points reads move anything? */
+bool general_row_is_loud(const struct consistent *c, const struct taps *y, const struct taps *z);
+/* Does a plane of points reach planes from .. end - 1, and does it move anything? */
+bool general_plane_counts(const struct consistent *c, enum at at, size_t m, size_t from, size_t end);
+
+/* layers.c: absorbing layers (doc/general-ground.md, section 6). */
+selas_status general_layers_create(struct consistent *c, struct messages *messages);
+void general_layers_free(struct consistent *c);
+/* Adds their memory to the slopes of points from .. end - 1 of row j in plane m. */
+void general_layers_add(const struct consistent *c, const struct point_plane *plane,
+                        const struct family *family, size_t j, size_t m, size_t from, size_t end,
+                        const double *extra);
+/* Their own part of the forces. */
+void general_layers_pull(const struct consistent *c, const double *extra, double *force);
+/* As pml_remember(). */
+void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
+                             const double *v, double *extra);
 
 /* corners.c: lays the corners; adds -K u of their points. */
 void general_lay_corners(struct consistent *c);

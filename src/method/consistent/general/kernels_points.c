@@ -4,6 +4,8 @@
 
 #include "base/machine.h"
 
+#include <string.h>
+
 /* Along y: values, slopes and values of slopes over depth of a component at a row of points. */
 INLINED void across(const int count, const struct taps *t, double scale, const double *restrict value,
                     const double *restrict slope, size_t pitch, size_t n, double *restrict a,
@@ -74,6 +76,22 @@ INLINED void isotropic_flat(const bool knots, size_t n, size_t pitch, const doub
     }
 }
 
+/* Stresses of point m of a run. */
+INLINED void law_of(const struct run_of_points *run, size_t m, const double *restrict law,
+                    const double *strain, size_t pitch, double *out)
+{
+    double stress[STRESSES] = {0};
+    int at = 0;
+    for (int p = 0; p < STRESSES; p++)
+        for (int q = p; q < STRESSES; q++, at++) {
+            const double modulus = law[(size_t)at * run->count + m];
+            stress[p] += modulus * strain[q];
+            if (p != q) stress[q] += modulus * strain[p];
+        }
+    for (int p = 0; p < STRESSES; p++)
+        out[(size_t)p * pitch] = stress[p];
+}
+
 /* Stresses of a run of points that are not isotropic. */
 INLINED void run_stresses(const bool flat, const bool knots, const struct run_of_points *run, size_t pitch,
                           const double *in, const double *stiffness, double *out)
@@ -87,16 +105,7 @@ INLINED void run_stresses(const bool flat, const bool knots, const struct run_of
                                          flat ? 0 : VALUE(c1) + VALUE(b2),
                                          VALUE(c0) + SLOPE(a2),
                                          flat ? 0 : VALUE(b0) + SLOPE(a1)};
-        double stress[STRESSES] = {0};
-        int at = 0;
-        for (int p = 0; p < STRESSES; p++)
-            for (int q = p; q < STRESSES; q++, at++) {
-                const double modulus = law[(size_t)at * run->count + m];
-                stress[p] += modulus * strain[q];
-                if (p != q) stress[q] += modulus * strain[p];
-            }
-        for (int p = 0; p < STRESSES; p++)
-            out[(size_t)p * pitch + i] = stress[p];
+        law_of(run, m, law, strain, pitch, out + i);
     }
 }
 
@@ -170,6 +179,96 @@ INLINED void row_of(const bool flat, const bool knots, const struct point_plane 
     }
 }
 
+/* Slopes along x, y and depth of points from .. end - 1. */
+INLINED void slopes_of(const bool flat, const bool knots, const struct point_plane *plane, size_t j,
+                       size_t first, size_t end)
+{
+    const size_t pitch = plane->pitch, width = end - first + 2;
+    double *in = plane->scratch + ROW_ROOM + first;
+    for (int s = 0; s < 3; s += flat ? 2 : 1) {
+        const struct taps *t = &plane->y[s == 1][j];
+        const size_t from = t->first * pitch + ROW_ROOM + first;
+        double *rows = in + (size_t)(3 * s) * pitch;
+        BY_COUNT(ACROSS)
+        const double *restrict a = rows, *restrict b = rows + pitch, *restrict c = rows + 2 * pitch;
+        double *restrict x = slope_row(plane, s, 0) + first, *restrict y = slope_row(plane, s, 1) + first;
+        double *restrict z = slope_row(plane, s, 2) + first;
+#pragma omp simd
+        for (size_t i = 0; i < end - first; i++) {
+            x[i] = SLOPE(a);
+            y[i] = VALUE(b);
+            z[i] = VALUE(c);
+        }
+    }
+}
+
+static void slopes(const struct point_plane *plane, size_t j, size_t from, size_t end)
+{
+    if (plane->flat && plane->knots)
+        slopes_of(true, true, plane, j, from, end);
+    else if (plane->flat)
+        slopes_of(true, false, plane, j, from, end);
+    else if (plane->knots)
+        slopes_of(false, true, plane, j, from, end);
+    else
+        slopes_of(false, false, plane, j, from, end);
+}
+
+/* Six strains of point i from the slopes' rows, those of y are 0 in two dimensions. */
+#define STRAINS(i)                                                                                           \
+    {                                                                                                        \
+        g[0][i], g[4][i], g[8][i], g[5][i] + g[7][i], g[2][i] + g[6][i], g[1][i] + g[3][i]                   \
+    }
+
+static void pulls(const struct point_plane *plane, size_t j, size_t first, size_t end, const double *lambda,
+                  const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
+                  unsigned directions)
+{
+    static const int place[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+    const size_t pitch = plane->pitch;
+    const bool knots = plane->knots;
+    double *out = plane->scratch + ROW_ROOM + 9 * pitch, *none = plane->scratch + ROW_ROOM;
+    const double *g[9];
+    for (int s = 0; s < 9; s++)
+        g[s] = slope_row(plane, s / 3, s % 3);
+    STRESS_ROWS
+#pragma omp simd
+    for (size_t i = first; i < end; i++) {
+        const double strain[STRESSES] = STRAINS(i), twice = 2 * mu[i];
+        const double pressure = lambda[i] * (strain[0] + strain[1] + strain[2]);
+        xx[i] = pressure + twice * strain[0];
+        yy[i] = pressure + twice * strain[1];
+        zz[i] = pressure + twice * strain[2];
+        yz[i] = mu[i] * strain[3];
+        zx[i] = mu[i] * strain[4];
+        xy[i] = mu[i] * strain[5];
+    }
+    for (size_t r = 0; r < runs; r++)
+        for (size_t m = 0; m < run[r].count; m++) {
+            const size_t i = run[r].from + m;
+            if (i < first || i >= end) continue;
+            const double strain[STRESSES] = STRAINS(i);
+            law_of(&run[r], m, stiffness + run[r].at, strain, pitch, out + i);
+        }
+    for (int p = 0; p < STRESSES; p++)
+        for (int i = 0; i < 2; i++) {
+            out[(size_t)p * pitch + end + (size_t)i] = 0;
+            *(out + (size_t)p * pitch + first - 1 - i) = 0;
+        }
+    memset(none + (ptrdiff_t)first - 2, 0, (end - first + 4) * sizeof *none);
+    for (int s = 0; s < 3; s += plane->flat ? 2 : 1) {
+        const struct taps *t = &plane->y[s == 1][j];
+        const size_t from = t->first * pitch + ROW_ROOM + first;
+        const double *along[3];
+        for (int slot = 0; slot < 3; slot++)
+            along[slot] = (directions >> slot & 1U ? out + (size_t)place[s][slot] * pitch : none) + first;
+#define PULL_ALONG(count)                                                                                    \
+    pull(count, knots, t, plane->scale, end - first + 2, pitch, along[0], along[1], along[2],                \
+         plane->pull_value[s] + from, plane->pull_slope[s] + from)
+        BY_COUNT(PULL_ALONG)
+    }
+}
+
 static void row(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
                 const struct run_of_points *run, size_t runs, const double *stiffness)
 {
@@ -213,4 +312,4 @@ static void depth(const struct taps *t, const double *u, size_t stride, size_t n
     BY_COUNT(DEPTH_OF)
 }
 
-const struct point_kernels OF_PROCESSOR(point_kernels) = {row, add, depth};
+const struct point_kernels OF_PROCESSOR(point_kernels) = {row, slopes, pulls, add, depth};

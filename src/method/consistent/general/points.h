@@ -37,12 +37,24 @@ struct point_plane {
     double *pull_value[3], *pull_slope[3];
     double *scratch; /* [SCRATCH_ROWS * pitch] zeros to begin with */
 };
-enum { SCRATCH_ROWS = 9 + STRESSES, ROW_ROOM = 8 }; /* numbers before the first of a row */
+enum { SCRATCH_ROWS = 18 + STRESSES, ROW_ROOM = 8 }; /* numbers before the first of a row */
+
+/* Slopes of a component along a slot at the points of a row. */
+static inline double *slope_row(const struct point_plane *plane, int component, int slot)
+{
+    return plane->scratch + ROW_ROOM + (size_t)(9 + STRESSES + 3 * component + slot) * plane->pitch;
+}
 
 struct point_kernels {
     /* Row j of points: adds B^T of the stresses to the pulls. lambda, mu: of the row; runs may be none. */
     void (*row)(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
                 const struct run_of_points *run, size_t runs, const double *stiffness);
+    /* The same in two: slopes of points from .. end - 1 of row j into the scratch (slope_row()), where others may
+     * change them, and the pulls of their stresses, along the directions (bits 1 << slot) alone. */
+    void (*slopes)(const struct point_plane *plane, size_t j, size_t from, size_t end);
+    void (*pulls)(const struct point_plane *plane, size_t j, size_t from, size_t end, const double *lambda,
+                  const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
+                  unsigned directions);
     /* out[i] += v * in[i] + s * slope[i], i < n */
     void (*add)(size_t n, double v, const double *value, double s, const double *slope, double *out);
     /* value := sum of weight[d] rows of u, slope alike with weight slope; d < count, n numbers each. */

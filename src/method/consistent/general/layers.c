@@ -1,0 +1,318 @@
+/* Absorbing layers of the general operator: convolutional perfectly matched layers at its points
+ * (doc/general-ground.md, section 6). Along the axis j across the face the layer keeps
+ *
+ *   psi_ij = F_j[d_j u_i]  at the points,   phi_ij = F_j[f_ij]  at the control values,                  (G13)
+ *
+ * f_ij the forces of the stresses along j, made with d_j u_i + psi_ij for every slope; steps by the trapezoidal
+ * rule as in absorbing/pml.c. */
+#include "method/consistent/absorbing/pml.h"
+#include "method/consistent/general/general.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+struct general_layer {
+    int slot;
+    bool high;
+    size_t width; /* cells */
+    const struct slab *slab;
+    size_t at[3][3], n[3][3]; /* [family][slot] of its points */
+    double *damping[2];       /* [at] at its points along the slot */
+    size_t psi[3], points[3]; /* [family] place in extra; points */
+};
+
+/* Points of a layer along its slot: those of its cells, the knot of the face not among them. */
+static void lay_points(const struct consistent *c, struct general_layer *layer)
+{
+    for (int f = 0; f < 3; f++) {
+        const struct family *family = &c->general->family[f];
+        layer->points[f] = 1;
+        for (int slot = 0; slot < 3; slot++) {
+            layer->at[f][slot] = 0;
+            layer->n[f][slot] = family->n[slot];
+            if (slot == layer->slot) {
+                layer->n[f][slot] = layer->width;
+                layer->at[f][slot] = layer->high ? family->n[slot] - layer->width : 0;
+            }
+            layer->points[f] *= layer->n[f][slot];
+        }
+    }
+}
+
+static bool lay_layer(struct consistent *c, const struct slab *slab, struct general_layer *layer,
+                      size_t *extra)
+{
+    layer->slab = slab;
+    layer->slot = c->slot[slab->axis];
+    layer->high = slab->end == 1;
+    layer->width = c->layer[2 * slab->axis + slab->end];
+    lay_points(c, layer);
+    for (int at = AT_KNOTS; at <= AT_MIDDLES; at++) {
+        layer->damping[at] = array_new(layer->width, sizeof(double));
+        if (layer->damping[at] == NULL) return false;
+        const size_t points = c->general->cells[layer->slot] + (at == AT_KNOTS ? 1 : 0);
+        const size_t first = layer->high ? points - layer->width : 0;
+        for (size_t i = 0; i < layer->width; i++)
+            layer->damping[at][i] =
+                pml_damping_at(c, slab, general_place(c, layer->slot, (enum at)at, first + i));
+    }
+    for (int f = 0; f < 3; f++) {
+        layer->psi[f] = *extra;
+        *extra += (size_t)c->dimension * layer->points[f];
+    }
+    return true;
+}
+
+selas_status general_layers_create(struct consistent *c, struct messages *messages)
+{
+    struct general *g = c->general;
+    g->layers = c->pml->slabs;
+    g->layer = array_new(g->layers, sizeof *g->layer);
+    bool good = g->layer != NULL;
+    size_t extra = 0;
+    for (size_t l = 0; good && l < g->layers; l++)
+        good = lay_layer(c, &c->pml->slab[l], &g->layer[l], &extra);
+    g->middle = array_new(extra, sizeof *g->middle);
+    c->pml->bytes += extra * sizeof *g->middle;
+    for (size_t l = 0; l < g->layers; l++) { /* what looks for spoiled places reads phi in both */
+        struct slab *slab = &c->pml->slab[l];
+        slab->psi = slab->phi = extra;
+        extra += (size_t)c->dimension * slab->inner;
+    }
+    c->pml->extra = extra;
+    if (good && g->middle != NULL) return SELAS_OK;
+    return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
+}
+
+void general_layers_free(struct consistent *c)
+{
+    struct general *g = c->general;
+    for (size_t l = 0; g->layer != NULL && l < g->layers; l++)
+        for (int at = 0; at < 2; at++)
+            array_free(g->layer[l].damping[at]);
+    array_free(g->layer);
+    array_free(g->middle);
+}
+
+/* Points of a layer in row j of plane m, from *first to *end - 1, of those from .. end - 1; false: none. */
+static bool cut_row(const struct general_layer *layer, int f, size_t j, size_t m, size_t *first, size_t *end)
+{
+    const size_t *at = layer->at[f], *n = layer->n[f];
+    if (j < at[1] || j >= at[1] + n[1] || m < at[2] || m >= at[2] + n[2]) return false;
+    *first = *first > at[0] ? *first : at[0];
+    *end = *end < at[0] + n[0] ? *end : at[0] + n[0];
+    return *first < *end;
+}
+
+/* Where the memory of a component at a point stands, from the family's first. */
+static size_t memory_at(const struct general_layer *layer, int f, int component, size_t i, size_t j, size_t m)
+{
+    const size_t *at = layer->at[f], *n = layer->n[f];
+    return (size_t)component * layer->points[f] + ((m - at[2]) * n[1] + j - at[1]) * n[0] + i - at[0];
+}
+
+void general_layers_add(const struct consistent *c, const struct point_plane *plane,
+                        const struct family *family, size_t j, size_t m, size_t from, size_t end,
+                        const double *extra)
+{
+    const struct general *g = c->general;
+    const int f = (int)(family - g->family);
+    for (size_t l = 0; l < g->layers; l++) {
+        const struct general_layer *layer = &g->layer[l];
+        size_t first = from, last = end;
+        if (!cut_row(layer, f, j, m, &first, &last)) continue;
+        for (int axis = 0; axis < c->dimension; axis++) {
+            double *restrict slope = slope_row(plane, c->slot[axis], layer->slot) + first;
+            const double *restrict psi = extra + layer->psi[f] + memory_at(layer, f, axis, first, j, m);
+            for (size_t i = 0; i < last - first; i++)
+                slope[i] += psi[i];
+        }
+    }
+}
+
+void general_layers_pull(const struct consistent *c, const double *extra, double *force)
+{
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        const struct block *in = &slab->inside;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t k = 0; k < in->n[2]; k++)
+            for (size_t component = 0; component < (size_t)c->dimension; component++)
+                for (size_t j = 0; j < in->n[1]; j++) {
+                    double *row = force + component * c->volume + (k + in->at[2]) * c->plane +
+                                  (j + in->at[1]) * c->n[0] + in->at[0];
+                    const double *phi =
+                        extra + slab->phi + component * slab->inner + (k * in->n[1] + j) * in->n[0];
+                    for (size_t i = 0; i < in->n[0]; i++)
+                        row[i] += phi[i];
+                }
+    }
+}
+
+/* f at the end and in the middle of a step (Eq 11 of absorbing-faces.md). */
+static void move(double dt, double damping, double relaxation, double g, double *memory, double *middle)
+{
+    const double q = damping * dt / 2;
+    *middle = (*memory - q * g) / (1 + q + relaxation * dt / 2);
+    *memory = 2 * *middle - *memory;
+}
+
+/* What a layer must read for points first .. end - 1 along each slot: control values, unclamped along x. */
+static struct part part_of(const struct consistent *c, const size_t first[2], const size_t end[2])
+{
+    struct part part = general_whole(c);
+    part.from = first[0];
+    part.end = end[0] + 2 < part.end ? end[0] + 2 : part.end;
+    if (c->layout[1] == NULL) return part;
+    part.row = first[1] > 1 ? first[1] - 1 : 0; /* a control value less at a symmetry plane */
+    part.row_end = end[1] + 2 < part.row_end ? end[1] + 2 : part.row_end;
+    return part;
+}
+
+/* Moves psi on at the points of a layer in plane m. */
+static void move_slopes(const struct consistent *c, const struct general_layer *layer, int f, size_t m,
+                        double dt, double *extra, double *buffer)
+{
+    const struct general *g = c->general;
+    const struct family *family = &g->family[f];
+    const struct point_plane plane = general_plane(c, family, buffer);
+    const size_t *at = layer->at[f], *n = layer->n[f];
+    const double *damping = layer->damping[family->at[layer->slot]];
+    for (size_t j = at[1]; j < at[1] + n[1]; j++) {
+        if (!general_row_is_loud(c, &g->taps[1][0][family->at[1]][j], &g->taps[2][0][family->at[2]][m]))
+            continue;
+        taken_point_kernels()->slopes(&plane, j, at[0], at[0] + n[0]);
+        for (int axis = 0; axis < c->dimension; axis++) {
+            const double *slope = slope_row(&plane, c->slot[axis], layer->slot) + at[0];
+            const size_t first = layer->psi[f] + memory_at(layer, f, axis, at[0], j, m);
+            for (size_t i = 0; i < n[0]; i++) {
+                const size_t along = layer->slot == 0 ? i : layer->slot == 1 ? j - at[1] : m - at[2];
+                move(dt, damping[along], layer->slab->relaxation, slope[i], &extra[first + i],
+                     &g->middle[first + i]);
+            }
+        }
+    }
+}
+
+static void move_all_slopes(struct consistent *c, const struct general_layer *layer, double dt,
+                            const double *u, double *extra)
+{
+    const struct general *g = c->general;
+    for (int f = 0; f < 3; f++) {
+        const size_t *at = layer->at[f], *n = layer->n[f];
+        const struct part part = part_of(c, at, (size_t[]){at[0] + n[0], at[1] + n[1]});
+        const enum at depth = g->family[f].at[DEPTH];
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t m = at[2]; m < at[2] + n[2]; m++) {
+            double *buffer = g->buffer[omp_get_thread_num()];
+            if (!general_plane_counts(c, depth, m, 0, c->n[DEPTH])) continue;
+            general_read(c, depth, m, &part, u, buffer);
+            move_slopes(c, layer, f, m, dt, extra, buffer);
+        }
+    }
+}
+
+/* Pulls along the layer's slot at the points that its control values see, of plane m. */
+static void pull_rows(const struct consistent *c, const struct general_layer *layer, int f, size_t m,
+                      const size_t first[3], const size_t end[3], double *buffer)
+{
+    const struct general *g = c->general;
+    const struct family *family = &g->family[f];
+    const struct point_plane plane = general_plane(c, family, buffer);
+    const struct point_kernels *kernels = taken_point_kernels();
+    for (size_t j = first[1]; j < end[1]; j++) {
+        if (!general_row_is_loud(c, &g->taps[1][0][family->at[1]][j], &g->taps[2][0][family->at[2]][m]))
+            continue;
+        const size_t row = m * family->n[1] + j, from = row * family->n[0];
+        const size_t run = family->runs > 0 ? family->first_run[row] : 0;
+        const size_t runs = family->runs > 0 ? family->first_run[row + 1] - run : 0;
+        kernels->slopes(&plane, j, first[0], end[0]);
+        general_layers_add(c, &plane, family, j, m, first[0], end[0], g->middle);
+        kernels->pulls(&plane, j, first[0], end[0], family->lambda + from, family->mu + from,
+                       family->run + run, runs, family->stiffness, 1U << layer->slot);
+    }
+}
+
+/* Points that the control values of a layer see: one further along its slot than its own. */
+static void seen_points(const struct general_layer *layer, const struct family *family, int f,
+                        size_t first[3], size_t end[3])
+{
+    for (int slot = 0; slot < 3; slot++) {
+        first[slot] = layer->at[f][slot];
+        end[slot] = first[slot] + layer->n[f][slot];
+        if (slot != layer->slot) continue;
+        if (layer->high)
+            first[slot] -= first[slot] > 1 ? 2 : first[slot];
+        else
+            end[slot] = end[slot] + 2 < family->n[slot] ? end[slot] + 2 : family->n[slot];
+    }
+}
+
+/* force := the forces of stresses along the layer's slot, right inside the layer. */
+static void layer_forces(const struct consistent *c, const struct general_layer *layer, const double *u,
+                         double *force)
+{
+    const struct general *g = c->general;
+    const struct block *in = &layer->slab->inside;
+    const size_t block = (in->n[2] + (size_t)c->threads - 1) / (size_t)c->threads;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (int thread = 0; thread < c->threads; thread++) {
+        const size_t from = in->at[2] + (size_t)thread * block, most = in->at[2] + in->n[2];
+        const size_t end_plane = from + block < most ? from + block : most;
+        double *buffer = g->buffer[omp_get_thread_num()];
+        for (int axis = 0; axis < c->dimension && from < end_plane; axis++)
+            memset(force + (size_t)axis * c->volume + from * c->plane, 0,
+                   (end_plane - from) * c->plane * sizeof *force);
+        for (size_t m = 0; m <= g->cells[DEPTH] && from < end_plane; m++)
+            for (int f = 0; f < 3; f++) {
+                const enum at depth = g->family[f].at[DEPTH];
+                size_t first[3], end[3];
+                seen_points(layer, &g->family[f], f, first, end);
+                if (m < first[2] || m >= end[2] || !general_plane_counts(c, depth, m, from, end_plane))
+                    continue;
+                const struct part part = part_of(c, first, end);
+                general_read(c, depth, m, &part, u, buffer);
+                pull_rows(c, layer, f, m, first, end, buffer);
+                general_write(c, depth, m, &part, from, end_plane, buffer, force);
+            }
+    }
+}
+
+static void move_forces(const struct consistent *c, const struct general_layer *layer, double dt,
+                        const double *force, double *extra)
+{
+    const struct slab *slab = layer->slab;
+    const struct block *in = &slab->inside;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = 0; k < in->n[2]; k++)
+        for (size_t component = 0; component < (size_t)c->dimension; component++)
+            for (size_t j = 0; j < in->n[1]; j++) {
+                const double *row = force + component * c->volume + (k + in->at[2]) * c->plane +
+                                    (j + in->at[1]) * c->n[0] + in->at[0];
+                double *phi = extra + slab->phi + component * slab->inner + (k * in->n[1] + j) * in->n[0];
+                for (size_t i = 0; i < in->n[0]; i++) {
+                    double middle;
+                    const size_t along = layer->slot == 0 ? i : layer->slot == 1 ? j : k;
+                    move(dt, slab->damping[along], slab->relaxation, row[i], &phi[i], &middle);
+                }
+            }
+}
+
+void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
+                             const double *v, double *extra)
+{
+    struct general *g = c->general;
+    general_look(c, u); /* before its numbers go into work */
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < c->model.unknowns; i++)
+        g->work[i] = u[i] + to_middle * v[i];
+    for (size_t l = 0; l < g->layers; l++)
+        move_all_slopes(c, &g->layer[l], dt, g->work, extra);
+    for (size_t l = 0; l < g->layers; l++) {
+        layer_forces(c, &g->layer[l], g->work, g->force);
+        move_forces(c, &g->layer[l], dt, g->force, extra);
+    }
+}
