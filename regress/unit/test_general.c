@@ -295,6 +295,119 @@ static void test_quarter(void **state)
         assert_true(fabs(value[0][i] - value[1][i]) < 1e-12 * fabs(value[0][2]));
 }
 
+/* Steps with absorbing layers; v is that of the half step before. */
+static void march(struct run *run, double dt, int steps)
+{
+    double *v = run->y + run->n;
+    for (int step = 0; step < steps; step++) {
+        run->model->spatial->accelerate(run->model, &(struct drive){.extra = v + run->n}, dt / 2, run->y, v,
+                                        run->a);
+        for (size_t i = 0; i < run->n; i++) {
+            v[i] += dt * run->a[i];
+            run->y[i] += dt * v[i];
+        }
+        run->model->memory->remember(run->model, dt, run->y);
+    }
+}
+
+static struct run layered_run(struct plain_scene *plain, const double size[3], unsigned faces, long points)
+{
+    plain_box(plain, 3, size, .25);
+    for (int face = 0; face < BOX_FACES; face++) {
+        if ((faces >> face & 1U) == 0) continue;
+        plain->scene.boundary[face] = (struct boundary){
+            .kind = BOUNDARY_TRANSMITTING, .absorber = ABSORBER_PML, .layer_points = points, .always = true};
+    }
+    struct run run = run_new(plain, general());
+    free(run.y);
+    run.y = calloc(run.model->state_size, sizeof *run.y);
+    return run;
+}
+
+static double size_of(size_t n, const double *x)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most += x[i] * x[i];
+    return sqrt(most);
+}
+
+/* Noise on random ground with absorbing layers at all faces but z-: the shortest waves
+ * stay, as they do not travel, but nothing grows. */
+static void test_layers_are_quiet(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    struct run run = layered_run(&plain, (double[]){1.5, 1.25, 1}, 63 & ~(1U << FACE_Z_LOW), 6);
+    struct messages messages = {0};
+    double omega, error;
+    make_random(consistent_of(run.model));
+    assert_int_equal(largest_frequency(run.model, &omega, &error, &messages), SELAS_OK);
+    noise(run.n, run.y + run.n);
+    const double first = size_of(run.n, run.y + run.n);
+    march(&run, .9 * 2 / omega, 1000);
+    const double early = size_of(run.n, run.y + run.n);
+    march(&run, .9 * 2 / omega, 1000);
+    assert_true(early < first);
+    assert_true(size_of(run.n, run.y + run.n) < early);
+    run_free(&run);
+}
+
+/* A pulse on the surface, two layers of ground, absorbing layers at x+ and z+ against a box so large that
+ * nothing comes back. */
+static void test_layers_absorb(void **state)
+{
+    (void)state;
+    struct plain_scene plain[2];
+    struct run run[2];
+    double off = 0, norm = 0;
+    for (int large = 0; large < 2; large++) {
+        plain_box(&plain[large], 3, (double[]){2, 2, 2}, .25);
+        struct scene *scene = &plain[large].scene;
+        scene->body.layers = 2;
+        plain[large].layer[0] = (struct layer){.material = 0};
+        plain[large].layer[1] = (struct layer){.material = 1, .top = .6};
+        for (int face = 0; face < 4; face++)
+            scene->boundary[face].kind = BOUNDARY_SYMMETRY;
+        struct boundary *far = &scene->boundary[FACE_X_HIGH], *deep = &scene->boundary[FACE_Z_HIGH];
+        *far = *deep = (struct boundary){.kind = large ? BOUNDARY_FIXED : BOUNDARY_TRANSMITTING,
+                                         .absorber = ABSORBER_PML,
+                                         .layer_points = 10,
+                                         .always = true};
+        if (large) scene->body.high[0] = scene->body.high[2] = 6.5;
+        struct load *load = plain_face_load(&plain[large], FACE_Z_LOW, (double[]){0, 0, 1});
+        load->shape = LOAD_SQUARE;
+        load->size[0] = 1;
+        load->size[1] = 4;
+        load->centre[1] = 2;
+        run[large] = run_new(&plain[large], general());
+        free(run[large].y);
+        run[large].y = calloc(run[large].model->state_size, sizeof *run[large].y);
+    }
+    const double dt = .04;
+    for (int step = 0; step < 150; step++) {
+        const double amplitude = exp(-pow((step * dt - 1.6) / .5, 2));
+        double value[2][3];
+        for (int large = 0; large < 2; large++) {
+            double *v = run[large].y + run[large].n;
+            const struct drive drive = {.load = &amplitude, .extra = large ? NULL : v + run[large].n};
+            run[large].model->spatial->accelerate(run[large].model, &drive, dt / 2, run[large].y, v,
+                                                  run[large].a);
+            for (size_t i = 0; i < run[large].n; i++) {
+                v[i] += dt * run[large].a[i];
+                run[large].y[i] += dt * v[i];
+            }
+            if (!large) run[large].model->memory->remember(run[large].model, dt, run[large].y);
+            velocity_at(&run[large], (double[]){1, 1, 0}, value[large]);
+        }
+        off += pow(value[0][0] - value[1][0], 2) + pow(value[0][2] - value[1][2], 2);
+        norm += pow(value[1][0], 2) + pow(value[1][2], 2);
+    }
+    assert_true(sqrt(off / norm) < .003); /* .0012 */
+    for (int large = 0; large < 2; large++)
+        run_free(&run[large]);
+}
+
 static void test_threads(void **state)
 {
     (void)state;
@@ -329,6 +442,8 @@ int main(void)
         cmocka_unit_test(test_dampers),
         cmocka_unit_test(test_quarter),
         cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_layers_are_quiet),
+        cmocka_unit_test(test_layers_absorb),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -214,40 +214,48 @@ static void slopes(const struct point_plane *plane, size_t j, size_t from, size_
         slopes_of(false, false, plane, j, from, end);
 }
 
-/* Six strains of point i from the slopes' rows, those of y are 0 in two dimensions. */
-#define STRAINS(i)                                                                                           \
-    {                                                                                                        \
-        g[0][i], g[4][i], g[8][i], g[5][i] + g[7][i], g[2][i] + g[6][i], g[1][i] + g[3][i]                   \
-    }
+/* Rows of the slopes: g of component s along slot t. */
+#define SLOPE_ROWS                                                                                           \
+    const double *restrict g00 = slope_row(plane, 0, 0), *restrict g01 = slope_row(plane, 0, 1),             \
+                           *restrict g02 = slope_row(plane, 0, 2), *restrict g10 = slope_row(plane, 1, 0),   \
+                           *restrict g11 = slope_row(plane, 1, 1), *restrict g12 = slope_row(plane, 1, 2),   \
+                           *restrict g20 = slope_row(plane, 2, 0), *restrict g21 = slope_row(plane, 2, 1),   \
+                           *restrict g22 = slope_row(plane, 2, 2);
 
-static void pulls(const struct point_plane *plane, size_t j, size_t first, size_t end, const double *lambda,
-                  const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
-                  unsigned directions)
+INLINED void stresses(const struct point_plane *plane, size_t first, size_t end,
+                      const double *restrict lambda, const double *restrict mu, double *out)
+{
+    const size_t pitch = plane->pitch;
+    SLOPE_ROWS STRESS_ROWS
+#pragma omp simd
+        for (size_t i = first; i < end; i++)
+    {
+        const double twice = 2 * mu[i], pressure = lambda[i] * (g00[i] + g11[i] + g22[i]);
+        xx[i] = pressure + twice * g00[i];
+        yy[i] = pressure + twice * g11[i];
+        zz[i] = pressure + twice * g22[i];
+        yz[i] = mu[i] * (g12[i] + g21[i]);
+        zx[i] = mu[i] * (g20[i] + g02[i]);
+        xy[i] = mu[i] * (g01[i] + g10[i]);
+    }
+}
+
+INLINED void pulls_of(const bool flat, const bool knots, const struct point_plane *plane, size_t j,
+                      size_t first, size_t end, const double *lambda, const double *mu,
+                      const struct run_of_points *run, size_t runs, const double *stiffness,
+                      unsigned directions)
 {
     static const int place[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
     const size_t pitch = plane->pitch;
-    const bool knots = plane->knots;
     double *out = plane->scratch + ROW_ROOM + 9 * pitch, *none = plane->scratch + ROW_ROOM;
-    const double *g[9];
-    for (int s = 0; s < 9; s++)
-        g[s] = slope_row(plane, s / 3, s % 3);
-    STRESS_ROWS
-#pragma omp simd
-    for (size_t i = first; i < end; i++) {
-        const double strain[STRESSES] = STRAINS(i), twice = 2 * mu[i];
-        const double pressure = lambda[i] * (strain[0] + strain[1] + strain[2]);
-        xx[i] = pressure + twice * strain[0];
-        yy[i] = pressure + twice * strain[1];
-        zz[i] = pressure + twice * strain[2];
-        yz[i] = mu[i] * strain[3];
-        zx[i] = mu[i] * strain[4];
-        xy[i] = mu[i] * strain[5];
-    }
+    SLOPE_ROWS
+    stresses(plane, first, end, lambda, mu, out);
     for (size_t r = 0; r < runs; r++)
         for (size_t m = 0; m < run[r].count; m++) {
             const size_t i = run[r].from + m;
             if (i < first || i >= end) continue;
-            const double strain[STRESSES] = STRAINS(i);
+            const double strain[STRESSES] = {g00[i],          g11[i],          g22[i],
+                                             g12[i] + g21[i], g20[i] + g02[i], g01[i] + g10[i]};
             law_of(&run[r], m, stiffness + run[r].at, strain, pitch, out + i);
         }
     for (int p = 0; p < STRESSES; p++)
@@ -256,7 +264,7 @@ static void pulls(const struct point_plane *plane, size_t j, size_t first, size_
             *(out + (size_t)p * pitch + first - 1 - i) = 0;
         }
     memset(none + (ptrdiff_t)first - 2, 0, (end - first + 4) * sizeof *none);
-    for (int s = 0; s < 3; s += plane->flat ? 2 : 1) {
+    for (int s = 0; s < 3; s += flat ? 2 : 1) {
         const struct taps *t = &plane->y[s == 1][j];
         const size_t from = t->first * pitch + ROW_ROOM + first;
         const double *along[3];
@@ -267,6 +275,20 @@ static void pulls(const struct point_plane *plane, size_t j, size_t first, size_
          plane->pull_value[s] + from, plane->pull_slope[s] + from)
         BY_COUNT(PULL_ALONG)
     }
+}
+
+static void pulls(const struct point_plane *plane, size_t j, size_t from, size_t end, const double *lambda,
+                  const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
+                  unsigned directions)
+{
+    if (plane->flat && plane->knots)
+        pulls_of(true, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+    else if (plane->flat)
+        pulls_of(true, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+    else if (plane->knots)
+        pulls_of(false, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+    else
+        pulls_of(false, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
 }
 
 static void row(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
