@@ -149,8 +149,8 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
     point_line(c, axis, odd, slope, half, false, x, line);
 }
 
-/* The same for a source that rests. */
-static void source_line(const struct consistent *c, int axis, bool odd, bool slope, double x, double *line)
+/* The same for a moment tensor. */
+static void moment_line(const struct consistent *c, int axis, bool odd, bool slope, double x, double *line)
 {
     point_line(c, axis, odd, slope, true, true, x, line);
 }
@@ -174,7 +174,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
             const double half = load->size[load->shape == LOAD_DISC ? 0 : count] / 2;
             along[count++] = axis;
             if (load->shape == LOAD_POINT)
-                source_line(c, axis, odd, false, centre[axis], line);
+                consistent_point_line(c, axis, odd, false, true, centre[axis], line);
             else if (load->shape == LOAD_FACE)
                 tuned_moments(spline, odd, body->low[axis], body->high[axis], w->work, line);
             else
@@ -208,7 +208,7 @@ static void body_force(struct consistent *c, const struct load *load, const doub
         for (int axis = 0; axis < c->dimension; axis++) {
             const struct spline *spline = c->spline[axis];
             if (load->shape == LOAD_POINT)
-                source_line(c, axis, axis == component, false, centre[axis], w->line[axis]);
+                consistent_point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
             else
                 tuned_moments(spline, axis == component, body->low[axis], body->high[axis], w->work,
                               w->line[axis]);
@@ -231,7 +231,7 @@ static void moment_tensor(struct consistent *c, const struct load *load, const d
                 for (int l = 0; l < 3; l++)
                     moment += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
             for (int axis = 0; axis < c->dimension; axis++)
-                source_line(c, axis, axis == i, axis == j, centre[axis], w->line[axis]);
+                moment_line(c, axis, axis == i, axis == j, centre[axis], w->line[axis]);
             if (moment != 0) add_product(c, w, i, moment);
         }
 }
