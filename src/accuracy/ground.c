@@ -1,15 +1,13 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
  * 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
+#include "accuracy/ground_task.h"
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
-#include "accuracy/surface.h"
-#include "base/fft_room.h"
 #include "base/memory.h"
 #include "exact/half_space.h"
 #include "scene/echo.h"
 
-#include <fftw3.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -52,81 +50,6 @@ static const char *refusal(const struct scene *scene)
         if (load_moves(&scene->load[k])) return "loads that do not move";
     }
     return faces_refusal(scene);
-}
-
-/* --- The exact velocity's spectrum -------------------------------------------------------------------- */
-
-/* Distance from the edge of a patch, a place `away` from its centre in the body's frame. */
-static double rim_distance(const struct load *load, const double away[3])
-{
-    double outside[2], beyond = 0;
-    if (load->shape == LOAD_POINT) return INFINITY;
-    if (load->shape == LOAD_DISC) return hypot(hypot(away[0], away[1]) - load->size[0] / 2, away[2]);
-    for (int c = 0; c < 2; c++) {
-        outside[c] = fabs(away[c]) - load->size[c] / 2;
-        beyond = hypot(beyond, fmax(0, outside[c]));
-    }
-    return hypot(beyond > 0 ? beyond : fmax(outside[0], outside[1]), away[2]);
-}
-
-static void set_place(const struct scene *scene, const double position[3], struct surface_place *place)
-{
-    place->distance = place->rim = INFINITY;
-    for (size_t k = 0; k < scene->loads; k++) {
-        const struct load *load = &scene->load[k];
-        double away[3];
-        for (int c = 0; c < 3; c++)
-            away[c] = position[c] - load->centre[c];
-        body_direction_from_deck(&scene->body, away, away);
-        place->rim = fmin(place->rim, rim_distance(load, away));
-        const double across = hypot(away[0], away[1]), distance = hypot(across, away[2]);
-        if (distance >= place->distance) continue;
-        place->distance = distance;
-        place->depth = away[2];
-        place->factor = 1;
-        place->size = load->shape == LOAD_POINT  ? distance
-                      : load->shape == LOAD_DISC ? load->size[0]
-                                                 : fmin(load->size[0], load->size[1]);
-        place->diagonal = across > 0 ? .5 - .5 * cos(4 * atan2(away[1], away[0])) : 0;
-    }
-}
-
-/* |V|^2 of three components; the history goes on for a quarter of its length, fading out, so that its end
- * makes no frequencies. */
-static selas_status find_power(struct exact *exact, double end_time, const struct receiver *receiver,
-                               double *power, struct messages *messages)
-{
-    double *time = array_new(ROWS, sizeof *time);
-    double *value = array_new((size_t)6 * ROWS, sizeof *value);
-    double *in = fftw_malloc(ROWS * sizeof *in);
-    fftw_complex *out = fftw_malloc((ROWS / 2 + 1) * sizeof *out);
-    selas_status status = SELAS_NO_MEMORY;
-    fftw_plan plan = NULL;
-    if (time != NULL && value != NULL && in != NULL && out != NULL && fft_room(ROWS)) {
-        for (int i = 0; i < ROWS; i++)
-            time[i] = 1.25 * end_time / ROWS * i;
-        status = exact->class->history(exact, receiver->position, ROWS, time, value, messages);
-#pragma omp critical(selas_fftw_planner)
-        plan = fftw_plan_dft_r2c_1d(ROWS, in, out, FFTW_ESTIMATE);
-    } else {
-        fail(messages, status, "no memory for the spectrum of a receiver");
-    }
-    for (int c = 3; c < 6 && plan != NULL && status == SELAS_OK; c++) {
-        for (int i = 0; i < ROWS; i++) {
-            const double late = fmax(0, time[i] / end_time - 1) * 4;
-            in[i] = value[6 * i + c] * .5 * (1 + cos(M_PI * late));
-        }
-        fftw_execute(plan);
-        for (int j = 0; j <= ROWS / 2; j++)
-            power[j] += creal(out[j] * conj(out[j]));
-    }
-#pragma omp critical(selas_fftw_planner)
-    if (plan != NULL) fftw_destroy_plan(plan);
-    fftw_free(in);
-    fftw_free(out);
-    array_free(time);
-    array_free(value);
-    return status;
 }
 
 static double worst(const struct scene *scene, const struct surface_place *place, double h,
@@ -246,16 +169,6 @@ static double possible_spacing(const struct scene *scene, const struct surface_g
 
 /* --- The choice ------------------------------------------------------------------------------------------- */
 
-/* A ground, its receivers and the exact solution; what a trial measured is in the places' factors. */
-struct task {
-    const struct scene *scene;
-    struct scene longer; /* the same for a quarter longer, which the exact solution is for */
-    struct exact *exact;
-    struct surface_place *place; /* [receivers] */
-    double *power;
-    double accuracy, aim;
-};
-
 /* The largest spacing for which the law gives so much of the wanted error, and the error. */
 static selas_status find_spacing(const struct task *task, const struct surface_ground *ground, double most,
                                  double *spacing, struct messages *messages)
@@ -288,7 +201,8 @@ static selas_status find_spacing(const struct task *task, const struct surface_g
 static double trial_spacing(const struct task *task, const struct surface_ground *ground, double h)
 {
     static const double least = 1.15, step = 1.04, useful = .5;
-    for (double ratio = TRIAL_RATIO; ratio > least; ratio /= step) {
+    double ratio = TRIAL_RATIO * step;
+    while ((ratio /= step) > least) {
         double coarse = possible_spacing(task->scene, ground, ratio * h);
         const double error = coarse > 0 ? worst(task->scene, task->place, coarse, ground) : INFINITY;
         if (error > useful) continue;
@@ -319,11 +233,11 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
     struct messages unsaid = {0};
     struct scene *scene = NULL;
     double *error = array_new(task->scene->receivers, sizeof *error);
-    set_choice(task, ground, h, &coarse);
     *made = false;
-    selas_status status = error != NULL ? scene_build(trial->deck, &coarse, &scene, &unsaid)
-                                        : fail(messages, SELAS_NO_MEMORY, "no memory for a trial");
-    const bool same = status == SELAS_OK && !(ground->tuned && scene->body.absorbing);
+    if (error == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a trial");
+    set_choice(task, ground, h, &coarse);
+    selas_status status = scene_build(trial->deck, &coarse, &scene, &unsaid);
+    const bool same = scene != NULL && !(ground->tuned && scene->body.absorbing);
     if (same && work_of(scene) <= TRIAL_WORK) {
         status = trial->run(scene, task->exact, error, messages);
         *made = status == SELAS_OK;
@@ -372,37 +286,6 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
              task->accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", how,
              worst(scene, task->place, h, &ground));
     return SELAS_OK;
-}
-
-static void end_task(struct task *task)
-{
-    exact_free(&task->exact);
-    array_free(task->place);
-    array_free(task->power);
-}
-
-/* Places and spectra of all receivers; to be ended whatever comes back. */
-static selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages)
-{
-    bool patches = true;
-    *task = (struct task){.scene = scene, .longer = *scene};
-    for (size_t k = 0; k < scene->loads; k++)
-        patches = patches && scene->load[k].shape != LOAD_POINT;
-    task->longer.end_time *= 1.25;
-    task->longer.reference.tolerance = 1e-3;
-    task->place = array_new(scene->receivers, sizeof *task->place);
-    task->power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *task->power);
-    if (task->place == NULL || task->power == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
-    selas_status status =
-        exact_find(patches ? "lamb" : "layered")->create(&task->longer, &task->exact, messages);
-    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
-        struct surface_place *place = &task->place[i];
-        place->power = task->power + i * (ROWS / 2 + 1);
-        set_place(scene, scene->receiver[i].position, place);
-        status = find_power(task->exact, scene->end_time, &scene->receiver[i], place->power, messages);
-    }
-    return status;
 }
 
 static selas_status choose_for(const struct scene *scene, double accuracy, const struct trial *trial,

@@ -215,18 +215,19 @@ static selas_status compute_receivers(struct layered_ground *ground, const struc
 
 static void warn_of_miss(const struct layered_ground *ground, struct messages *messages)
 {
-    static const double much = 10, least = 1e-3;
+    static const double much = 10, least = 1e-3, usual = 1e-6;
+    const double wanted = ground->problem.tolerance > 0 ? ground->problem.tolerance : usual;
     double worst = 0;
     for (size_t i = 0; i < ground->seismograms; i++)
         worst = fmax(worst, ground->seismogram[i].effort.reached);
-    if (worst > fmax(least, much * ground->problem.tolerance))
+    if (worst > fmax(least, much * wanted))
         warn(
             messages,
             "the exact velocities are good to %.2g only, where reference%%tolerance = %g is wanted: the time "
             "function has high frequencies without end (a jump or a kink); a smoother one would do "
             "(smoothing, a "
             "longer delay)",
-            worst, ground->problem.tolerance);
+            worst, wanted);
 }
 
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)

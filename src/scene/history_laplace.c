@@ -103,7 +103,7 @@ double complex history_laplace(const struct history *history, double complex s)
 
 double complex history_laplace_uncut(const struct history *history, double complex s)
 {
-    static const double unseen = 1e-5;
+    static const double unseen = 5e-5;
     const enum history_kind kind = history->kind;
     const bool bell = kind == HISTORY_GAUSSIAN || kind == HISTORY_ERROR_FUNCTION,
                wavelet = kind == HISTORY_RICKER;
