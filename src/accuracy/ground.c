@@ -117,15 +117,16 @@ static const char *range_refusal(const struct scene *scene)
     return NULL;
 }
 
-static selas_status check_range(const struct scene *scene, struct messages *messages)
+static selas_status check_range(const struct scene *scene, double h, struct messages *messages)
 {
     const char *why = range_refusal(scene);
     if (why == NULL) return SELAS_OK;
     return fail(
         messages, SELAS_BAD_SCENE,
-        "scene%%accuracy: this scene is too large for a trial run, and without one errors are known only "
-        "for %s; give body%%spacing in place of accuracy",
-        why);
+        "scene%%accuracy: a spacing near %.2g is needed, which is too much for a trial run, and without one "
+        "errors are known only for %s; a larger accuracy, receivers farther from the rim of a patch, or "
+        "body%%spacing in place of accuracy would do",
+        h, why);
 }
 
 /* Points of the box times steps. */
@@ -276,7 +277,7 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
         task->aim = MEASURED_AIM;
         if (status == SELAS_OK) status = find_spacing(task, &ground, most, &h, messages);
     }
-    if (status == SELAS_OK && tried == 0) status = check_range(scene, messages);
+    if (status == SELAS_OK && tried == 0) status = check_range(scene, h, messages);
     if (status != SELAS_OK) return status;
     set_choice(task, &ground, h, choice);
     char how[48] = "predicted";
