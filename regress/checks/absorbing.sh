@@ -64,7 +64,7 @@ for end in 10 40; do
 done
 limit=$("$build/selas" check "$out/step.nml" | sed -n 's/^time step limit: //p')
 for beyond in 1.001 1.01; do
-    "$build/selas" -q "$out/step.nml" output%directory="$out/run" stepping%force=T "stepping%time_step=$(echo "$limit $beyond" | awk '{ print $1 * $2 }')" >"$out/log" 2>&1
+    "$build/selas" -q "$out/step.nml" output%directory="$out/run" scene%end_time=20 stepping%force=T "stepping%time_step=$(echo "$limit $beyond" | awk '{ print $1 * $2 }')" >"$out/log" 2>&1
     if [ $? -eq 1 ] && grep -q "went unstable" "$out/log"; then
         echo "ok - growth beside layers at $beyond of the limit is found"
     else

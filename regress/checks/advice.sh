@@ -66,6 +66,7 @@ echo "&initial kind = 'gaussian', centre = 0, 2, width = 0.5, amplitude = 0.1, d
 "$selas" --strict check start.nml >said 2>&1 && echo "ok - a pulse on a symmetry plane: nothing to warn of" || told "a pulse on a symmetry plane" "nothing"
 told "half a pulse that is no half" "initial state is not its own image in the symmetry plane x-" initial%centre=0.5,2
 told "a pulse across a symmetry plane" "initial state is not its own image in the symmetry plane x-" initial%direction=1,0
+told "a pulse that reaches a free face" "initial state reaches the free face y-, 2 widths away" initial%centre=0,1
 told "few points in a pulse" "2.57 points per wavelength of the initial state; 4 need body%spacing = 0.16" initial%width=.25
 deck=moved.nml
 sed '/^&load/d' good.nml | sed "s/'x+', 'y+', kind = 'transmitting'/'y+', kind = 'displacement', direction = 0, 1, amplitude = 0.1, history = 'gaussian', width = 1, delay = 5/" >moved.nml

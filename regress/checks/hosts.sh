@@ -83,7 +83,7 @@ check "Fortran 77: a scene by calls, energy, saved and taken up again" ./legacy_
 check "and with -fdefault-integer-8 throughout" with selas gfortran -std=legacy -fdefault-integer-8 "$rpath" -o legacy_8 \
     "$place"/include/selas/selas.f90 "$place"/include/selas/selas77.f90 "$root/regress/hosts/legacy_scene.f"
 check "which runs" ./legacy_8
-./twins "$root/input/halfspace.nml" || echo "not ok - the Fortran twins ended early"
+./twins "$root/input/halfspace-lysmer.nml" || echo "not ok - the Fortran twins ended early"
 
 # The interfaces of selas.f90 are the declarations of selas.h, types and all; a difference is seen on either side.
 check "selas.h and selas.f90 declare the same functions with the same types" sh "$root/regress/hosts/declarations" "$root/src/selas.h" "$root/src/selas.f90"

@@ -74,6 +74,10 @@ contains
          call sim%set(trim(receiver)//'name', name(k))
          call sim%set(trim(receiver)//'position', [place(k), 0.0_real64, 0.0_real64])
       end do
+      call sim%add('snapshot') ! what is looked at belongs to the scene: the box is fitted to it
+      call sim%set('snapshot%times', [1.5_real64, 3.0_real64, 4.5_real64])
+      call sim%set('snapshot%fields', 'velocity')
+      call sim%set('snapshot%region', [-3.5_real64, -3.5_real64, 0.0_real64, 3.5_real64, 3.5_real64, 3.5_real64])
       call sim%build()
    end subroutine
 

@@ -64,7 +64,7 @@ contains
       call ok('a closed simulation', status == selas_bad_argument .and. index(sim%message(), 'NULL') > 0)
       call sim%open_deck(trim(deck), status, [character(20) :: 'body%spacing=0.5', 'output%low_pass=0'])
       call ok('a deck with overrides', status == selas_ok .and. abs(sim%end_time() - 6) < 1e-12_real64)
-      call ok('its folder', sim%output_directory() == 'output/halfspace')
+      call ok('its folder', sim%output_directory() == 'output/halfspace-lysmer')
       open (newunit=file, file=trim(deck), action='read')
       call sim%open_deck(file, status)
       call ok('a deck from a unit', status == selas_ok)

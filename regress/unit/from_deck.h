@@ -24,7 +24,7 @@ static inline struct from_deck from_text(const char *text, size_t count, const c
     result.status =
         deck_read_text("t.nml", text, strlen(text), count, overrides, &result.deck, &result.messages);
     if (result.status == SELAS_OK)
-        result.status = accuracy_build(result.deck, &result.scene, &result.messages);
+        result.status = accuracy_build(result.deck, NULL, &result.scene, &result.messages);
     return result;
 }
 

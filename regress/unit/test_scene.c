@@ -402,7 +402,7 @@ static void decks_and_their_echoes(void **unused)
         FILE *file = open_memstream(&text, &length);
         assert_non_null(file);
         d.status = deck_read_file(found.gl_pathv[i], 0, NULL, &d.deck, &d.messages);
-        if (d.status == SELAS_OK) d.status = accuracy_build(d.deck, &d.scene, &d.messages);
+        if (d.status == SELAS_OK) d.status = accuracy_build(d.deck, NULL, &d.scene, &d.messages);
         if (d.scene == NULL) print_error("%s", d.messages.text);
         assert_non_null(d.scene);
         assert_int_equal(deck_write(d.deck, file, &d.messages), SELAS_OK);

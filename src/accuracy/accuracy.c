@@ -74,28 +74,29 @@ static void check(struct builder *builder)
                  why);
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
-                           struct messages *messages)
+static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
+                           struct scene_choice *choice, struct messages *messages)
 {
-    return kind_of(scene)->choose(scene, accuracy, choice, messages);
+    return kind_of(scene)->choose(scene, accuracy, trial, choice, messages);
 }
 
 /* Builds a scene that asks for an accuracy: with a guess, then with the spacing that follows from it. */
-static selas_status build_accurate(const struct deck *deck, double accuracy, struct scene **scene,
-                                   struct messages *messages)
+static selas_status build_accurate(const struct deck *deck, double accuracy, trial_run *run,
+                                   struct scene **scene, struct messages *messages)
 {
+    const struct trial trial = {deck, run};
     struct scene_choice choice = {.check = check};
     struct messages scratch = {0}; /* the second building says everything */
     selas_status status = scene_build(deck, &choice, scene, &scratch);
     messages_free(&scratch);
     if (status != SELAS_OK) return scene_build(deck, &choice, scene, messages);
-    status = choose(*scene, accuracy, &choice, messages);
+    status = choose(*scene, accuracy, &trial, &choice, messages);
     scene_free(scene);
     if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
     if (status == SELAS_OK && *scene != NULL && (*scene)->body.absorbing && choice.sweeps == 0 &&
         choice.degree > 0) {
         /* the box that fits this spacing has absorbing layers, which need sweeps: another law */
-        status = choose(*scene, accuracy, &choice, messages);
+        status = choose(*scene, accuracy, &trial, &choice, messages);
         scene_free(scene);
         if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
     }
@@ -104,9 +105,10 @@ static selas_status build_accurate(const struct deck *deck, double accuracy, str
     return status;
 }
 
-selas_status accuracy_build(const struct deck *deck, struct scene **scene, struct messages *messages)
+selas_status accuracy_build(const struct deck *deck, trial_run *run, struct scene **scene,
+                            struct messages *messages)
 {
     const struct deck_group *group = deck_get(deck, "scene", 0);
     if (!deck_given(group, "accuracy")) return scene_build(deck, NULL, scene, messages);
-    return build_accurate(deck, deck_real(group, "accuracy", 0), scene, messages);
+    return build_accurate(deck, deck_real(group, "accuracy", 0), run, scene, messages);
 }

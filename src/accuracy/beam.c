@@ -140,9 +140,10 @@ static double deflection(const struct scene *scene)
     return fabs(speed) / beam_timoshenko(&beam) / beam.length;
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
-                           struct messages *messages)
+static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
+                           struct scene_choice *choice, struct messages *messages)
 {
+    (void)trial;
     static const double seen = .2;
     const double swing = deflection(scene), shift = LARGE_SWING * swing * swing;
     double least = INFINITY;

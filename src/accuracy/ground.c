@@ -1,21 +1,21 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
  * 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
-#include "scene/ground.h"
+#include "accuracy/ground_task.h"
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
-#include "accuracy/surface.h"
-#include "base/fft_room.h"
 #include "base/memory.h"
 #include "exact/half_space.h"
-#include "exact/lamb.h"
 #include "scene/echo.h"
+#include "scene/ground.h"
 
-#include <fftw3.h>
 #include <math.h>
 #include <stdio.h>
 
 static const double SLOWLY = 1.1;
+/* A trial's spacing over the chosen one, at most: a fifth of the run's work; point-steps that a trial may take, a minute
+ * or two on one thread; share of the wanted error that is aimed at after a trial. */
+static const double TRIAL_RATIO = 1.5, TRIAL_WORK = 3e9, MEASURED_AIM = .55;
 enum { ROWS = SURFACE_ROWS };
 
 /* The faces of a box that stands for a half-space: the loaded one free, the others mirrors, absorbing layers
@@ -48,69 +48,10 @@ static const char *refusal(const struct scene *scene)
     if (ground_is_general(scene)) return "level layers of one material each, without &block";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     for (size_t k = 0; k < scene->loads; k++) {
-        if (scene->load[k].shape != LOAD_SQUARE && scene->load[k].shape != LOAD_DISC)
-            return "loads on a square or a disc";
+        if (scene->load[k].shape == LOAD_FACE) return "loads on a square or a disc or at points";
         if (load_moves(&scene->load[k])) return "loads that do not move";
     }
     return faces_refusal(scene);
-}
-
-/* --- The exact velocity's spectrum -------------------------------------------------------------------- */
-
-static void set_place(const struct scene *scene, const double position[3], struct surface_place *place)
-{
-    place->distance = INFINITY;
-    for (size_t k = 0; k < scene->loads; k++) {
-        const struct load *load = &scene->load[k];
-        double away[3];
-        for (int c = 0; c < 3; c++)
-            away[c] = position[c] - load->centre[c];
-        body_direction_from_deck(&scene->body, away, away);
-        const double across = hypot(away[0], away[1]), distance = hypot(across, away[2]);
-        if (distance >= place->distance) continue;
-        place->distance = distance;
-        place->depth = away[2];
-        place->size = load->shape == LOAD_DISC ? load->size[0] : fmin(load->size[0], load->size[1]);
-        place->diagonal = across > 0 ? .5 - .5 * cos(4 * atan2(away[1], away[0])) : 0;
-    }
-}
-
-/* |V|^2 of three components; the history goes on for a quarter of its length, fading out, so that its end
- * makes no frequencies. */
-static selas_status find_power(struct exact *exact, double end_time, const struct receiver *receiver,
-                               double *power, struct messages *messages)
-{
-    double *time = array_new(ROWS, sizeof *time);
-    double *value = array_new((size_t)6 * ROWS, sizeof *value);
-    double *in = fftw_malloc(ROWS * sizeof *in);
-    fftw_complex *out = fftw_malloc((ROWS / 2 + 1) * sizeof *out);
-    selas_status status = SELAS_NO_MEMORY;
-    fftw_plan plan = NULL;
-    if (time != NULL && value != NULL && in != NULL && out != NULL && fft_room(ROWS)) {
-        for (int i = 0; i < ROWS; i++)
-            time[i] = 1.25 * end_time / ROWS * i;
-        status = exact->class->history(exact, receiver->position, ROWS, time, value, messages);
-#pragma omp critical(selas_fftw_planner)
-        plan = fftw_plan_dft_r2c_1d(ROWS, in, out, FFTW_ESTIMATE);
-    } else {
-        fail(messages, status, "no memory for the spectrum of a receiver");
-    }
-    for (int c = 3; c < 6 && plan != NULL && status == SELAS_OK; c++) {
-        for (int i = 0; i < ROWS; i++) {
-            const double late = fmax(0, time[i] / end_time - 1) * 4;
-            in[i] = value[6 * i + c] * .5 * (1 + cos(M_PI * late));
-        }
-        fftw_execute(plan);
-        for (int j = 0; j <= ROWS / 2; j++)
-            power[j] += creal(out[j] * conj(out[j]));
-    }
-#pragma omp critical(selas_fftw_planner)
-    if (plan != NULL) fftw_destroy_plan(plan);
-    fftw_free(in);
-    fftw_free(out);
-    array_free(time);
-    array_free(value);
-    return status;
 }
 
 static double worst(const struct scene *scene, const struct surface_place *place, double h,
@@ -164,6 +105,42 @@ static double quiet_spacing(const struct scene *scene, const struct surface_plac
     return h;
 }
 
+/* What the law was measured for (section 3): beyond, only a trial can tell. NULL, or what lies outside. */
+static const char *range_refusal(const struct scene *scene)
+{
+    static const double low = .1, high = .4; /* of Poisson's ratio */
+    for (size_t m = 0; m < scene->materials; m++) {
+        const double ratio = pow(scene->material[m].p_speed / scene->material[m].s_speed, 2);
+        const double nu = (ratio - 2) / (2 * ratio - 2);
+        if (nu < low - 1e-6 || nu > high + 1e-6) return "Poisson's ratios of .1 to .4";
+    }
+    for (size_t k = 0; k < scene->loads; k++)
+        if (scene->load[k].shape == LOAD_POINT) return "loads on a square or a disc";
+    return NULL;
+}
+
+static selas_status check_range(const struct scene *scene, double h, struct messages *messages)
+{
+    const char *why = range_refusal(scene);
+    if (why == NULL) return SELAS_OK;
+    return fail(
+        messages, SELAS_BAD_SCENE,
+        "scene%%accuracy: a spacing near %.2g is needed, which is too much for a trial run, and without one "
+        "errors are known only for %s; a larger accuracy, receivers farther from the rim of a patch, or "
+        "body%%spacing in place of accuracy would do",
+        h, why);
+}
+
+/* Points of the box times steps. */
+static double work_of(const struct scene *scene)
+{
+    const struct body *body = &scene->body;
+    double points = 1;
+    for (int c = 0; c < 3; c++)
+        points *= (body->high[c] - body->low[c]) / body->spacing + 1;
+    return points * scene_fastest(scene) * scene->end_time / (.35 * body->spacing);
+}
+
 /* True if the edges of all squares lie on knots, where tuned splines err least. */
 static bool rims_on_knots(const struct scene *scene, double h)
 {
@@ -193,78 +170,135 @@ static double possible_spacing(const struct scene *scene, const struct surface_g
     return finer > .5 * first ? finer : first;
 }
 
-/* Fails only if no spacing will do. */
-static selas_status choose(const struct scene *scene, const struct surface_place *place, double accuracy,
-                           struct scene_choice *choice, struct messages *messages)
+/* --- The choice ------------------------------------------------------------------------------------------- */
+
+/* The largest spacing for which the law gives so much of the wanted error, and the error. */
+static selas_status find_spacing(const struct task *task, const struct surface_ground *ground, double most,
+                                 double *spacing, struct messages *messages)
 {
     enum { MOST = 800 };
     static const double finer = 1.01; /* 800 times: 1/2800 */
-    double most = INFINITY, error = INFINITY;
-    for (size_t k = 0; k < scene->receivers; k++)
-        most = fmin(most, place[k].size / 2); /* at least two points along an edge */
-    const struct surface_ground ground = surface_ground_of(scene, most);
-    most = fmin(most, ground.rayleigh_speed * scene->end_time);
-    double h = most, last = INFINITY, last_error = INFINITY;
-    for (int i = 0; i < MOST && h > 0 && !(error <= ACCURACY_AIM * accuracy); i++) {
+    const struct scene *scene = task->scene;
+    double h = most, last = INFINITY, error = INFINITY, last_error = INFINITY;
+    for (int i = 0; i < MOST && h > 0 && !(error <= task->aim * task->accuracy); i++) {
         last = h;
         last_error = error;
-        h = possible_spacing(scene, &ground, i > 0 ? h / finer : h);
-        error = h > 0 ? worst(scene, place, h, &ground) : INFINITY;
+        h = possible_spacing(scene, ground, i > 0 ? h / finer : h);
+        error = h > 0 ? worst(scene, task->place, h, ground) : INFINITY;
     }
-    if (error < ACCURACY_LEAST * accuracy &&
-        last_error <= ACCURACY_MOST * accuracy) { /* few spacings divide */
+    if (error < ACCURACY_LEAST * task->accuracy &&
+        last_error <= ACCURACY_MOST * task->accuracy) { /* few spacings divide */
         h = last;
         error = last_error;
     }
-    if (!(error <= ACCURACY_MOST * accuracy))
+    if (!(error <= ACCURACY_MOST * task->accuracy))
         return fail(messages, SELAS_BAD_SCENE,
                     "scene%%accuracy = %g is out of reach here: a spacing of %.3g would still leave %.2g",
-                    accuracy, h, error);
-    const double gain = error / worst(scene, place, h / SLOWLY, &ground);
-    if (!ground.tuned) h = quiet_spacing(scene, place, h, gain);
-    error = worst(scene, place, h, &ground);
-    choice->spacing = h;
-    choice->layer_points = enough_layer_points(accuracy, h, mean_wavelength(scene, place, ground.p_speed));
-    if (ground.layers > 1) {
-        choice->degree = ground.tuned ? 4 : 2;
-        choice->sweeps = ground.tuned ? 0 : 3;
-    }
-    snprintf(choice->text, sizeof choice->text,
-             "%g wanted: spacing %.6g, %s, leapfrog with the time-dispersion transform; predicted error %.2g",
-             accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", error);
+                    task->accuracy, h, error);
+    const double gain = error / worst(scene, task->place, h / SLOWLY, ground);
+    *spacing = ground->tuned ? h : quiet_spacing(scene, task->place, h, gain);
     return SELAS_OK;
 }
 
-/* Places and spectra of all receivers; both arrays are array_free()d by the caller, whatever comes back. */
-static selas_status find_places(const struct scene *scene, struct surface_place **place, double **power,
-                                struct messages *messages)
+/* A coarser spacing of the same kind for a trial; 0 if there is none, or if even the trial is too much work. */
+static double trial_spacing(const struct task *task, const struct surface_ground *ground, double h)
 {
-    struct exact *exact = NULL;
-    struct scene longer = *scene;
-    longer.end_time *= 1.25;
-    *place = array_new(scene->receivers, sizeof **place);
-    *power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof **power);
-    if (*place == NULL || *power == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
-    selas_status status = lamb_create_within(&longer, 1e-3, &exact, messages);
-    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
-        (*place)[i].power = *power + i * (ROWS / 2 + 1);
-        set_place(scene, scene->receiver[i].position, &(*place)[i]);
-        status = find_power(exact, scene->end_time, &scene->receiver[i], (*place)[i].power, messages);
+    static const double least = 1.15, step = 1.04, useful = .5;
+    double ratio = TRIAL_RATIO * step;
+    while ((ratio /= step) > least) {
+        double coarse = possible_spacing(task->scene, ground, ratio * h);
+        const double error = coarse > 0 ? worst(task->scene, task->place, coarse, ground) : INFINITY;
+        if (error > useful) continue;
+        const double gain = error / worst(task->scene, task->place, coarse / SLOWLY, ground);
+        if (!ground->tuned) coarse = quiet_spacing(task->scene, task->place, coarse, gain);
+        if (coarse > least * h) return coarse;
     }
-    exact_free(&exact);
+    return 0;
+}
+
+static void set_choice(const struct task *task, const struct surface_ground *ground, double h,
+                       struct scene_choice *choice)
+{
+    const double wavelength = mean_wavelength(task->scene, task->place, ground->p_speed);
+    choice->spacing = h;
+    choice->layer_points = enough_layer_points(task->accuracy, h, wavelength);
+    if (ground->layers < 2) return;
+    choice->degree = ground->tuned ? 4 : 2;
+    choice->sweeps = ground->tuned ? 0 : 3;
+}
+
+/* Runs the scene with a spacing and sets the places' factors; `*made` tells whether it could. */
+static selas_status make_trial(struct task *task, const struct surface_ground *ground, double h,
+                               const struct trial *trial, const struct scene_choice *choice, bool *made,
+                               struct messages *messages)
+{
+    struct scene_choice coarse = *choice;
+    struct messages unsaid = {0};
+    struct scene *scene = NULL;
+    double *error = array_new(task->scene->receivers, sizeof *error);
+    *made = false;
+    if (error == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a trial");
+    set_choice(task, ground, h, &coarse);
+    selas_status status = scene_build(trial->deck, &coarse, &scene, &unsaid);
+    const bool same = scene != NULL && !(ground->tuned && scene->body.absorbing);
+    if (same && work_of(scene) <= TRIAL_WORK) {
+        status = trial->run(scene, task->exact, error, messages);
+        *made = status == SELAS_OK;
+    }
+    for (size_t i = 0; i < task->scene->receivers && *made; i++) {
+        struct surface_place *place = &task->place[i];
+        place->factor *= fmax(error[i], 1e-9) / surface_error(place, h, task->scene->end_time, ground);
+    }
+    scene_free(&scene);
+    messages_free(&unsaid);
+    array_free(error);
     return status;
 }
 
-static selas_status choose_for(const struct scene *scene, double accuracy, struct scene_choice *choice,
-                               struct messages *messages)
+/* Fails only if no spacing will do. */
+static selas_status choose(struct task *task, const struct trial *trial, struct scene_choice *choice,
+                           struct messages *messages)
 {
-    struct surface_place *place = NULL;
-    double *power = NULL;
-    selas_status status = find_places(scene, &place, &power, messages);
-    if (status == SELAS_OK) status = choose(scene, place, accuracy, choice, messages);
-    array_free(place);
-    array_free(power);
+    enum { TRIALS = 3 };
+    static const double near = .8, far = 2;
+    const struct scene *scene = task->scene;
+    double most = INFINITY, h = 0, tried = 0;
+    for (size_t k = 0; k < scene->receivers; k++)
+        most = fmin(most, task->place[k].size / 2); /* at least two points along an edge */
+    const struct surface_ground ground = surface_ground_of(scene, most);
+    most = fmin(most, ground.rayleigh_speed * scene->end_time);
+    task->aim = ACCURACY_AIM;
+    selas_status status = find_spacing(task, &ground, most, &h, messages);
+    for (int i = 0; i < TRIALS && status == SELAS_OK && trial->run != NULL; i++) {
+        const double next = trial_spacing(task, &ground, h);
+        bool made = false;
+        if (next == 0 || (tried > near * h && tried < far * h)) break;
+        status = make_trial(task, &ground, next, trial, choice, &made, messages);
+        if (!made) break;
+        tried = next;
+        task->aim = MEASURED_AIM;
+        if (status == SELAS_OK) status = find_spacing(task, &ground, most, &h, messages);
+    }
+    if (status == SELAS_OK && tried == 0) status = check_range(scene, h, messages);
+    if (status != SELAS_OK) return status;
+    set_choice(task, &ground, h, choice);
+    char how[48] = "predicted";
+    if (tried > 0) snprintf(how, sizeof how, "after a trial with %.6g: expected", tried);
+    snprintf(choice->text, sizeof choice->text,
+             "%g wanted: spacing %.6g, %s, leapfrog with the time-dispersion transform; %s error %.2g",
+             task->accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", how,
+             worst(scene, task->place, h, &ground));
+    return SELAS_OK;
+}
+
+static selas_status choose_for(const struct scene *scene, double accuracy, const struct trial *trial,
+                               struct scene_choice *choice, struct messages *messages)
+{
+    struct task task;
+    selas_status status = begin_task(scene, &task, messages);
+    task.accuracy = accuracy;
+    if (status == SELAS_OK) status = choose(&task, trial, choice, messages);
+    end_task(&task);
     return status;
 }
 
@@ -282,23 +316,21 @@ bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
     enum { ENOUGH = 8 }; /* receivers looked at: each costs an exact history */
     struct scene few = *scene;
     struct messages unsaid = {0};
-    struct surface_place *place = NULL;
-    double *power = NULL;
-    bool known = false;
+    struct task task;
     if (!looks_like(scene) || accuracy_refusal(&accuracy_ground, scene) != NULL) return false;
-    if (!measured_setting(scene)) return false;
+    if (!measured_setting(scene) || range_refusal(scene) != NULL) return false;
     if (scene->body.layers > 0) return false; /* exact histories take seconds there */
     if (few.receivers > ENOUGH) few.receivers = ENOUGH;
-    if (find_places(&few, &place, &power, &unsaid) == SELAS_OK) {
+    bool known = begin_task(&few, &task, &unsaid) == SELAS_OK;
+    if (known) {
         const double h = scene->body.spacing;
         const struct surface_ground ground = surface_ground_of(scene, h);
-        outlook->error = worst(&few, place, h, &ground);
-        outlook->wavelength = mean_wavelength(&few, place, ground.p_speed);
+        outlook->error = worst(&few, task.place, h, &ground);
+        outlook->wavelength = mean_wavelength(&few, task.place, ground.p_speed);
         outlook->layer_points = enough_layer_points(outlook->error / ACCURACY_AIM, h, outlook->wavelength);
         known = isfinite(outlook->error) && isfinite(outlook->wavelength);
     }
-    array_free(place);
-    array_free(power);
+    end_task(&task);
     messages_free(&unsaid);
     return known;
 }

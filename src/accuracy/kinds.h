@@ -2,6 +2,7 @@
 #ifndef SELAS_ACCURACY_KINDS_H
 #define SELAS_ACCURACY_KINDS_H
 
+#include "accuracy/trial.h"
 #include "scene/build.h"
 
 struct accuracy_kind {
@@ -12,8 +13,8 @@ struct accuracy_kind {
     /* NULL, or what this kind can be served with ("loads on a square or a disc"). */
     const char *(*refusal)(const struct scene *scene);
     /* Fails (SELAS_BAD_SCENE) only if no spacing will do or the exact solution is not for this scene. */
-    selas_status (*choose)(const struct scene *scene, double accuracy, struct scene_choice *choice,
-                           struct messages *messages);
+    selas_status (*choose)(const struct scene *scene, double accuracy, const struct trial *trial,
+                           struct scene_choice *choice, struct messages *messages);
     bool particles; /* the deck may say gradient and viscosity of particles: there are tables for them */
 };
 

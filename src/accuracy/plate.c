@@ -88,9 +88,10 @@ static const char *refusal(const struct scene *scene)
     return NULL;
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
-                           struct messages *messages)
+static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
+                           struct scene_choice *choice, struct messages *messages)
 {
+    (void)trial;
     const struct setting *setting = setting_of(scene);
     double part = pow(AIM * accuracy / setting->factor, 1 / setting->order);
     if (part < FINEST)

@@ -6,7 +6,12 @@
  *   e^2 = (S n^-s (size/r)^q d)^2 + (A kappa^a)^2 + (B kappa^b g r/h)^2,   kappa = omega h / c,          (1)
  *
  * n the points along the load's shortest edge, r the distance, d and g 1 along the axes of the lattice and
- * less between them, c the speed of the surface wave. With V the exact velocity's spectrum the relative L2
+ * less between them, c the speed of the surface wave. On the rim of a patch, where stresses are singular, and as
+ * near as two thirds of a spacing the first part is of first order; from there on it falls as at the centre,
+ *
+ *   R (h/a) min(1, 3 h / (2 rim))^4.2,   where that is more.                                            (1a)
+ *
+ * With V the exact velocity's spectrum the relative L2
  * error of the history is
  *
  *   E(h)^2 = sum e^2 |V|^2 / sum |V|^2.                                                                  (2) */
@@ -30,6 +35,7 @@ static const struct law plain = {16.3, 5.22, 2.54, 1, 0.0068, 5.95, 0.000861, 3.
 static const struct law tuned = {61.3, 5.05, 2.74, 0.12, 0.000202, 6.44, 5.74e-6, 8.55, 0.12};
 /* What a frequency that the lattice cannot carry errs, relative. */
 static const double LARGEST = 1.22;
+static const double RIM = .2, RIM_REACH = 1.5, RIM_ORDER = 4.2; /* (1a) */
 static const double BURIED = 0.6; /* receivers in the ground err less (measured) */
 /* A surface wave feels the ground down to some wavelengths: its slowness is the mean of the layers', each
  * weighted by exp(-depth / (FELT wavelength)) over its depth. */
@@ -80,9 +86,11 @@ double surface_error(const struct surface_place *place, double h, double end_tim
                      const struct surface_ground *ground)
 {
     const struct law *law = ground->tuned ? &tuned : &plain;
-    const double near = law->near * pow(h / place->size, law->near_order) *
-                        pow(fmin(1, place->size / place->distance), law->near_distance) *
-                        (1 - place->diagonal * (1 - law->near_diagonal));
+    const double field = law->near * pow(h / place->size, law->near_order) *
+                         pow(fmin(1, place->size / place->distance), law->near_distance) *
+                         (1 - place->diagonal * (1 - law->near_diagonal));
+    const double rim = RIM * h / place->size * pow(fmin(1, RIM_REACH * h / place->rim), RIM_ORDER);
+    const double near = fmax(field, rim);
     const double way = law->way * place->distance / h * (1 - place->diagonal * (1 - law->diagonal));
     const double step = 2 * M_PI / (1.25 * end_time);
     double error = 0, whole = 0;
@@ -93,5 +101,5 @@ double surface_error(const struct surface_place *place, double h, double end_tim
         error += place->power[j] * fmin(near * near + source * source + path * path, LARGEST * LARGEST);
         whole += place->power[j];
     }
-    return sqrt(error / whole) * (place->depth > .5 * place->size ? BURIED : 1);
+    return place->factor * sqrt(error / whole) * (place->depth > .5 * place->size ? BURIED : 1);
 }

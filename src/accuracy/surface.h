@@ -10,8 +10,10 @@ enum { SURFACE_ROWS = 4096, SURFACE_LAYERS = 64 };
 /* A receiver; lengths in the deck's units. */
 struct surface_place {
     double distance, size; /* to the nearest load's centre; that load's shortest edge */
+    double rim;            /* to the nearest edge of a patch, INFINITY without one */
     double diagonal;       /* 0 along an axis of the lattice, 1 halfway between two */
     double depth;
+    double factor; /* of what the law says: 1, or what a trial has measured */
     double *power; /* [SURFACE_ROWS / 2 + 1] sum over components of |V|^2 at 2 pi j / (1.25 end_time) */
 };
 

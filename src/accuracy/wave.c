@@ -247,9 +247,10 @@ static bool begins_smoothly(const struct scene *scene, double accuracy)
     return true;
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, struct scene_choice *choice,
-                           struct messages *messages)
+static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
+                           struct scene_choice *choice, struct messages *messages)
 {
+    (void)trial;
     static const double seen = .1;
     if (!begins_smoothly(scene, accuracy))
         return fail(

@@ -1,7 +1,6 @@
 /* Reference 'lamb': the infinite half-space under the scene's traction loads (Lamb 1904), computed by
  * exact/lamb_fft.c. This file turns the scene into that problem: the body's frame, mirror images at symmetry
  * planes, whole-face loads (plane waves), and refuses what has no such solution. */
-#include "exact/lamb.h"
 
 #include "base/memory.h"
 #include "exact/exact.h"
@@ -12,6 +11,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+extern const struct exact_class exact_lamb;
 
 struct lamb {
     struct exact exact;
@@ -198,8 +199,7 @@ static void destroy(struct exact *exact)
     array_free(lamb);
 }
 
-selas_status lamb_create_within(const struct scene *scene, double tolerance, struct exact **exact,
-                                struct messages *messages)
+static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
 {
     *exact = NULL;
     selas_status status = check_scene(scene, messages);
@@ -208,7 +208,7 @@ selas_status lamb_create_within(const struct scene *scene, double tolerance, str
     if (lamb == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the reference 'lamb'");
     lamb->exact.class = &exact_lamb;
     lamb->exact.scene = scene;
-    lamb->problem.tolerance = tolerance;
+    lamb->problem.tolerance = scene->reference.tolerance;
     const struct material *material = scene_material_at(scene, 0);
     half_space_set(&lamb->problem.ground, material->density, material->lambda, material->mu);
     if (scene->body.layers > 0) status = layered_create(scene, &lamb->layers, messages);
@@ -221,11 +221,6 @@ selas_status lamb_create_within(const struct scene *scene, double tolerance, str
     }
     *exact = &lamb->exact;
     return SELAS_OK;
-}
-
-static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
-{
-    return lamb_create_within(scene, scene->reference.tolerance, exact, messages);
 }
 
 static void add_plane_wave(const struct half_space *ground, const struct lamb_load *load, double z, double t,

@@ -213,6 +213,23 @@ static selas_status compute_receivers(struct layered_ground *ground, const struc
     return status;
 }
 
+static void warn_of_miss(const struct layered_ground *ground, struct messages *messages)
+{
+    static const double much = 10, least = 1e-3, usual = 1e-6;
+    const double wanted = ground->problem.tolerance > 0 ? ground->problem.tolerance : usual;
+    double worst = 0;
+    for (size_t i = 0; i < ground->seismograms; i++)
+        worst = fmax(worst, ground->seismogram[i].effort.reached);
+    if (worst > fmax(least, much * wanted))
+        warn(
+            messages,
+            "the exact velocities are good to %.2g only, where reference%%tolerance = %g is wanted: the time "
+            "function has high frequencies without end (a jump or a kink); a smoother one would do "
+            "(smoothing, a "
+            "longer delay)",
+            worst, wanted);
+}
+
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
 {
     *exact = NULL;
@@ -229,6 +246,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
         status = layered_mechanisms(scene, ground->problem.rocks, ground->rock, &ground->damping, messages);
     if (status == SELAS_OK) status = set_sources(ground, scene, messages);
     if (status == SELAS_OK) status = compute_receivers(ground, scene, messages);
+    if (status == SELAS_OK) warn_of_miss(ground, messages);
     if (status != SELAS_OK) {
         destroy(&ground->exact);
         return status;

@@ -64,7 +64,8 @@ static selas_status place_results(selas_simulation *simulation)
 /* The scene of the deck, with what the host drives put into it. */
 static selas_status build_scene(selas_simulation *simulation)
 {
-    selas_status status = accuracy_build(simulation->deck, &simulation->scene, &simulation->messages);
+    selas_status status =
+        accuracy_build(simulation->deck, host_trial, &simulation->scene, &simulation->messages);
     if (status == SELAS_OK) status = place_results(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);
     if (status != SELAS_OK) scene_free(&simulation->scene);

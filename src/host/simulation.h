@@ -109,6 +109,9 @@ char *simulation_checkpoint_path(selas_simulation *simulation);
 /* Saves the state there, if it is sound. */
 selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint_keep keep);
 
+/* host/trial.c: a trial_run (accuracy/trial.h). */
+selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct messages *messages);
+
 /* host/driven_loads.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */
 selas_status host_prepare_scene(selas_simulation *simulation);

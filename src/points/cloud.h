@@ -52,10 +52,10 @@ selas_status cloud_surface(struct cloud *cloud, const struct body *body, struct 
 selas_status cloud_plate(const struct body *body, struct cloud **cloud, struct messages *messages);
 /* points/points_file.c: text or HDF5. */
 selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages);
-/* points/points_check.c: SELAS_BAD_SCENE if two points are closer than a millionth of the spacing; line [points]: where
- * they stand in the file, or NULL. */
-selas_status points_check_apart(size_t points, const double *position, double spacing, const size_t *line,
-                                struct messages *messages);
+/* points/points_check.c: SELAS_BAD_SCENE if two points are closer than a millionth of the spacing; path, line
+ * [points]: the file and where they stand in it, or NULL. */
+selas_status points_check_apart(size_t points, const double *position, double spacing, const char *path,
+                                const size_t *line, struct messages *messages);
 /* Warns of places of the box without a point within a spacing (position in the body's frame). */
 selas_status points_warn_of_gaps(const struct body *body, int dimension, size_t points,
                                  const double *position, struct messages *messages);

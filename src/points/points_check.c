@@ -23,8 +23,8 @@ static int by_place(const void *one, const void *other)
     return (a->point > b->point) - (a->point < b->point);
 }
 
-selas_status points_check_apart(size_t points, const double *position, double spacing, const size_t *line,
-                                struct messages *messages)
+selas_status points_check_apart(size_t points, const double *position, double spacing, const char *path,
+                                const size_t *line, struct messages *messages)
 {
     struct place *place = array_new(points, sizeof *place);
     if (place == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", points);
@@ -43,8 +43,9 @@ selas_status points_check_apart(size_t points, const double *position, double sp
         char lines[64] = "";
         if (line != NULL)
             snprintf(lines, sizeof lines, ", lines %zu and %zu", line[a->point], line[b->point]);
-        status = fail(messages, SELAS_BAD_SCENE, "points %zu and %zu coincide%s: each place takes one point",
-                      a->point + 1, b->point + 1, lines);
+        status =
+            fail(messages, SELAS_BAD_SCENE, "%s%spoints %zu and %zu coincide%s: each place takes one point",
+                 path != NULL ? path : "", path != NULL ? ": " : "", a->point + 1, b->point + 1, lines);
     }
     array_free(place);
     return status;

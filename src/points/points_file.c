@@ -239,8 +239,8 @@ selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct 
         (*cloud)->spacing = scene->body.spacing;
         status = take(scene, &table, *cloud, messages);
         if (status == SELAS_OK)
-            status =
-                points_check_apart(table.rows, (*cloud)->position, scene->body.spacing, table.line, messages);
+            status = points_check_apart(table.rows, (*cloud)->position, scene->body.spacing, path, table.line,
+                                        messages);
     }
     free(table.row);
     free(table.line);

@@ -12,9 +12,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* Spacing against the deck's, at most; points that a wave keeps; points of the larger box's layers. */
-static const double coarsest = 2, fewest = 4;
+/* Spacing against the deck's, at most; points that a wave keeps, and the width of an initial state; points of the larger box's layers. */
+static const double coarsest = 2, fewest = 4, initial_points = 2;
 enum { SURE_POINTS = 20 };
 
 /* Layers as they are with the deck's points, whatever the spacing. */
@@ -114,14 +115,45 @@ static void tell(const struct scene *scene, const double *small, const double *l
     }
 }
 
-/* The same deck once more, its points coarse, its box larger or not. */
-static selas_status open_coarse(const struct echo_deck *deck, bool larger, selas_simulation **simulation)
+/* The deck, its splines not tuned: how far tuned ones reach hangs on the size of the box (consistent-method.md,
+ * section 14), which is no echo. */
+static selas_status open_plain(const struct echo_deck *deck, selas_simulation **simulation)
 {
     selas_status status = selas_open_deck_with(deck->path, deck->overrides, deck->override, simulation);
     if (status != SELAS_OK) return status;
-    struct scene *scene = (*simulation)->scene;
+    const struct scene *scene = (*simulation)->scene;
+    const bool chosen = deck_given(deck_get(scene->deck, "scene", 0), "accuracy");
+    if (chosen || !body_is_layered(&scene->body) || strcmp(scene->method.variant, "consistent") != 0)
+        return SELAS_OK;
+    const char **more = calloc(deck->overrides + 1, sizeof *more);
+    if (more == NULL) return SELAS_NO_MEMORY;
+    for (size_t i = 0; i < deck->overrides; i++)
+        more[i] = deck->override[i];
+    more[deck->overrides] = "method%tuned=.false.";
+    selas_close(simulation);
+    status = selas_open_deck_with(deck->path, deck->overrides + 1, more, simulation);
+    free(more);
+    return status;
+}
+
+/* How much coarser the points may be: what moves must stay waves. */
+static double coarsening(const struct scene *scene)
+{
+    double coarser = coarsest;
     const double resolved = points_per_wavelength(scene) / fewest;
-    const double coarser = resolved > 0 ? fmax(1, fmin(coarsest, resolved)) : coarsest;
+    if (resolved > 0) coarser = fmin(coarser, resolved);
+    if (scene->initial.width > 0)
+        coarser = fmin(coarser, scene->initial.width / (initial_points * scene->body.spacing));
+    return fmax(1, coarser);
+}
+
+/* The same deck once more, its points coarse, its box larger or not. */
+static selas_status open_coarse(const struct echo_deck *deck, bool larger, selas_simulation **simulation)
+{
+    selas_status status = open_plain(deck, simulation);
+    if (status != SELAS_OK) return status;
+    struct scene *scene = (*simulation)->scene;
+    const double coarser = coarsening(scene);
     const double spacing = dividing_spacing(&scene->body, scene->dimension, coarser * scene->body.spacing);
     keep_layers(scene);
     if (spacing > scene->body.spacing) scene->body.spacing = spacing;

@@ -8,6 +8,7 @@
 #include "record/watch.h"
 
 #include "base/memory.h"
+#include "scene/resolution.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,6 +26,22 @@ static bool linear_reference(const struct scene *scene)
     return scene->reference.kind[0] != '\0' && strcmp(scene->reference.kind, "file") != 0;
 }
 
+/* Strains and rotations grow without bound towards a force or a moment at a point, which stand for what acts on
+ * a volume: within a wavelength of one nobody looks. */
+static bool beside_point(const struct scene *scene, const double position[3])
+{
+    const double wavelength = points_per_wavelength(scene) * scene->body.spacing;
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        double away = 0.0;
+        if (load->shape != LOAD_POINT) continue;
+        for (int c = 0; c < scene->dimension; c++)
+            away = hypot(away, position[c] - load->centre[c]);
+        if (!(away > wavelength)) return true;
+    }
+    return false;
+}
+
 selas_status hindsight_create(struct recorder *recorder, struct messages *messages)
 {
     struct model *model = recorder->model;
@@ -38,6 +55,7 @@ selas_status hindsight_create(struct recorder *recorder, struct messages *messag
         double position[3];
         struct messages unsaid = {0};
         model_position(model, (size_t)(part * (double)model->points), position);
+        if (beside_point(recorder->scene, position)) continue;
         const selas_status status =
             model->core->probe(model, position, &recorder->place[recorder->places], &unsaid);
         messages_free(&unsaid);

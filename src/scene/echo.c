@@ -70,22 +70,29 @@ static double way_along(const struct scene *scene, int face, const struct extent
     return way;
 }
 
-/* The factor of exp(-.7 n) in (15) for one pair. */
-static double early_echo(const struct scene *scene, int face, const struct extent *acts,
-                         const struct extent *seen)
+/* Wavelength of what one sends to the other: of a static field no more than is felt, and never more than the
+ * run lets pass. */
+static double wavelength_between(const struct scene *scene, const struct extent *acts, double way)
+{
+    const double felt = acts->plane ? INFINITY : way * static_reach;
+    return fmin(acts->wavelength, fmin(felt, scene_fastest(scene) * scene->end_time));
+}
+
+struct echo {
+    double early, late, wavelength; /* the factor of exp(-.7 n) and .4 (...)^2.6 in (15); the longest wave */
+};
+
+static void take_worst(const struct scene *scene, int face, const struct extent *acts,
+                       const struct extent *seen, struct echo *worst)
 {
     const double h = scene->body.spacing;
     const double way = acts->plane ? 0 : way_along(scene, face, acts, seen);
     const double across = fmax(distance(scene, face, acts) + distance(scene, face, seen), h);
-    const double felt = acts->plane ? INFINITY : fmax(way, across) * static_reach;
-    const double most = fmin(felt, scene_fastest(scene) * scene->end_time);
-    return pow(fmax(1, fmin(acts->wavelength, most) / h), wavelength_power) *
-           pow(fmax(1, way / across), grazing_power);
+    const double wavelength = wavelength_between(scene, acts, fmax(way, across));
+    worst->wavelength = fmax(worst->wavelength, wavelength);
+    worst->early = fmax(worst->early, pow(fmax(1, wavelength / h), wavelength_power) *
+                                          pow(fmax(1, way / across), grazing_power));
 }
-
-struct echo {
-    double early, late, wavelength;
-};
 
 static struct echo worst_echo(const struct scene *scene, int face)
 {
@@ -95,13 +102,9 @@ static struct echo worst_echo(const struct scene *scene, int face)
     for (size_t m = 0; m < scene->materials; m++)
         ratio = fmax(ratio, scene->material[m].p_speed / scene->material[m].s_speed);
     worst.late = late_part * pow(ratio / sqrt(3.), late_power);
-    for (size_t k = 0; scene_extent(scene, k, &acts); k++) {
-        if (acts.role != EXTENT_ACTS) continue;
-        worst.wavelength = fmax(worst.wavelength, acts.wavelength);
-        for (size_t i = 0; scene_extent(scene, i, &seen); i++)
-            if (seen.role == EXTENT_SEEN)
-                worst.early = fmax(worst.early, early_echo(scene, face, &acts, &seen));
-    }
+    for (size_t k = 0; scene_extent(scene, k, &acts); k++)
+        for (size_t i = 0; acts.role == EXTENT_ACTS && scene_extent(scene, i, &seen); i++)
+            if (seen.role == EXTENT_SEEN) take_worst(scene, face, &acts, &seen, &worst);
     return worst;
 }
 
@@ -121,7 +124,7 @@ double echo_of_layer(const struct scene *scene, int face, size_t points)
 size_t echo_points(const struct scene *scene, int face)
 {
     const struct echo echo = worst_echo(scene, face);
-    const double finer = coarse * scene->body.spacing / echo.wavelength;
+    const double finer = coarse * scene->body.spacing / fmax(echo.wavelength, scene->body.spacing);
     const double wanted = most_wanted * fmin(1, finer);
     size_t points = 0;
     while (points < MOST && of_points(scene, &echo, points) > wanted)

@@ -30,7 +30,7 @@ double history_value(const struct history *history, double t, int derivative);
 /* Laplace transform: integral of f(t) exp(-s t) dt from 0 to infinity (Re s > 0), smoothing included. For the
  * kinds that are cut at t = 0 the cut is part of the transform. */
 double complex history_laplace(const struct history *history, double complex s);
-/* The same without the cut where that takes less than 1e-6 of the peak away: then the pulse is smooth, and
+/* The same without the cut where that takes less than 5e-5 of the peak away: then the pulse is smooth, and
  * has begun before t = 0. */
 double complex history_laplace_uncut(const struct history *history, double complex s);
 

@@ -103,10 +103,11 @@ double complex history_laplace(const struct history *history, double complex s)
 
 double complex history_laplace_uncut(const struct history *history, double complex s)
 {
+    static const double unseen = 5e-5;
     const enum history_kind kind = history->kind;
     const bool bell = kind == HISTORY_GAUSSIAN || kind == HISTORY_ERROR_FUNCTION,
                wavelet = kind == HISTORY_RICKER;
-    if ((!bell && !wavelet) || fabs(history_plain_value(history, 0, 0)) > 5e-7)
+    if ((!bell && !wavelet) || fabs(history_plain_value(history, 0, 0)) > .5 * unseen)
         return history_laplace(history, s);
     const double width = bell ? history->width : M_SQRT1_2 / (M_PI * history->frequency);
     double complex plain = width * sqrt(2 * M_PI) * cexp(s * (.5 * s * width * width - history->delay));

@@ -73,7 +73,7 @@ const char *beam_ends_name(enum beam_ends ends)
 double beam_mode_root(enum beam_ends ends)
 {
     static const double root[] = {1.8751040687119611664, 4.7300407448627040260, M_PI, 4.7300407448627040260};
-    return root[ends];
+    return ends < BEAM_ENDS ? root[ends] : NAN;
 }
 
 static double clamped_free(double k, double kx, double slope, int derivative)

@@ -24,7 +24,7 @@ static selas_status build(const struct deck *deck)
 {
     struct messages messages = {0};
     struct scene *scene = NULL;
-    const selas_status status = accuracy_build(deck, &scene, &messages);
+    const selas_status status = accuracy_build(deck, NULL, &scene, &messages);
     fuzz_require((status == SELAS_OK) == (scene != NULL), "a scene only where there is no error");
     fuzz_told(status, &messages);
     scene_free(&scene);

@@ -30,7 +30,7 @@ static struct model *open_model(int count, char **words, struct deck **deck, str
     struct model *model = NULL;
     selas_status status =
         deck_read_file(words[1], (size_t)count - 3, (const char *const *)words + 3, deck, &messages);
-    if (status == SELAS_OK) status = accuracy_build(*deck, scene, &messages);
+    if (status == SELAS_OK) status = accuracy_build(*deck, NULL, scene, &messages);
     if (status == SELAS_OK) status = model_create(*scene, &model, &messages);
     if (status != SELAS_OK) fputs(messages.text != NULL ? messages.text : "no memory\n", stderr);
     messages_free(&messages);

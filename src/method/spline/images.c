@@ -39,3 +39,24 @@ bool spline_difference(const struct spline *spline, bool odd, ptrdiff_t first, i
         if (fabs(position[i] - position[i - 1] - gap) > 1e-6 * gap) return false;
     return true;
 }
+
+bool spline_images(const struct spline *spline, bool odd, double x, int count, struct images *images)
+{
+    ptrdiff_t nearest = 0;
+    for (ptrdiff_t at = -1; at <= (ptrdiff_t)spline->count; at++) {
+        double sign, here, best;
+        size_t index;
+        if (control_at(spline, odd, at, &index, &sign, &here) &&
+            (!control_at(spline, odd, nearest, &index, &sign, &best) || fabs(here - x) < fabs(best - x)))
+            nearest = at;
+    }
+    for (int i = 0; i < count; i++)
+        if (!control_at(spline, odd, nearest - count / 2 + i, &images->index[i], &images->sign[i],
+                        &images->position[i]))
+            return false;
+    images->gap = (images->position[count - 1] - images->position[0]) / (count - 1);
+    for (int i = 1; i < count; i++)
+        if (fabs(images->position[i] - images->position[i - 1] - images->gap) > 1e-6 * images->gap)
+            return false;
+    return true;
+}

@@ -22,4 +22,14 @@ struct difference {
 bool spline_difference(const struct spline *spline, bool odd, ptrdiff_t first, int order,
                        struct difference *difference);
 
+/* The evenly spaced control values nearest x, an odd number of them, images beyond symmetry planes among them. */
+enum { MOST_IMAGES = 9 };
+struct images {
+    size_t index[MOST_IMAGES];
+    double sign[MOST_IMAGES]; /* -1 beyond a plane where the component changes its sign there */
+    double position[MOST_IMAGES], gap;
+};
+/* False where there are not so many or they are not evenly spaced. */
+bool spline_images(const struct spline *spline, bool odd, double x, int count, struct images *images);
+
 #endif

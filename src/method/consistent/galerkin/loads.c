@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "method/consistent/galerkin/moving_load.h"
 #include "method/spline/disc.h"
+#include "method/spline/source.h"
 
 #include <math.h>
 #include <string.h>
@@ -122,23 +123,36 @@ static void add_product(const struct consistent *c, const struct workspace *w, i
 
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
  * Slopes of degree 1 jump at the points: there the mean of both sides. */
-void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
-                           double *line)
+static void point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, bool source,
+                       double x, double *line)
 {
     const struct spline *spline = c->spline[axis];
     const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
     const double small = 1e-9 * (spline->high - spline->low); /* no layer lies behind a symmetry plane */
     const bool cut = (boundary_mirrors(&boundary[0]) && fabs(x - spline->low) < small) ||
                      (boundary_mirrors(&boundary[1]) && fabs(x - spline->high) < small);
-    const int sides = slope && spline->degree == 1 ? 2 : 1;
+    struct tuned_point at;
+    const bool wide = source && source_at(spline, odd, slope, x, &at);
+    const int sides = !wide && slope && spline->degree == 1 ? 2 : 1;
     memset(line, 0, spline->count * sizeof *line);
     for (int side = 0; side < sides; side++) {
         const double beside = x + (sides == 2 ? (2 * side - 1) * small : 0);
-        struct tuned_point at;
-        tuned_at(spline, odd, sides == 2 ? fmin(fmax(beside, spline->low), spline->high) : x, &at);
+        if (!wide) tuned_at(spline, odd, sides == 2 ? fmin(fmax(beside, spline->low), spline->high) : x, &at);
         for (size_t j = 0; j < at.count; j++)
             line[at.index[j]] += (slope ? at.slope[j] : at.value[j]) * (half && cut ? .5 : 1) / sides;
     }
+}
+
+void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
+                           double *line)
+{
+    point_line(c, axis, odd, slope, half, false, x, line);
+}
+
+/* The same for a moment tensor. */
+static void moment_line(const struct consistent *c, int axis, bool odd, bool slope, double x, double *line)
+{
+    point_line(c, axis, odd, slope, true, true, x, line);
 }
 
 static bool traction(struct consistent *c, const struct load *load, const double centre[3],
@@ -217,7 +231,7 @@ static void moment_tensor(struct consistent *c, const struct load *load, const d
                 for (int l = 0; l < 3; l++)
                     moment += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
             for (int axis = 0; axis < c->dimension; axis++)
-                consistent_point_line(c, axis, axis == i, axis == j, true, centre[axis], w->line[axis]);
+                moment_line(c, axis, axis == i, axis == j, centre[axis], w->line[axis]);
             if (moment != 0) add_product(c, w, i, moment);
         }
 }

@@ -1,0 +1,131 @@
+/* Point sources of higher order (doc/consistent-method.md, section 15): transforms against that of the functions'
+ * own, symmetry planes, where there are none, smoothness in the place. */
+#include "near.h"
+
+#include "method/spline/source.h"
+
+#include <complex.h>
+#include <math.h>
+
+static struct spline *axis(int degree, size_t cells, bool mirror)
+{
+    struct messages messages = {0};
+    const struct spline_choice choice = {
+        .degree = degree, .high = .25 * (double)cells, .spacing = .25, .mirror = {mirror, false}};
+    struct spline *spline = spline_new(&choice, &messages);
+    assert_non_null(spline);
+    return spline;
+}
+
+/* |sum w_b exp(-i k (x_b - x)) - (i k)^slope N^(k)| over |i k|^slope: the sign of a moment's -d/dx is the load's. */
+static double defect(const struct spline *spline, bool slope, double x, double theta, bool wide)
+{
+    const double h = .25, k = theta / h;
+    const double half = theta / 2, transform = pow(sin(half) / half, spline->degree + 1);
+    double complex sum = 0;
+    struct tuned_point at;
+    if (wide)
+        assert_true(source_at(spline, false, slope, x, &at));
+    else
+        tuned_at(spline, false, x, &at);
+    for (size_t b = 0; b < at.count; b++)
+        sum += (slope ? at.slope[b] : at.value[b]) * cexp(-I * k * (spline->greville[at.index[b]] - x));
+    return slope ? cabs(sum / (-I * k) - transform) : cabs(sum - transform);
+}
+
+static void waves_are_those_of_the_functions(void **state)
+{
+    (void)state;
+    for (int degree = 1; degree <= 3; degree++) {
+        struct spline *spline = axis(degree, 24, false);
+        for (int slope = 0; slope < 2; slope++) {
+            double coarse = 0, fine = 0, plain = 0;
+            for (double x = 2.6; x < 3.4; x += .013) {
+                coarse = fmax(coarse, defect(spline, slope, x, .8, true));
+                fine = fmax(fine, defect(spline, slope, x, .4, true));
+                plain = fmax(plain, defect(spline, slope, x, .4, false));
+            }
+            print_message("degree %d, slope %d: %.1e at .4, order %.2f; as they are %.1e\n", degree, slope,
+                          fine, log2(coarse / fine), plain);
+            assert_true(log2(coarse / fine) > (slope ? 4.7 : 5.7)); /* 5 and 6 */
+            assert_true(fine < (slope ? 8e-5 : 4e-5));
+            assert_true(plain > fine);
+        }
+        spline_free(spline);
+    }
+}
+
+/* What lies beyond a symmetry plane is folded back: the source and its image on the whole axis. */
+static void images_are_folded(void **state)
+{
+    (void)state;
+    for (int degree = 1; degree <= 3; degree++)
+        for (int odd = 0; odd < 2; odd++)
+            for (int slope = 0; slope < 2; slope++) {
+                struct spline *half = axis(degree, 16, true), *whole = axis(degree, 32, false);
+                const size_t plane = whole->count - half->count;
+                for (double x = 0; x < 1.2; x += .11) {
+                    double line[64] = {0}, all[64] = {0};
+                    struct tuned_point at;
+                    assert_true(source_at(half, odd, slope, x, &at));
+                    for (size_t b = 0; b < at.count; b++)
+                        line[at.index[b]] += slope ? at.slope[b] : at.value[b];
+                    for (int image = 0; image < 2; image++) {
+                        const double sign = (image && odd ? -1 : 1) * (image && slope ? -1 : 1);
+                        assert_true(source_at(whole, false, slope, 4 + (image ? -x : x), &at));
+                        for (size_t b = 0; b < at.count; b++)
+                            all[at.index[b]] += sign * (slope ? at.slope[b] : at.value[b]);
+                    }
+                    for (size_t i = 0; i < half->count; i++) {
+                        const bool on_plane = half->centred[0] && i == 0;
+                        assert_true(fabs(line[i] * (on_plane && !odd ? 2 : 1) - all[plane + i]) <
+                                    1e-11 * (slope ? 4 : 1));
+                    }
+                }
+                spline_free(half);
+                spline_free(whole);
+            }
+}
+
+static void ends_and_degree_4_stay(void **state)
+{
+    (void)state;
+    struct tuned_point at;
+    struct spline *spline = axis(2, 24, false), *tuned = axis(4, 24, false);
+    assert_false(source_at(spline, false, true, .5, &at));
+    assert_false(source_at(spline, false, true, 5.9, &at));
+    assert_true(source_at(spline, false, true, 1.5, &at));
+    assert_false(source_at(tuned, false, true, 3, &at));
+    spline_free(spline);
+    spline_free(tuned);
+}
+
+static void weights_change_smoothly(void **state)
+{
+    (void)state;
+    struct spline *spline = axis(2, 24, false);
+    static const double step = 1e-7;
+    for (double x = 2.5; x < 3.5; x += .0125) { /* knots and control values among them */
+        struct tuned_point at;
+        double line[2][32] = {{0}};
+        for (int side = 0; side < 2; side++) {
+            assert_true(source_at(spline, false, false, x + (side ? step : -step), &at));
+            for (size_t b = 0; b < at.count; b++)
+                line[side][at.index[b]] += at.value[b];
+        }
+        for (size_t i = 0; i < spline->count; i++)
+            assert_true(fabs(line[1][i] - line[0][i]) < 2 * step * 4 * 3); /* slopes of a few per spacing */
+    }
+    spline_free(spline);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(waves_are_those_of_the_functions),
+        cmocka_unit_test(images_are_folded),
+        cmocka_unit_test(ends_and_degree_4_stay),
+        cmocka_unit_test(weights_change_smoothly),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,113 @@
+/* Receivers and spectra (see the header). */
+#include "accuracy/ground_task.h"
+
+#include "base/fft_room.h"
+#include "base/memory.h"
+
+#include <fftw3.h>
+#include <math.h>
+
+enum { ROWS = SURFACE_ROWS };
+
+/* Distance from the edge of a patch, a place `away` from its centre in the body's frame. */
+static double rim_distance(const struct load *load, const double away[3])
+{
+    double outside[2], beyond = 0;
+    if (load->shape == LOAD_POINT) return INFINITY;
+    if (load->shape == LOAD_DISC) return hypot(hypot(away[0], away[1]) - load->size[0] / 2, away[2]);
+    for (int c = 0; c < 2; c++) {
+        outside[c] = fabs(away[c]) - load->size[c] / 2;
+        beyond = hypot(beyond, fmax(0, outside[c]));
+    }
+    return hypot(beyond > 0 ? beyond : fmax(outside[0], outside[1]), away[2]);
+}
+
+static void set_place(const struct scene *scene, const double position[3], struct surface_place *place)
+{
+    place->distance = place->rim = INFINITY;
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        double away[3];
+        for (int c = 0; c < 3; c++)
+            away[c] = position[c] - load->centre[c];
+        body_direction_from_deck(&scene->body, away, away);
+        place->rim = fmin(place->rim, rim_distance(load, away));
+        const double across = hypot(away[0], away[1]), distance = hypot(across, away[2]);
+        if (distance >= place->distance) continue;
+        place->distance = distance;
+        place->depth = away[2];
+        place->factor = 1;
+        place->size = load->shape == LOAD_POINT  ? distance
+                      : load->shape == LOAD_DISC ? load->size[0]
+                                                 : fmin(load->size[0], load->size[1]);
+        place->diagonal = across > 0 ? .5 - .5 * cos(4 * atan2(away[1], away[0])) : 0;
+    }
+}
+
+/* |V|^2 of three components; the history goes on for a quarter of its length, fading out, so that its end
+ * makes no frequencies. */
+static selas_status find_power(struct exact *exact, double end_time, const struct receiver *receiver,
+                               double *power, struct messages *messages)
+{
+    double *time = array_new(ROWS, sizeof *time);
+    double *value = array_new((size_t)6 * ROWS, sizeof *value);
+    double *in = fftw_malloc(ROWS * sizeof *in);
+    fftw_complex *out = fftw_malloc((ROWS / 2 + 1) * sizeof *out);
+    selas_status status = SELAS_NO_MEMORY;
+    fftw_plan plan = NULL;
+    if (time != NULL && value != NULL && in != NULL && out != NULL && fft_room(ROWS)) {
+        for (int i = 0; i < ROWS; i++)
+            time[i] = 1.25 * end_time / ROWS * i;
+        status = exact->class->history(exact, receiver->position, ROWS, time, value, messages);
+#pragma omp critical(selas_fftw_planner)
+        plan = fftw_plan_dft_r2c_1d(ROWS, in, out, FFTW_ESTIMATE);
+    } else {
+        fail(messages, status, "no memory for the spectrum of a receiver");
+    }
+    for (int c = 3; c < 6 && plan != NULL && status == SELAS_OK; c++) {
+        for (int i = 0; i < ROWS; i++) {
+            const double late = fmax(0, time[i] / end_time - 1) * 4;
+            in[i] = value[6 * i + c] * .5 * (1 + cos(M_PI * late));
+        }
+        fftw_execute(plan);
+        for (int j = 0; j <= ROWS / 2; j++)
+            power[j] += creal(out[j] * conj(out[j]));
+    }
+#pragma omp critical(selas_fftw_planner)
+    if (plan != NULL) fftw_destroy_plan(plan);
+    fftw_free(in);
+    fftw_free(out);
+    array_free(time);
+    array_free(value);
+    return status;
+}
+
+void end_task(struct task *task)
+{
+    exact_free(&task->exact);
+    array_free(task->place);
+    array_free(task->power);
+}
+
+selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages)
+{
+    bool patches = true;
+    *task = (struct task){.scene = scene, .longer = *scene};
+    for (size_t k = 0; k < scene->loads; k++)
+        patches = patches && scene->load[k].shape != LOAD_POINT;
+    task->longer.end_time *= 1.25;
+    task->longer.reference.tolerance = 1e-3;
+    task->place = array_new(scene->receivers, sizeof *task->place);
+    task->power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *task->power);
+    if (task->place == NULL || task->power == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
+    selas_status status =
+        exact_find(patches ? "lamb" : "layered")->create(&task->longer, &task->exact, messages);
+    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
+        struct surface_place *place = &task->place[i];
+        place->power = task->power + i * (ROWS / 2 + 1);
+        set_place(scene, scene->receiver[i].position, place);
+        status = find_power(task->exact, scene->end_time, &scene->receiver[i], place->power, messages);
+    }
+    return status;
+}

@@ -1,0 +1,23 @@
+/* The receivers of a ground and the spectra of its exact velocities there: what the choice of a spacing looks at. */
+#ifndef SELAS_ACCURACY_GROUND_TASK_H
+#define SELAS_ACCURACY_GROUND_TASK_H
+
+#include "accuracy/surface.h"
+#include "exact/exact.h"
+
+/* A ground, its receivers and the exact solution; what a trial measured is in the places' factors. */
+struct task {
+    const struct scene *scene;
+    struct scene longer; /* the same for a quarter longer, which the exact solution is for */
+    struct exact *exact;
+    struct surface_place *place; /* [receivers] */
+    double *power;
+    double accuracy, aim;
+};
+
+/* Places and spectra of all receivers, from the reference 'lamb' or, with points that act, 'layered'. To be ended
+ * whatever comes back. */
+selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages);
+void end_task(struct task *task);
+
+#endif

@@ -1,0 +1,82 @@
+/* Sources at a point (doc/consistent-method.md, section 15). The functions at x, N_b(x), have the transform
+ *
+ *   sum over b of N_b(x) exp(-i k (x_b - x)) = sum over n of N^(k + 2 pi n / h) exp(2 pi i n x / h),          (V1)
+ *
+ * N^ = sinc^(p + 1). Waves that the lattice carries should get n = 0 alone: the others are of order (k h)^(p + 1),
+ * in slopes (k h)^p beside k. Weights w_b over seven control values have the moments of n = 0,
+ *
+ *   sum w_b (x_b - x)^j = m_j,  or for slopes  j m_(j - 1),   j = 0 .. 5,                                    (V2)
+ *   m_0 = 1, m_2 = s, m_4 = 3 s^2 - (p + 1) h^4 / 120, s = (p + 1) h^2 / 12, m_1 = m_3 = 0,
+ *
+ * and are the smallest such: least sum of w_b^2 / r_b, r a bell over seven cells, so that they change smoothly with
+ * x and stand alike on both sides of it. */
+#include "method/spline/source.h"
+
+#include "method/spline/images.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+
+enum { WIDE = 7, MOMENTS = 6 };
+
+static void set_moments(int degree, bool slope, double moment[MOMENTS])
+{
+    const double s = (degree + 1) / 12., plain[MOMENTS] = {1, 0, s, 0, 3 * s * s - (degree + 1) / 120., 0};
+    for (int j = 0; j < MOMENTS; j++)
+        moment[j] = !slope ? plain[j] : j > 0 ? j * plain[j - 1] : 0;
+}
+
+/* Legendre polynomials 0 to 5 by powers of t; they keep the equations well conditioned. */
+static const double legendre[MOMENTS][MOMENTS] = {{1},
+                                                  {0, 1},
+                                                  {-.5, 0, 1.5},
+                                                  {0, -1.5, 0, 2.5},
+                                                  {.375, 0, -3.75, 0, 4.375},
+                                                  {0, 1.875, 0, -8.75, 0, 7.875}};
+
+/* Weights at distances `away` (in cells) with these moments. */
+static void solve(const double away[WIDE], const double moment[MOMENTS], double weight[WIDE])
+{
+    static const double reach = .5 * WIDE;
+    double bell[WIDE], value[WIDE][MOMENTS] = {{0}}, wanted[MOMENTS] = {0}, matrix[MOMENTS * MOMENTS] = {0};
+    for (int j = 0; j < MOMENTS; j++)
+        for (int k = 0; k <= j; k++)
+            wanted[j] += legendre[j][k] * moment[k] / pow(reach, k);
+    for (int b = 0; b < WIDE; b++) {
+        const double t = away[b] / reach, part = fmax(0, 1 - t * t);
+        bell[b] = part * part * part;
+        for (int j = 0; j < MOMENTS; j++)
+            for (int k = 0; k <= j; k++)
+                value[b][j] += legendre[j][k] * pow(t, k);
+        for (int i = 0; i < MOMENTS; i++)
+            for (int j = 0; j < MOMENTS; j++)
+                matrix[i * MOMENTS + j] += bell[b] * value[b][i] * value[b][j];
+    }
+    gsl_matrix_view a = gsl_matrix_view_array(matrix, MOMENTS, MOMENTS);
+    gsl_vector_view x = gsl_vector_view_array(wanted, MOMENTS);
+    gsl_linalg_cholesky_decomp1(&a.matrix);
+    gsl_linalg_cholesky_svx(&a.matrix, &x.vector);
+    for (int b = 0; b < WIDE; b++) {
+        weight[b] = 0;
+        for (int j = 0; j < MOMENTS; j++)
+            weight[b] += bell[b] * wanted[j] * value[b][j];
+    }
+}
+
+bool source_at(const struct spline *spline, bool odd, bool slope, double x, struct tuned_point *point)
+{
+    struct images images;
+    double away[WIDE], moment[MOMENTS], weight[WIDE];
+    if (spline->degree == TUNED_DEGREE || !spline_images(spline, odd, x, WIDE, &images)) return false;
+    for (int b = 0; b < WIDE; b++)
+        away[b] = (images.position[b] - x) / images.gap;
+    set_moments(spline->degree, slope, moment);
+    solve(away, moment, weight);
+    point->count = WIDE;
+    for (size_t b = 0; b < WIDE; b++) {
+        point->index[b] = images.index[b];
+        point->value[b] = slope ? 0 : weight[b] * images.sign[b];
+        point->slope[b] = slope ? weight[b] * images.sign[b] / images.gap : 0;
+    }
+    return true;
+}
