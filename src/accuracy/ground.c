@@ -45,7 +45,7 @@ static bool looks_like(const struct scene *scene)
 static const char *refusal(const struct scene *scene)
 {
     if (!body_is_box(&scene->body)) return "half-spaces and boxes";
-    if (ground_is_general(scene)) return "level layers of one material each, without &block";
+    if (ground_is_general(scene)) return "level layers of one material each, without &model and &block";
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].shape == LOAD_FACE) return "loads on a square or a disc or at points";

@@ -207,6 +207,11 @@ static const struct word layer_words[] = {
      "depth (consistent, operator 'general'); else the same throughout"},
 };
 
+static const struct word model_words[] = {
+    {"file", WORD_FILE, 1, NULL, NULL, OBLIGATORY,
+     "HDF5 file: density, p_speed, s_speed on an even grid, attributes origin and spacing"},
+};
+
 static const struct word block_words[] = {
     {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
     {"shape", WORD_CHOICE, 1, "'box'", CHOICES(BLOCK_SHAPES), OPTIONAL, "shape"},
@@ -304,6 +309,8 @@ static const struct word_group groups[] = {
     GROUP(body, GROUP_ONCE, "the body of points"),
     GROUP(boundary, GROUP_MANY, "what one or more faces do; a face that no boundary names is free"),
     GROUP(layer, GROUP_MANY, "ground that varies with depth; below the last layer it goes on"),
+    GROUP(model, GROUP_ONCE,
+          "the ground from a file, in place of materials and layers (consistent, operator 'general')"),
     GROUP(block, GROUP_MANY,
           "a part of the ground of another material, also in layers and earlier blocks (consistent, operator "
           "'general')"),

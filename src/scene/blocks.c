@@ -11,6 +11,8 @@ void read_tilt_and_grade(struct builder *builder, const struct deck_group *group
     const double towards = (deck_real(group, "strike", 0) + 90) * degree;
     layer->slope[0] = tan(dip) * cos(towards);
     layer->slope[1] = tan(dip) * sin(towards);
+    for (int axis = 0; axis < 2; axis++) /* along an axis: what rounding left of 0 */
+        if (fabs(layer->slope[axis]) < 1e-12 * tan(dip)) layer->slope[axis] = 0;
     layer->graded = deck_given(group, "bottom");
     if (layer->graded) layer->bottom = find_material(builder, group, "bottom");
 }

@@ -288,7 +288,7 @@ static void read_layer(struct builder *builder, const struct deck_group *group, 
 static void check_materials_used(struct builder *builder)
 {
     const struct scene *scene = builder->scene;
-    for (size_t i = 0; i < scene->materials; i++) {
+    for (size_t i = 0; i < deck_count(builder->deck, "material"); i++) {
         bool used =
             scene->body.material == i || (scene->body.given != NULL && scene->body.given->material != NULL);
         for (size_t k = 0; k < scene->body.layers; k++)
@@ -328,11 +328,15 @@ void build_layers(struct builder *builder)
         }
         qsort(body->layer, count, sizeof *body->layer, by_depth);
     }
-    const bool covered = count > 0 && body->layer[0].top == 0;
+    if (count > 0 && deck_count(builder->deck, "model") > 0)
+        complain(builder, deck_get(builder->deck, "layer", 0), NULL,
+                 "the ground is that of &model; leave &layer out");
+    build_model(builder);
+    const bool covered = body->model != NULL || (count > 0 && body->layer[0].top == 0);
     if (deck_values(group, "material") == 0 && !covered)
         complain(builder, group, NULL,
                  "the body needs material: the name of a &material (or layers from depth 0 on)");
-    else if (deck_values(group, "material") == 0)
+    else if (deck_values(group, "material") == 0 && body->model == NULL)
         body->material = body->layer[0].material;
     build_blocks(builder);
     if (before == SELAS_OK && builder->status == SELAS_OK) check_materials_used(builder);

@@ -72,6 +72,8 @@ void build_snapshots(struct builder *builder);
 
 /* body.c: index of the material that a word names, or scene->materials after complaining. */
 size_t find_material(struct builder *builder, const struct deck_group *group, const char *word);
+/* model_file.c */
+void build_model(struct builder *builder);
 /* blocks.c */
 void build_blocks(struct builder *builder);
 /* blocks.c: dip, strike, bottom of a layer. */

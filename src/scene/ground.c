@@ -52,12 +52,15 @@ struct rock ground_at(const struct scene *scene, const double place[3])
     const size_t layer = layer_at(body, place, depth);
     const struct material *material =
         &scene->material[layer < body->layers ? body->layer[layer].material : body->material];
+    bool in_block = false;
     bool graded = layer + 1 < body->layers && body->layer[layer].graded;
     for (size_t i = 0; i < body->blocks; i++)
         if (inside(scene, &body->block[i], place)) {
             material = &scene->material[body->block[i].material];
             graded = false;
+            in_block = true;
         }
+    if (body->model != NULL && !in_block) return ground_model_at(body->model, place);
     if (!graded) return (struct rock){material->density, material->plane_lambda, material->mu};
     const double top = top_at(&body->layer[layer], place), end = top_at(&body->layer[layer + 1], place);
     const double part = end > top ? (depth - top) / (end - top) : 0;
@@ -93,15 +96,22 @@ size_t ground_jumps_at_most(const struct scene *scene)
 
 bool ground_grades(const struct scene *scene)
 {
+    if (scene->body.model != NULL) return true;
     for (size_t i = 0; i < scene->body.layers; i++)
         if (scene->body.layer[i].graded) return true;
     return false;
 }
 
+double ground_detail(const struct scene *scene, int axis)
+{
+    const struct body *body = &scene->body;
+    return body->model == NULL || body->blocks > 0 ? 0 : body->model->spacing[axis];
+}
+
 bool ground_varies(const struct scene *scene, int axis)
 {
     const struct body *body = &scene->body;
-    if (body->blocks > 0) return true;
+    if (body->blocks > 0 || body->model != NULL) return true;
     for (size_t i = 0; i < body->layers && axis < 2; i++)
         if (body->layer[i].slope[axis] != 0) return true;
     return axis == scene->dimension - 1 && body_is_layered(body);

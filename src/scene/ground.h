@@ -10,6 +10,9 @@ struct rock {
 
 /* Rock at a place in the body's frame; outside the body that of its nearest face or beyond. */
 struct rock ground_at(const struct scene *scene, const double place[3]);
+/* model_file.c: even between the values of the grid, beyond it as at its edge. */
+struct rock ground_model_at(const struct ground_model *model, const double place[3]);
+void ground_model_free(struct ground_model *model); /* takes NULL */
 /* Places from < x < to along a line through `place` at which the rock may jump, in no order; at most
  * ground_jumps_at_most(). */
 size_t ground_jumps(const struct scene *scene, const double place[3], int axis, double from, double to,
@@ -17,6 +20,8 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
 size_t ground_jumps_at_most(const struct scene *scene);
 /* Does the rock change smoothly anywhere? */
 bool ground_grades(const struct scene *scene);
+/* Length over which the rock changes along an axis of the surface; 0: it may jump. */
+double ground_detail(const struct scene *scene, int axis);
 /* Can the rock be another one further along this axis? */
 bool ground_varies(const struct scene *scene, int axis);
 

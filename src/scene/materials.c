@@ -146,12 +146,13 @@ void build_materials(struct builder *builder)
 {
     struct scene *scene = builder->scene;
     const size_t count = deck_count(builder->deck, "material");
-    if (count == 0) {
+    const size_t from_model = deck_count(builder->deck, "model") > 0 ? 2 : 0; /* model_file.c */
+    if (count + from_model == 0) {
         complain(builder, deck_get(builder->deck, "scene", 0), NULL,
                  "the deck has no &material; a body needs one");
         return;
     }
-    scene->material = scene_array(builder, count, sizeof *scene->material);
+    scene->material = scene_array(builder, count + from_model, sizeof *scene->material);
     if (scene->material == NULL) return;
     scene->materials = count;
     for (size_t i = 0; i < count; i++) {

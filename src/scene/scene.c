@@ -2,6 +2,7 @@
  * their place in the deck; the parts go on after an error, so that all errors come in one pass. */
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/ground.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -214,6 +215,7 @@ void scene_free(struct scene **scene)
         array_free(old->snapshot[i].time);
     array_free(old->body.layer);
     array_free(old->body.block);
+    ground_model_free(old->body.model);
     array_free(old->body.file);
     array_free(old->output.directory);
     array_free(old->reference.file);

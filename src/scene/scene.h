@@ -47,6 +47,14 @@ struct ground_block {
     double centre[3], half[3]; /* half edges or axes */
 };
 
+/* Density, speeds of P and S waves on an even grid in the body's frame, z fastest (model_file.c). */
+enum { MODEL_VALUES = 3 };
+struct ground_model {
+    size_t n[3];
+    double origin[3], spacing[3];
+    double *value[MODEL_VALUES];
+};
+
 struct body {
     char name[NAME_SIZE];
     enum body_shape shape;
@@ -65,9 +73,10 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
+    struct ground_model *model; /* in the place of material and layers; NULL: none */
     size_t blocks;
     struct ground_block *block; /* later ones lie in earlier ones */
-    bool chosen;         /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
+    bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
     bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     char choice[200];   /* ... which box and why, for the plan */

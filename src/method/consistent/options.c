@@ -75,7 +75,7 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
     }
     if (!options->general && ground_is_general(scene))
         return fail(messages, SELAS_UNSUPPORTED,
-                    "&block and tilted or graded &layer need method%%operator = 'general'");
+                    "&model, &block and tilted or graded &layer need method%%operator = 'general'");
     if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }

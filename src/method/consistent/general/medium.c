@@ -12,15 +12,15 @@
 #include <string.h>
 
 enum {
-    COLUMNS = 8, /* a cell; even, so that cells' middles lie between two */
-    BEYOND = 3,  /* cells of columns on either side of the body */
-    PIECES = 10  /* of half a cell, that the widest kernel reaches over */
+    MOST_COLUMNS = 8, /* a cell; even, so that cells' middles lie between two */
+    BEYOND = 3,       /* cells of columns on either side of the body */
+    PIECES = 10       /* of half a cell, that the widest kernel reaches over */
 };
 static const double sharpening = 1. / 6, least_part = .3;
 static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
 
 struct columns {
-    size_t count, points;
+    size_t count, points, a_cell;
     double from, step, spacing; /* place of column n: from + n step */
     bool varies;
 };
@@ -132,8 +132,9 @@ static void average_along(const struct medium *medium, int slot, size_t i, const
         return;
     }
     const enum at at = medium->at[slot];
-    const size_t width = COLUMNS * PIECES / 2;
-    const size_t first = (i + BEYOND) * COLUMNS + (at == AT_MIDDLES ? COLUMNS / 2 : 0) - width / 2;
+    const size_t width = columns->a_cell * PIECES / 2;
+    const size_t first =
+        (i + BEYOND) * columns->a_cell + (at == AT_MIDDLES ? columns->a_cell / 2 : 0) - width / 2;
     const struct averaged *from = column + first * stride;
     bool same = true;
     for (size_t n = 1; n < width && same; n++)
@@ -144,7 +145,8 @@ static void average_along(const struct medium *medium, int slot, size_t i, const
     memcpy(sum->least, from->least, sizeof sum->least);
     for (size_t n = 0; n < width; n++) {
         const struct averaged *one = from + n * stride;
-        const double t = ((double)n + .5) / COLUMNS - reach_of_kernel, weight = kernel(at, t) / COLUMNS;
+        const double t = ((double)n + .5) / (double)columns->a_cell - reach_of_kernel,
+                     weight = kernel(at, t) / (double)columns->a_cell;
         for (int q = 0; q < AVERAGES; q++)
             sum->mean[q] += weight * one->mean[q];
         for (int q = 0; q < POSITIVE; q++)
@@ -169,8 +171,12 @@ static void lay_columns(struct medium *medium, int slot)
     columns->spacing = (spline->high - spline->low) / (double)spline->cells;
     columns->from = spline->low;
     if (!columns->varies) return;
-    columns->count = (spline->cells + 2 * BEYOND) * COLUMNS;
-    columns->step = columns->spacing / COLUMNS;
+    const double detail = ground_detail(c->model.scene, slot);
+    columns->a_cell = MOST_COLUMNS;
+    if (detail * MOST_COLUMNS / 2 > columns->spacing)
+        columns->a_cell = 2 * (size_t)ceil(columns->spacing / detail);
+    columns->count = (spline->cells + 2 * BEYOND) * columns->a_cell;
+    columns->step = columns->spacing / (double)columns->a_cell;
     columns->from += columns->step / 2 - BEYOND * columns->spacing;
 }
 

@@ -1,0 +1,155 @@
+/* The ground as a field: tilted and graded layers, blocks, a model from a file, what is refused; the effective
+ * medium at an interface (doc/general-ground.md, section 4). */
+#include "from_deck.h"
+
+#include "method/methods.h"
+#include "scene/ground.h"
+
+#include <hdf5.h>
+#include <math.h>
+#include <unistd.h>
+
+static const char stored[] = "build/test/ground.h5";
+
+#define HEAD                                                                                                 \
+    "&scene dimension = 3, end_time = 1 /\n"                                                                 \
+    "&material name = 'soil', density = 2.0, p_speed = 2.0, s_speed = 1.0 /\n"
+#define ROCK "&material name = 'rock', density = 3.0, p_speed = 6.0, s_speed = 3.0 /\n"
+#define BODY                                                                                                 \
+    "&body material = 'soil', low = 0.0, 0.0, 0.0, high = 2.0, 2.0, 2.0, spacing = 0.25 /\n"                 \
+    "&load face = 'z-', shape = 'square', centre = 1.0, 1.0, 0.0, size = 1.0, 1.0, direction = 0, 0, 1, "    \
+    "history = 'triangle', duration = 1 /\n"
+
+static void assert_rock(const struct scene *scene, double x, double y, double z, double density, double p,
+                        double s)
+{
+    const struct rock rock = ground_at(scene, (double[]){x, y, z});
+    assert_near(rock.density, density, 1e-12);
+    assert_near(rock.mu, density * s * s, 1e-12);
+    assert_near(rock.lambda, density * (p * p - 2 * s * s), 1e-12);
+}
+
+static void test_layers_and_blocks(void **state)
+{
+    (void)state;
+    struct from_deck made =
+        right_scene(HEAD ROCK BODY
+                    "&layer material = 'soil', bottom = 'rock', top = 0.0 /\n"
+                    "&layer material = 'rock', top = 1.0, dip = 45, strike = 90 /\n"
+                    "&block material = 'soil', centre = 1, 1, 2, size = 1, 1, 1 /\n"
+                    "&block material = 'rock', shape = 'ellipsoid', centre = 1, 1, 2, size = .5, .5, 1 /\n");
+    const struct scene *scene = made.scene;
+    assert_true(ground_is_general(scene));
+    assert_rock(scene, 0, 0, 1.01, 3, 6, 3);
+    assert_rock(scene, 0, 0, 0, 2, 2, 1);
+    assert_rock(scene, 0, 0, .5, 2.5, 4, 2);
+    assert_rock(scene, 0, 1.5, .5, 2.5, 4, 2); /* level along y: the strike */
+    assert_rock(scene, .5, 0, .25, 2.5, 4, 2); /* rises along x: strike + 90 is -x */
+    assert_rock(scene, .5, 0, .51, 3, 6, 3);
+    assert_rock(scene, .6, 1, 1.9, 2, 2, 1);   /* in the box */
+    assert_rock(scene, 1, 1.2, 1.95, 3, 6, 3); /* in the ellipsoid */
+    double at[16];
+    assert_true(ground_jumps_at_most(scene) <= 16);
+    assert_int_equal(ground_jumps(scene, (double[]){1, 1, 0}, 2, 1.2, 2, at), 2); /* top of either block */
+    from_deck_free(&made);
+}
+
+static void write_model(int nz, double fault, bool whole)
+{
+    enum { NX = 2, NY = 3, MOST = 40 };
+    double value[3][NX * NY * MOST];
+    const hsize_t extent[3] = {NX, NY, (hsize_t)nz};
+    for (int i = 0; i < NX * NY * nz; i++) {
+        value[0][i] = 2 + .1 * (i % nz);
+        value[1][i] = 4;
+        value[2][i] = i == 4 ? fault : 2 - .1 * (i / nz % NY);
+    }
+    static const char *const names[] = {"density", "p_speed", "s_speed"};
+    const double origin[3] = {0, 0, -.5}, spacing[3] = {2, 1, .5};
+    const hid_t file = H5Fcreate(stored, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(3, extent, NULL);
+    for (int n = 0; n < (whole ? 3 : 2); n++) {
+        const hid_t set =
+            H5Dcreate2(file, names[n], H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value[n]);
+        H5Dclose(set);
+    }
+    const hid_t three = H5Screate_simple(1, (const hsize_t[]){3}, NULL);
+    for (int n = 0; n < 2; n++) {
+        const hid_t attribute = H5Acreate2(file, n == 0 ? "origin" : "spacing", H5T_NATIVE_DOUBLE, three,
+                                           H5P_DEFAULT, H5P_DEFAULT);
+        H5Awrite(attribute, H5T_NATIVE_DOUBLE, n == 0 ? origin : spacing);
+        H5Aclose(attribute);
+    }
+    H5Sclose(three);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+#define MODEL                                                                                                \
+    "&scene dimension = 3, end_time = 1 /\n"                                                                 \
+    "&body low = 0.0, 0.0, 0.0, high = 2.0, 2.0, 2.0, spacing = 0.25 /\n"                                    \
+    "&load face = 'z-', shape = 'square', centre = 1.0, 1.0, 0.0, size = 1.0, 1.0, direction = 0, 0, 1, "    \
+    "history = 'triangle', duration = 1 /\n"                                                                 \
+    "&model file = 'build/test/ground.h5' /\n"
+
+static void test_model(void **state)
+{
+    (void)state;
+    write_model(6, 2, true);
+    struct from_deck made = right_scene(MODEL);
+    assert_rock(made.scene, 0, 0, -.5, 2, 4, 2);
+    assert_rock(made.scene, 1.3, .5, .25, 2.15, 4, 1.95);
+    assert_rock(made.scene, 9, 9, 9, 2.5, 4, 1.8); /* as at the grid's edge */
+    assert_near(scene_fastest(made.scene), 4, 1e-12);
+    struct messages messages = {0};
+    struct model *model = NULL;
+    assert_int_equal(model_create(made.scene, &model, &messages), SELAS_OK);
+    model_free(&model);
+    from_deck_free(&made);
+}
+
+static void test_refused_models(void **state)
+{
+    (void)state;
+    write_model(6, 0, true);
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "(0, 0, 1.5)", "no s_speed", NULL});
+    write_model(6, 3.9, true);
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "bulk modulus is negative", NULL});
+    write_model(6, NAN, true);
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "is not finite", NULL});
+    write_model(5, 2, true);
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"-0.5 to 1.5 along z", "the body from 0 to 2", NULL});
+    write_model(6, 2, false);
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"cannot read", "s_speed [nx, ny, nz]", NULL});
+    FILE *file = fopen(stored, "r+");
+    assert_int_equal(ftruncate(fileno(file), 700), 0); /* cut short */
+    fclose(file);
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"cannot read", NULL});
+}
+
+/* Other methods and references have no such ground. */
+static void test_who_takes_it(void **state)
+{
+    (void)state;
+    struct from_deck made =
+        right_scene(HEAD ROCK BODY
+                    "&method name = 'sph' /\n&block material = 'rock', centre = 1, 1, 1, size = 1, 1, 1 /\n");
+    struct messages messages = {0};
+    struct model *model = NULL;
+    assert_int_equal(model_create(made.scene, &model, &messages), SELAS_UNSUPPORTED);
+    assert_non_null(strstr(messages.text, "&block"));
+    messages_free(&messages);
+    from_deck_free(&made);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_layers_and_blocks),
+        cmocka_unit_test(test_model),
+        cmocka_unit_test(test_refused_models),
+        cmocka_unit_test(test_who_takes_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
