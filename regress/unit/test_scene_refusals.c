@@ -402,7 +402,7 @@ static void settings(void **unused)
          {"'spacing' does not belong to a deck with scene%accuracy"}},
         {"&scene dimension=3, end_time=6, accuracy=.01 /\n" ROCK BODY,
          "t.nml:1:33: error:",
-         {"no table of errors", "patches that press on half-spaces", "give body%spacing"}},
+         {"no table of errors", "patches, forces and moment tensors on half-spaces", "give body%spacing"}},
         {ACCURATE "&method degree=3 /\n" SEEN_PATCH, "t.nml:4:9: error:", {"'degree' does not belong"}},
         {ACCURATE "&stepping courant=.2 /\n" SEEN_PATCH, "t.nml:4:11: error:", {"'courant' does not belong"}},
         {ACCURATE "&output low_pass=9 /\n" SEEN_PATCH, "t.nml:4:9: error:", {"'low_pass' does not belong"}},
@@ -416,10 +416,11 @@ static void settings(void **unused)
          "&initial kind='plane-wave', wave='p', direction=1, centre=1, wavelength=.5, amplitude=1 /\n",
          "t.nml:1:33: error:",
          {"no table of errors", "plane pulses"}},
-        {ACCURATE "&receiver name='r', position=1,0,0 /\n&load face='z-', shape='point', centre=0,0,0, "
-                  "direction=0,0,1, history='gaussian', width=.3, delay=2 /\n",
+        {ACCURATE
+         "&receiver name='r', position=1,0,0 /\n&load face='z-', shape='square', centre=0,0,0, size=1,1, "
+         "velocity=.1,0,0, direction=0,0,1, history='gaussian', width=.3, delay=2 /\n",
          "t.nml:1:33: error:",
-         {"no table of errors", "loads on a square or a disc"}},
+         {"no table of errors", "loads that do not move"}},
         {ACCURATE SEEN_PATCH "&method name='sph' /\n",
          "t.nml:1:33: error:",
          {"no table of errors", "'consistent'"}},

@@ -61,8 +61,9 @@ static void check(struct builder *builder)
     if (!sound) return; /* complained of elsewhere: a body may have no material that is known */
     if (kind == NULL) {
         complain(builder, group, "accuracy",
-                 "there is no table of errors for this scene, only for patches that press on half-spaces and "
-                 "boxes of ground, for plane pulses, loads and motions of whole faces of a box, for swinging "
+                 "there is no table of errors for this scene, only for patches, forces and moment tensors on "
+                 "half-spaces and boxes of ground, for plane pulses, loads and motions of whole faces of a "
+                 "box, for swinging "
                  "beams and for plates with a hole; give body%%spacing in place of accuracy");
         return;
     }

@@ -13,9 +13,10 @@
 #include <stdio.h>
 
 static const double SLOWLY = 1.1;
-/* A trial's spacing over the chosen one, at most: a fifth of the run's work; point-steps that a trial may take, a minute
- * or two on one thread; share of the wanted error that is aimed at after a trial. */
-static const double TRIAL_RATIO = 1.5, TRIAL_WORK = 3e9, MEASURED_AIM = .55;
+/* A trial's spacing over the chosen one, at most: a fifth of the run's work; point-steps that a trial may take,
+ * a minute or two on one thread; share of the wanted error that is aimed at after a trial, and that is good
+ * enough in one. */
+static const double TRIAL_RATIO = 1.5, TRIAL_WORK = 3e9, MEASURED_AIM = .55, MEASURED_MOST = .85;
 enum { ROWS = SURFACE_ROWS };
 
 /* The faces of a box that stands for a half-space: the loaded one free, the others mirrors, absorbing layers
@@ -255,12 +256,42 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
     return status;
 }
 
+/* Narrows the choice down by trials (doc/accuracy.md, section 2): *h is the law's spacing at first, the chosen one
+ * at last, *tried the last trial's, 0 without one. */
+static selas_status narrow(struct task *task, const struct surface_ground *ground, const struct trial *trial,
+                           const struct scene_choice *choice, double most, double *h, double *tried,
+                           struct messages *messages)
+{
+    enum { TRIALS = 4 };
+    static const double far = 2, good = .3;
+    double proven = 0, next = trial_spacing(task, ground, *h);
+    for (int i = 0; i < TRIALS && next > 0 && next < most; i++) {
+        bool made = false;
+        selas_status status = make_trial(task, ground, next, trial, choice, &made, messages);
+        if (!made || status != SELAS_OK) return status;
+        const double error = worst(task->scene, task->place, next, ground) / task->accuracy;
+        *tried = next;
+        task->aim = MEASURED_AIM;
+        if (error <= MEASURED_MOST)
+            proven = next;
+        else
+            most = .98 * next;
+        *h = next;
+        if (error <= MEASURED_MOST && error >= good) return SELAS_OK;
+        status = find_spacing(task, ground, most, h, messages);
+        if (status != SELAS_OK) return status;
+        if (*h < next && next < far * *h) return SELAS_OK;
+        if (*h < next && proven > *h) break;
+        next = *h > next ? *h : fmin(trial_spacing(task, ground, *h), .98 * next);
+    }
+    if (proven > 0) *h = *tried = proven;
+    return SELAS_OK;
+}
+
 /* Fails only if no spacing will do. */
 static selas_status choose(struct task *task, const struct trial *trial, struct scene_choice *choice,
                            struct messages *messages)
 {
-    enum { TRIALS = 3 };
-    static const double near = .8, far = 2;
     const struct scene *scene = task->scene;
     double most = INFINITY, h = 0, tried = 0;
     for (size_t k = 0; k < scene->receivers; k++)
@@ -269,16 +300,8 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
     most = fmin(most, ground.rayleigh_speed * scene->end_time);
     task->aim = ACCURACY_AIM;
     selas_status status = find_spacing(task, &ground, most, &h, messages);
-    for (int i = 0; i < TRIALS && status == SELAS_OK && trial->run != NULL; i++) {
-        const double next = trial_spacing(task, &ground, h);
-        bool made = false;
-        if (next == 0 || (tried > near * h && tried < far * h)) break;
-        status = make_trial(task, &ground, next, trial, choice, &made, messages);
-        if (!made) break;
-        tried = next;
-        task->aim = MEASURED_AIM;
-        if (status == SELAS_OK) status = find_spacing(task, &ground, most, &h, messages);
-    }
+    if (status == SELAS_OK && trial->run != NULL)
+        status = narrow(task, &ground, trial, choice, most, &h, &tried, messages);
     if (status == SELAS_OK && tried == 0) status = check_range(scene, h, messages);
     if (status != SELAS_OK) return status;
     set_choice(task, &ground, h, choice);

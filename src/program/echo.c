@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Spacing against the deck's, at most; points that a wave keeps, and the width of an initial state; points of the larger box's layers. */
+/* Spacing against the deck's, at most; points that a wave keeps, and the width of an initial state; points of
+ * the larger box's layers. */
 static const double coarsest = 2, fewest = 4, initial_points = 2;
 enum { SURE_POINTS = 20 };
 
