@@ -1,13 +1,13 @@
 /* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
  * 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
+#include "scene/ground.h"
 #include "accuracy/ground_task.h"
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
 #include "base/memory.h"
 #include "exact/half_space.h"
 #include "scene/echo.h"
-#include "scene/ground.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -119,6 +119,8 @@ bool ground_varies(const struct scene *scene, int axis)
 
 bool ground_is_general(const struct scene *scene)
 {
-    return ground_varies(scene, 0) || (scene->dimension == 3 && ground_varies(scene, 1)) ||
-           ground_grades(scene);
+    bool general = ground_grades(scene) || scene->body.blocks > 0;
+    for (int axis = 0; axis < scene->dimension - 1; axis++)
+        general = general || ground_varies(scene, axis);
+    return general;
 }
