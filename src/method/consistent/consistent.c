@@ -174,6 +174,11 @@ static void describe(const struct model *model,
     snprintf(text, sizeof text, "van Cittert, %d sweeps (H-form%s)", c->options.sweeps,
              c->options.depth_exact ? ", exact over depth in the stiffness" : "");
     if (c->options.tuned) tell(context, "splines along the surface", "tuned for short waves");
+    if (c->general != NULL) {
+        tell(context, "operator", "general: three points of quadrature a control value");
+        snprintf(text, sizeof text, "van Cittert, %d sweeps tuned for the points, between two diagonals",
+                 c->options.sweeps);
+    }
     tell(context, "mass", c->options.sweeps == 0 ? "exact (banded Cholesky per axis)" : text);
     if (c->fused != NULL) {
         snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,

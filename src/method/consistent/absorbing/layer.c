@@ -45,8 +45,10 @@ void layers_describe(const struct consistent *c,
         const size_t *n = c->pml->slab[s].inside.n;
         variables += 2 * (size_t)c->dimension * n[0] * n[1] * n[2];
     }
+    if (c->general != NULL) variables = c->pml->extra;
     snprintf(text, sizeof text, "%zu in %zu slabs", variables, c->pml->slabs);
     tell(context, "memory variables of layers", text);
+    if (c->general != NULL) return;
     tell(context, "passes of layers", c->pml->fast != NULL ? "shared" : "one by one");
     const struct pml_fast *used =
         c->pml->single != NULL && c->pml->single->groups > 0 ? c->pml->single : c->pml->fast;
