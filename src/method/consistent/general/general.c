@@ -115,7 +115,8 @@ static bool lay_buffers(struct consistent *c)
 selas_status general_create(struct consistent *c, struct messages *messages)
 {
     struct general *g = c->general = array_new(1, sizeof *g);
-    bool good = g != NULL;
+    if (g == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
+    bool good = true;
     for (int slot = 0; good && slot < 3; slot++)
         good = lay_axis(c, slot);
     double *mass = array_new(c->volume, sizeof *mass);
