@@ -94,13 +94,6 @@ static selas_status build_accurate(const struct deck *deck, double accuracy, tri
     status = choose(*scene, accuracy, &trial, &choice, messages);
     scene_free(scene);
     if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
-    if (status == SELAS_OK && *scene != NULL && (*scene)->body.absorbing && choice.sweeps == 0 &&
-        choice.degree > 0) {
-        /* the box that fits this spacing has absorbing layers, which need sweeps: another law */
-        status = choose(*scene, accuracy, &trial, &choice, messages);
-        scene_free(scene);
-        if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
-    }
     if (status == SELAS_OK && *scene != NULL)
         memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
     return status;

@@ -228,6 +228,21 @@ static void set_choice(const struct task *task, const struct surface_ground *gro
     choice->sweeps = ground->tuned ? 0 : 3;
 }
 
+/* True if the box that fits this spacing has absorbing layers, beside which splines are not tuned: another law. */
+static bool layers_fit(const struct task *task, const struct surface_ground *ground, double h,
+                       const struct trial *trial, const struct scene_choice *choice)
+{
+    struct scene_choice fitted = *choice;
+    struct messages unsaid = {0};
+    struct scene *scene = NULL;
+    set_choice(task, ground, h, &fitted);
+    const bool layers =
+        scene_build(trial->deck, &fitted, &scene, &unsaid) == SELAS_OK && scene->body.absorbing;
+    scene_free(&scene);
+    messages_free(&unsaid);
+    return layers;
+}
+
 /* Runs the scene with a spacing and sets the places' factors; `*made` tells whether it could. */
 static selas_status make_trial(struct task *task, const struct surface_ground *ground, double h,
                                const struct trial *trial, const struct scene_choice *choice, bool *made,
@@ -296,10 +311,14 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
     double most = INFINITY, h = 0, tried = 0;
     for (size_t k = 0; k < scene->receivers; k++)
         most = fmin(most, task->place[k].size / 2); /* at least two points along an edge */
-    const struct surface_ground ground = surface_ground_of(scene, most);
+    struct surface_ground ground = surface_ground_of(scene, most);
     most = fmin(most, ground.rayleigh_speed * scene->end_time);
     task->aim = ACCURACY_AIM;
     selas_status status = find_spacing(task, &ground, most, &h, messages);
+    if (status == SELAS_OK && ground.tuned && layers_fit(task, &ground, h, trial, choice)) {
+        ground.tuned = false;
+        status = find_spacing(task, &ground, most, &h, messages);
+    }
     if (status == SELAS_OK && trial->run != NULL)
         status = narrow(task, &ground, trial, choice, most, &h, &tried, messages);
     if (status == SELAS_OK && tried == 0) status = check_range(scene, h, messages);
