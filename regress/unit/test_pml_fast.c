@@ -54,7 +54,7 @@ static struct run marched(const struct plain_scene *plain, struct consistent_opt
             v[i] += dt * run.a[i];
             run.y[i] += dt * v[i];
         }
-        model->memory->remember(run.model, dt, run.y);
+        model_remember(run.model, dt, run.y);
     }
     return run;
 }
@@ -226,7 +226,7 @@ static void test_quiet(void **state)
         for (int i = 0; i < 2; i++) {
             double *v = run[i].y + n;
             leap(&run[i], &(struct drive){.extra = v + n}, .2);
-            run[i].model->memory->remember(run[i].model, .2, run[i].y);
+            model_remember(run[i].model, .2, run[i].y);
         }
         if (step == 20) early = fast->skipped;
         if (step == 20) all = fast->groups;

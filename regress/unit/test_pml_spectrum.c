@@ -19,7 +19,7 @@ static void step(struct model *model, double dt, double *y, double *a)
         y[n + i] += dt * a[i];
         y[i] += dt * y[n + i];
     }
-    model->memory->remember(model, dt, y);
+    model_remember(model, dt, y);
 }
 
 static bool held(const struct consistent *c, size_t i)

@@ -23,7 +23,8 @@ struct drive {
     const double
         *motion; /* [FACES]: second time derivative of the prescribed displacement history (per amplitude) */
     const double *displacement, *velocity; /* [FACES]: that history itself and its first derivative */
-    const double *extra; /* the state's extra part, for models that have `remember`; NULL: all 0 */
+    const double *extra; /* the state's extra part, for models that have `remember`; NULL: all 0, and
+                            materials as stiff as to what is very fast */
 };
 
 struct energy {
@@ -71,6 +72,7 @@ struct method {
                        method/mirror.h */
     unsigned faces;       /* what it can do at faces: CAN_... (scene/boundary.h) */
     bool single;          /* some scenes may keep the state in single precision */
+    bool damping;         /* materials may have q_p and q_s: see method/damped/damped.h */
     bool point_materials; /* each point that a host gives may have a material of its own */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
@@ -145,12 +147,14 @@ struct model_one_pass {
     void *(*kept)(struct model *model, size_t *bytes);
 };
 
-/* Memory of linear models (absorbing layers). */
+/* Memory of linear models (absorbing layers, damped materials). */
 struct model_memory {
-    /* Brings the extra part of y over a step dt. On entry u is that of the end of the step, v the mean
-     * velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
+    /* Brings the extra part of the state over a step dt. On entry u is that of the end of the step, v the
+     * mean velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
      * acceleration at the end, which gets it in drive->extra. */
-    void (*remember)(struct model *model, double dt, double *y);
+    void (*remember)(struct model *model, double dt, const double *u, const double *v, double *extra);
+    /* Damps that velocity besides, after remember(). */
+    void (*drag)(struct model *model, double dt, double *v);
 };
 
 /* How points see a patch that a traction presses. */
@@ -195,6 +199,14 @@ struct model {
 static inline struct model *model_computed(struct model *model)
 {
     return model->part != NULL ? model->part : model;
+}
+
+/* Brings the memory of a model that has some over a step, in its state y. */
+static inline void model_remember(struct model *model, double dt, double *y)
+{
+    double *v = y + model->unknowns;
+    model->memory->remember(model, dt, y, v, v + model->unknowns);
+    model->memory->drag(model, dt, v);
 }
 
 /* Frees the model and sets the pointer to NULL. */

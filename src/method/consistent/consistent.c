@@ -209,10 +209,13 @@ static selas_status build(struct consistent *c, struct messages *messages)
     return status;
 }
 
-static void remember(struct model *model, double dt, double *y)
+static void remember(struct model *model, double dt, const double *u, const double *v, double *extra)
 {
-    double *v = y + model->unknowns;
-    pml_remember(consistent_of(model), dt, -dt / 2, y, v, v + model->unknowns);
+    pml_remember(consistent_of(model), dt, -dt / 2, u, v, extra);
+}
+
+static void drag(struct model *model, double dt, double *v)
+{
     pml_damp(consistent_of(model), dt, v);
 }
 
@@ -232,7 +235,7 @@ static const struct model_operator spatial = {
     .weigh = weigh,
     .shorten = consistent_shorten,
 };
-static const struct model_memory memory = {remember};
+static const struct model_memory memory = {remember, drag};
 
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages)
@@ -280,5 +283,6 @@ const struct method method_consistent = {
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP | CAN_ABSORB,
     .mirrors = true,
     .single = true,
+    .damping = true,
     .create = create,
 };
