@@ -16,7 +16,8 @@ struct ground_damping {
     double centroid;              /* angular frequency */
     size_t mechanisms;            /* common to all materials */
     double rate[MOST_MECHANISMS]; /* angular frequencies */
-    double misfit; /* of the modulus, relative, times Q: for the middle one of all Q, by the spectrum */
+    double
+        misfit; /* root mean square of Q |M/M_wanted - 1| of the middle one of all Q, weighed by the band */
     size_t materials;
     struct damped_moduli *wanted, *fitted; /* [materials]; equal where there is no damping */
 };

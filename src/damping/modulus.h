@@ -9,13 +9,13 @@
 enum { MOST_MECHANISMS = 8 };
 
 struct modulus {
-    double size;              /* rho c^2 at the reference frequency; unrelaxed with mechanisms */
-    double power;             /* of s, constant Q: 2 gamma; 2 / pi times the phase at the reference; 0: none */
-    double bend;              /* Q grows as this power of the frequency; 0: constant */
+    double size;  /* rho c^2 at the reference frequency; unrelaxed with mechanisms */
+    double power; /* of s, constant Q: 2 gamma; 2 / pi times the phase at the reference; 0: none */
+    double bend;  /* Q grows as this power of the frequency; 0: constant */
     double angular_frequency; /* reference: where constant Q has the size */
     size_t mechanisms;
     double rate[MOST_MECHANISMS], weight[MOST_MECHANISMS];
-    double step; /* of the leapfrog that takes the mechanisms on (doc/damping.md, Eq 14); 0: none */
+    double step; /* of the leapfrog that takes the mechanisms on (doc/damping.md, Eq 15); 0: none */
 };
 
 /* The modulus that does not depend on frequency. */

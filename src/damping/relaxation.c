@@ -152,6 +152,14 @@ double relaxation_centroid(const struct relaxation_band *band)
     return moment / sum;
 }
 
+double relaxation_quantile(const struct relaxation_band *band, double share)
+{
+    double sum = 0;
+    for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
+        if ((sum += band->weight[k]) >= share) return band->angular_frequency[k];
+    return band->angular_frequency[RELAXATION_SAMPLES - 1];
+}
+
 /* --- Rates -------------------------------------------------------------------------------------------- */
 
 struct search {
@@ -193,22 +201,13 @@ static void simplex(struct search *search, gsl_vector *start, gsl_vector *step,
         rate[l] = exp(gsl_vector_get(start, l));
 }
 
-/* Where the weight, ascending, has come to a share of all. */
-static double quantile(const struct relaxation_band *band, double share)
-{
-    double sum = 0;
-    for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
-        if ((sum += band->weight[k]) >= share) return band->angular_frequency[k];
-    return band->angular_frequency[RELAXATION_SAMPLES - 1];
-}
-
 selas_status relaxation_rates(const struct relaxation_band *band, const struct modulus *wanted,
                               size_t mechanisms, double rate[MOST_MECHANISMS], double *misfit,
                               struct messages *messages)
 {
     struct squares squares;
     struct search search = {.band = band, .mechanisms = mechanisms, .squares = &squares};
-    const double low = .3 * quantile(band, .02), high = 3 * quantile(band, .98);
+    const double low = .3 * relaxation_quantile(band, .02), high = 3 * relaxation_quantile(band, .98);
     for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
         search.target[k] = modulus_at(wanted, I * band->angular_frequency[k]);
     gsl_errors_returned();
@@ -296,7 +295,8 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
         sum[1] += fitted[1].weight[l];
     }
     keep_speed(reference_size(shear), shear->angular_frequency, &fitted[1]);
-    if (!(s[0] > 0 && bulk[0] > 0 && sum[0] < 1 && sum[1] < 1) || !keep_passive(axial, &fitted[1], &fitted[0]))
+    if (!(s[0] > 0 && bulk[0] > 0 && sum[0] < 1 && sum[1] < 1) ||
+        !keep_passive(axial, &fitted[1], &fitted[0]))
         return fail(messages, SELAS_BAD_SCENE,
                     "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies",
                     mechanisms);

@@ -22,8 +22,9 @@ typedef double relaxation_power(const void *source, double angular_frequency);
 void relaxation_band_set(struct relaxation_band *band, double top, relaxation_power *power,
                          const void *source);
 
-/* Centroid of the weights. */
+/* Centroid of the weights; where they, ascending, have come to a share of all. */
 double relaxation_centroid(const struct relaxation_band *band);
+double relaxation_quantile(const struct relaxation_band *band, double share);
 
 /* Rates of `mechanisms` (1 to MOST_MECHANISMS) mechanisms that fit the wanted modulus best, whatever its size;
  * *misfit: weighed root mean square of Q |M/M_Q - 1|, Q at the reference. SELAS_NO_MEMORY. */

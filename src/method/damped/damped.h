@@ -49,6 +49,10 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
 void damped_effective(const struct damped *d, const struct damped_part *part, const double *u,
                       const double *extra, double *effective);
 
+/* plan.c: lines of the plan and the report. */
+void damped_describe(const struct model *model,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+
 /* show.c: what users see of it. */
 extern const struct model_core damped_core;
 /* Energy that damping takes a unit of time, sum over l of r_l D_l.K_l D_l. */

@@ -1,11 +1,10 @@
 /* What users see of a damped model: strain and motion are those of u, stress is that of all parts,
- * sigma = sum over parts of C_p grad e_p, energies are quadratic forms of u and D_l (doc/damping.md, Eq 12). */
+ * sigma = sum over parts of C_p grad e_p, energies are quadratic forms of u and D_l (doc/damping.md, Eq 16). */
 #include "method/damped/damped.h"
 
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static struct model *first_of(const struct model *model)
@@ -57,8 +56,8 @@ static void add(size_t n, double factor, const double *more, double *value)
         value[i] += factor * more[i];
 }
 
-static void add_stress(struct damped *d, const struct look *look, const double *y, const double *a, double *more,
-                       double *value)
+static void add_stress(struct damped *d, const struct look *look, const double *y, const double *a,
+                       double *more, double *value)
 {
     for (size_t p = 0; p < d->parts; p++) {
         damped_effective(d, &d->part[p], y, y + 2 * d->model.unknowns, d->effective);
@@ -68,8 +67,8 @@ static void add_stress(struct damped *d, const struct look *look, const double *
 }
 
 /* Kinetic energy of v, and the parts' strain energies of u and of D_l. */
-static void add_energy(struct damped *d, const struct look *look, const double *y, const double *a, double *more,
-                       double *value)
+static void add_energy(struct damped *d, const struct look *look, const double *y, const double *a,
+                       double *more, double *value)
 {
     const size_t n = d->model.unknowns;
     memset(d->effective, 0, n * sizeof *y);
@@ -184,15 +183,6 @@ static void unseen(struct model *model, const double *y, struct unseen *found)
     }
 }
 
-/* --- The plan ----------------------------------------------------------------------------------------- */
-
-static void describe(const struct model *model,
-                     void (*tell)(void *context, const char *key, const char *value), void *context)
-{
-    struct model *first = first_of(model);
-    if (first->core->describe != NULL) first->core->describe(first, tell, context);
-}
-
 const struct model_core damped_core = {
     .destroy = damped_free,
     .initialise = initialise,
@@ -202,5 +192,5 @@ const struct model_core damped_core = {
     .energy = energy,
     .power = power,
     .unseen = unseen,
-    .describe = describe,
+    .describe = damped_describe,
 };
