@@ -17,8 +17,8 @@ bool ground_is_damped(const struct scene *scene)
 
 static double power_of(const struct history *history, double angular_frequency, int derivatives)
 {
-    const double part = pow(angular_frequency, derivatives) *
-                        cabs(history_laplace_uncut(history, I * angular_frequency));
+    const double part =
+        pow(angular_frequency, derivatives) * cabs(history_laplace_uncut(history, I * angular_frequency));
     return part * part;
 }
 
@@ -76,12 +76,14 @@ static selas_status set_band(const struct scene *scene, struct ground_damping *d
     else if (given > 0)
         relaxation_band_set(&damping->band, 10 * given, flat_power, &given);
     else
-        return fail(messages, SELAS_BAD_SCENE,
-                    "damping is fitted to the spectrum of loads and moved faces, and there is none here; give "
-                    "material%%q_frequency");
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "damping is fitted to the spectrum of loads and moved faces, and there is none here; give "
+            "material%%q_frequency");
     damping->centroid = relaxation_centroid(&damping->band);
     damping->band.step = stepping->time_step;
-    if (stepping->courant > 0) damping->band.step = stepping->courant * scene->body.spacing / scene_fastest(scene);
+    if (stepping->courant > 0)
+        damping->band.step = stepping->courant * scene->body.spacing / scene_fastest(scene);
     return SELAS_OK;
 }
 

@@ -41,7 +41,8 @@ double complex modulus_at(const struct modulus *modulus, double complex s)
                cexp(.5 * M_PI * modulus->power * bent(modulus->bend, s / modulus->angular_frequency));
     if (modulus->power > 0) return modulus->size * cpow(s / modulus->angular_frequency, modulus->power);
     double complex left = 1;
-    const double complex slower = modulus->step > 0 ? csqrt(1 + .25 * (s * modulus->step) * (s * modulus->step)) : 1;
+    const double complex slower =
+        modulus->step > 0 ? csqrt(1 + .25 * (s * modulus->step) * (s * modulus->step)) : 1;
     for (size_t l = 0; l < modulus->mechanisms; l++) {
         const double complex rate = modulus->rate[l] * slower;
         left -= modulus->weight[l] * rate / (rate + s);

@@ -114,7 +114,8 @@ static const struct word material_words[] = {
      "quality Q of P waves; without q_p and q_s there is no damping"},
     {"q_s", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "quality Q of S waves"},
     {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "frequency at which speeds, elastic constants and Q of a damped material are meant [1/time]; centroid of "
+     "frequency at which speeds, elastic constants and Q of a damped material are meant [1/time]; centroid "
+     "of "
      "the source's spectrum"},
     {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL,
      "Q grows as this power of the frequency; without it Q is constant"},

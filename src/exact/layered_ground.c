@@ -18,7 +18,7 @@ struct layered_ground {
     struct seismogram_problem problem;
     struct seismogram_rock *rock;
     struct seismogram_source *source; /* images included */
-    struct ground_damping *damping; /* NULL: none */
+    struct ground_damping *damping;   /* NULL: none */
     size_t seismograms;
     struct seismogram *seismogram; /* of the scene's receivers */
 };

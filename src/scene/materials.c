@@ -130,7 +130,8 @@ static void read_quality(struct builder *builder, const struct deck_group *group
         }
     for (int i = 0; i < 2 && given > 0; i++)
         if (!(*values[i] > 0))
-            complain(builder, group, NULL, "a damped material needs q_p and q_s; '%s' is not given", words[i]);
+            complain(builder, group, NULL, "a damped material needs q_p and q_s; '%s' is not given",
+                     words[i]);
     if (!(material->q_p > 0 && material->q_s > 0 && material->mu > 0)) return;
     const double ratio = (material->lambda + 2 * material->mu) / material->mu;
     if (material->q_p > 1.01 * .75 * ratio * material->q_s)

@@ -102,7 +102,8 @@ static void part_moves(const struct damped *d, const struct damped_part *part, c
     for (size_t i = 0; i < n; i++) {
         double end = part->given * u[i], rate = part->given * v[i];
         for (size_t l = 0; l < mechanisms; l++) {
-            const double before = extra[l * n + i], after = update->kept[l] * before + update->taken[l] * v[i];
+            const double before = extra[l * n + i],
+                         after = update->kept[l] * before + update->taken[l] * v[i];
             end += part->memory[l] * after;
             rate += part->memory[l] * (after - before) / dt;
         }

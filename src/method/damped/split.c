@@ -22,7 +22,8 @@ static void columns_of(const struct damped_moduli *moduli, size_t mechanisms, st
     column[1] = (struct column){.size = shear->size};
     for (size_t l = 0; l < mechanisms && shear->mechanisms > 0; l++) {
         column[1].weight[l] = shear->weight[l];
-        column[0].weight[l] = (axial->size * axial->weight[l] - 4. / 3 * shear->size * shear->weight[l]) / column[0].size;
+        column[0].weight[l] =
+            (axial->size * axial->weight[l] - 4. / 3 * shear->size * shear->weight[l]) / column[0].size;
     }
 }
 
@@ -112,11 +113,13 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
         }
     while (add_part(d, columns))
         if (scene->plane == PLANE_STRESS && scene->dimension < 3)
-            status = fail(messages, SELAS_UNSUPPORTED, "in plane stress damped materials need q_p = q_s and one Q for all");
+            status = fail(messages, SELAS_UNSUPPORTED,
+                          "in plane stress damped materials need q_p = q_s and one Q for all");
     for (size_t p = 0; p < d->parts && status == SELAS_OK; p++) {
         struct damped_part *part = &d->part[p];
         part->material = array_new(scene->materials, sizeof *part->material);
-        if (part->material == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
+        if (part->material == NULL)
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
         for (size_t i = 0; i < scene->materials && status == SELAS_OK; i++)
             set_material(d, part, scene, i, &columns[2 * i]);
         part->scene = *scene;
