@@ -51,6 +51,12 @@ apart() {
 }
 check "Q = 1e6 is $(apart plain large) off no damping" less "$(apart plain large)" 1e-5
 
+# steps in one pass are steps pass by pass, but for rounding
+run pass 20 20 $small
+run passes 20 20 $small method%fused=F
+check "one pass is $(apart passes pass) off pass by pass" less "$(apart passes pass)" 1e-11
+check "and the plan says so" grep -q "^step: leapfrog's is one pass" "$out/pass/report.txt"
+
 refused() { # refused TITLE MESSAGE WORDS...
     title=$1 message=$2
     shift 2

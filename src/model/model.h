@@ -134,6 +134,15 @@ struct model_operator {
     void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
 };
 
+enum { MODEL_MECHANISMS = 8 };
+
+/* Relaxation mechanisms that all moduli share: stiffness acts on e = given u + sum over l of weight_l D_l,
+ * D_l' = v - rate_l D_l (doc/damping.md, Eqs 11, 12). */
+struct relaxing {
+    size_t mechanisms;
+    double given, weight[MODEL_MECHANISMS], rate[MODEL_MECHANISMS];
+};
+
 /* Steps of leapfrog in one pass over the fields. The model keeps the velocity half a step ahead and perhaps
  * u; from begin() on, which takes y as the state at the drive's time, y and a are right only where probes and
  * the power of loads look, until settle() makes y whole, and a if it is not NULL. settle() changes nothing of
@@ -145,6 +154,9 @@ struct model_one_pass {
     void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
     /* What is kept beside y, for checkpoints. */
     void *(*kept)(struct model *model, size_t *bytes);
+    /* From now on steps in one pass, and they alone, relax: the extra part of their y begins with the D_l,
+     * [mechanisms][unknowns]. False: no memory. */
+    bool (*relax)(struct model *model, const struct relaxing *relaxing);
 };
 
 /* Memory of linear models (absorbing layers, damped materials). */

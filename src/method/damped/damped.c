@@ -150,6 +150,49 @@ void damped_free(struct model *model)
     array_free(d);
 }
 
+/* Steps in one pass are those of the only part, whose state has the mechanisms' memory before its own. */
+static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
+{
+    struct model *first = damped_of(model)->part[0].model;
+    first->one_pass->begin(first, drive, dt, y, a);
+    model->evaluations = first->evaluations;
+}
+
+static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
+{
+    struct model *first = damped_of(model)->part[0].model;
+    first->one_pass->advance(first, drive, dt, y, a);
+    model->evaluations = first->evaluations;
+}
+
+static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
+{
+    struct model *first = damped_of(model)->part[0].model;
+    first->one_pass->settle(first, drive, dt, y, a);
+}
+
+static void *kept(struct model *model, size_t *bytes)
+{
+    struct model *first = damped_of(model)->part[0].model;
+    return first->one_pass->kept(first, bytes);
+}
+
+/* False: no memory. */
+static bool relax(struct damped *d)
+{
+    struct model *first = d->part[0].model;
+    struct relaxing relaxing = {.mechanisms = mechanisms_of(d), .given = d->part[0].given};
+    for (size_t l = 0; l < mechanisms_of(d); l++) {
+        relaxing.weight[l] = d->part[0].memory[l];
+        relaxing.rate[l] = d->damping->rate[l];
+    }
+    for (size_t p = 0; p < d->parts && d->parts > 1; p++)
+        d->part[p].model->one_pass = NULL;
+    return first->one_pass == NULL || first->one_pass->relax(first, &relaxing);
+}
+
+static const struct model_one_pass one_pass = {
+    .begin = begin, .advance = advance, .settle = settle, .kept = kept};
 static const struct model_operator spatial = {.accelerate = accelerate, .weigh = weigh, .shorten = shorten};
 static const struct model_memory memory = {remember, drag};
 
@@ -157,8 +200,12 @@ static const struct model_memory memory = {remember, drag};
 static selas_status fill(struct damped *d, const struct scene *scene, struct messages *messages)
 {
     struct model *model = &d->model;
+    struct model *first = d->part[0].model;
     size_t extra = 0, bytes = 0;
-    *model = *d->part[0].model;
+    if (first->single)
+        return fail(messages, SELAS_UNSUPPORTED, "damped materials need method%%precision = 'double'");
+    const bool room = relax(d);
+    *model = *first;
     extra = d->damping->mechanisms * model->unknowns;
     for (size_t p = 0; p < d->parts; p++) {
         d->part[p].extra = extra;
@@ -168,16 +215,14 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
     model->core = &damped_core;
     model->spatial = &spatial;
     model->memory = &memory;
-    model->one_pass = NULL;
+    model->one_pass = first->one_pass != NULL ? &one_pass : NULL;
     model->scene = scene;
     model->state_size = 2 * model->unknowns + extra;
     d->effective = array_new(2 * model->unknowns, sizeof *d->effective);
     if (d->parts > 1) d->sum = array_new(model->unknowns, sizeof *d->sum);
     model->bytes = bytes + sizeof *d + (d->parts > 1 ? 3 : 2) * model->unknowns * sizeof(double);
-    if (d->effective == NULL || (d->parts > 1 && d->sum == NULL))
+    if (!room || d->effective == NULL || (d->parts > 1 && d->sum == NULL))
         return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
-    if (d->part[0].model->single)
-        return fail(messages, SELAS_UNSUPPORTED, "damped materials need method%%precision = 'double'");
     return SELAS_OK;
 }
 
