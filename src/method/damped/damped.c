@@ -155,14 +155,14 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
 {
     struct model *first = damped_of(model)->part[0].model;
     first->one_pass->begin(first, drive, dt, y, a);
-    model->evaluations = first->evaluations;
+    model->evaluations++;
 }
 
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct model *first = damped_of(model)->part[0].model;
     first->one_pass->advance(first, drive, dt, y, a);
-    model->evaluations = first->evaluations;
+    model->evaluations++;
 }
 
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
