@@ -200,6 +200,7 @@ struct model {
                            [1/time] */
     bool small_strain;  /* forces are linear in grad u: rotations must stay small */
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
+    unsigned energy_calls; /* operator calls that energy() takes, if more than one */
     enum patch_sight patch;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (

@@ -213,6 +213,7 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
         bytes += d->part[p].model->bytes;
     }
     model->core = &damped_core;
+    model->energy_calls = (unsigned)(d->parts * (1 + mechanisms_of(d)));
     model->spatial = &spatial;
     model->memory = &memory;
     model->one_pass = first->one_pass != NULL ? &one_pass : NULL;
