@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "damping/ground.h"
+#include "method/consistent/consistent.h"
 #include "method/damped/damped.h"
 #include "method/methods.h"
 #include "stepping/stepping.h"
@@ -332,12 +333,57 @@ static void energy_falls_by_what_damping_takes(void **state)
     }
 }
 
+/* --- Stress -------------------------------------------------------------------------------------------- */
+
+/* Uniform strain of which each mechanism remembers a part: stress and energy by the moduli as fitted. */
+static void stress_is_that_of_the_moduli(void **state)
+{
+    (void)state;
+    static const double kept[2] = {.3, .8}, slope[3] = {.7, -.2, .4};
+    char deck[1024];
+    const int at = snprintf(deck, sizeof deck, PILLAR, "vc3", 8., 6.);
+    snprintf(deck + at, sizeof deck - (size_t)at, GROUND, 1., 40., 20.);
+    struct damped_run run = run_of(deck);
+    struct damped *d = damped_of(run.model);
+    const struct consistent *c = consistent_of(d->part[0].model);
+    const size_t n = run.model->unknowns;
+    double *y = calloc(run.model->state_size, sizeof *y), *a = calloc(n, sizeof *a);
+    for (size_t i = 0; i < n; i++) {
+        const size_t axis = i / c->volume, place = i % c->volume;
+        const size_t index[3] = {place % c->n[0], place / c->n[0] % c->n[1], place / c->plane};
+        y[i] = slope[axis] * c->spline[axis]->greville[index[axis]];
+        for (size_t l = 0; l < 2; l++)
+            y[(2 + l) * n + i] = kept[l] * y[i];
+    }
+    for (int layer = 0; layer < 2; layer++) {
+        const struct damped_moduli *moduli = &d->damping->fitted[layer == 0 ? 1 : 0]; /* &material: s, m */
+        const double place[3] = {.4, .6, layer == 0 ? .5 : 1.7}, trace = slope[0] + slope[1] + slope[2];
+        double axial = moduli->axial.size, shear = moduli->shear.size, stress[6], pressure;
+        struct probe probe = {0};
+        for (size_t l = 0; l < 2; l++) {
+            axial -= moduli->axial.size * moduli->axial.weight[l] * (1 - kept[l]);
+            shear -= moduli->shear.size * moduli->shear.weight[l] * (1 - kept[l]);
+        }
+        assert_int_equal(run.model->core->probe(run.model, place, &probe, &run.from.messages), SELAS_OK);
+        model_observe(run.model, &probe, SELAS_STRESS, y, a, stress);
+        model_observe(run.model, &probe, SELAS_PRESSURE, y, a, &pressure);
+        for (int i = 0; i < 3; i++)
+            assert_near(stress[i], (axial - 2 * shear) * trace + 2 * shear * slope[i], 1e-9);
+        assert_near(pressure, -(axial - 4. / 3 * shear) * trace, 1e-9);
+        probe_free(&probe);
+    }
+    free(y);
+    free(a);
+    run_end(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plane_wave_in_a_bar),
         cmocka_unit_test(nothing_grows_below_the_limit),
         cmocka_unit_test(energy_falls_by_what_damping_takes),
+        cmocka_unit_test(stress_is_that_of_the_moduli),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,27 +100,26 @@ static struct damped_moduli wanted_of(const struct material *material, double ce
 
 static int by_loss(const void *one, const void *other)
 {
-    const double a = (*(const struct modulus *const *)one)->power,
-                 b = (*(const struct modulus *const *)other)->power;
+    const double a = ((const struct modulus *)one)->power, b = ((const struct modulus *)other)->power;
     return (a < b) - (a > b);
 }
 
 /* The modulus with the middle one of all Q. */
 static selas_status choose_rates(struct ground_damping *damping, struct messages *messages)
 {
-    const struct modulus **damped = array_new(2 * damping->materials, sizeof *damped);
+    struct modulus *damped = array_new(2 * damping->materials, sizeof *damped);
     size_t count = 0;
     if (damped == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
     for (size_t i = 0; i < damping->materials; i++)
         if (damping->wanted[i].shear.power > 0) {
-            damped[count++] = &damping->wanted[i].axial;
-            damped[count++] = &damping->wanted[i].shear;
+            damped[count++] = damping->wanted[i].axial;
+            damped[count++] = damping->wanted[i].shear;
         }
     qsort(damped, count, sizeof *damped, by_loss);
-    const struct modulus *middle = damped[count / 2];
+    const selas_status status = relaxation_rates(&damping->band, &damped[count / 2], damping->mechanisms,
+                                                 damping->rate, &damping->misfit, messages);
     array_free(damped);
-    return relaxation_rates(&damping->band, middle, damping->mechanisms, damping->rate, &damping->misfit,
-                            messages);
+    return status;
 }
 
 static selas_status set_wanted(const struct scene *scene, struct ground_damping *damping,
@@ -155,10 +154,11 @@ selas_status ground_damping_new(const struct scene *scene, bool fitted, struct g
     damping->materials = scene->materials;
     damping->wanted = array_new(scene->materials, sizeof *damping->wanted);
     damping->fitted = array_new(scene->materials, sizeof *damping->fitted);
-    selas_status status = SELAS_OK;
-    if (damping->wanted == NULL || damping->fitted == NULL)
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
-    if (status == SELAS_OK) status = set_wanted(scene, damping, messages);
+    if (damping->wanted == NULL || damping->fitted == NULL) {
+        ground_damping_free(damping);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
+    }
+    selas_status status = set_wanted(scene, damping, messages);
     if (status == SELAS_OK && fitted) status = fit(scene, damping, messages);
     if (status == SELAS_OK)
         *made = damping;

@@ -96,6 +96,18 @@ static void set_material(const struct damped *d, const struct damped_part *part,
     material->s_speed = modulus_speed(&fitted->shear, given->density, d->damping->centroid);
 }
 
+static selas_status set_part(const struct damped *d, struct damped_part *part, const struct scene *scene,
+                             const struct column *columns, struct messages *messages)
+{
+    part->material = array_new(scene->materials, sizeof *part->material);
+    if (part->material == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
+    for (size_t i = 0; i < scene->materials; i++)
+        set_material(d, part, scene, i, &columns[2 * i]);
+    part->scene = *scene;
+    part->scene.material = part->material;
+    return SELAS_OK;
+}
+
 selas_status damped_split(struct damped *d, const struct scene *scene, struct messages *messages)
 {
     const struct ground_damping *damping = d->damping;
@@ -115,16 +127,8 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
         if (scene->plane == PLANE_STRESS && scene->dimension < 3)
             status = fail(messages, SELAS_UNSUPPORTED,
                           "in plane stress damped materials need q_p = q_s and one Q for all");
-    for (size_t p = 0; p < d->parts && status == SELAS_OK; p++) {
-        struct damped_part *part = &d->part[p];
-        part->material = array_new(scene->materials, sizeof *part->material);
-        if (part->material == NULL)
-            status = fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
-        for (size_t i = 0; i < scene->materials && status == SELAS_OK; i++)
-            set_material(d, part, scene, i, &columns[2 * i]);
-        part->scene = *scene;
-        part->scene.material = part->material;
-    }
+    for (size_t p = 0; p < d->parts && status == SELAS_OK; p++)
+        status = set_part(d, &d->part[p], scene, columns, messages);
     array_free(columns);
     return status;
 }
