@@ -1,5 +1,6 @@
 /* Damped materials in runs: a plane wave against its transform, the energy of the step, its eigenvalues. */
 #include "from_deck.h"
+#include "step_map.h"
 
 #include "base/memory.h"
 #include "damping/ground.h"
@@ -8,8 +9,6 @@
 #include "method/methods.h"
 #include "stepping/stepping.h"
 
-#include <gsl/gsl_complex_math.h>
-#include <gsl/gsl_eigen.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -143,45 +142,6 @@ static void run_end(struct damped_run *run)
     from_deck_free(&run->from);
 }
 
-/* v is that of the half step before on entry and at the end. */
-static void step(struct model *model, double dt, double *y, double *a)
-{
-    const size_t n = model->unknowns;
-    const struct drive drive = {.extra = y + 2 * n};
-    model->spatial->accelerate(model, &drive, dt / 2, y, y + n, a);
-    for (size_t i = 0; i < n; i++) {
-        y[n + i] += dt * a[i];
-        y[i] += dt * y[n + i];
-    }
-    model_remember(model, dt, y);
-}
-
-static double largest_modulus(struct model *model, double dt)
-{
-    const size_t size = model->state_size;
-    double *y = calloc(size, sizeof *y), *a = calloc(model->unknowns, sizeof *a), largest = 0;
-    gsl_matrix *map = gsl_matrix_calloc(size, size);
-    gsl_vector_complex *value = gsl_vector_complex_alloc(size);
-    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(size);
-    for (size_t j = 0; j < size; j++) {
-        memset(y, 0, size * sizeof *y);
-        y[j] = 1;
-        step(model, dt, y, a);
-        for (size_t i = 0; i < size; i++)
-            gsl_matrix_set(map, i, j, y[i]);
-    }
-    gsl_eigen_nonsymm_params(0, 1, work);
-    assert_int_equal(gsl_eigen_nonsymm(map, value, work), 0);
-    for (size_t i = 0; i < size; i++)
-        largest = fmax(largest, gsl_complex_abs(gsl_vector_complex_get(value, i)));
-    gsl_eigen_nonsymm_free(work);
-    gsl_vector_complex_free(value);
-    gsl_matrix_free(map);
-    free(y);
-    free(a);
-    return largest;
-}
-
 #define SQUARE                                                                                               \
     "&scene dimension = 2, end_time = 1.0 /\n&method degree = 2, mass = '%s', ends = 'open' /\n"             \
     "&body name = 'b', material = 'm', shape = 'box', low = 0.0, 0.0, high = 4.0, 4.0, spacing = 1.0 /\n"
@@ -213,8 +173,9 @@ static void nothing_grows_below_the_limit(void **state)
                    : snprintf(deck, sizeof deck, SQUARE, mass);
         snprintf(deck + at, sizeof deck - (size_t)at, GROUND, lambda, grounds[i / 2].q_p, grounds[i / 2].q_s);
         struct damped_run run = run_of(deck);
-        const double below = largest_modulus(run.model, .9999 * run.limit);
-        const double above = largest_modulus(run.model, 1.002 * run.limit);
+        size_t count;
+        const double below = map_largest(run.model, .9999 * run.limit, NULL, &count);
+        const double above = map_largest(run.model, 1.002 * run.limit, NULL, &count);
         print_message("nu %.2f, Q %g %g, %g %g, %zu parts: 1 %+.1e below, 1 %+.1e above the limit\n", nu,
                       grounds[i / 2].q_p, grounds[i / 2].q_s, grounds[i / 2].other_p, grounds[i / 2].other_s,
                       damped_of(run.model)->parts, below - 1, above - 1);
@@ -313,7 +274,7 @@ static void energy_falls_by_what_damping_takes(void **state)
         double energy = 0, start = 0, half = 0, worst = 0;
         for (int k = 0; k < 400; k++) {
             memcpy(before, y, size * sizeof *y);
-            step(run.model, dt, y, a);
+            map_step(run.model, dt, y, a);
             const double next = energy_of_step(d, dt, before, y), taken = taken_in_half(d, dt, before, y);
             if (k == 0) start = next;
             if (k > 0) worst = fmax(worst, fabs(next - energy + half + taken) / start);

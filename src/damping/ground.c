@@ -3,6 +3,7 @@
 #include "damping/ground.h"
 
 #include "base/memory.h"
+#include "scene/resolution.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -44,21 +45,6 @@ static double flat_power(const void *reference, double angular_frequency)
     return relative < .1 ? 0 : 1 / relative;
 }
 
-/* Above it the spectra of all of them are below a thousandth of their largest values; infinite where a host
- * drives. */
-static double top_of(const struct scene *scene)
-{
-    const double counts = 1e-3;
-    double top = 0;
-    if (scene_driven(scene)) return INFINITY;
-    for (size_t i = 0; i < scene->loads; i++)
-        top = fmax(top, history_cutoff(&scene->load[i].history, counts));
-    for (size_t face = 0; face < FACES; face++)
-        if (boundary_moves(&scene->boundary[face]))
-            top = fmax(top, history_cutoff(&scene->boundary[face].history, counts));
-    return top;
-}
-
 static double reference_given(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->materials; i++)
@@ -69,7 +55,7 @@ static double reference_given(const struct scene *scene)
 static selas_status set_band(const struct scene *scene, struct ground_damping *damping,
                              struct messages *messages)
 {
-    const double top = top_of(scene), given = reference_given(scene);
+    const double top = source_cutoff_at(scene, 1e-3), given = reference_given(scene);
     const struct stepping_choice *stepping = &scene->stepping;
     if (top > 0 && isfinite(top))
         relaxation_band_set(&damping->band, top, source_power, scene);

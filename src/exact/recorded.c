@@ -129,6 +129,7 @@ static void describe(const struct exact *exact,
 
 const struct exact_class exact_recorded = {
     .kind = "file",
+    .damped = true,
     .create = create,
     .destroy = destroy,
     .history = history,
