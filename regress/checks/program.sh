@@ -26,9 +26,7 @@ status 2 "no deck" "$selas"
 status 2 "check without a deck" "$selas" check
 status 2 "unknown option" "$selas" --fast input/halfspace.nml
 status 2 "a deck that is not there" "$selas" nothere.nml
-# runs are undamped: a deck with q_p is for selas exact
-status 0 "check of each deck" sh -c "for deck in \$(grep -L '^[^!]*q_p' input/*.nml); do '$selas' check \$deck >/dev/null 2>&1 || exit 1; done"
-status 2 "check of a damped deck" "$selas" check input/loh3.nml
+status 0 "check of each deck" sh -c "for deck in input/*.nml; do '$selas' check \$deck >/dev/null 2>&1 || exit 1; done"
 out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT
 ok "a quiet run prints nothing" sh -c "[ -z \"\$('$selas' -q input/halfspace.nml body%spacing=1 output%plots=F output%low_pass=0 output%directory='$out' 2>&1)\" ]"

@@ -70,8 +70,7 @@ refused() { # refused TITLE MESSAGE COMMAND...
         sed 's/^/#   /' "$out/text"
     fi
 }
-refused "a run of damped ground" "runs are undamped; only 'selas exact'" input/loh3.nml output%directory="$out/no"
-refused "the plan of damped ground" "runs are undamped; only 'selas exact'" check input/loh3.nml
+refused "damped ground by points without order" "'cloud', has no damping" check input/loh3.nml method%variant=cloud
 refused "damped ground in another reference" "reference 'lamb' is undamped" exact input/loh3.nml reference%kind=lamb reference%tolerance=
 refused "Q = 0" "0 for 'q_s'" exact input/loh3.nml 'material(1)%q_s=0'
 refused "a receiver above the ground" "lies outside the body" exact input/loh1.nml 'receiver(3)%position=1,1,-1'

@@ -39,7 +39,7 @@ static void march(struct run *run, double dt, int steps)
             v[i] += dt * run->a[i];
             run->y[i] += dt * v[i];
         }
-        if (model->memory != NULL) model->memory->remember(run->model, dt, run->y);
+        if (model->memory != NULL) model_remember(run->model, dt, run->y);
     }
 }
 

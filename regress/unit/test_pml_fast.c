@@ -54,7 +54,7 @@ static struct run marched(const struct plain_scene *plain, struct consistent_opt
             v[i] += dt * run.a[i];
             run.y[i] += dt * v[i];
         }
-        model->memory->remember(run.model, dt, run.y);
+        model_remember(run.model, dt, run.y);
     }
     return run;
 }
@@ -163,7 +163,7 @@ static void test_single(void **state)
         if (!fit) continue;
         served++;
         struct run run = marched(&plain, options, 0);
-        const struct consistent *c = consistent_of(run.model);
+        struct consistent *c = consistent_of(run.model);
         const size_t extra = run.model->state_size - 2 * run.n;
         double *u = run.y, *v = u + run.n, *memory = v + run.n, dt = .02;
         float *u4 = calloc(run.n, sizeof *u4), *v4 = calloc(run.n, sizeof *v4),
@@ -226,7 +226,7 @@ static void test_quiet(void **state)
         for (int i = 0; i < 2; i++) {
             double *v = run[i].y + n;
             leap(&run[i], &(struct drive){.extra = v + n}, .2);
-            run[i].model->memory->remember(run[i].model, .2, run[i].y);
+            model_remember(run[i].model, .2, run[i].y);
         }
         if (step == 20) early = fast->skipped;
         if (step == 20) all = fast->groups;

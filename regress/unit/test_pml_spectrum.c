@@ -2,28 +2,15 @@
  * All of its eigenvalues: none is outside the unit circle (doc/absorbing-faces.md, section 5). */
 #include "consistent_run.h"
 #include "few.h"
+#include "step_map.h"
 
 #include "method/consistent/absorbing/pml.h"
 #include "scene/absorbing_layers.h"
 #include "stepping/stepping.h"
 
-#include <gsl/gsl_complex_math.h>
-
-/* One step of leapfrog; v is that of the half step before on entry and at the end. */
-static void step(struct model *model, double dt, double *y, double *a)
+static bool held(struct model *model, size_t i)
 {
-    const size_t n = model->unknowns;
-    const struct drive drive = {.extra = y + 2 * n};
-    model->spatial->accelerate(model, &drive, dt / 2, y, y + n, a);
-    for (size_t i = 0; i < n; i++) {
-        y[n + i] += dt * a[i];
-        y[i] += dt * y[n + i];
-    }
-    model->memory->remember(model, dt, y);
-}
-
-static bool held(const struct consistent *c, size_t i)
-{
+    const struct consistent *c = consistent_of(model);
     if (i >= 2 * c->model.unknowns) return false;
     const size_t component = i % c->model.unknowns / c->volume, place = i % c->volume;
     const size_t at[3] = {place % c->n[0], place / c->n[0] % c->n[1], place / c->plane};
@@ -32,38 +19,6 @@ static bool held(const struct consistent *c, size_t i)
         if (c->held[component][face] && at[slot] == (face % 2 == 0 ? 0 : c->n[slot] - 1)) return true;
     }
     return false;
-}
-
-/* Largest modulus among the eigenvalues of the map on what is not held. */
-static double largest_modulus(struct model *model, double dt, size_t *count)
-{
-    const size_t size = model->state_size;
-    double *y = calloc(size, sizeof *y), *a = calloc(model->unknowns, sizeof *a), largest = 0;
-    size_t *place = calloc(size, sizeof *place), free_ones = 0;
-    for (size_t i = 0; i < size; i++)
-        if (!held(consistent_of(model), i)) place[free_ones++] = i;
-    gsl_matrix *map = gsl_matrix_calloc(free_ones, free_ones);
-    gsl_vector_complex *value = gsl_vector_complex_alloc(free_ones);
-    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(free_ones);
-    for (size_t j = 0; j < free_ones; j++) {
-        memset(y, 0, size * sizeof *y);
-        y[place[j]] = 1;
-        step(model, dt, y, a);
-        for (size_t i = 0; i < free_ones; i++)
-            gsl_matrix_set(map, i, j, y[place[i]]);
-    }
-    gsl_eigen_nonsymm_params(0, 1, work); /* balanced: u, v and the memory have different units */
-    assert_int_equal(gsl_eigen_nonsymm(map, value, work), 0);
-    *count = free_ones;
-    for (size_t i = 0; i < free_ones; i++)
-        largest = fmax(largest, gsl_complex_abs(gsl_vector_complex_get(value, i)));
-    gsl_eigen_nonsymm_free(work);
-    gsl_vector_complex_free(value);
-    gsl_matrix_free(map);
-    free(place);
-    free(y);
-    free(a);
-    return largest;
 }
 
 /* Layers behind the faces of the mask in a rectangle of so many cells, the other faces free but for a
@@ -88,7 +43,7 @@ static void judge(const char *name, unsigned layered, const size_t cells[2], lon
     struct messages messages = {0};
     assert_int_equal(largest_frequency(model, &omega, &error, &messages), SELAS_OK);
     size_t count;
-    const double largest = largest_modulus(model, 1.8 / (omega * (1 + error)), &count);
+    const double largest = map_largest(model, 1.8 / (omega * (1 + error)), held, &count);
     print_message("# %s, nu %g, depth mass %s: %zu eigenvalues, largest modulus 1 %+.2e\n", name, nu,
                   depth_exact ? "exact" : "same", count, largest - 1);
     assert_true(largest < 1);
@@ -165,11 +120,11 @@ static void test_three_dimensions(void **state)
             double *y = calloc(model->state_size, sizeof *y), *a = calloc(model->unknowns, sizeof *a);
             noise(model->state_size, y);
             for (size_t i = 0; i < model->state_size; i++)
-                if (held(consistent_of(model), i)) y[i] = 0;
+                if (held(model, i)) y[i] = 0;
             for (int third = 0; third < 4; third++) {
                 size[third] = norm(model->state_size, y);
                 for (int i = 0; third < 3 && i < THIRD; i++)
-                    step(model, 1.8 / (omega * (1 + error)), y, a);
+                    map_step(model, 1.8 / (omega * (1 + error)), y, a);
             }
             const double before = log(size[2] / size[1]) / THIRD, largest = log(size[3] / size[2]) / THIRD;
             print_message(

@@ -2,6 +2,7 @@
 #include "accuracy/accuracy.h"
 
 #include "accuracy/kinds.h"
+#include "damping/ground.h"
 #include "scene/build.h"
 
 #include <string.h>
@@ -48,6 +49,7 @@ const char *accuracy_gradient(const struct scene *scene)
 
 const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene)
 {
+    if (ground_is_damped(scene)) return "materials without q_p and q_s";
     if (kind->variant != NULL && strcmp(kind->variant, scene->method.variant) != 0) return kind->served;
     return kind->refusal(scene);
 }

@@ -102,6 +102,12 @@ static double not_negative(const struct squares *squares, double x[COLUMNS])
     return residual_of(squares, x, gradient);
 }
 
+/* What leapfrog makes of rates at an angular frequency (modulus.c). */
+static double slowed(const struct relaxation_band *band, double w)
+{
+    return sqrt(fmax(0, 1 - .25 * (w * band->step) * (w * band->step)));
+}
+
 /* Rows for a modulus that is to be fitted to target - given, counted relative to the target. */
 static void set_squares(const struct relaxation_band *band, size_t mechanisms, const double *rate,
                         const double complex *target, const double complex *given, struct squares *squares)
@@ -113,7 +119,8 @@ static void set_squares(const struct relaxation_band *band, size_t mechanisms, c
         squares->b[2 * k] = creal(right);
         squares->b[2 * k + 1] = cimag(right);
         for (size_t j = 0; j <= mechanisms; j++) {
-            const double complex a = weight / target[k] * (j == 0 ? 1 : -rate[j - 1] / (rate[j - 1] + I * w));
+            const double slower = slowed(band, w) * (j == 0 ? 0 : rate[j - 1]);
+            const double complex a = weight / target[k] * (j == 0 ? 1 : -slower / (slower + I * w));
             squares->a[2 * k][j] = creal(a);
             squares->a[2 * k + 1][j] = cimag(a);
         }
@@ -124,6 +131,7 @@ void relaxation_band_set(struct relaxation_band *band, double top, relaxation_po
                          const void *source)
 {
     double sum = 0;
+    band->step = 0;
     for (int k = 0; k < RELAXATION_SAMPLES; k++) {
         const double w = top * pow(10, -3. * (RELAXATION_SAMPLES - 1 - k) / (RELAXATION_SAMPLES - 1));
         band->angular_frequency[k] = w;
@@ -132,6 +140,24 @@ void relaxation_band_set(struct relaxation_band *band, double top, relaxation_po
     }
     for (int k = 0; k < RELAXATION_SAMPLES && sum > 0; k++)
         band->weight[k] /= sum;
+}
+
+double relaxation_centroid(const struct relaxation_band *band)
+{
+    double sum = 0, moment = 0;
+    for (int k = 0; k < RELAXATION_SAMPLES; k++) {
+        sum += band->weight[k];
+        moment += band->weight[k] * band->angular_frequency[k];
+    }
+    return moment / sum;
+}
+
+double relaxation_quantile(const struct relaxation_band *band, double share)
+{
+    double sum = 0;
+    for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
+        if ((sum += band->weight[k]) >= share) return band->angular_frequency[k];
+    return band->angular_frequency[RELAXATION_SAMPLES - 1];
 }
 
 /* --- Rates -------------------------------------------------------------------------------------------- */
@@ -175,24 +201,15 @@ static void simplex(struct search *search, gsl_vector *start, gsl_vector *step,
         rate[l] = exp(gsl_vector_get(start, l));
 }
 
-/* Where the weight, ascending, has come to a share of all. */
-static double quantile(const struct relaxation_band *band, double share)
-{
-    double sum = 0;
-    for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
-        if ((sum += band->weight[k]) >= share) return band->angular_frequency[k];
-    return band->angular_frequency[RELAXATION_SAMPLES - 1];
-}
-
-selas_status relaxation_rates(const struct relaxation_band *band, double q, size_t mechanisms,
-                              double rate[MOST_MECHANISMS], double *misfit, struct messages *messages)
+selas_status relaxation_rates(const struct relaxation_band *band, const struct modulus *wanted,
+                              size_t mechanisms, double rate[MOST_MECHANISMS], double *misfit,
+                              struct messages *messages)
 {
     struct squares squares;
     struct search search = {.band = band, .mechanisms = mechanisms, .squares = &squares};
-    const double low = .3 * quantile(band, .02), high = 3 * quantile(band, .98);
-    const struct modulus wanted = modulus_constant_q(1, q, sqrt(low * high));
+    const double low = .3 * relaxation_quantile(band, .02), high = 3 * relaxation_quantile(band, .98);
     for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
-        search.target[k] = modulus_at(&wanted, I * band->angular_frequency[k]);
+        search.target[k] = modulus_at(wanted, I * band->angular_frequency[k]);
     gsl_errors_returned();
     gsl_vector *start = gsl_vector_alloc(mechanisms), *step = gsl_vector_alloc(mechanisms);
     gsl_multimin_fminimizer *minimizer =
@@ -202,7 +219,7 @@ selas_status relaxation_rates(const struct relaxation_band *band, double q, size
         for (size_t l = 0; l < mechanisms; l++)
             gsl_vector_set(start, l, log(low) + log(high / low) * ((double)l + .5) / (double)mechanisms);
         simplex(&search, start, step, minimizer, rate);
-        *misfit = q * exp(.5 * misfit_at(start, &search));
+        *misfit = exp(.5 * misfit_at(start, &search)) / modulus_loss(wanted, wanted->angular_frequency);
     }
     gsl_vector_free(start);
     gsl_vector_free(step);
@@ -228,6 +245,23 @@ static double reference_size(const struct modulus *modulus)
     return modulus->size / (cosine * cosine);
 }
 
+/* The same for lambda + 2 mu, whose weights grow where the bulk modulus, what is left of it without shear,
+ * would otherwise have negative ones. False: what is left when all is relaxed is negative. */
+static bool keep_passive(const struct modulus *wanted, const struct modulus *shear, struct modulus *axial)
+{
+    enum { TURNS = 60 }; /* each leaves about a tenth of what the last one changed */
+    double relaxed = 0;
+    for (int turn = 0; turn < TURNS; turn++) {
+        keep_speed(reference_size(wanted), wanted->angular_frequency, axial);
+        for (size_t l = 0; l < axial->mechanisms; l++)
+            axial->weight[l] = fmax(axial->weight[l], 4. / 3 * shear->size * shear->weight[l] / axial->size);
+    }
+    relaxed = axial->size - 4. / 3 * shear->size;
+    for (size_t l = 0; l < axial->mechanisms; l++)
+        relaxed -= axial->size * axial->weight[l] - 4. / 3 * shear->size * shear->weight[l];
+    return relaxed > 0;
+}
+
 selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanisms,
                             const double rate[MOST_MECHANISMS], struct modulus *axial, struct modulus *shear,
                             struct messages *messages)
@@ -235,17 +269,19 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
     struct squares squares;
     double complex target[RELAXATION_SAMPLES], given[RELAXATION_SAMPLES];
     double s[COLUMNS], bulk[COLUMNS], sum[2] = {0, 0};
-    struct modulus fitted[2] = {{.mechanisms = mechanisms}, {.mechanisms = mechanisms}};
+    struct modulus fitted[2] = {{.mechanisms = mechanisms, .step = band->step},
+                                {.mechanisms = mechanisms, .step = band->step}};
     for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
         target[k] = modulus_at(shear, I * band->angular_frequency[k]);
     gsl_errors_returned();
     set_squares(band, mechanisms, rate, target, NULL, &squares);
     not_negative(&squares, s);
     for (size_t k = 0; k < RELAXATION_SAMPLES; k++) {
-        target[k] = modulus_at(axial, I * band->angular_frequency[k]);
+        const double w = band->angular_frequency[k], slower = slowed(band, w);
+        target[k] = modulus_at(axial, I * w);
         given[k] = s[0];
         for (size_t l = 0; l < mechanisms; l++)
-            given[k] -= s[l + 1] * rate[l] / (rate[l] + I * band->angular_frequency[k]);
+            given[k] -= s[l + 1] * slower * rate[l] / (slower * rate[l] + I * w);
         given[k] *= 4. / 3;
     }
     set_squares(band, mechanisms, rate, target, given, &squares);
@@ -258,12 +294,12 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
         sum[0] += fitted[0].weight[l];
         sum[1] += fitted[1].weight[l];
     }
-    if (!(s[0] > 0 && bulk[0] > 0 && sum[0] < 1 && sum[1] < 1))
+    keep_speed(reference_size(shear), shear->angular_frequency, &fitted[1]);
+    if (!(s[0] > 0 && bulk[0] > 0 && sum[0] < 1 && sum[1] < 1) ||
+        !keep_passive(axial, &fitted[1], &fitted[0]))
         return fail(messages, SELAS_BAD_SCENE,
                     "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies",
                     mechanisms);
-    keep_speed(reference_size(axial), axial->angular_frequency, &fitted[0]);
-    keep_speed(reference_size(shear), shear->angular_frequency, &fitted[1]);
     *axial = fitted[0];
     *shear = fitted[1];
     return SELAS_OK;

@@ -1,5 +1,5 @@
-/* Relaxation mechanisms that stand for constant Q over the frequencies of a source (doc/seismograms.md, Eqs
- * 25-28). */
+/* Relaxation mechanisms that stand for a wanted Q over the frequencies of a source (doc/damping.md, Eqs 5 to
+ * 8). */
 #ifndef SELAS_RELAXATION_H
 #define SELAS_RELAXATION_H
 
@@ -12,6 +12,7 @@ enum { RELAXATION_SAMPLES = 80 };
  * the step. */
 struct relaxation_band {
     double angular_frequency[RELAXATION_SAMPLES], weight[RELAXATION_SAMPLES];
+    double step; /* of the leapfrog that takes the mechanisms on; 0: as if it were short */
 };
 
 /* Squared spectrum of the source's velocity at an angular frequency. */
@@ -21,12 +22,17 @@ typedef double relaxation_power(const void *source, double angular_frequency);
 void relaxation_band_set(struct relaxation_band *band, double top, relaxation_power *power,
                          const void *source);
 
-/* Rates of `mechanisms` (1 to MOST_MECHANISMS) mechanisms that fit constant Q best; *misfit: weighed root
- * mean square of Q |M/M_Q - 1|. SELAS_NO_MEMORY. */
-selas_status relaxation_rates(const struct relaxation_band *band, double q, size_t mechanisms,
-                              double rate[MOST_MECHANISMS], double *misfit, struct messages *messages);
+/* Centroid of the weights; where they, ascending, have come to a share of all. */
+double relaxation_centroid(const struct relaxation_band *band);
+double relaxation_quantile(const struct relaxation_band *band, double share);
 
-/* Moduli with mechanisms of these rates in place of lambda + 2 mu and mu of constant Q; the phase speeds are
+/* Rates of `mechanisms` (1 to MOST_MECHANISMS) mechanisms that fit the wanted modulus best, whatever its size;
+ * *misfit: weighed root mean square of Q |M/M_Q - 1|, Q at the reference. SELAS_NO_MEMORY. */
+selas_status relaxation_rates(const struct relaxation_band *band, const struct modulus *wanted,
+                              size_t mechanisms, double rate[MOST_MECHANISMS], double *misfit,
+                              struct messages *messages);
+
+/* Moduli with mechanisms of these rates in place of the wanted lambda + 2 mu and mu; the phase speeds are
  * kept at the angular frequency where those have their size. All weights, those of the bulk modulus too, are
  * >= 0. SELAS_BAD_SCENE where that is not possible. */
 selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanisms,

@@ -84,7 +84,7 @@ static const struct word method_words[] = {
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
      "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
     {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", OPTIONAL,
-     "relaxation mechanisms of damped materials (reference 'layered', spectrum 'scheme'; else 3)"},
+     "relaxation mechanisms of damped materials (consistent, reference 'layered'); 3"},
     {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 
@@ -114,10 +114,14 @@ static const struct word material_words[] = {
     {"bulk", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "bulk modulus [stress]"},
     {"shear", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "shear modulus [stress]"},
     {"q_p", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "quality of P waves, the same at all frequencies; without q_p and q_s there is no damping"},
-    {"q_s", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "quality of S waves"},
+     "quality Q of P waves; without q_p and q_s there is no damping"},
+    {"q_s", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "quality Q of S waves"},
     {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "frequency at which the speeds or elastic constants of a damped material are meant [1/time]"},
+     "frequency at which speeds, elastic constants and Q of a damped material are meant [1/time]; centroid "
+     "of "
+     "the source's spectrum"},
+    {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL,
+     "Q grows as this power of the frequency; without it Q is constant"},
 };
 
 static const struct word body_words[] = {

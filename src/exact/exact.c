@@ -26,10 +26,10 @@ selas_status exact_create(const struct scene *scene, struct exact **exact, struc
                     "the deck asks for no exact solution that is known here ('%s')", scene->reference.kind);
     for (size_t i = 0; i < scene->materials && !class->damped; i++)
         if (scene->material[i].q_p > 0)
-            return fail(
-                messages, SELAS_BAD_SCENE,
-                "reference '%s' is undamped, but material '%s' has q_p and q_s; take reference 'layered'",
-                class->kind, scene->material[i].name);
+            return fail(messages, SELAS_BAD_SCENE,
+                        "reference '%s' is undamped, but material '%s' has q_p and q_s; take reference "
+                        "'layered' or 'file'",
+                        class->kind, scene->material[i].name);
     if (ground_is_general(scene) && !class->any_ground)
         return fail(
             messages, SELAS_BAD_SCENE,

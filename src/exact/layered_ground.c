@@ -5,8 +5,8 @@
 #include "exact/layered_ground.h"
 
 #include "base/memory.h"
+#include "damping/ground.h"
 #include "exact/ground.h"
-#include "exact/layered_damping.h"
 #include "exact/seismogram.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ struct layered_ground {
     struct seismogram_problem problem;
     struct seismogram_rock *rock;
     struct seismogram_source *source; /* images included */
-    struct layered_damping damping;
+    struct ground_damping *damping;   /* NULL: none */
     size_t seismograms;
     struct seismogram *seismogram; /* of the scene's receivers */
 };
@@ -30,18 +30,15 @@ static selas_status refuse(struct messages *messages, const char *why)
 
 /* --- Ground ------------------------------------------------------------------------------------------- */
 
-static struct modulus modulus_of(const struct material *material, double size, double q)
+static struct seismogram_rock rock_of(const struct layered_ground *ground, size_t material, double top)
 {
-    if (!(q > 0)) return modulus_elastic(size);
-    return modulus_constant_q(size, q, 2 * M_PI * material->q_frequency);
-}
-
-static struct seismogram_rock rock_of(const struct material *material, double top)
-{
-    struct seismogram_rock rock = {.top = top, .density = material->density};
-    rock.axial = modulus_of(material, material->lambda + 2 * material->mu, material->q_p);
-    rock.shear = modulus_of(material, material->mu, material->q_s);
-    return rock;
+    const struct scene *scene = ground->exact.scene;
+    const struct material *m = &scene->material[material];
+    struct damped_moduli moduli = {modulus_elastic(m->lambda + 2 * m->mu), modulus_elastic(m->mu)};
+    if (ground->damping != NULL)
+        moduli = (scene->reference.scheme ? ground->damping->fitted : ground->damping->wanted)[material];
+    return (struct seismogram_rock){
+        .top = top, .density = m->density, .axial = moduli.axial, .shear = moduli.shear};
 }
 
 static selas_status set_rocks(struct layered_ground *ground, const struct scene *scene,
@@ -53,9 +50,9 @@ static selas_status set_rocks(struct layered_ground *ground, const struct scene 
         return fail(messages, SELAS_NO_MEMORY, "no memory for the layers of the ground");
     size_t rocks = 0;
     if (body->layers == 0 || body->layer[0].top > 0)
-        ground->rock[rocks++] = rock_of(&scene->material[body->material], 0);
+        ground->rock[rocks++] = rock_of(ground, body->material, 0);
     for (size_t i = 0; i < body->layers; i++)
-        ground->rock[rocks++] = rock_of(&scene->material[body->layer[i].material], body->layer[i].top);
+        ground->rock[rocks++] = rock_of(ground, body->layer[i].material, body->layer[i].top);
     ground->problem.rocks = rocks;
     ground->problem.rock = ground->rock;
     return SELAS_OK;
@@ -197,6 +194,7 @@ static void destroy(struct exact *exact)
     array_free(ground->seismogram);
     array_free(ground->rock);
     array_free(ground->source);
+    ground_damping_free(ground->damping);
     array_free(ground);
 }
 
@@ -241,9 +239,8 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     ground->problem.end_time = scene->end_time;
     ground->problem.tolerance = scene->reference.tolerance;
     ground->problem.stress = scene->reference.stress;
-    status = set_rocks(ground, scene, messages);
-    if (status == SELAS_OK && scene->reference.scheme)
-        status = layered_mechanisms(scene, ground->problem.rocks, ground->rock, &ground->damping, messages);
+    status = ground_damping_new(scene, scene->reference.scheme, &ground->damping, messages);
+    if (status == SELAS_OK) status = set_rocks(ground, scene, messages);
     if (status == SELAS_OK) status = set_sources(ground, scene, messages);
     if (status == SELAS_OK) status = compute_receivers(ground, scene, messages);
     if (status == SELAS_OK) warn_of_miss(ground, messages);
@@ -318,16 +315,17 @@ static selas_status stress(struct exact *exact, const double position[3], size_t
 static void describe_damping(const struct layered_ground *ground,
                              void (*tell)(void *context, const char *key, const char *value), void *context)
 {
+    const struct ground_damping *damping = ground->damping;
     char text[256];
-    bool damped = false;
-    for (size_t i = 0; i < ground->problem.rocks; i++)
-        damped = damped || ground->rock[i].shear.power > 0;
-    if (damped) tell(context, "exact damping", "constant Q (Kjartansson 1979)");
-    if (ground->damping.mechanisms == 0) return;
+    if (damping == NULL) return;
+    if (!ground->exact.scene->reference.scheme) {
+        tell(context, "exact damping", "by Q as it is wanted (Kjartansson 1979 where it is constant)");
+        return;
+    }
     int at = snprintf(text, sizeof text, "%zu relaxation mechanisms, misfit %.2g/Q, angular frequencies",
-                      ground->damping.mechanisms, ground->damping.misfit);
-    for (size_t l = 0; l < ground->damping.mechanisms; l++)
-        at += snprintf(text + at, sizeof text - (size_t)at, " %.4g", ground->damping.rate[l]);
+                      damping->mechanisms, damping->misfit);
+    for (size_t l = 0; l < damping->mechanisms; l++)
+        at += snprintf(text + at, sizeof text - (size_t)at, " %.4g", damping->rate[l]);
     tell(context, "exact damping", text);
 }
 

@@ -130,6 +130,7 @@ static void describe(const struct exact *exact,
 const struct exact_class exact_recorded = {
     .kind = "file",
     .any_ground = true,
+    .damped = true,
     .create = create,
     .destroy = destroy,
     .history = history,

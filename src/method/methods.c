@@ -2,6 +2,7 @@
 #include "method/methods.h"
 
 #include "base/processor.h"
+#include "method/damped/damped.h"
 #include "method/mirror.h"
 #include "scene/ground.h"
 #include "scene/symmetry.h"
@@ -34,6 +35,11 @@ static selas_status check_abilities(const struct method *method, const struct sc
     if (deck_chosen(group, "precision", "single") && !method->single)
         return deck_error(scene->deck, group, "precision", messages,
                           "%s has no state in single precision; expected 'double'", name);
+    for (size_t i = 0; i < scene->materials && !method->damping; i++)
+        if (scene->material[i].q_p > 0)
+            return deck_error(scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
+                              "%s has no damping by q_p and q_s; expected 'smoothed-point', 'consistent'",
+                              name);
     for (size_t i = 0; method_table[i] != NULL && !other->point_materials; i++)
         other = method_table[i];
     if (scene->body.given != NULL && scene->body.given->material != NULL && other != method)
@@ -54,11 +60,6 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     *model = NULL;
     selas_status status = processor_check(messages);
     if (status != SELAS_OK) return status;
-    for (size_t i = 0; i < scene->materials; i++)
-        if (scene->material[i].q_p > 0)
-            return deck_error(scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
-                              "runs are undamped; only 'selas exact' with reference 'layered' takes q_p and "
-                              "q_s");
     const struct method *method = method_find(scene->method.name, scene->method.variant);
     if (method == NULL)
         return fail(messages, SELAS_UNSUPPORTED, "method '%s' has no variant '%s'", scene->method.name,
@@ -67,5 +68,5 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     if (status != SELAS_OK) return status;
     const unsigned axes = method->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(method, scene, axes, model, messages);
-    return method->create(scene, model, messages);
+    return damped_or_plain(method, scene, model, messages);
 }

@@ -6,6 +6,7 @@
 #include "method/mirror.h"
 
 #include "base/memory.h"
+#include "method/damped/damped.h"
 #include "scene/symmetry.h"
 
 #include <stdio.h>
@@ -249,7 +250,7 @@ selas_status mirror_create(const struct method *method, const struct scene *scen
     mirror->axes = axes;
     mirror->part_scene = scene_below_mirrors(scene, axes);
     struct model *part = NULL;
-    const selas_status status = method->create(&mirror->part_scene, &part, messages);
+    const selas_status status = damped_or_plain(method, &mirror->part_scene, &part, messages);
     if (status != SELAS_OK) {
         free(mirror);
         return status;

@@ -23,7 +23,8 @@ struct drive {
     const double
         *motion; /* [FACES]: second time derivative of the prescribed displacement history (per amplitude) */
     const double *displacement, *velocity; /* [FACES]: that history itself and its first derivative */
-    const double *extra; /* the state's extra part, for models that have `remember`; NULL: all 0 */
+    const double *extra; /* the state's extra part, for models that have `remember`; NULL: all 0, and
+                            materials as stiff as to what is very fast */
 };
 
 struct energy {
@@ -72,6 +73,7 @@ struct method {
     unsigned faces;       /* what it can do at faces: CAN_... (scene/boundary.h) */
     bool single;          /* some scenes may keep the state in single precision */
     bool any_ground;      /* takes blocks, tilted and graded layers */
+    bool damping;         /* materials may have q_p and q_s: see method/damped/damped.h */
     bool point_materials; /* each point that a host gives may have a material of its own */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
@@ -133,6 +135,15 @@ struct model_operator {
     void (*after_step)(struct model *model, double dt, const double *u_before, double *u, double *v);
 };
 
+enum { MODEL_MECHANISMS = 8 };
+
+/* Relaxation mechanisms that all moduli share: stiffness acts on e = given u + sum over l of weight_l D_l,
+ * D_l' = v - rate_l D_l (doc/damping.md, Eqs 11, 12). */
+struct relaxing {
+    size_t mechanisms;
+    double given, weight[MODEL_MECHANISMS], rate[MODEL_MECHANISMS];
+};
+
 /* Steps of leapfrog in one pass over the fields. The model keeps the velocity half a step ahead and perhaps
  * u; from begin() on, which takes y as the state at the drive's time, y and a are right only where probes and
  * the power of loads look, until settle() makes y whole, and a if it is not NULL. settle() changes nothing of
@@ -144,14 +155,19 @@ struct model_one_pass {
     void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
     /* What is kept beside y, for checkpoints. */
     void *(*kept)(struct model *model, size_t *bytes);
+    /* From now on steps in one pass, and they alone, relax: the extra part of their y begins with the D_l,
+     * [mechanisms][unknowns]. False: no memory. */
+    bool (*relax)(struct model *model, const struct relaxing *relaxing);
 };
 
-/* Memory of linear models (absorbing layers). */
+/* Memory of linear models (absorbing layers, damped materials). */
 struct model_memory {
-    /* Brings the extra part of y over a step dt. On entry u is that of the end of the step, v the mean
-     * velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
+    /* Brings the extra part of the state over a step dt. On entry u is that of the end of the step, v the
+     * mean velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
      * acceleration at the end, which gets it in drive->extra. */
-    void (*remember)(struct model *model, double dt, double *y);
+    void (*remember)(struct model *model, double dt, const double *u, const double *v, double *extra);
+    /* Damps that velocity besides, after remember(). */
+    void (*drag)(struct model *model, double dt, double *v);
 };
 
 /* How points see a patch that a traction presses. */
@@ -185,6 +201,7 @@ struct model {
                            [1/time] */
     bool small_strain;  /* forces are linear in grad u: rotations must stay small */
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
+    unsigned energy_calls; /* operator calls that energy() takes, if more than one */
     enum patch_sight patch;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (
@@ -196,6 +213,14 @@ struct model {
 static inline struct model *model_computed(struct model *model)
 {
     return model->part != NULL ? model->part : model;
+}
+
+/* Brings the memory of a model that has some over a step, in its state y. */
+static inline void model_remember(struct model *model, double dt, double *y)
+{
+    double *v = y + model->unknowns;
+    model->memory->remember(model, dt, y, v, v + model->unknowns);
+    model->memory->drag(model, dt, v);
 }
 
 /* Frees the model and sets the pointer to NULL. */

@@ -41,7 +41,7 @@ static double mean_step(struct stepper *stepper, struct recorder *recorder, stru
     const double each = (now - begun) / steps;
     recorder->watch.next = 0.0;
     watch_observe(recorder, state, NULL);
-    return each + (wall_seconds() - now) / WATCH_EVERY;
+    return each + (wall_seconds() - now) / (double)watch_every(recorder->model);
 }
 
 static double time_steps(struct stepper *stepper, struct recorder *recorder, struct state *state)

@@ -178,6 +178,8 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
 /* plots: PNGs and the GIF; what goes wrong here is a warning */
 void plot_histories(struct recorder *recorder, struct messages *messages);
 void plot_snapshots(struct recorder *recorder, struct messages *messages);
+/* Nothing where no material is damped. */
+void plot_damping(struct recorder *recorder, struct messages *messages);
 
 /* provenance.c: compiler that built the library, its flags, and the commit of the source ("unknown") */
 const char *compiler_name(void);

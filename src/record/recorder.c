@@ -153,6 +153,7 @@ selas_status recorder_write(struct recorder *recorder, struct exact *exact, cons
     if (recorder->scene->output.plots) {
         plot_histories(recorder, messages);
         plot_snapshots(recorder, messages);
+        plot_damping(recorder, messages);
     }
     run_file_close(recorder, true);
     recorder->written = true;

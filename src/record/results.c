@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/safe_file.h"
+#include "damping/ground.h"
 #include "record/kept.h"
 
 #include <math.h>
@@ -46,6 +47,7 @@ static void put_pictures(FILE *list, const struct recorder *recorder, bool done)
         fprintf(list, "snapshot_%04zu.png\n", k);
     for (size_t s = 0; s < scene->snapshots; s++)
         fprintf(list, s == 0 ? "surface.gif\n" : "surface_%zu.gif\n", s + 1);
+    if (ground_is_damped(scene)) fprintf(list, "damping.png\n");
 }
 
 static void put_run(FILE *list, const struct recorder *recorder, bool done)

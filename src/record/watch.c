@@ -240,7 +240,7 @@ selas_status watch_observe(struct recorder *recorder, const struct state *state,
         if (glanced == SELAS_OK) hindsight_observe(recorder, state, false, messages);
         return glanced;
     }
-    const unsigned long end = recorder->stepper->steps, next = state->step + WATCH_EVERY;
+    const unsigned long end = recorder->stepper->steps, next = state->step + watch_every(recorder->model);
     /* the balance at the end is wanted in any case */
     watch->next = (double)(state->step < end && next > end ? end : next);
     selas_status status = watch_sound(recorder, state, messages);

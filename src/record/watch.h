@@ -4,8 +4,12 @@
 
 #include "record/parts.h"
 
-/* Steps from one look at the whole state to the next. */
+/* Steps from one look at the whole state to the next: more where that costs more. */
 enum { WATCH_EVERY = 50 };
+static inline unsigned long watch_every(const struct model *model)
+{
+    return WATCH_EVERY * (unsigned long)(model->energy_calls > 1 ? model->energy_calls : 1);
+}
 
 /* Fails with time, place and likely cause; `what` is wrong: "the state is not finite". */
 selas_status watch_tell(const struct recorder *recorder, const struct state *state, const char *what,

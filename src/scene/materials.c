@@ -102,8 +102,7 @@ static bool check_definite(struct builder *builder, const struct deck_group *gro
     return false;
 }
 
-/* Young, Poisson, and what enters the equations of a plane or a thin bar (doc/scene.md, Eqs 5-9). */
-static void complete(const struct scene *scene, struct material *material)
+void material_complete(const struct scene *scene, struct material *material)
 {
     const double lambda = material->lambda, mu = material->mu;
     material->young = (3 * lambda + 2 * mu) / (lambda + mu) * mu;
@@ -121,19 +120,19 @@ static void complete(const struct scene *scene, struct material *material)
  * positive if q_p <= 3/4 (c_p/c_s)^2 q_s, to first order in 1/q (hence the hundredth). */
 static void read_quality(struct builder *builder, const struct deck_group *group, struct material *material)
 {
-    static const char *const words[] = {"q_p", "q_s", "q_frequency"};
-    double *const values[] = {&material->q_p, &material->q_s, &material->q_frequency};
+    static const char *const words[] = {"q_p", "q_s", "q_frequency", "q_power"};
+    double *const values[] = {&material->q_p, &material->q_s, &material->q_frequency, &material->q_power};
     int given = 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (deck_values(group, words[i]) > 0) {
             *values[i] = deck_real(group, words[i], 0);
             given++;
         }
-    for (int i = 0; i < 3 && given > 0; i++)
+    for (int i = 0; i < 2 && given > 0; i++)
         if (!(*values[i] > 0))
-            complain(builder, group, NULL,
-                     "a damped material needs q_p, q_s and q_frequency; '%s' is not given", words[i]);
-    if (given < 3 || !(material->mu > 0)) return;
+            complain(builder, group, NULL, "a damped material needs q_p and q_s; '%s' is not given",
+                     words[i]);
+    if (!(material->q_p > 0 && material->q_s > 0 && material->mu > 0)) return;
     const double ratio = (material->lambda + 2 * material->mu) / material->mu;
     if (material->q_p > 1.01 * .75 * ratio * material->q_s)
         complain(builder, group, "q_p",
@@ -168,7 +167,7 @@ void build_materials(struct builder *builder)
         const int pair = find_pair(builder, group);
         if (pair >= 0 && read_constants(builder, group, pair, material) &&
             check_definite(builder, group, pair, material))
-            complete(scene, material);
+            material_complete(scene, material);
         read_quality(builder, group, material);
     }
 }

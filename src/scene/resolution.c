@@ -4,13 +4,18 @@
 
 double source_cutoff(const struct scene *scene)
 {
+    return source_cutoff_at(scene, SOURCE_COUNTS);
+}
+
+double source_cutoff_at(const struct scene *scene, double counts)
+{
     double omega = 0.0;
     if (scene_driven(scene)) return INFINITY;
     for (size_t k = 0; k < scene->loads; k++)
-        omega = fmax(omega, history_cutoff(&scene->load[k].history, SOURCE_COUNTS));
+        omega = fmax(omega, history_cutoff(&scene->load[k].history, counts));
     for (size_t face = 0; face < FACES; face++)
         if (boundary_moves(&scene->boundary[face]))
-            omega = fmax(omega, history_cutoff(&scene->boundary[face].history, SOURCE_COUNTS));
+            omega = fmax(omega, history_cutoff(&scene->boundary[face].history, counts));
     return omega;
 }
 

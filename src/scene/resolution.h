@@ -10,6 +10,8 @@
 /* Angular frequency above which the spectra of all loads and prescribed motions lie below SOURCE_COUNTS of
  * their largest amplitude (history_cutoff) [rad/time]; 0 if there is none, INFINITY if it is not known. */
 double source_cutoff(const struct scene *scene);
+/* The same for another part. */
+double source_cutoff_at(const struct scene *scene, double counts);
 
 /* Of the slowest wave at that frequency; 0 if nothing tells. */
 double points_per_wavelength(const struct scene *scene);

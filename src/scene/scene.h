@@ -20,7 +20,9 @@ struct material {
     char name[NAME_SIZE];
     double density;
     double q_p, q_s;    /* quality of P and S waves; 0: undamped */
-    double q_frequency; /* where the moduli are meant [cycles/time] */
+    double q_frequency; /* where the moduli and qualities are meant [cycles/time]; 0: at the centroid of the
+                           source's spectrum (damping/ground.h) */
+    double q_power;     /* qualities grow as this power of the frequency */
     double lambda, mu;  /* of the solid in three dimensions */
     double young, poisson;
     double plane_lambda; /* lambda that enters the equations: in plane stress 2 lambda mu / (lambda + 2 mu),
@@ -272,6 +274,9 @@ double scene_fastest(const struct scene *scene);  /* speed of P waves in the fas
  * which it lies. */
 double scene_carries(const struct scene *scene, const double place[3]);
 
+/* materials.c. From density, lambda and mu: Young, Poisson, and what enters the equations of a plane or a thin
+ * bar (doc/scene.md, Eqs 5-9). */
+void material_complete(const struct scene *scene, struct material *material);
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);
 /* Material of point `index`: the one a host gave it, else by depth. */

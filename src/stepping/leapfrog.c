@@ -59,7 +59,7 @@ static void step(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     if (!stepper->one_pass) {
         leapfrog_drift(stepper, state);
-        if (model->memory != NULL) model->memory->remember(model, stepper->dt, state->y);
+        if (model->memory != NULL) model_remember(model, stepper->dt, state->y);
         close_step(stepper, state);
         return;
     }

@@ -166,7 +166,8 @@ static selas_status check_abilities(const struct stepper *stepper, struct messag
         {SCHEME_MOVING_LOADS, scene_loads_move(model->scene), "loads that move need"},
         {SCHEME_FILTERS, model->spatial->after_step != NULL, "a filter (method%filter > 0) needs"},
         {SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"},
-        {SCHEME_REMEMBERS, model->memory != NULL, "absorbing layers (boundary%layer = 'pml') need"},
+        {SCHEME_REMEMBERS, model->memory != NULL,
+         "absorbing layers (boundary%layer = 'pml') and damped materials (material%q_p) need"},
     };
     char names[SCHEME_NAMES_SIZE];
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)

@@ -233,11 +233,14 @@ static selas_status build(struct consistent *c, struct messages *messages)
     return status;
 }
 
-static void remember(struct model *model, double dt, double *y)
+static void remember(struct model *model, double dt, const double *u, const double *v, double *extra)
 {
-    double *v = y + model->unknowns;
     struct consistent *c = consistent_of(model);
-    (c->general != NULL ? general_layers_remember : pml_remember)(c, dt, -dt / 2, y, v, v + model->unknowns);
+    (c->general != NULL ? general_layers_remember : pml_remember)(c, dt, -dt / 2, u, v, extra);
+}
+
+static void drag(struct model *model, double dt, double *v)
+{
     pml_damp(consistent_of(model), dt, v);
 }
 
@@ -257,7 +260,7 @@ static const struct model_operator spatial = {
     .weigh = weigh,
     .shorten = consistent_shorten,
 };
-static const struct model_memory memory = {remember};
+static const struct model_memory memory = {remember, drag};
 
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages)
@@ -306,5 +309,6 @@ const struct method method_consistent = {
     .mirrors = true,
     .single = true,
     .any_ground = true,
+    .damping = true,
     .create = create,
 };

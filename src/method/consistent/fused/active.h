@@ -30,9 +30,20 @@ static void forget_sizes(const struct fused *f, size_t k)
     memset(strips_of(f, k), 0, f->strips * sizeof(REAL));
 }
 
-/* Numbers of plane k of a field or, with `w`, of u += dt w: a window of it. */
-static void take_sizes(const struct fused *f, size_t k, const struct window *window, REAL dt, const REAL *w,
-                       REAL *u)
+/* Brings rows of u on; gives the largest. */
+static REAL move_rows(const struct fused *f, const struct fused_fields *fields, size_t n, size_t rows,
+                      size_t at, REAL *column)
+{
+    const struct NAME(fused_kernels) *kernels = NAME(taken_fused_kernels)();
+    const REAL *w = (const REAL *)fields->a + at;
+    REAL *u = (REAL *)fields->moved + at;
+    if (fields->relax == NULL) return kernels->drift(n, rows, f->n[0], (REAL)fields->dt, w, u, column);
+    return kernels->relax(n, rows, f->n[0], fields->relax, w, (REAL *)fields->memory + at, u, column);
+}
+
+/* Numbers of plane k of a field u or, with `fields`, of their u brought on: a window of it. */
+static void take_sizes(const struct fused *f, size_t k, const struct window *window,
+                       const struct fused_fields *fields, const REAL *u)
 {
     const struct NAME(fused_kernels) *kernels = NAME(taken_fused_kernels)();
     const size_t n = window->end[0] - window->from[0];
@@ -43,8 +54,8 @@ static void take_sizes(const struct fused *f, size_t k, const struct window *win
         const size_t rows = (end < window->end[1] ? end : window->end[1]) - j;
         for (size_t component = 0; component < 3; component++) {
             const size_t at = component * f->volume + k * f->plane + j * f->n[0] + window->from[0];
-            const REAL size = w == NULL ? kernels->measure(n, rows, f->n[0], u + at, column)
-                                        : kernels->drift(n, rows, f->n[0], dt, w + at, u + at, column);
+            const REAL size = fields == NULL ? kernels->measure(n, rows, f->n[0], u + at, column)
+                                             : move_rows(f, fields, n, rows, at, column);
             if (size > strip[s]) strip[s] = size;
         }
         if (strip[s] > f->size[k]) f->size[k] = strip[s];
@@ -52,12 +63,12 @@ static void take_sizes(const struct fused *f, size_t k, const struct window *win
     }
 }
 
-/* u += dt w in a window of plane k, as far as waves have reached. */
+/* Brings u on in a window of plane k, as far as waves have reached. */
 static void bring_on(const struct fused *f, const struct fused_fields *fields, size_t k,
                      const struct window *window)
 {
     const struct window both = window_meet(window, &f->reached[k]);
-    take_sizes(f, k, &both, (REAL)fields->dt, fields->a, fields->moved);
+    take_sizes(f, k, &both, fields, NULL);
 }
 
 static void bring_planes(const struct fused *f, const struct fused_fields *fields, size_t from, size_t end)
@@ -128,7 +139,7 @@ static double all_sizes(const struct fused *f, const REAL *u)
 #pragma omp parallel for num_threads(f->threads) schedule(static)
     for (size_t k = 0; k < f->n[2]; k++) {
         forget_sizes(f, k);
-        if (f->quiet > 0) take_sizes(f, k, &whole, 0, NULL, (REAL *)u);
+        if (f->quiet > 0) take_sizes(f, k, &whole, NULL, u);
     }
     for (size_t k = 0; k < f->n[2]; k++)
         largest = fmax(largest, f->size[k]);
@@ -155,8 +166,8 @@ static void find_reached(struct fused *f, const REAL *u, const REAL *w)
     for (size_t k = 0; k < f->n[2]; k++) {
         struct loud loud = nothing_loud(f);
         forget_sizes(f, k);
-        take_sizes(f, k, &whole, 0, NULL, (REAL *)u);
-        take_sizes(f, k, &whole, 0, NULL, (REAL *)w);
+        take_sizes(f, k, &whole, NULL, u);
+        take_sizes(f, k, &whole, NULL, w);
         widen_loud(f, 0, k, k + 1, &loud);
         f->reached[k] = (struct window){{loud.column[0], loud.strip[0] * FUSED_STRIP},
                                         {loud.column[1], loud.strip[1] * FUSED_STRIP}};

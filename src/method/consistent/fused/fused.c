@@ -326,6 +326,7 @@ void fused_free(struct fused *fused)
         array_free(fused->buffer[t]);
     array_free(fused->buffer);
     array_free(fused->kept);
+    array_free(fused->relaxing);
     array_free(fused->watch.entry);
     array_free(fused->watch.before);
     array_free(fused->plain);

@@ -56,6 +56,13 @@ struct fused_watch {
     double *before;
 };
 
+/* How displacements e that relax go on with their memory (model.h, relaxing), in a step:
+ * D_l := kept_l D_l + taken_l w, e += given w + sum over l of weight_l (change of D_l). */
+struct fused_relax {
+    size_t mechanisms, apart; /* numbers from the memory of one mechanism to that of the next */
+    double given, weight[MODEL_MECHANISMS], kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
+};
+
 struct fused {
     size_t n[3], plane, volume;
     size_t width, stride;                               /* numbers in a row, from row to row */
@@ -79,13 +86,15 @@ struct fused {
     struct window *will_reach; /* ... after this step ... */
     struct window *loaded;     /* ... [n[2]] where loads act */
     bool known;
-    size_t *bound;            /* [threads + 1] planes where those of a thread begin */
-    size_t points, skipped;   /* of all calls so far */
-    size_t number;            /* bytes of a number in tables and rings */
-    struct fused *single;     /* the same in floats, if the scene's steps are */
-    struct fused_watch watch; /* of both */
-    void *kept;               /* what steps in one pass go on from: the velocity half a step ahead, ... */
-    size_t kept_bytes;        /* ... in single precision u before it and the layers' memory behind it */
+    size_t *bound;             /* [threads + 1] planes where those of a thread begin */
+    size_t points, skipped;    /* of all calls so far */
+    size_t number;             /* bytes of a number in tables and rings */
+    struct fused *single;      /* the same in floats, if the scene's steps are */
+    struct fused_watch watch;  /* of both */
+    void *kept;                /* what steps in one pass go on from: the velocity half a step ahead, ... */
+    size_t kept_bytes;         /* ... e behind it if they relax; in single precision u before it and the
+                                 layers' memory behind it */
+    struct relaxing *relaxing; /* NULL: steps do not relax */
     int threads;
     void **buffer;    /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */
@@ -98,6 +107,8 @@ struct fused_fields {
     void *a;     /* w in a step */
     void *moved; /* u again */
     double dt;
+    const struct fused_relax *relax; /* u goes on by this and its `memory`; NULL: by dt w */
+    void *memory;
     size_t bring_on, before; /* planes of u to be brought on on the way */
 };
 
@@ -119,12 +130,15 @@ struct window fused_whole(const struct fused *fused);
 /* Counts the points of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
 
-/* What steps in one pass work on; extra: the layers' memory variables, NULL without layers. */
+/* What steps in one pass work on; extra: the layers' memory variables, NULL without layers; memory: that of
+ * `relax`, if there is one. */
 struct step_fields_double {
-    double *u, *w, *extra, *work;
+    double *u, *w, *extra, *work, *memory;
+    const struct fused_relax *relax;
 };
 struct step_fields_single {
-    float *u, *w, *extra, *work;
+    float *u, *w, *extra, *work, *memory;
+    const struct fused_relax *relax;
 };
 
 /* fused_step.h. w := v + dt/2 a from w = v, with entries of a that are watched; `work` has room for a. */

@@ -217,6 +217,35 @@ void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, do
         a[watch->entry[i]] = step->work[watch->entry[i]];
 }
 
+/* Mean velocities of the u that relax over the step to come, in `work`, where layers ask for them. */
+static const REAL *rates(const struct consistent *c, double dt, const struct NAME(step_fields) * step)
+{
+    const struct fused_relax *relax = step->relax;
+    REAL factor = (REAL)relax->given, before[MODEL_MECHANISMS];
+    for (size_t l = 0; l < relax->mechanisms; l++) {
+        factor += (REAL)(relax->weight[l] * relax->taken[l]);
+        before[l] = (REAL)(relax->weight[l] * (relax->kept[l] - 1) / dt);
+    }
+    factor /= (REAL)dt;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const struct block *region = &c->pml->slab[s].region;
+        const size_t rows = region->n[1] * region->n[2];
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t row = 0; row < 3 * rows; row++) {
+            const size_t k = row % rows / region->n[1] + region->at[2],
+                         j = row % region->n[1] + region->at[1];
+            const size_t at = row / rows * c->volume + k * c->plane + j * c->n[0] + region->at[0];
+            for (size_t i = at; i < at + region->n[0]; i++) {
+                REAL sum = factor * step->w[i];
+                for (size_t l = 0; l < relax->mechanisms; l++)
+                    sum += before[l] * step->memory[l * relax->apart + i];
+                step->work[i] = sum;
+            }
+        }
+    }
+    return step->work;
+}
+
 /* The layers' memory goes on before u does, from the displacements in the middle of the step; what it does
  * then comes last. */
 void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, double dt,
@@ -224,7 +253,8 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
 {
     struct fused *f = FUSED(c);
     const struct fused_watch *watch = &c->fused->watch;
-    const struct fused_fields fields = {.u = step->u, .a = step->w, .moved = step->u, .dt = dt};
+    const struct fused_fields fields = {
+        .u = step->u, .a = step->w, .moved = step->u, .dt = dt, .relax = step->relax, .memory = step->memory};
     const double level = f->quiet * largest_before(f, step->u);
     const size_t n = c->model.unknowns;
     if (!f->known) find_reached(f, step->u, step->w);
@@ -232,7 +262,10 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
         forget_sizes(f, k);
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = step->w[watch->entry[i]];
-    if (c->pml != NULL) NAME(pml_fast_remember)(c, dt, dt / 2, level, step->u, step->w, step->extra);
+    if (c->pml != NULL) {
+        const REAL *rate = step->relax != NULL ? rates(c, dt, step) : step->w;
+        NAME(pml_fast_remember)(c, dt, dt / 2, level, step->u, rate, step->extra);
+    }
     pass_over(c, drive, &fields, true, level);
     if (c->pml != NULL) NAME(pml_fast_accelerate)(c, dt, step->extra, step->w);
     if (c->pml != NULL) NAME(pml_fast_reached)(c, f->will_reach);

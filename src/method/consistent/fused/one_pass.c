@@ -64,10 +64,58 @@ static bool watch_loads(struct consistent *c)
     return true;
 }
 
+/* Factors of a step of dt. */
+static struct fused_relax relax_of(const struct consistent *c, double dt)
+{
+    const struct relaxing *relaxing = c->fused->relaxing;
+    struct fused_relax relax = {.mechanisms = relaxing->mechanisms, .apart = c->model.unknowns};
+    relax.given = relaxing->given * dt;
+    for (size_t l = 0; l < relaxing->mechanisms; l++) {
+        const double half = relaxing->rate[l] * dt / 2;
+        relax.weight[l] = relaxing->weight[l];
+        relax.kept[l] = (1 - half) / (1 + half);
+        relax.taken[l] = dt / (1 + half);
+    }
+    return relax;
+}
+
 static struct step_fields_double fields_double(const struct consistent *c, double *y)
 {
-    return (struct step_fields_double){
-        .u = y, .w = c->fused->kept, .extra = y + 2 * c->model.unknowns, .work = c->hform->work};
+    const size_t n = c->model.unknowns;
+    double *w = c->fused->kept;
+    struct step_fields_double fields = {.u = y, .w = w, .extra = y + 2 * n, .work = c->hform->work};
+    if (c->fused->relaxing == NULL) return fields;
+    fields.u = w + n;
+    fields.memory = fields.extra;
+    fields.extra += c->fused->relaxing->mechanisms * n;
+    return fields;
+}
+
+/* sum over l of weight_l D_l at an entry. */
+static double remembered(const struct relaxing *relaxing, size_t n, const double *memory, size_t at)
+{
+    double sum = 0;
+    for (size_t l = 0; l < relaxing->mechanisms; l++)
+        sum += relaxing->weight[l] * memory[l * n + at];
+    return sum;
+}
+
+/* e of a state, or the displacements in it of e. */
+static void to_effective(const struct consistent *c, const double *y, double *e)
+{
+    const struct relaxing *relaxing = c->fused->relaxing;
+    const size_t n = c->model.unknowns;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < n; i++)
+        e[i] = relaxing->given * y[i] + remembered(relaxing, n, y + 2 * n, i);
+}
+static void from_effective(const struct consistent *c, const double *e, double *y)
+{
+    const struct relaxing *relaxing = c->fused->relaxing;
+    const size_t n = c->model.unknowns;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < n; i++)
+        y[i] = (e[i] - remembered(relaxing, n, y + 2 * n, i)) / relaxing->given;
 }
 
 static struct step_fields_single fields_single(const struct consistent *c)
@@ -93,6 +141,7 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
     }
     const struct step_fields_double fields = fields_double(c, y);
     memcpy(fields.w, y + n, n * sizeof *y);
+    if (fields.memory != NULL) to_effective(c, y, fields.u);
     fused_begin_double(c, drive, dt, &fields, a);
 }
 
@@ -105,8 +154,19 @@ static void advance(struct model *model, const struct drive *drive, double dt, d
         fused_advance_single(c, drive, dt, &fields, y, a);
         return;
     }
-    const struct step_fields_double fields = fields_double(c, y);
+    struct step_fields_double fields = fields_double(c, y);
+    struct fused_relax relax = {0};
+    if (fields.memory != NULL) {
+        relax = relax_of(c, dt);
+        fields.relax = &relax;
+    }
     fused_advance_double(c, drive, dt, &fields, y, a);
+    const struct fused_watch *watch = &c->fused->watch;
+    for (size_t i = 0; fields.memory != NULL && i < watch->count; i++) {
+        const size_t at = watch->entry[i];
+        y[at] = (fields.u[at] - remembered(c->fused->relaxing, model->unknowns, fields.memory, at)) /
+                c->fused->relaxing->given;
+    }
 }
 
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
@@ -115,6 +175,7 @@ static void settle(struct model *model, const struct drive *drive, double dt, do
     if (!model->single) {
         const struct step_fields_double fields = fields_double(c, y);
         fused_settle_double(c, drive, dt, &fields, y, a);
+        if (fields.memory != NULL) from_effective(c, fields.u, y);
         return;
     }
     const struct step_fields_single fields = fields_single(c);
@@ -133,7 +194,20 @@ static void *kept(struct model *model, size_t *bytes)
     return fused->kept;
 }
 
-static const struct model_one_pass one_pass = {begin, advance, settle, kept};
+static bool relax(struct model *model, const struct relaxing *relaxing)
+{
+    struct fused *fused = consistent_of(model)->fused;
+    array_free(fused->kept);
+    fused->bytes += fused->kept_bytes + sizeof *relaxing;
+    fused->kept_bytes *= 2;
+    fused->kept = array_new(1, fused->kept_bytes);
+    fused->relaxing = array_new(1, sizeof *relaxing);
+    if (fused->kept == NULL || fused->relaxing == NULL) return false;
+    *fused->relaxing = *relaxing;
+    return true;
+}
+
+static const struct model_one_pass one_pass = {begin, advance, settle, kept, relax};
 
 /* Why steps of leapfrog cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)

@@ -150,6 +150,49 @@ static REAL drift(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, RE
     return measured_rows(n, rows, step, u, column);
 }
 
+/* u and its memory go on (fused.h, fused_relax), n numbers. */
+INLINED void relaxed(const size_t mechanisms, size_t n, const struct fused_relax *r, const REAL *restrict w,
+                     REAL *restrict memory, REAL *restrict u)
+{
+    const REAL given = (REAL)r->given;
+#pragma omp simd
+    for (size_t i = 0; i < n; i++) {
+        REAL change = given * w[i];
+        for (size_t l = 0; l < mechanisms; l++) {
+            const REAL before = memory[l * r->apart + i];
+            const REAL after = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
+            memory[l * r->apart + i] = after;
+            change += (REAL)r->weight[l] * (after - before);
+        }
+        u[i] += change;
+    }
+}
+
+static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
+                  REAL *memory, REAL *u, REAL *column)
+{
+    for (size_t row = 0; row < rows; row++) {
+        const size_t at = row * step;
+        switch (r->mechanisms) {
+        case 1:
+            relaxed(1, n, r, w + at, memory + at, u + at);
+            break;
+        case 2:
+            relaxed(2, n, r, w + at, memory + at, u + at);
+            break;
+        case 3:
+            relaxed(3, n, r, w + at, memory + at, u + at);
+            break;
+        case 4:
+            relaxed(4, n, r, w + at, memory + at, u + at);
+            break;
+        default:
+            relaxed(r->mechanisms, n, r, w + at, memory + at, u + at);
+        }
+    }
+    return measured_rows(n, rows, step, u, column);
+}
+
 /* w += dt a */
 static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
 {
@@ -192,4 +235,4 @@ PASSES(13, 17)
         wide, x_##wide, y_##wide, ends_##wide, two_##deep, three_##deep                                      \
     }
 const struct NAME(fused_kernels)
-    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, kick};
+    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick};

@@ -1,0 +1,77 @@
+#!/bin/sh
+# Damped ground: the half-space of input/damped.nml against velocities for constant Q that another program computed (regress/reference/damped) and
+# against the exact solution for the run's own mechanisms; Q without end; what is refused (doc/damping.md).
+build=${1:-build}
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
+OMP_NUM_THREADS=1
+export OMP_NUM_THREADS
+selas=$build/selas
+
+run() { # run NAME Q_P Q_S WORDS...
+    name=$1 p=$2 s=$3
+    shift 3
+    "$selas" -q input/damped.nml material%q_p="$p" material%q_s="$s" output%plots=F output%directory="$out/$name" "$@" >"$out/$name.log" 2>&1 || cat "$out/$name.log"
+}
+check() { # check TITLE CONDITION...
+    title=$1
+    shift
+    if "$@"; then echo "ok - $title"; else echo "not ok - $title"; fi
+}
+less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
+error() { sed -n "s/^error $2 vz: L2 \([^ ]*\).*/\1/p" "$out/$1/report.txt"; }
+# L2 of v_z off a file of the reference, over that of the reference, at the times that both have
+off() { # off NAME RECEIVER FILE
+    awk '/^#/ { next } FILENAME ~ /csv$/ { split($0, c, ","); z[sprintf("%.6f", c[1])] = c[3]; next }
+        { t = sprintf("%.6f", $1) } t in z { d += ($7 - z[t])^2; s += z[t]^2; n++ } END { if (n > 90) printf "%.5f", sqrt(d / s) }' \
+        "regress/reference/damped/$3.csv" "$out/$1/$2.dat"
+}
+
+for q in "20 20" "100 50"; do
+    p=${q% *} s=${q#* }
+    run "q$p" "$p" "$s" reference%spectrum=scheme
+    receiver=0
+    for limits in ".0010 .0012" ".0015 .0020" ".0022 .0030"; do
+        e=$(error "q$p" "r$receiver")
+        check "Q $p/$s, own mechanisms: v_z at r$receiver errs by $e" less "$e" "${limits% *}"
+        e=$(off "q$p" "r$receiver" "const_${p}_${s}_x$receiver")
+        check "Q $p/$s, constant Q by another program: v_z at r$receiver errs by $e" less "$e" "${limits#* }"
+        receiver=$((receiver + 1))
+    done
+done
+
+# without damping the same histories, but for what Q = 1e6 does
+small="body%spacing=0.25 scene%end_time=5 stepping%time_step=0.04"
+run large 1e6 1e6 $small
+grep -v 'q_p =' input/damped.nml >"$out/plain.nml"
+sed -i "s/s_speed = 1.0/s_speed = 1.0 \//; /^&material/,/^\/$/ { /^\/$/d }" "$out/plain.nml"
+"$selas" -q "$out/plain.nml" $small output%plots=F output%directory="$out/plain" >"$out/plain.log" 2>&1 || cat "$out/plain.log"
+apart() {
+    paste "$out/$1/r2.dat" "$out/$2/r2.dat" | awk '!/^#/ { d += ($7 - $14)^2; s += $7^2 } END { printf "%.2e", sqrt(d / s) }'
+}
+check "Q = 1e6 is $(apart plain large) off no damping" less "$(apart plain large)" 1e-5
+
+# steps in one pass are steps pass by pass, but for rounding
+run pass 20 20 $small
+run passes 20 20 $small method%fused=F
+check "one pass is $(apart passes pass) off pass by pass" less "$(apart passes pass)" 1e-11
+check "and the plan says so" grep -q "^step: leapfrog's is one pass" "$out/pass/report.txt"
+
+refused() { # refused TITLE MESSAGE WORDS...
+    title=$1 message=$2
+    shift 2
+    "$selas" check input/damped.nml "$@" >"$out/text" 2>&1
+    if [ $? -eq 2 ] && grep -q -e "$message" "$out/text"; then echo "ok - refused: $title"; else
+        echo "not ok - refused: $title"
+        sed 's/^/#   /' "$out/text"
+    fi
+}
+refused "compression that would gain energy" "q_p = 60 is too large beside q_s = 20.* = 45" material%q_p=60
+refused "Q_s alone" "'q_p' is not given" material%q_p=
+refused "so low a Q" "cannot stand for so low a Q" material%q_p=0.05 material%q_s=0.05
+refused "points without order" "'cloud', has no damping by q_p and q_s" method%variant=cloud method%mechanisms=
+refused "the modified equation" "need scheme 'leapfrog', not 'modified-equation'" stepping%scheme=modified-equation
+refused "single precision" "damped materials need method%precision = 'double'" method%precision=single
+refused "an undamped reference" "reference 'lamb' is undamped" reference%kind=lamb reference%tolerance=
+refused "an accuracy" "no table of errors for this scene, only for materials without q_p and q_s" scene%accuracy=0.01 body%spacing=
+check "the plan says what is reached" sh -c "'$selas' check input/damped.nml | grep -q 'damping of rock: Q_p 40 wanted, 39.* reached'"

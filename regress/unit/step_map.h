@@ -1,0 +1,60 @@
+/* One step of leapfrog, memory variables and all, as a linear map of the state: for tests of its eigenvalues. */
+#ifndef STEP_MAP_H
+#define STEP_MAP_H
+
+#include "near.h"
+
+#include "model/model.h"
+
+#include <gsl/gsl_complex_math.h>
+#include <gsl/gsl_eigen.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* v is that of the half step before on entry and at the end. */
+static inline void map_step(struct model *model, double dt, double *y, double *a)
+{
+    const size_t n = model->unknowns;
+    const struct drive drive = {.extra = y + 2 * n};
+    model->spatial->accelerate(model, &drive, dt / 2, y, y + n, a);
+    for (size_t i = 0; i < n; i++) {
+        y[n + i] += dt * a[i];
+        y[i] += dt * y[n + i];
+    }
+    model_remember(model, dt, y);
+}
+
+/* Largest modulus among the eigenvalues of the map on what is not held (NULL: nothing is), *count of them. */
+static inline double map_largest(struct model *model, double dt, bool (*held)(struct model *model, size_t i),
+                                 size_t *count)
+{
+    const size_t size = model->state_size;
+    double *y = calloc(size, sizeof *y), *a = calloc(model->unknowns, sizeof *a), largest = 0;
+    size_t *place = calloc(size, sizeof *place), free_ones = 0;
+    for (size_t i = 0; i < size; i++)
+        if (held == NULL || !held(model, i)) place[free_ones++] = i;
+    gsl_matrix *map = gsl_matrix_calloc(free_ones, free_ones);
+    gsl_vector_complex *value = gsl_vector_complex_alloc(free_ones);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(free_ones);
+    for (size_t j = 0; j < free_ones; j++) {
+        memset(y, 0, size * sizeof *y);
+        y[place[j]] = 1;
+        map_step(model, dt, y, a);
+        for (size_t i = 0; i < free_ones; i++)
+            gsl_matrix_set(map, i, j, y[place[i]]);
+    }
+    gsl_eigen_nonsymm_params(0, 1, work); /* balanced: u, v and the memory have different units */
+    assert_int_equal(gsl_eigen_nonsymm(map, value, work), 0);
+    *count = free_ones;
+    for (size_t i = 0; i < free_ones; i++)
+        largest = fmax(largest, gsl_complex_abs(gsl_vector_complex_get(value, i)));
+    gsl_eigen_nonsymm_free(work);
+    gsl_vector_complex_free(value);
+    gsl_matrix_free(map);
+    free(place);
+    free(y);
+    free(a);
+    return largest;
+}
+
+#endif

@@ -1,0 +1,350 @@
+/* Damped materials in runs: a plane wave against its transform, the energy of the step, its eigenvalues. */
+#include "from_deck.h"
+#include "step_map.h"
+
+#include "base/memory.h"
+#include "damping/ground.h"
+#include "method/consistent/consistent.h"
+#include "method/damped/damped.h"
+#include "method/methods.h"
+#include "stepping/stepping.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* --- A plane wave -------------------------------------------------------------------------------------- */
+
+#define BAR                                                                                                  \
+    "&scene dimension = 1, end_time = 30.0 /\n"                                                              \
+    "&method degree = 4, mass = 'exact', ends = 'mapped', mechanisms = 3 /\n"                                \
+    "&stepping time_step = 0.0625 /\n"                                                                       \
+    "&material name = 'rock', density = 1.0, p_speed = 1.0, s_speed = 0.5, q_p = %s, q_s = %s, "             \
+    "q_frequency = 1.0 /\n"                                                                                  \
+    "&body name = 'bar', material = 'rock', shape = 'box', low = 0.0, high = 27.6, spacing = 0.12 /\n"       \
+    "&load face = 'x-', shape = 'face', direction = 1.0, history = 'sine-burst', frequency = 1.0, cycles = " \
+    "6 /\n"
+
+enum { PERIOD = 64, FREQUENCIES = 4 * PERIOD };
+
+/* Velocity behind a pressed end, v(s) = f(s) exp(-s x sqrt(rho/M)) / sqrt(rho M), at t = i dt. */
+static void exact_velocity(const struct history *history, const struct modulus *modulus, double x, double dt,
+                           size_t rows, double *v)
+{
+    const double decay = 16. / PERIOD;
+    for (size_t i = 0; i < rows; i++)
+        v[i] = 0;
+    for (int j = 0; j < FREQUENCIES; j++) {
+        const double complex s = decay + 2 * M_PI * I * j / PERIOD, m = modulus_at(modulus, s);
+        const double complex value = history_laplace(history, s) * cexp(-s * x * csqrt(1 / m)) / csqrt(m);
+        for (size_t i = 0; i < rows; i++)
+            v[i] += (j == 0 ? 1. : 2.) / PERIOD * creal(value * cexp(s * dt * (double)i));
+    }
+}
+
+/* Velocities of a run at one place, rid of its time error. */
+static size_t run_velocity(const struct scene *scene, const double place[3], double *dt, double **velocity)
+{
+    struct model *model = NULL;
+    struct stepper *stepper = NULL;
+    struct state state;
+    struct probe probe = {0};
+    struct messages messages = {0};
+    if (model_create(scene, &model, &messages) != SELAS_OK) print_error("%s", messages.text);
+    assert_non_null(model);
+    if (stepper_create(model, &stepper, &messages) != SELAS_OK) print_error("%s", messages.text);
+    assert_non_null(stepper);
+    assert_int_equal(state_create(stepper, &state, &messages), SELAS_OK);
+    assert_int_equal(model->core->probe(model, place, &probe, &messages), SELAS_OK);
+    const size_t rows = stepper->steps + stepper->extra + 1, kept = stepper->steps + 1;
+    double *u = calloc(9 * rows, sizeof *u), *v = u + 3 * rows, *a = v + 3 * rows;
+    for (size_t i = 0; i < rows; i++) {
+        if (i > 0) stepper->scheme->step(stepper, &state);
+        model_observe(model, &probe, SELAS_DISPLACEMENT, state.y, state.a, u + 3 * i);
+        model_observe(model, &probe, SELAS_VELOCITY, state.y, state.a, v + 3 * i);
+        model_observe(model, &probe, SELAS_ACCELERATION, state.y, state.a, a + 3 * i);
+    }
+    assert_true(stepper->unwarp);
+    assert_int_equal(stepper->scheme->finish(stepper, rows, u, v, a, &messages), SELAS_OK);
+    for (size_t i = 0; i < kept; i++)
+        u[i] = v[3 * i];
+    *velocity = u;
+    *dt = stepper->dt;
+    probe_free(&probe);
+    state_free(&state);
+    stepper_free(&stepper);
+    model_free(&model);
+    return kept;
+}
+
+static double distance(size_t n, const double *a, const double *b)
+{
+    double difference = 0, size = 0;
+    for (size_t i = 0; i < n; i++) {
+        difference += (a[i] - b[i]) * (a[i] - b[i]);
+        size += b[i] * b[i];
+    }
+    return sqrt(difference / size);
+}
+
+/* After 20 wavelengths, 16 steps a period: the scheme against its own spectrum and against constant Q. */
+static void plane_wave_in_a_bar(void **state)
+{
+    (void)state;
+    static const char *const q[] = {"1e6", "100", "20"};
+    for (int i = 0; i < 3; i++) {
+        char deck[1024];
+        snprintf(deck, sizeof deck, BAR, q[i], q[i]);
+        struct from_deck from = right_scene(deck);
+        struct ground_damping *damping = NULL;
+        assert_int_equal(ground_damping_new(from.scene, true, &damping, &from.messages), SELAS_OK);
+        const double place[3] = {20, 0, 0};
+        double dt, *v = NULL;
+        const size_t rows = run_velocity(from.scene, place, &dt, &v);
+        double *exact = calloc(rows, sizeof *exact), error[2];
+        const struct modulus *moduli[2] = {&damping->fitted[0].axial, &damping->wanted[0].axial};
+        for (int k = 0; k < 2; k++) {
+            exact_velocity(&from.scene->load[0].history, moduli[k], place[0], dt, rows, exact);
+            error[k] = distance(rows, v, exact);
+        }
+        print_message("Q = %s: %.5f off its own spectrum, %.5f off constant Q\n", q[i], error[0], error[1]);
+        assert_true(error[0] < .005 && error[1] < .005);
+        free(exact);
+        free(v);
+        ground_damping_free(damping);
+        from_deck_free(&from);
+    }
+}
+
+/* --- The step as a linear map -------------------------------------------------------------------------- */
+
+struct damped_run {
+    struct from_deck from;
+    struct model *model;
+    double limit; /* of the step, undamped */
+};
+
+static struct damped_run run_of(const char *deck)
+{
+    struct damped_run run = {.from = right_scene(deck)};
+    struct messages messages = {0};
+    double omega = 0, error = 0;
+    if (model_create(run.from.scene, &run.model, &messages) != SELAS_OK) print_error("%s", messages.text);
+    assert_non_null(run.model);
+    assert_int_equal(largest_frequency(run.model, &omega, &error, &messages), SELAS_OK);
+    assert_true(error < 1e-3);
+    run.limit = 2 / omega;
+    return run;
+}
+
+static void run_end(struct damped_run *run)
+{
+    model_free(&run->model);
+    from_deck_free(&run->from);
+}
+
+#define SQUARE                                                                                               \
+    "&scene dimension = 2, end_time = 1.0 /\n&method degree = 2, mass = '%s', ends = 'open' /\n"             \
+    "&body name = 'b', material = 'm', shape = 'box', low = 0.0, 0.0, high = 4.0, 4.0, spacing = 1.0 /\n"
+
+#define PILLAR                                                                                               \
+    "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = '%s', mechanisms = 2 /\n"            \
+    "&body name = 'b', material = 'm', low = 0.0, 0.0, 0.0, high = 1.0, 1.0, 3.0, spacing = 1.0 /\n"         \
+    "&layer material = 's', top = 1.0 /\n&layer material = 'm', top = 2.3 /\n"                               \
+    "&material name = 's', density = 0.7, lambda = 1.0, mu = 0.5, q_p = %g, q_s = %g, q_frequency = 0.2 /\n"
+#define GROUND                                                                                               \
+    "&material name = 'm', density = 1.0, lambda = %g, mu = 1.0, q_p = %g, q_s = %g, q_frequency = 0.1 /\n"
+
+/* Free squares and pillars of layers: Q of P and S waves, of each layer its own, Poisson ratios to .49. The limit is that of the undamped body with unrelaxed moduli, and is sharp. */
+static void nothing_grows_below_the_limit(void **state)
+{
+    (void)state;
+    static const struct {
+        double poisson, q_p, q_s, other_p, other_s; /* other: of layers; 0: there are none */
+    } grounds[] = {{.25, 2, 2, 0, 0},      {.25, 20, 20, 0, 0},   {.25, 40, 20, 0, 0},  {.25, 20, 40, 0, 0},
+                   {.25, 1000, 500, 0, 0}, {.49, 20, 20, 0, 0},   {.49, 700, 20, 0, 0}, {.25, 40, 20, 7, 5},
+                   {.25, 1000, 900, 3, 2}, {.49, 300, 10, 40, 30}};
+    for (size_t i = 0; i < 2 * sizeof grounds / sizeof *grounds; i++) {
+        const double nu = grounds[i / 2].poisson, lambda = 2 * nu / (1 - 2 * nu);
+        const bool layers = grounds[i / 2].other_p > 0;
+        const char *const mass = i % 2 == 0 ? "exact" : "vc3";
+        char deck[2048];
+        int at =
+            layers ? snprintf(deck, sizeof deck, PILLAR, mass, grounds[i / 2].other_p, grounds[i / 2].other_s)
+                   : snprintf(deck, sizeof deck, SQUARE, mass);
+        snprintf(deck + at, sizeof deck - (size_t)at, GROUND, lambda, grounds[i / 2].q_p, grounds[i / 2].q_s);
+        struct damped_run run = run_of(deck);
+        size_t count;
+        const double below = map_largest(run.model, .9999 * run.limit, NULL, &count);
+        const double above = map_largest(run.model, 1.002 * run.limit, NULL, &count);
+        print_message("nu %.2f, Q %g %g, %g %g, %zu parts: 1 %+.1e below, 1 %+.1e above the limit\n", nu,
+                      grounds[i / 2].q_p, grounds[i / 2].q_s, grounds[i / 2].other_p, grounds[i / 2].other_s,
+                      damped_of(run.model)->parts, below - 1, above - 1);
+        assert_true(below < 1 + 2e-7); /* rounding of the double eigenvalues of rigid motions */
+        assert_true(above > 1 + 1e-4);
+        run_end(&run);
+    }
+}
+
+/* --- Energy -------------------------------------------------------------------------------------------- */
+
+/* x.K_p x over all parts, each with its factor. */
+static double form(const struct damped *d, const double factor[], const double *x)
+{
+    const size_t n = d->model.unknowns;
+    double sum = 0, *y = calloc(2 * n, sizeof *y);
+    struct energy energy;
+    memcpy(y, x, n * sizeof *x);
+    for (size_t p = 0; p < d->parts; p++) {
+        d->part[p].model->core->energy(d->part[p].model, y, &energy);
+        sum += factor[p] * 2 * energy.strain;
+    }
+    free(y);
+    return sum;
+}
+
+static double form_of_memory(const struct damped *d, size_t l, const double *x)
+{
+    double factor[1 + MOST_MECHANISMS];
+    for (size_t p = 0; p < d->parts; p++)
+        factor[p] = d->part[p].memory[l];
+    return form(d, factor, x);
+}
+
+static void mean(size_t n, const double *one, const double *other, double *middle)
+{
+    for (size_t i = 0; i < n; i++)
+        middle[i] = (one[i] + other[i]) / 2;
+}
+
+/* Eq 17 of the manual; y before and after the step, w in the latter. */
+static double energy_of_step(struct damped *d, double dt, const double *before, const double *after)
+{
+    const size_t n = d->model.unknowns;
+    const double whole[1 + MOST_MECHANISMS] = {1}, *w = after + n;
+    double given[1 + MOST_MECHANISMS], *middle = calloc(n, sizeof *middle), sum = 0;
+    for (size_t p = 0; p < d->parts; p++)
+        given[p] = d->part[p].given;
+    d->model.spatial->weigh(&d->model, w, middle);
+    for (size_t i = 0; i < n; i++)
+        sum += w[i] * middle[i];
+    sum -= dt * dt / 4 * form(d, whole, w);
+    mean(n, before, after, middle);
+    sum += form(d, given, middle);
+    for (size_t l = 0; l < d->damping->mechanisms; l++) {
+        const double h = d->damping->rate[l] * dt;
+        mean(n, before + (2 + l) * n, after + (2 + l) * n, middle);
+        sum += (1 + h * h / 4) * form_of_memory(d, l, middle);
+    }
+    free(middle);
+    return sum / 2;
+}
+
+/* What damping takes in half of that step (Eq 18). */
+static double taken_in_half(struct damped *d, double dt, const double *before, const double *after)
+{
+    const size_t n = d->model.unknowns;
+    double *middle = calloc(n, sizeof *middle), sum = 0;
+    for (size_t l = 0; l < d->damping->mechanisms; l++) {
+        mean(n, before + (2 + l) * n, after + (2 + l) * n, middle);
+        sum += d->damping->rate[l] * dt / 2 * form_of_memory(d, l, middle);
+    }
+    free(middle);
+    return sum;
+}
+
+/* The energy of the step falls by what damping takes and nothing else, at .999 of the limit. */
+static void energy_falls_by_what_damping_takes(void **state)
+{
+    (void)state;
+    static const char *const mass[] = {"exact", "vc3"};
+    for (int i = 0; i < 2; i++) {
+        char deck[1024];
+        const int at = snprintf(deck, sizeof deck, PILLAR, mass[i], 8., 6.);
+        snprintf(deck + at, sizeof deck - (size_t)at, GROUND, 1., 40., 20.);
+        struct damped_run run = run_of(deck);
+        struct damped *d = damped_of(run.model);
+        const size_t size = run.model->state_size, n = run.model->unknowns;
+        const double dt = .999 * run.limit;
+        double *y = calloc(size, sizeof *y), *before = calloc(size, sizeof *y), *a = calloc(n, sizeof *a);
+        uint64_t bits = 7;
+        for (size_t k = 0; k < size; k++) {
+            bits = bits * 6364136223846793005u + 1442695040888963407u;
+            y[k] = (double)(bits >> 11) * 0x1p-52 - 1;
+        }
+        double energy = 0, start = 0, half = 0, worst = 0;
+        for (int k = 0; k < 400; k++) {
+            memcpy(before, y, size * sizeof *y);
+            map_step(run.model, dt, y, a);
+            const double next = energy_of_step(d, dt, before, y), taken = taken_in_half(d, dt, before, y);
+            if (k == 0) start = next;
+            if (k > 0) worst = fmax(worst, fabs(next - energy + half + taken) / start);
+            energy = next;
+            half = taken;
+        }
+        print_message("mass %s, %zu parts: energy %.3g of the start, balance within %.1e of it\n", mass[i],
+                      d->parts, energy / start, worst);
+        assert_true(worst < 1e-11 && energy < .9 * start && energy > 0);
+        struct energy now;
+        run.model->core->energy(run.model, y, &now);
+        assert_true(now.strain > 0 && damped_loss(d, y + 2 * n) > 0);
+        free(y);
+        free(before);
+        free(a);
+        run_end(&run);
+    }
+}
+
+/* --- Stress -------------------------------------------------------------------------------------------- */
+
+/* Uniform strain of which each mechanism remembers a part: stress and energy by the moduli as fitted. */
+static void stress_is_that_of_the_moduli(void **state)
+{
+    (void)state;
+    static const double kept[2] = {.3, .8}, slope[3] = {.7, -.2, .4};
+    char deck[1024];
+    const int at = snprintf(deck, sizeof deck, PILLAR, "vc3", 8., 6.);
+    snprintf(deck + at, sizeof deck - (size_t)at, GROUND, 1., 40., 20.);
+    struct damped_run run = run_of(deck);
+    struct damped *d = damped_of(run.model);
+    const struct consistent *c = consistent_of(d->part[0].model);
+    const size_t n = run.model->unknowns;
+    double *y = calloc(run.model->state_size, sizeof *y), *a = calloc(n, sizeof *a);
+    for (size_t i = 0; i < n; i++) {
+        const size_t axis = i / c->volume, place = i % c->volume;
+        const size_t index[3] = {place % c->n[0], place / c->n[0] % c->n[1], place / c->plane};
+        y[i] = slope[axis] * c->spline[axis]->greville[index[axis]];
+        for (size_t l = 0; l < 2; l++)
+            y[(2 + l) * n + i] = kept[l] * y[i];
+    }
+    for (int layer = 0; layer < 2; layer++) {
+        const struct damped_moduli *moduli = &d->damping->fitted[layer == 0 ? 1 : 0]; /* &material: s, m */
+        const double place[3] = {.4, .6, layer == 0 ? .5 : 1.7}, trace = slope[0] + slope[1] + slope[2];
+        double axial = moduli->axial.size, shear = moduli->shear.size, stress[6], pressure;
+        struct probe probe = {0};
+        for (size_t l = 0; l < 2; l++) {
+            axial -= moduli->axial.size * moduli->axial.weight[l] * (1 - kept[l]);
+            shear -= moduli->shear.size * moduli->shear.weight[l] * (1 - kept[l]);
+        }
+        assert_int_equal(run.model->core->probe(run.model, place, &probe, &run.from.messages), SELAS_OK);
+        model_observe(run.model, &probe, SELAS_STRESS, y, a, stress);
+        model_observe(run.model, &probe, SELAS_PRESSURE, y, a, &pressure);
+        for (int i = 0; i < 3; i++)
+            assert_near(stress[i], (axial - 2 * shear) * trace + 2 * shear * slope[i], 1e-9);
+        assert_near(pressure, -(axial - 4. / 3 * shear) * trace, 1e-9);
+        probe_free(&probe);
+    }
+    free(y);
+    free(a);
+    run_end(&run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plane_wave_in_a_bar),
+        cmocka_unit_test(nothing_grows_below_the_limit),
+        cmocka_unit_test(energy_falls_by_what_damping_takes),
+        cmocka_unit_test(stress_is_that_of_the_moduli),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

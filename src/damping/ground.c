@@ -1,0 +1,163 @@
+/* Rates are common to all materials and suit the middle one of all Q; weights are fitted material by material
+ * (relaxation.c). */
+#include "damping/ground.h"
+
+#include "base/memory.h"
+#include "scene/resolution.h"
+#include <math.h>
+#include <stdlib.h>
+
+bool ground_is_damped(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->materials; i++)
+        if (scene->material[i].q_p > 0) return true;
+    return false;
+}
+
+/* --- The source's spectrum ---------------------------------------------------------------------------- */
+
+static double power_of(const struct history *history, double angular_frequency, int derivatives)
+{
+    const double part =
+        pow(angular_frequency, derivatives) * cabs(history_laplace_uncut(history, I * angular_frequency));
+    return part * part;
+}
+
+/* Squared spectrum of the velocities that loads and moved faces make: their rates, and of moment tensors, far
+ * away, the rates of those. */
+static double source_power(const void *data, double angular_frequency)
+{
+    const struct scene *scene = data;
+    double sum = 0;
+    for (size_t i = 0; i < scene->loads; i++)
+        sum += power_of(&scene->load[i].history, angular_frequency,
+                        scene->load[i].kind == LOAD_MOMENT_TENSOR ? 2 : 1);
+    for (size_t face = 0; face < FACES; face++)
+        if (boundary_moves(&scene->boundary[face]))
+            sum += power_of(&scene->boundary[face].history, angular_frequency, 1);
+    return sum;
+}
+
+/* Where the source is not known: a decade on each side of the reference. */
+static double flat_power(const void *reference, double angular_frequency)
+{
+    const double relative = angular_frequency / *(const double *)reference;
+    return relative < .1 ? 0 : 1 / relative;
+}
+
+static double reference_given(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->materials; i++)
+        if (scene->material[i].q_frequency > 0) return 2 * M_PI * scene->material[i].q_frequency;
+    return 0;
+}
+
+static selas_status set_band(const struct scene *scene, struct ground_damping *damping,
+                             struct messages *messages)
+{
+    const double top = source_cutoff_at(scene, 1e-3), given = reference_given(scene);
+    const struct stepping_choice *stepping = &scene->stepping;
+    if (top > 0 && isfinite(top))
+        relaxation_band_set(&damping->band, top, source_power, scene);
+    else if (given > 0)
+        relaxation_band_set(&damping->band, 10 * given, flat_power, &given);
+    else
+        return fail(
+            messages, SELAS_BAD_SCENE,
+            "damping is fitted to the spectrum of loads and moved faces, and there is none here; give "
+            "material%%q_frequency");
+    damping->centroid = relaxation_centroid(&damping->band);
+    damping->band.step = stepping->time_step;
+    if (stepping->courant > 0)
+        damping->band.step = stepping->courant * scene->body.spacing / scene_fastest(scene);
+    return SELAS_OK;
+}
+
+/* --- Materials ---------------------------------------------------------------------------------------- */
+
+static struct damped_moduli wanted_of(const struct material *material, double centroid)
+{
+    const double axial = material->lambda + 2 * material->mu, shear = material->mu;
+    const double reference = material->q_frequency > 0 ? 2 * M_PI * material->q_frequency : centroid;
+    if (!(material->q_p > 0)) return (struct damped_moduli){modulus_elastic(axial), modulus_elastic(shear)};
+    return (struct damped_moduli){modulus_power_q(axial, material->q_p, material->q_power, reference),
+                                  modulus_power_q(shear, material->q_s, material->q_power, reference)};
+}
+
+static int by_loss(const void *one, const void *other)
+{
+    const double a = ((const struct modulus *)one)->power, b = ((const struct modulus *)other)->power;
+    return (a < b) - (a > b);
+}
+
+/* The modulus with the middle one of all Q. */
+static selas_status choose_rates(struct ground_damping *damping, struct messages *messages)
+{
+    struct modulus *damped = array_new(2 * damping->materials, sizeof *damped);
+    size_t count = 0;
+    if (damped == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
+    for (size_t i = 0; i < damping->materials; i++)
+        if (damping->wanted[i].shear.power > 0) {
+            damped[count++] = damping->wanted[i].axial;
+            damped[count++] = damping->wanted[i].shear;
+        }
+    qsort(damped, count, sizeof *damped, by_loss);
+    const selas_status status = relaxation_rates(&damping->band, &damped[count / 2], damping->mechanisms,
+                                                 damping->rate, &damping->misfit, messages);
+    array_free(damped);
+    return status;
+}
+
+static selas_status set_wanted(const struct scene *scene, struct ground_damping *damping,
+                               struct messages *messages)
+{
+    const selas_status status = set_band(scene, damping, messages);
+    for (size_t i = 0; i < damping->materials; i++)
+        damping->wanted[i] = damping->fitted[i] = wanted_of(&scene->material[i], damping->centroid);
+    return status;
+}
+
+static selas_status fit(const struct scene *scene, struct ground_damping *damping, struct messages *messages)
+{
+    const struct deck_group *group = scene->method.group;
+    damping->mechanisms = group != NULL && deck_values(group, "mechanisms") > 0
+                              ? (size_t)deck_integer(group, "mechanisms", 0)
+                              : 3;
+    selas_status status = choose_rates(damping, messages);
+    for (size_t i = 0; i < damping->materials && status == SELAS_OK; i++)
+        if (damping->wanted[i].shear.power > 0)
+            status = relaxation_fit(&damping->band, damping->mechanisms, damping->rate,
+                                    &damping->fitted[i].axial, &damping->fitted[i].shear, messages);
+    return status;
+}
+
+selas_status ground_damping_new(const struct scene *scene, bool fitted, struct ground_damping **made,
+                                struct messages *messages)
+{
+    *made = NULL;
+    if (!ground_is_damped(scene)) return SELAS_OK;
+    struct ground_damping *damping = array_new(1, sizeof *damping);
+    if (damping == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
+    damping->materials = scene->materials;
+    damping->wanted = array_new(scene->materials, sizeof *damping->wanted);
+    damping->fitted = array_new(scene->materials, sizeof *damping->fitted);
+    if (damping->wanted == NULL || damping->fitted == NULL) {
+        ground_damping_free(damping);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
+    }
+    selas_status status = set_wanted(scene, damping, messages);
+    if (status == SELAS_OK && fitted) status = fit(scene, damping, messages);
+    if (status == SELAS_OK)
+        *made = damping;
+    else
+        ground_damping_free(damping);
+    return status;
+}
+
+void ground_damping_free(struct ground_damping *damping)
+{
+    if (damping == NULL) return;
+    array_free(damping->wanted);
+    array_free(damping->fitted);
+    array_free(damping);
+}
