@@ -306,7 +306,7 @@ static void march(struct run *run, double dt, int steps)
             v[i] += dt * run->a[i];
             run->y[i] += dt * v[i];
         }
-        run->model->memory->remember(run->model, dt, run->y);
+        model_remember(run->model, dt, run->y);
     }
 }
 
@@ -404,7 +404,7 @@ static void test_layers_absorb(void **state)
                 v[i] += dt * run[large].a[i];
                 run[large].y[i] += dt * v[i];
             }
-            if (!large) run[large].model->memory->remember(run[large].model, dt, run[large].y);
+            if (!large) model_remember(run[large].model, dt, run[large].y);
             velocity_at(&run[large], (double[]){1, 1, 0}, value[large]);
         }
         off += pow(value[0][0] - value[1][0], 2) + pow(value[0][2] - value[1][2], 2);
