@@ -68,6 +68,10 @@ told "half a pulse that is no half" "initial state is not its own image in the s
 told "a pulse across a symmetry plane" "initial state is not its own image in the symmetry plane x-" initial%direction=1,0
 told "a pulse that reaches a free face" "initial state reaches the free face y-, 2 widths away" initial%centre=0,1
 told "few points in a pulse" "2.57 points per wavelength of the initial state; 4 need body%spacing = 0.16" initial%width=.25
+cp start.nml cut.nml
+echo "&boundary face = 'y+', kind = 'transmitting', layer = 'lysmer' /" >>cut.nml
+deck=cut.nml
+told "a pulse that an absorbing face cuts" "initial state reaches the absorbing face y+, .* nothing of it" initial%centre=0,3.5
 deck=moved.nml
 sed '/^&load/d' good.nml | sed "s/'x+', 'y+', kind = 'transmitting'/'y+', kind = 'displacement', direction = 0, 1, amplitude = 0.1, history = 'gaussian', width = 1, delay = 5/" >moved.nml
 "$selas" --strict check moved.nml >said 2>&1 && echo "ok - a face that moves along a symmetry plane: nothing to warn of" || told "a face that moves along" "nothing"

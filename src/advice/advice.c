@@ -47,22 +47,28 @@ static void look_at_start(struct adviser *adviser)
 }
 
 /* A displacement that reaches a free face pulls there at t = 0: a jump of traction, in waves that no lattice
- * carries. At 3.5 widths it is 2e-3 of the peak. */
-static void look_at_free_faces(struct adviser *adviser)
+ * carries; what lies beyond an absorbing face is not there. At 3.5 widths it is 2e-3 of the peak. */
+static void look_at_cut_start(struct adviser *adviser)
 {
     static const double reach = 3.5;
     const struct scene *scene = adviser->scene;
+    const double width = scene->initial.width;
     double centre[3];
     if (scene->initial.kind != INITIAL_GAUSSIAN || !body_is_box(&scene->body)) return;
     body_from_deck(&scene->body, scene->initial.centre, centre);
     for (int face = 0; face < 2 * scene->dimension; face++) {
-        const double away = fabs(face_plane(&scene->body, (enum face)face) - centre[face / 2]);
-        if (!boundary_is_free(&scene->boundary[face]) || away > reach * scene->initial.width) continue;
+        const double away =
+            face_sign((enum face)face) * (face_plane(&scene->body, (enum face)face) - centre[face / 2]);
+        const bool opened = boundary_is_free(&scene->boundary[face]);
+        if (away > reach * width || !(opened || boundary_absorbs(&scene->boundary[face]))) continue;
         advise(adviser,
-               "the initial state reaches the free face %s, %.2g widths away, where it begins with a "
-               "traction that "
-               "the face does not bear: short waves that the points do not carry; %g widths from it would do",
-               face_name((enum face)face), away / scene->initial.width, reach);
+               "the initial state reaches the %s face %s, %.2g widths away, %s; %g widths from it would do",
+               opened ? "free" : "absorbing", face_name((enum face)face), away / width,
+               opened ? "where it begins with a traction that the face does not bear: short waves that the "
+                        "points do "
+                        "not carry"
+                      : "beyond which there is nothing of it",
+               reach);
         return;
     }
 }
@@ -228,7 +234,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     struct adviser adviser = {scene, tell, context, 0};
     look_at_resolution(&adviser);
     look_at_start(&adviser);
-    look_at_free_faces(&adviser);
+    look_at_cut_start(&adviser);
     look_at_incompressible(&adviser);
     look_at_moments(&adviser);
     look_at_step(&adviser, stepper);
