@@ -67,11 +67,11 @@ halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots i
 test: setup ## set up, build and run all tests
 	@$(MAKE) --no-print-directory unit
 
-regress: ## the quick half of the nightly regression; page in output/regress/index.html (a minute or two)
-	@$(ALONE) regress/nightly/run -q
+regress: ## the quick half of the nightly regression; page in OUT=output/regress/index.html (a minute or two)
+	@$(ALONE) regress/nightly/run -q $(if $(OUT),-o '$(OUT)')
 
 nightly: ## the whole nightly regression: all cases, tests, planted faults, compilers, stability, accuracy
-	@$(ALONE) regress/nightly/run
+	@$(ALONE) regress/nightly/run $(if $(OUT),-o '$(OUT)')
 
 $(BUILD)/selas: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/libselas.a
 	$(link)

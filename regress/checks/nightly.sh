@@ -10,6 +10,7 @@ check() { # check WHAT COMMAND...
     shift
     if "$@" >"$work/said" 2>&1; then echo "ok - $what"; else echo "not ok - $what"; sed 's/^/# /' "$work/said" | head -20; fi
 }
+check 'make regress OUT=' sh -c "make -n regress OUT='some where' | grep -q \"run -q -o 'some where'\""
 mkdir -p "$work/regress/cases" "$work/regress/studies" "$work/output"
 cp -r regress/nightly "$work/regress/"
 cp -r input "$work/"
@@ -30,7 +31,9 @@ check 'every element that is opened is closed' sh -c "
     for tag in details summary figure ul pre svg header body html; do
         [ \$(grep -oE \"<\$tag[ >]\" $page | wc -l) -eq \$(grep -o \"</\$tag>\" $page | wc -l) ] || { echo \$tag; exit 1; }
     done"
-check 'errors and CPU time are in the log' sh -c "[ \$(wc -l <output/regress/log.txt) -eq 3 ]"
+check 'every case shows a small plot without a click' test "$(grep -c 'aria-label="[^"]*"><polyline' $page)" -eq 3
+check 'the first line is fit for the subject of a mail' sh -c "head -n 1 $summary | grep -qxE 'selas GREEN, [0-9]+ passed; commit [^ ;]+; [0-9]+ minutes; since last night: the first night'"
+check 'errors and CPU time are in the log' sh -c "[ \$(wc -l <output/regress/log.txt) -eq 4 ]"
 
 # one number of one history, by 1e-5 of it; a case that is refused
 awk '!/^#/ && $5 > 1 && !done { $5 *= 1.00001; done = 1 } { print }' regress/cases/pulse-fixed/accepted/far.dat >changed
@@ -42,15 +45,26 @@ check 'the heads of cases end as they should' sh -c "! grep -qE '[;,] *</small>'
 check 'the page is red' grep -q '<header class="red">' $page
 check 'all other cases were run' sh -c "grep -q '^passed bar-rk4' $summary && grep -q '^passed pulse-transmitting' $summary"
 check 'both failures are told' sh -c "grep -q '^FAILED aa-broken' $summary && grep -q 'not ok - pulse-fixed: histories as accepted' $summary"
+check 'what is new stands in the first line' sh -c "head -n 1 $summary | grep -qE '^selas RED, 2 of 5 failed; .*: aa-broken: new, fails, pulse-fixed: fails$'"
+check 'what is new stands on the page' grep -q '<li>pulse-fixed: fails</li>' $page
 check 'failures stand first' sh -c "[ \$(grep -n 'id=\"pulse-fixed\"' $page | cut -d: -f1) -lt \$(grep -n 'id=\"bar-rk4\"' $page | cut -d: -f1) ]"
 check 'the difference is drawn' grep -q 'differs from what was accepted: far_vx' $page
 
-check 'accepting asks, and takes no for an answer' sh -c "
-    echo n | regress/nightly/accept -b \"\$build\" pulse-fixed | grep -q 'left as it was' && cmp changed regress/cases/pulse-fixed/accepted/far.dat"
+check 'accepting asks, takes no for an answer and exits with 1' sh -c "
+    echo n | regress/nightly/accept -b \"\$build\" pulse-fixed >left && exit 1
+    grep -q 'left as it was' left && cmp changed regress/cases/pulse-fixed/accepted/far.dat"
 check 'accepting shows the difference' sh -c "echo n | regress/nightly/accept -b \"\$build\" pulse-fixed | grep -qE '^far +vx .* differs'"
 check 'accepting with --yes' sh -c "regress/nightly/accept --yes -b \"\$build\" pulse-fixed | grep -q 'pulse-fixed: accepted'"
 rm -rf regress/cases/aa-broken
 check 'green again' night
+check 'what passes again is told' sh -c "head -n 1 $summary | grep -q 'pulse-fixed: passes again$'"
+check 'a changed figure of a record is red' sh -c "
+    cp regress/cases/pulse-fixed/record kept
+    awk '/^far.exact.dat: v/ { \$5 *= 1.0001 } { print }' kept >regress/cases/pulse-fixed/record
+    ! regress/nightly/run -q -b \"\$build\" pulse-fixed >night.log 2>&1 && grep -q 'not ok - pulse-fixed: record as accepted: far.exact.dat: v' $summary
+    status=\$?
+    cp kept regress/cases/pulse-fixed/record
+    exit \$status"
 printf '#!/bin/sh\necho "ok - one"\necho "not ok - two <b>"\n' >regress/studies/absorption
 check 'further checks count line by line, and a full night runs them' sh -c "
     ! regress/nightly/run -b \"\$build\" >night.log 2>&1 && grep -q '^    not ok - two <b>' $summary && grep -q 'two &lt;b&gt;' $page &&
@@ -93,7 +107,5 @@ kill -KILL $night
 wait $night 2>/dev/null
 check 'killed without a word: the page says so' grep -q 'NOT FINISHED: . of 5 done; running, or killed without a word' $page
 check 'killed without a word: the summary says so' sh -c "grep -q 'NOT FINISHED' $summary && tail -n 1 $summary | grep -qE ' passed, [1-9][0-9]* failed'"
-[ -s output/regress/cases/slow/run.pid ] && kill "$(cat output/regress/cases/slow/run.pid)" 2>/dev/null
-exec 9>output/regress/lock
-flock -w 20 9 # what the night had started is gone: the folder can be removed
+check 'killed without a word: what it had started ends with it, the next night can begin' flock -w 10 output/regress/lock true
 exit 0

@@ -3,6 +3,7 @@
 #   case       key: value lines: what (one line for the page), deck, override (as often as wanted), atol and rtol of
 #              `selas diff` against accepted/, half (quick or night), plots (yes: also the program's own PNGs)
 #   accepted/  histories RECEIVER.dat and profiles PROFILE.dat, rounded to 11 digits
+#   record     what else a run leaves, in digests: exact histories, run.h5, the report, the echo (regress/nightly/record)
 #   errors     recorded errors against the exact solution, `NAME: VALUE`, where the deck has a &reference
 LC_ALL=C
 export LC_ALL
@@ -24,10 +25,10 @@ command_of() { # command_of CASE: as a user would type it
     echo "build/selas $(key "$1" deck) $(key "$1" override | sed "s/.*[,(' ;].*/\"&\"/" | tr '\n' ' ')"
 }
 
-run_case() { # run_case CASE BUILD FOLDER: leaves the results in FOLDER, the program's words in FOLDER.log
+run_case() { # run_case CASE BUILD FOLDER [no-plots]: leaves the results in FOLDER, the program's words in FOLDER.log; RUN_UNDER: what runs it
     run_folder=$3
     run_deck=$(key "$1" deck)
-    run_plots=$([ "$(key "$1" plots)" = yes ] && [ -z "${REGRESS_NO_PLOTS:-}" ] && echo T || echo F)
+    run_plots=$([ "$(key "$1" plots)" = yes ] && [ -z "${REGRESS_NO_PLOTS:-}${4:-}" ] && echo T || echo F)
     run_program=$2/selas
     rm -rf "$run_folder"
     run_words=$(key "$1" override)
@@ -37,13 +38,9 @@ run_case() { # run_case CASE BUILD FOLDER: leaves the results in FOLDER, the pro
     set -- $run_words
     unset IFS
     set +f
-    timeout "${REGRESS_TIMEOUT:-1800}" "$run_program" -q "$run_deck" "$@" output%plots="$run_plots" \
-        output%directory="$run_folder" >"$run_folder.log" 2>&1 &
-    echo $! >"$run_folder.pid" # for who has to stop it
-    wait $!
-    run_status=$?
-    rm -f "$run_folder.pid"
-    return $run_status
+    # shellcheck disable=SC2086
+    timeout "${REGRESS_TIMEOUT:-1800}" ${RUN_UNDER:-} "$run_program" -q "$run_deck" "$@" output%plots="$run_plots" \
+        output%directory="$run_folder" >"$run_folder.log" 2>&1
 }
 
 errors_of() { # errors_of FOLDER: `NAME: VALUE` of every error of report.txt that is recorded
@@ -98,7 +95,18 @@ diff_profile() { # diff_profile A B ATOL RTOL
         }' "$1" "$2"
 }
 
+record_differs() { # record_differs CASE NOW: prints what differs from the accepted record
+    [ -f "regress/cases/$1/record" ] || { echo 'there is none; see regress/nightly/accept'; return 1; }
+    regress/nightly/record diff "regress/cases/$1/record" "$2"
+}
+
 is_history() { grep -q '^# t ux uy uz vx vy vz' "$1"; }
+
+tell_figures() { # tell_figures NAME PASSED FAILED 'ERROR CPU INSTRUCTIONS' OUT: for the page, in the log, and as small plots
+    echo "$2 $3 $4" >"$5/cases/$1/figures"
+    echo "$(date -u +%Y-%m-%dT%H:%M) ${REGRESS_COMMIT:--} $1 $([ "$3" -eq 0 ] && echo pass || echo FAIL) $4" >>"$5/log.txt"
+    regress/nightly/small "$1" "$5/cases/$1/run" "$5/log.txt" >"$5/cases/$1/small.html"
+}
 
 html() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
 
