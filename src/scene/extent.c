@@ -229,6 +229,23 @@ static void state_snapshot(const struct scene *scene, size_t index, struct exten
     }
 }
 
+/* What a block sends back has to be in the box: it is held as if it were looked at. */
+static size_t count_blocks(const struct scene *scene)
+{
+    return scene->body.blocks;
+}
+
+static void state_block(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct ground_block *block = &scene->body.block[index];
+    double half[3] = {0};
+    for (int c = 0; c < scene->dimension; c++)
+        half[c] = block->half[c];
+    extent->role = EXTENT_SEEN;
+    begin_place(extent);
+    widen(scene, block->centre, half, extent);
+}
+
 /* --- All of them ---------------------------------------------------------------------------------------- */
 
 static const struct kind {
@@ -248,6 +265,8 @@ static const struct kind {
     {"material", NULL, NULL},
     {"body", NULL, NULL},
     {"layer", NULL, NULL},
+    {"block", count_blocks, state_block},
+    {"model", NULL, NULL}, /* in boxes that the deck gives */
     {"output", NULL, NULL},
     {"reference", NULL, NULL}, /* its histories are those of receivers */
 };

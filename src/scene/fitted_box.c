@@ -292,6 +292,7 @@ static bool sketch_scene(const struct builder *builder, struct scene *sketch)
     build_boundaries(&drawing);
     for (int face = 0; face < FACES; face++) /* those that nobody named are opened when the box is known */
         if (!sketch->boundary[face].given) sketch->boundary[face].kind = BOUNDARY_FREE;
+    build_blocks(&drawing);
     build_loads(&drawing);
     build_initial(&drawing);
     build_receivers(&drawing);
