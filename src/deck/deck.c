@@ -90,6 +90,11 @@ static bool same_value(enum word_type type, const struct value *one, const struc
     return false;
 }
 
+const char *deck_word(const struct deck_group *group, size_t i)
+{
+    return i < group->kind->words ? group->kind->word[i].name : NULL;
+}
+
 bool deck_given(const struct deck_group *group, const char *name)
 {
     size_t word;

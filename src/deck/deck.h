@@ -52,6 +52,8 @@ size_t deck_count(const struct deck *deck, const char *group);
 /* Occurrence `index` (from 0) of a group. */
 const struct deck_group *deck_get(const struct deck *deck, const char *group, size_t index);
 
+/* Name i (from 0) of those that the table lists for the group; NULL beyond the last. */
+const char *deck_word(const struct deck_group *group, size_t i);
 /* True if the deck or an override gave the name a value other than its default (the echo of a deck writes all
  * defaults and must mean the same). */
 bool deck_given(const struct deck_group *group, const char *name);

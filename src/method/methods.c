@@ -24,6 +24,39 @@ const struct method *method_find(const char *name, const char *variant)
     return NULL;
 }
 
+/* Does a list of words parted by blanks have this one? */
+static bool has_word(const char *words, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = words; at != NULL && *at != '\0'; at += strspn(at, " ")) {
+        const size_t here = strcspn(at, " ");
+        if (here == length && strncmp(at, word, length) == 0) return true;
+        at += here;
+    }
+    return false;
+}
+
+/* Words of another method are told of: the deck may have been made for it. */
+static void warn_of_idle_words(const struct method *method, const struct scene *scene,
+                               struct messages *messages)
+{
+    static const char all[] = "name variant symmetry precision";
+    const struct deck_group *group = scene->method.group;
+    const char *first = NULL;
+    char idle[256] = "";
+    for (size_t i = 0; group != NULL && method->words != NULL && deck_word(group, i) != NULL; i++) {
+        const char *word = deck_word(group, i);
+        if (!deck_given(group, word) || has_word(all, word) || has_word(method->words, word)) continue;
+        const size_t length = strlen(idle);
+        snprintf(idle + length, sizeof idle - length, "%s'%s'", first != NULL ? ", " : "", word);
+        if (first == NULL) first = word;
+    }
+    if (first != NULL)
+        deck_warning(scene->deck, group, first, messages,
+                     "method '%s', variant '%s', has no use for %s; its own words are: %s", method->name,
+                     method->variant, idle, method->words);
+}
+
 /* What the scene asks of the method beyond its equations. */
 static selas_status check_abilities(const struct method *method, const struct scene *scene,
                                     struct messages *messages)
@@ -66,6 +99,7 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
                     scene->method.variant);
     status = check_abilities(method, scene, messages);
     if (status != SELAS_OK) return status;
+    warn_of_idle_words(method, scene, messages);
     const unsigned axes = method->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(method, scene, axes, model, messages);
     return damped_or_plain(method, scene, model, messages);

@@ -68,6 +68,8 @@ struct model;
 /* A method of the list in deck/choices.h: what a deck may ask for. */
 struct method {
     const char *name, *variant; /* as in the deck */
+    const char
+        *words; /* of &method that it takes, parted by blanks, beside name, variant, symmetry and precision */
     bool mirrors;         /* exact on the half of a symmetric scene with symmetry on the middle plane: see
                        method/mirror.h */
     unsigned faces;       /* what it can do at faces: CAN_... (scene/boundary.h) */

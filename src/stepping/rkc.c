@@ -185,7 +185,7 @@ static void step(struct stepper *stepper, struct state *state)
 const struct scheme_class scheme_rkc = {
     .name = "rkc",
     .order = 2,
-    .can = SCHEME_MOVING_LOADS,
+    .can = SCHEME_MOVING_LOADS | SCHEME_STAGES,
     .default_for = DEFAULT_FOR_DAMPED,
     .evaluations = 1,
     .polynomial = rkc_polynomial,

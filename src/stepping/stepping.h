@@ -21,7 +21,8 @@ enum scheme_ability {
     SCHEME_FILTERS = 4,      /* calls the filter of a model, which acts on the velocity at half a step */
     SCHEME_REMEMBERS = 8,    /* brings the memory of a model over each step (absorbing layers) */
     SCHEME_ONE_PASS = 16,    /* lets a model make whole steps (single precision) */
-    SCHEME_UNWARPS = 32      /* its only time error is the warp of the time-dispersion transform */
+    SCHEME_UNWARPS = 32,     /* its only time error is the warp of the time-dispersion transform */
+    SCHEME_STAGES = 64       /* their number is free */
 };
 
 /* Models for which a scheme is the default: all that have accelerate(); else by C. */

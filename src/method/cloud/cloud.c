@@ -28,6 +28,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_cloud = {
     .name = "smoothed-point",
     .variant = "cloud",
+    .words = "kernel smoothing_length hourglass",
     .faces = CAN_HOLD | CAN_MIRROR | CAN_DAMP,
     .create = create,
 };

@@ -305,6 +305,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_consistent = {
     .name = "smoothed-point",
     .variant = "consistent",
+    .words = "degree ends mass tuned depth_mass dissipation fused quiet operator mechanisms",
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP | CAN_ABSORB,
     .mirrors = true,
     .single = true,

@@ -52,9 +52,12 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
     if (options->degree < 1 || options->degree > SPLINE_MAX_DEGREE)
         return fail(messages, SELAS_BAD_SCENE, "method%%degree = %d; expected 1 to %d", options->degree,
                     SPLINE_MAX_DEGREE);
-    if (options->dissipation > 0 && options->sweeps == 0)
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "method%%dissipation needs method%%mass = 'vc1', 'vc2' or 'vc3', not 'exact'");
+    static const char *const of_sweeps[] = {"dissipation", "depth_mass"};
+    const struct deck_group *group = scene->method.group;
+    for (size_t i = 0; i < 2 && group != NULL && options->sweeps == 0; i++)
+        if (deck_given(group, of_sweeps[i]) && !(i == 0 && deck_real(group, "dissipation", 0) == 0))
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "method%%%s needs method%%mass = 'vc1', 'vc2' or 'vc3', not 'exact'", of_sweeps[i]);
     if (options->tuned && !tunable(scene, options))
         return fail(
             messages, SELAS_UNSUPPORTED,

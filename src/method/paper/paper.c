@@ -313,6 +313,8 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_paper = {
     .name = "smoothed-point",
     .variant = "paper",
+    .words = "kernel smoothing_length filter filter_form deconvolution row_sums volume_factors area_factors "
+             "kernel_correction boundary_term load_sum patch_overlap",
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,
 };

@@ -307,6 +307,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_total_lagrangian = {
     .name = "sph",
     .variant = "total-lagrangian",
+    .words = "kernel smoothing_length viscosity_alpha viscosity_beta hourglass gradient law",
     .point_materials = true,
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,

@@ -311,6 +311,8 @@ static selas_status create(const struct scene *scene, struct model **model, stru
 const struct method method_updated_lagrangian = {
     .name = "sph",
     .variant = "updated-lagrangian",
+    .words = "kernel smoothing_length viscosity_alpha viscosity_beta artificial_stress gradient_correction "
+             "jaumann forces hourglass",
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,
 };
