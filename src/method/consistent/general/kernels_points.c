@@ -27,8 +27,9 @@ INLINED void across(const int count, const struct taps *t, double scale, const d
 }
 
 /* Values and slopes (times the spacing) along x at point i of a row. */
-#define VALUE(row) (knots ? .5 * (row[i] + row[i + 1]) : .125 * (row[i] + 6 * row[i + 1] + row[i + 2]))
-#define SLOPE(row) (knots ? row[i + 1] - row[i] : .5 * (row[i + 2] - row[i]))
+#define VALUE(row)                                                                                           \
+    (knots ? .5 * ((row)[i] + (row)[i + 1]) : .125 * ((row)[i] + 6 * (row)[i + 1] + (row)[i + 2]))
+#define SLOPE(row) (knots ? (row)[i + 1] - (row)[i] : .5 * ((row)[i + 2] - (row)[i]))
 
 /* Rows of the component of slot s in the scratch: a = slope along x to be, b along y, c along depth. */
 #define ROWS(s)                                                                                              \
@@ -111,9 +112,10 @@ INLINED void run_stresses(const bool flat, const bool knots, const struct run_of
 
 /* Transposes of VALUE and SLOPE: what points pull at number i of a row; the stresses are 0 beyond both ends. */
 #define PULL_VALUE(row)                                                                                      \
-    (knots ? .5 * (row[(ptrdiff_t)i - 1] + row[i])                                                           \
-           : .125 * (row[(ptrdiff_t)i - 2] + 6 * row[(ptrdiff_t)i - 1] + row[i]))
-#define PULL_SLOPE(row) (knots ? row[(ptrdiff_t)i - 1] - row[i] : .5 * (row[(ptrdiff_t)i - 2] - row[i]))
+    (knots ? .5 * ((row)[(ptrdiff_t)i - 1] + (row)[i])                                                       \
+           : .125 * ((row)[(ptrdiff_t)i - 2] + 6 * (row)[(ptrdiff_t)i - 1] + (row)[i]))
+#define PULL_SLOPE(row)                                                                                      \
+    (knots ? (row)[(ptrdiff_t)i - 1] - (row)[i] : .5 * ((row)[(ptrdiff_t)i - 2] - (row)[i]))
 
 /* Transpose of across(), of a component with the stresses along x, y and depth. */
 INLINED void pull(const int count, const bool knots, const struct taps *t, double scale, size_t n,
