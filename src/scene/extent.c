@@ -31,12 +31,11 @@ static void widen(const struct scene *scene, const double position[3], const dou
     }
 }
 
-/* P wavelength at the root mean square frequency of f', taken as that of f times what a Gaussian's is: kinks
- * of f then count as what they are for a lattice. */
+/* P wavelength at the root mean square frequency of f'. */
 static double wavelength_of(const struct scene *scene, const struct history *history)
 {
     if (!(history->rate > 0)) return INFINITY; /* a host's, or one that never changes */
-    return 2 * M_PI * scene_fastest(scene) / history->rate / slope_over_value;
+    return 2 * M_PI * scene_fastest(scene) / history->rate;
 }
 
 /* --- What acts ------------------------------------------------------------------------------------------ */

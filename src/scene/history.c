@@ -333,15 +333,23 @@ bool history_same(const struct history *a, const struct history *b)
 void history_set_rate(struct history *history, double end_time)
 {
     enum { PARTS = 4000 };
+    static const double slope_of_bell = 1.7320508075688772, stays = .1;
     const double end = history_end(history);
     const bool lasting = !(end < end_time) || history_value(history, end * (1 + 1e-9), 0) != 0;
     const double step = (lasting ? end_time : end) / PARTS;
-    double value = 0, slope = 0;
-    for (int i = 0; i < PARTS; i++) {
-        value += pow(history_value(history, (i + .5) * step, 0), 2);
-        slope += pow(history_value(history, (i + .5) * step, 1), 2);
+    double square[3] = {0}, largest = 0;
+    for (int i = 0; i < PARTS; i++)
+        for (int derivative = 0; derivative < 3; derivative++) {
+            const double value = history_value(history, (i + .5) * step, derivative);
+            square[derivative] += value * value;
+            if (derivative == 0) largest = fmax(largest, fabs(value));
+        }
+    history->rate = 0;
+    if (lasting && fabs(history_value(history, end_time, 0)) > stays * largest) {
+        if (square[1] > 0) history->rate = sqrt(square[2] / square[1]);
+    } else if (square[0] > 0) {
+        history->rate = slope_of_bell * sqrt(square[1] / square[0]);
     }
-    history->rate = value > 0 ? sqrt(slope / value) : 0;
 }
 
 double history_rate_norm(const struct history *history)

@@ -19,7 +19,8 @@ struct history {
     double duration, frequency, delay, width, cycles, smoothing, start;
     size_t rows; /* table */
     double *table_time, *table_value;
-    double rate; /* root mean square of f' over that of f while it acts, 0 without one: history_set_rate() */
+    double
+        rate; /* root mean square angular frequency of f' while it acts, 0 without one: history_set_rate() */
 };
 
 /* Derivative of order `derivative` = -1 (integral from 0), 0, 1 or 2 at time t; kinks and jumps without
@@ -45,7 +46,8 @@ bool history_same(const struct history *a, const struct history *b);
  * today). */
 double history_end(const struct history *history);
 
-/* Sets `rate`, for runs to this time. */
+/* Sets `rate`, for runs to this time: of a pulse from f' and f, as of a bell (kinks then count as what they are for
+ * a lattice); of what lasts from f'' and f'. */
 void history_set_rate(struct history *history, double end_time);
 
 /* L2 norm of f' over all time, impulses left out. */
