@@ -14,7 +14,9 @@ ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-
            $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
 
-SOURCES := $(filter-out src/program/%,$(shell find src -name '*.c' | sort))
+# The room of ranks has two faces: alone.c, and mpi.c in its place in what `make mpi` makes
+MPI_ONLY = src/parallel/mpi.c
+SOURCES := $(filter-out src/program/% $(MPI_ONLY),$(shell find src -name "*.c" | sort))
 # Kernels are compiled once for each kind of processor (src/base/processor.h)
 KERNELS  = $(wildcard $(addprefix src/method/,spline/passes.c consistent/fused/kernels_*.c consistent/general/kernels_*.c consistent/absorbing/pml_kernels_*.c \
            total_lagrangian/*_loops.c updated_lagrangian/block_rates.c updated_lagrangian/artificial_stress.c cloud/solver.c cloud/splines.c))
@@ -52,12 +54,17 @@ define link
 endef
 
 .DEFAULT_GOAL := all
-.PHONY: all setup halfspace test regress nightly install uninstall clean help always
+.PHONY: all setup setup-mpi mpi halfspace test regress nightly install uninstall clean help always
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
 setup: ## install what is missing with apt (root or sudo)
 	@sh regress/setup
+
+setup-mpi: setup ## install what `make mpi` needs besides
+	@sh regress/setup mpi
+
+mpi: $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/ranks.md)
 
 halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots in output/halfspace/
 	@$(MAKE) --no-print-directory all
@@ -82,6 +89,17 @@ $(BUILD)/libselas.a: $(OBJECTS)
 
 $(BUILD)/obj/%.o: src/%.c
 	$(compile)
+
+# The program for ranks: MPI's own compiler makes one object and links
+MPICC   ?= mpicc
+$(BUILD)/selas-mpi: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/mpi/mpi.o $(BUILD)/libselas-mpi.a
+	$(link)
+$(BUILD)/libselas-mpi.a: $(filter-out %/parallel/alone.o,$(OBJECTS))
+	@rm -f $@
+	$(Q)$(AR) rcs $@ $^
+$(BUILD)/mpi/mpi.o: $(MPI_ONLY)
+	$(compile)
+$(BUILD)/selas-mpi $(BUILD)/mpi/mpi.o: private override CC = $(MPICC)
 
 # the commit that is built, "+" behind it if files were changed; provenance.c is compiled anew when it changes
 COMMIT   = $(shell git describe --always --exclude='*' --dirty=+ 2>/dev/null || echo unknown)

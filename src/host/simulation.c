@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "parallel/ranks.h"
 #include "host/simulation.h"
 
 #include <math.h>
@@ -68,6 +69,7 @@ static selas_status build_scene(selas_simulation *simulation)
         accuracy_build(simulation->deck, host_trial, &simulation->scene, &simulation->messages);
     if (status == SELAS_OK) status = place_results(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);
+    if (status == SELAS_OK) simulation->scene->ranks = simulation->ranks;
     if (status != SELAS_OK) scene_free(&simulation->scene);
     return status;
 }
@@ -222,13 +224,18 @@ selas_status simulation_prepare(selas_simulation *simulation)
     if (status != SELAS_OK || simulation->prepared) return status;
     struct messages *messages = &simulation->messages;
     const struct stopwatch begun = start_watch();
-    if (simulation->model == NULL) status = model_create(simulation->scene, &simulation->model, messages);
+    status = shared_check(simulation);
+    if (status == SELAS_OK && simulation->model == NULL)
+        status = model_create(simulation->scene, &simulation->model, messages);
+    if (ranks_idle(simulation->ranks)) return SELAS_STOPPED;
+    status = ranks_agree(simulation->ranks, status, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
     if (status == SELAS_OK) host_prepare_stepper(simulation);
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
+    status = ranks_agree(simulation->ranks, status, messages);
     simulation->prepared = status == SELAS_OK;
     simulation->figures.threads = omp_get_max_threads();
     add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
@@ -245,6 +252,7 @@ static selas_status start(selas_simulation *simulation)
     status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
     if (status == SELAS_OK && simulation->recording)
         status = recorder_open(simulation->recorder, NULL, &simulation->messages);
+    status = ranks_agree(simulation->ranks, status, &simulation->messages);
     if (status == SELAS_OK)
         status = recorder_observe(simulation->recorder, &simulation->state, &simulation->messages);
     if (status == SELAS_OK) status = host_answer(simulation);

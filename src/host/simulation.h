@@ -55,6 +55,7 @@ struct selas_simulation {
     bool consequence;    /* the last call was not done because of that failure */
     char *last;          /* what selas_last_message handed out */
     struct host host;
+    struct ranks *ranks; /* that share the work, borrowed; NULL: one alone */
     struct given_points points;
     double *point_position, *point_volume;
     size_t *point_material;
@@ -108,6 +109,11 @@ selas_status simulation_open_run(const char *path, size_t count, const char *con
 char *simulation_checkpoint_path(selas_simulation *simulation);
 /* Saves the state there, if it is sound. */
 selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint_keep keep);
+
+/* host/shared.c: from now on the ranks share the work of this simulation: before its model is made. */
+void simulation_share(selas_simulation *simulation, struct ranks *ranks);
+/* SELAS_UNSUPPORTED for what is not done on more than one rank. */
+selas_status shared_check(selas_simulation *simulation);
 
 /* host/trial.c: a trial_run (accuracy/trial.h). */
 selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct messages *messages);

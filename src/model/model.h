@@ -40,6 +40,7 @@ struct probe {
     double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame
                          of the unknowns (the body's if model->frame is set, else the deck's) */
     const struct material *material;
+    int holder; /* the rank that can read it; on the others count is 0, and nothing reads it */
     unsigned mirrored; /* method/mirror.c: bit 1 << axis if the values come from the mirror image across it */
 };
 
@@ -76,6 +77,7 @@ struct method {
     bool single;          /* some scenes may keep the state in single precision */
     bool any_ground;      /* takes blocks, tilted and graded layers */
     bool damping;         /* materials may have q_p and q_s: see method/damped/damped.h */
+    bool ranks;           /* shares its work among ranks (parallel/ranks.h) */
     bool point_materials; /* each point that a host gives may have a material of its own */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
@@ -95,9 +97,9 @@ struct model_core {
                     const double *a, double *value);
     /* Field at all body points, value[components * i + c], deck coordinates. */
     void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
-    void (*energy)(struct model *model, const double *y, struct energy *energy);
-    /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out).
-     */
+    void (*energy)(struct model *model, const double *y, struct energy *energy); /* ranks: together */
+    /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out);
+     * on ranks each one's part of it. */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed);
     /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
@@ -194,6 +196,7 @@ struct model {
                                   stored. Ask model_position(). */
     size_t grid[3];            /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
     size_t unknowns;           /* numbers in u */
+    size_t whole_unknowns;     /* those of all ranks together; 0: one alone */
     size_t state_size;         /* numbers in y */
     size_t component_stride, point_stride;
     size_t bytes;       /* memory held by the model */

@@ -27,5 +27,6 @@ selas_status short_body_scene(const struct scene *scene, struct scene **undriven
     *copy = *scene;
     copy->loads = copy->receivers = copy->profiles = copy->snapshots = 0;
     copy->initial.kind = INITIAL_REST;
+    copy->ranks = NULL;
     return SELAS_OK;
 }

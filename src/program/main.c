@@ -4,6 +4,7 @@
 
 #include "advice/advice.h"
 #include "host/simulation.h"
+#include "parallel/ranks.h"
 #include "program/commands.h"
 #include "program/run.h"
 #include "program/signals.h"
@@ -124,6 +125,7 @@ static int exit_status(selas_status status)
 
 static void print_line(void *context, const char *key, const char *value)
 {
+    if (context == NULL) return; /* not the first rank */
     fprintf(context, "%s: %s\n", key, value);
 }
 
@@ -139,7 +141,7 @@ static selas_status open_named(const struct arguments *arguments, selas_simulati
 static void print_error(void *context, const char *key, const char *value)
 {
     (void)key;
-    fprintf(context, "error: %s\n", value);
+    if (context != NULL) fprintf(context, "error: %s\n", value);
 }
 
 /* --strict: what would be a warning ends the program before anything is run. */
@@ -147,7 +149,8 @@ static selas_status be_strict(selas_simulation *simulation)
 {
     selas_status status = selas_steps_needed(simulation) > 0 ? SELAS_OK : SELAS_BAD_SCENE;
     if (status != SELAS_OK) return status;
-    const size_t wrong = advice_tell(simulation->scene, simulation->stepper, print_error, stderr);
+    const size_t wrong = advice_tell(simulation->scene, simulation->stepper, print_error,
+                                     ranks_first(simulation->ranks) ? stderr : NULL);
     return wrong + simulation->messages.warnings > 0 ? SELAS_BAD_SCENE : SELAS_OK;
 }
 
@@ -155,10 +158,12 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
 {
     if (strcmp(arguments->command, "check") == 0) {
         const struct echo_deck deck = {arguments->deck, arguments->overrides, arguments->override};
-        const selas_status status = selas_plan(simulation, print_line, stdout);
-        return status == SELAS_OK && arguments->echo ? check_echo(&deck) : status;
+        const selas_status status =
+            selas_plan(simulation, print_line, ranks_first(simulation->ranks) ? stdout : NULL);
+        return status == SELAS_OK && arguments->echo && ranks_first(simulation->ranks) ? check_echo(&deck) : status;
     }
     if (strcmp(arguments->command, "exact") == 0) {
+        if (!ranks_first(simulation->ranks)) return SELAS_OK;
         const selas_status status = selas_write_exact(simulation);
         if (status == SELAS_OK && !arguments->quiet) {
             simulation->exact->class->describe(simulation->exact, print_line, stdout);
@@ -185,11 +190,18 @@ int main(int count, char **words)
     signals_no_size_limit();
     H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
                         here */
+    struct ranks *ranks = ranks_begin();
     selas_status status = open_named(&arguments, &simulation);
+    if (simulation == NULL) ranks_abort(ranks, EXIT_RUN_FAILED); /* no memory for anything */
+    if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);
+    if (simulation != NULL) simulation_share(simulation, ranks);
     if (status == SELAS_OK && arguments.strict) status = be_strict(simulation);
     if (status == SELAS_OK) status = carry_out(simulation, &arguments, &told);
+    if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);
     tell_messages(simulation, &told);
     selas_close(&simulation);
     free(arguments.override);
-    return exit_status(status);
+    const int ended = ranks_idle(ranks) ? EXIT_DONE : exit_status(status);
+    ranks_end(&ranks);
+    return ended;
 }

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/progress.h"
 #include "host/simulation.h"
+#include "parallel/ranks.h"
 #include "program/signals.h"
 
 #include <inttypes.h>
@@ -39,6 +40,7 @@ struct run {
 
 void tell_messages(const selas_simulation *simulation, size_t *told)
 {
+    if (simulation != NULL && !ranks_first(simulation->ranks)) return;
     const char *text = simulation != NULL ? selas_message(simulation) : "error: no memory\n";
     const size_t length = strlen(text);
     if (length > *told) fputs(text + *told, stderr);
@@ -83,6 +85,7 @@ static selas_status save(struct run *run)
 
 static bool due(const struct run *run)
 {
+    if (ranks_count(run->simulation->ranks) > 1) return false; /* no checkpoints there */
     const long every = run->simulation->scene->output.checkpoint_every;
     if (every > 0 && selas_steps(run->simulation) % (unsigned long)every == 0) return true;
     return minutes_between(run) > 0.0 && wall_seconds() >= run->next_moment;
@@ -126,6 +129,12 @@ static void tell_last(const struct run *run, bool unstable)
 static void keep_state(struct run *run, const char *why)
 {
     const unsigned long step = selas_steps(run->simulation);
+    if (ranks_count(run->simulation->ranks) > 1) {
+        if (ranks_first(run->simulation->ranks))
+            fprintf(stderr, "%s at step %lu, t = %.6g; on ranks the state is not kept\n", why, step,
+                    selas_time(run->simulation));
+        return;
+    }
     const selas_status status = save(run);
     tell_messages(run->simulation, run->told);
     if (status == SELAS_OK)
@@ -143,20 +152,28 @@ static void leave_histories(struct run *run)
     selas_simulation *simulation = run->simulation;
     const selas_status status = recorder_write_so_far(simulation->recorder, &simulation->messages);
     tell_messages(simulation, run->told);
-    if (status == SELAS_OK && simulation->scene->receivers > 0)
+    if (status == SELAS_OK && simulation->scene->receivers > 0 && ranks_first(simulation->ranks))
         fprintf(stderr, "the histories so far are in %.*s\n",
                 (int)(strlen(run->path) - strlen("checkpoint.h5")), run->path);
 }
 
 /* --- Stepping --- */
 
+/* A signal to any rank stops all. */
+static bool stopping(const struct run *run)
+{
+    double stops = signals_stop() != NULL ? 1.0 : 0.0;
+    ranks_largest(run->simulation->ranks, 1, &stops);
+    return stops > 0.0;
+}
+
 static selas_status step_on(struct run *run, struct progress *progress, unsigned long needed)
 {
     selas_simulation *simulation = run->simulation;
     selas_status status = SELAS_OK;
-    while (status == SELAS_OK && selas_steps(simulation) < needed && signals_stop() == NULL) {
+    while (status == SELAS_OK && selas_steps(simulation) < needed && !stopping(run)) {
         status = selas_step(simulation, 1);
-        if (status == SELAS_OK && (signals_save() || due(run))) status = save_on_the_way(run);
+        if (status == SELAS_OK && (signals_save() || due(run)) && ranks_count(simulation->ranks) == 1) status = save_on_the_way(run);
         if (!run->quiet) progress_update(progress, selas_time(simulation), selas_steps(simulation));
     }
     return status;
@@ -192,8 +209,9 @@ static selas_status run_with_progress(struct run *run, const char *from)
         progress_finish(&progress, selas_time(simulation), selas_steps(simulation),
                         status == SELAS_OK && !stopped);
     if (stopped) {
-        char why[32];
-        snprintf(why, sizeof why, "stopped by %s", signals_stop());
+        char why[48];
+        const char *signal = signals_stop();
+        snprintf(why, sizeof why, "stopped by %s", signal != NULL ? signal : "a signal to another rank");
         keep_state(run, why);
         leave_histories(run);
         return SELAS_STOPPED;
@@ -202,13 +220,14 @@ static selas_status run_with_progress(struct run *run, const char *from)
         keep_state(run, "stopped");
     } else if (status != SELAS_OK) {
         tell_messages(simulation, run->told);
-        tell_last(run, status == SELAS_UNSTABLE);
+        if (ranks_first(simulation->ranks)) tell_last(run, status == SELAS_UNSTABLE);
     }
     return status;
 }
 
 selas_status run_program(selas_simulation *simulation, const char *from, bool quiet, size_t *told)
 {
+    quiet = quiet || !ranks_first(simulation->ranks);
     struct run run = {.simulation = simulation, .quiet = quiet, .told = told};
     selas_status status = run_with_progress(&run, from);
     if (status == SELAS_OK) {

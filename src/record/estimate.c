@@ -3,6 +3,7 @@
 #include "record/watch.h"
 
 #include "base/clock.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 
@@ -31,12 +32,14 @@ static double mean_step(struct stepper *stepper, struct recorder *recorder, stru
 {
     double begun = 0.0, now = 0.0;
     int steps = -1;
-    for (; steps < LEAST || (steps < MOST && now - begun < patience); steps++) {
+    for (bool more = true; more; steps++) {
         if (steps == 0) begun = wall_seconds();
         recorder->watch.next = INFINITY; /* looks at the whole state are counted apart */
         stepper->scheme->step(stepper, state);
         recorder_observe(recorder, state, NULL);
         now = wall_seconds();
+        more = steps + 1 < LEAST || (steps + 1 < MOST && now - begun < patience);
+        ranks_spread(recorder->scene->ranks, 0, &more, sizeof more);
     }
     const double each = (now - begun) / steps;
     recorder->watch.next = 0.0;

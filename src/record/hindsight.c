@@ -8,6 +8,7 @@
 #include "record/watch.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -172,5 +173,9 @@ void hindsight_observe(struct recorder *recorder, const struct state *state, boo
     if (recorder->model->leaks && recorder->watch.by_work) look_at_arrival(recorder, state);
     if (state->step != stepper->steps || recorder->looked_back) return;
     recorder->looked_back = true;
+    double largest[2] = {recorder->watch.turn, recorder->watch.strain};
+    ranks_largest(recorder->scene->ranks, 2, largest);
+    recorder->watch.turn = largest[0];
+    recorder->watch.strain = largest[1];
     hindsight_tell(recorder, warn_of, messages);
 }

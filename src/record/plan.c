@@ -133,7 +133,7 @@ void plan_tell(const struct recorder *recorder,
     say(&teller, "processor", "%s (vectors of %d bytes)", processor_name(processor_taken()),
         processor_bytes(processor_taken()));
     say(&teller, "points", "%zu", model->points);
-    say(&teller, "unknowns", "%zu", model->unknowns);
+    say(&teller, "unknowns", "%zu", model->whole_unknowns > 0 ? model->whole_unknowns : model->unknowns);
     if (model->grid[0] > 0)
         say(&teller, "lattice", "%zu x %zu x %zu", model->grid[0], model->grid[1] > 0 ? model->grid[1] : 1,
             model->grid[2] > 0 ? model->grid[2] : 1);

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/safe_file.h"
+#include "parallel/ranks.h"
 
 #include <stdlib.h>
 
@@ -36,7 +37,7 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
 
 selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
 {
-    if (recorder->file != NULL) return SELAS_OK;
+    if (recorder->file != NULL || !ranks_first(recorder->scene->ranks)) return SELAS_OK;
     selas_status status = make_folder(recorder->scene->output.directory, messages);
     if (status != SELAS_OK) return status;
     char *names = results_names(recorder->scene, recorder, false);
@@ -99,9 +100,10 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)
 {
     const char *results = recorder->folder;
-    selas_status status = recorder_unfinished(recorder, &recorder->folder, messages);
+    selas_status status = trace_finish(recorder, messages);
+    if (!ranks_first(recorder->scene->ranks)) return status;
+    if (status == SELAS_OK) status = recorder_unfinished(recorder, &recorder->folder, messages);
     recorder->so_far = true;
-    if (status == SELAS_OK) status = trace_finish(recorder, messages);
     if (status == SELAS_OK) status = histories_write(recorder, messages);
     if (status == SELAS_OK) status = profile_write(recorder, messages);
     if (status == SELAS_OK && recorder->scene->output.plots) plot_histories(recorder, messages);
@@ -140,7 +142,7 @@ selas_status recorder_write(struct recorder *recorder, struct exact *exact, cons
     if (recorder->written) return SELAS_OK;
     selas_status status = recorder_open(recorder, NULL, messages);
     if (status == SELAS_OK) status = recorder_finish(recorder, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || !ranks_first(recorder->scene->ranks)) return status;
     /* what was computed is written, whether there is something to compare it with or not */
     const selas_status compared = exact != NULL ? histories_compare(recorder, exact, messages) : SELAS_OK;
     char *names = results_names(recorder->scene, recorder, true);

@@ -5,6 +5,7 @@
 #include "record/parts.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,7 +69,8 @@ selas_status trace_observe(struct recorder *recorder, const struct state *state,
         static const selas_field field[3] = {SELAS_DISPLACEMENT, SELAS_VELOCITY, SELAS_ACCELERATION};
         double *const part[3] = {trace->u, trace->v, trace->a};
         bool finite = true;
-        for (size_t k = 0; k < 3; k++) {
+        const bool here = trace->probe.holder == ranks_me(recorder->scene->ranks);
+        for (size_t k = 0; here && k < 3; k++) {
             double value[6] = {0};
             model_observe(model, &trace->probe, field[k], state->y, state->a, value);
             memcpy(part[k] + 3 * trace->rows, value, 3 * sizeof *value);
@@ -200,8 +202,28 @@ static selas_status finish_one(const struct recorder *recorder, struct trace *tr
     return status;
 }
 
+/* Together: the first rank gets what every step showed at the receivers of others. */
+static void gather(const struct recorder *recorder)
+{
+    struct ranks *ranks = recorder->scene->ranks;
+    for (size_t r = 0; ranks_count(ranks) > 1 && r < recorder->scene->receivers; r++) {
+        const struct trace *trace = &recorder->trace[r];
+        const int holder = trace->probe.holder;
+        const size_t bytes = 3 * trace->rows * sizeof(double);
+        double *const part[3] = {trace->u, trace->v, trace->a};
+        for (size_t k = 0; holder > 0 && k < 3; k++) {
+            const struct ranks_piece get = {.with = holder, .receive = part[k], .receive_bytes = bytes};
+            const struct ranks_piece give = {.with = 0, .send = part[k], .send_bytes = bytes};
+            if (ranks_first(ranks)) ranks_exchange(ranks, 1, &get);
+            if (ranks_me(ranks) == holder) ranks_exchange(ranks, 1, &give);
+        }
+    }
+}
+
 selas_status trace_finish(struct recorder *recorder, struct messages *messages)
 {
+    gather(recorder);
+    if (!ranks_first(recorder->scene->ranks)) return SELAS_OK;
     selas_status status = make_times(recorder, messages);
     for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++)
         status = finish_one(recorder, &recorder->trace[r], messages);

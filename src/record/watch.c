@@ -6,6 +6,7 @@
 #include "record/watch.h"
 
 #include "base/sums.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <omp.h>
@@ -79,12 +80,9 @@ void watch_start(struct recorder *recorder)
                 fmax(watch->reference_until, history_end(&scene->boundary[face].history));
 }
 
-static void add_work(struct recorder *recorder, const struct state *state)
+static void add_work(struct recorder *recorder, const struct state *state, double load, double absorbed)
 {
     struct watch *watch = &recorder->watch;
-    const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
-    double load = 0.0, absorbed = 0.0;
-    recorder->model->core->power(recorder->model, &drive, state->y, &load, &absorbed);
     if (recorder->started) {
         const double half = 0.5 * (state->time - recorder->last_time);
         watch->work += half * (watch->power + load);
@@ -101,10 +99,12 @@ static const char *wrong_with_state(const struct recorder *recorder, const struc
 {
     const size_t size = recorder->model->state_size;
     double spoiled = 0.0; /* 0 * x is 0 for every finite x, and NaN otherwise */
-    if (isfinite(sum_of_products(size, state->y, state->y, omp_get_max_threads()))) return NULL;
-    for (size_t i = 0; i < size; i++)
+    double wrong = isfinite(sum_of_products(size, state->y, state->y, omp_get_max_threads())) ? 0.0 : 1.0;
+    for (size_t i = 0; i < size && wrong > 0.0; i++)
         spoiled += 0.0 * state->y[i];
-    return spoiled == 0.0 ? "the state overflows" : "the state is not finite";
+    if (spoiled != 0.0) wrong = 2.0;
+    ranks_largest(recorder->scene->ranks, 1, &wrong);
+    return wrong == 0.0 ? NULL : wrong == 1.0 ? "the state overflows" : "the state is not finite";
 }
 
 /* Some numbers of the state, others at every step: what is not finite spreads and is soon among them, while
@@ -146,9 +146,11 @@ static double energy_of_waves(const struct recorder *recorder, const struct stat
     state_settle(recorder->stepper, state, true);
     const double *v = state->y + model->unknowns, *a = state->a;
     const int threads = omp_get_max_threads();
-    const double vv = sum_of_products(model->unknowns, v, v, threads);
-    const double ww = vv + dt * sum_of_products(model->unknowns, v, a, threads) +
-                      0.25 * dt * dt * sum_of_products(model->unknowns, a, a, threads);
+    double sum[3] = {sum_of_products(model->unknowns, v, v, threads), /* of ranks with their halos */
+                     sum_of_products(model->unknowns, v, a, threads),
+                     sum_of_products(model->unknowns, a, a, threads)};
+    ranks_sum(recorder->scene->ranks, 3, sum);
+    const double vv = sum[0], ww = vv + dt * sum[1] + 0.25 * dt * dt * sum[2];
     return fmin(total, 2.0 * energy->kinetic * (vv > 0.0 ? fmax(1.0, ww / vv) : 1.0));
 }
 
@@ -221,12 +223,32 @@ static selas_status judge(struct recorder *recorder, const struct state *state, 
                                                             : SELAS_OK;
 }
 
-/* Between the looks at everything; leaves nothing in the results. */
-static selas_status glance(struct recorder *recorder, const struct state *state, struct messages *messages)
+/* What all ranks together see of a step. */
+enum { SEEN_WHOLE, SEEN_UNSOUND, SEEN_ENERGETIC, SEEN_LOAD, SEEN_ABSORBED, SEEN };
+
+static void see(struct recorder *recorder, const struct state *state, double seen[SEEN])
 {
+    struct watch *watch = &recorder->watch;
     bool energetic = false;
-    if (!sample_sound(recorder, state, &energetic)) return watch_sound(recorder, state, messages);
-    if (!energetic) return SELAS_OK;
+    const bool whole = !((double)state->step < watch->next);
+    if (watch->by_work || watch->with_faces) {
+        const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
+        recorder->model->core->power(recorder->model, &drive, state->y, &seen[SEEN_LOAD], &seen[SEEN_ABSORBED]);
+    }
+    if (!whole && !sample_sound(recorder, state, &energetic)) seen[SEEN_UNSOUND] = 1.0;
+    seen[SEEN_WHOLE] = whole ? 1.0 : 0.0;
+    seen[SEEN_ENERGETIC] = energetic ? 1.0 : 0.0;
+    ranks_sum(recorder->scene->ranks, SEEN, seen);
+    if (watch->by_work || watch->with_faces)
+        add_work(recorder, state, seen[SEEN_LOAD], seen[SEEN_ABSORBED]);
+}
+
+/* Between the looks at everything; leaves nothing in the results. */
+static selas_status glance(struct recorder *recorder, const struct state *state, const double seen[SEEN],
+                           struct messages *messages)
+{
+    if (seen[SEEN_UNSOUND] > 0.0) return watch_sound(recorder, state, messages);
+    if (!(seen[SEEN_ENERGETIC] > 0.0)) return SELAS_OK;
     state_settle(recorder->stepper, state, false);
     return judge(recorder, state, false, messages);
 }
@@ -234,9 +256,10 @@ static selas_status glance(struct recorder *recorder, const struct state *state,
 selas_status watch_observe(struct recorder *recorder, const struct state *state, struct messages *messages)
 {
     struct watch *watch = &recorder->watch;
-    if (watch->by_work || watch->with_faces) add_work(recorder, state);
-    if ((double)state->step < watch->next) {
-        const selas_status glanced = glance(recorder, state, messages);
+    double seen[SEEN] = {0};
+    see(recorder, state, seen);
+    if (!(seen[SEEN_WHOLE] > 0.0)) {
+        const selas_status glanced = glance(recorder, state, seen, messages);
         if (glanced == SELAS_OK) hindsight_observe(recorder, state, false, messages);
         return glanced;
     }

@@ -5,6 +5,7 @@
 #include "record/watch.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,11 +93,34 @@ static bool look(const struct recorder *recorder, const struct state *state, str
     return room;
 }
 
+/* On ranks: where one of them has most that is spoiled, or moves fastest. */
+static void name_rank(const struct recorder *recorder, const struct state *state, size_t size, char *text)
+{
+    struct ranks *ranks = recorder->scene->ranks;
+    struct unseen own = {.speed = -1.0};
+    recorder->model->core->unseen(recorder->model, state->y, &own);
+    double worst[2] = {(double)own.spoiled, isfinite(own.speed) ? own.speed : 0.0};
+    ranks_largest(ranks, 2, worst);
+    const bool mine = worst[0] > 0.0 ? worst[0] == (double)own.spoiled : worst[1] == own.speed;
+    double holder = mine ? -(double)ranks_me(ranks) : -(double)ranks_count(ranks);
+    ranks_largest(ranks, 1, &holder);
+    ranks_spread(ranks, -(int)holder, own.place, sizeof own.place);
+    if (worst[0] > 0.0)
+        snprintf(text, size, "; it began %s (rank %d), by now at %.0f points of that rank", own.place,
+                 -(int)holder, worst[0]);
+    else
+        snprintf(text, size, "; fastest %s (rank %d), speed %.3g", own.place, -(int)holder, worst[1]);
+}
+
 static void name_place(const struct recorder *recorder, const struct state *state, size_t size, char *text)
 {
     const struct model *model = recorder->model;
     struct found found;
     text[0] = '\0';
+    if (ranks_count(recorder->scene->ranks) > 1) {
+        name_rank(recorder, state, size, text);
+        return;
+    }
     if (model->core->field == NULL || !look(recorder, state, &found)) return;
     if (found.spoiled > 0)
         snprintf(text, size, "; it began about (%.6g, %.6g, %.6g), by now at %zu of %zu points",

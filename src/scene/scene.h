@@ -202,6 +202,7 @@ struct scene {
     struct stepping_choice stepping;
     struct output_choice output;
     struct reference reference;
+    struct ranks *ranks; /* that share the work (parallel/ranks.h), borrowed; NULL: one alone */
 };
 
 /* What the program chooses in place of the deck (scene%accuracy). */

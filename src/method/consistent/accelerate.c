@@ -69,11 +69,25 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
 }
 
-static bool all_zero(size_t n, const double *x)
+/* Together. */
+static bool all_zero(const struct consistent *c, const double *x)
 {
-    for (size_t i = 0; i < n; i++)
-        if (x[i] != 0) return false;
-    return true;
+    size_t i = 0;
+    while (i < c->model.unknowns && x[i] == 0)
+        i++;
+    return part_largest(c, i < c->model.unknowns ? 1 : 0) == 0;
+}
+
+/* x.y over own planes. */
+static double own_product(const struct consistent *c, const double *x, const double *y)
+{
+    double sum = 0;
+    if (c->part.ranks == NULL) return sum_of_products(c->model.unknowns, x, y, c->threads);
+    for (size_t component = 0; component < (size_t)c->dimension; component++) {
+        const size_t from = component * c->volume + c->part.own * c->plane;
+        sum += sum_of_products((c->part.end - c->part.own) * c->plane, x + from, y + from, c->threads);
+    }
+    return sum;
 }
 
 /* M v, M = rho H (x) H (x) H: mass_solve() with the factors of N gives H (x) H (x) H over the density. */
@@ -95,13 +109,13 @@ void hform_energy(struct consistent *c, const double *y, struct energy *energy)
     const double scale = density * density;
     double *work = c->hform->work;
     *energy = (struct energy){0};
-    if (!all_zero(n, y + n)) {
+    if (!all_zero(c, y + n)) {
         hform_weigh(c, y + n, work);
-        energy->kinetic = sum_of_products(n, work, y + n, c->threads) / 2;
+        energy->kinetic = own_product(c, work, y + n) / 2;
     }
-    if (!all_zero(n, y)) {
+    if (!all_zero(c, y)) {
         hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
         mass_solve(c, &c->hform->factors, work);
-        energy->strain = -scale * sum_of_products(n, work, y, c->threads) / 2;
+        energy->strain = -scale * own_product(c, work, y) / 2;
     }
 }

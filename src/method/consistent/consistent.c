@@ -42,6 +42,7 @@ static void destroy(struct model *model)
     for (int face = 0; face < BOX_FACES; face++)
         for (int component = 0; component < 3; component++)
             array_free(c->speed[face][component]);
+    part_free(c);
     array_free(c->plane_class);
     array_free(c->class_plane);
     array_free(c->line_buffer);
@@ -101,6 +102,7 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     else
         exact_accelerate(c, drive, half_step, u, v, a);
     set_moving(c, drive, a);
+    part_exchange(c, a, (size_t)c->dimension, c->volume * sizeof *a, c->plane * sizeof *a);
     model->evaluations++;
 }
 
@@ -108,19 +110,21 @@ static void energy(struct model *model, const double *y, struct energy *energy)
 {
     struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
+    const size_t own = c->part.own, end = c->part.end;
     bool moving = false;
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
     if (c->general != NULL) {
         general_energy(c, y, energy);
-        return;
-    }
-    if (c->hform != NULL && !moving) {
+    } else if (c->hform != NULL && !moving) {
         hform_energy(c, y, energy);
-        return;
+    } else {
+        energy->kinetic = tensor_form_planes(c->mass, own, end, v, v) / 2;
+        energy->strain = tensor_form_planes(c->stiffness, own, end, y, y) / 2;
     }
-    energy->kinetic = tensor_form(c->mass, v, v) / 2;
-    energy->strain = tensor_form(c->stiffness, y, y) / 2;
+    double sums[2] = {energy->kinetic, energy->strain};
+    ranks_sum(c->part.ranks, 2, sums);
+    *energy = (struct energy){sums[0], sums[1]};
 }
 
 static void weigh(struct model *model, const double *v, double *product)
@@ -286,6 +290,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
         destroy(&c->model);
         return status;
     }
+    c->model.whole_unknowns = (size_t)c->dimension * c->plane * c->part.whole;
     c->model.component_stride = c->volume;
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
@@ -311,5 +316,6 @@ const struct method method_consistent = {
     .single = true,
     .any_ground = true,
     .damping = true,
+    .ranks = true,
     .create = create,
 };

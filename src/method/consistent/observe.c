@@ -29,7 +29,7 @@ static void evaluate(const struct consistent *c, const struct place *place, int 
     double sum = 0, slope[3] = {0, 0, 0};
     for (size_t k = 0; k < count[2]; k++)
         for (size_t j = 0; j < count[1]; j++) {
-            const double *row = field + at[2]->index[k] * c->plane + at[1]->index[j] * c->n[0];
+            const double *row = field + (at[2]->index[k] - c->part.first) * c->plane + at[1]->index[j] * c->n[0];
             double along = 0, along_slope = 0;
             for (size_t i = 0; i < count[0]; i++) {
                 along += at[0]->value[i] * row[at[0]->index[i]];
@@ -115,11 +115,20 @@ static bool watch_place(struct consistent *c, const double place[3])
             spline_at(c->spline[axis], (odd >> axis & 1U) != 0, place[axis], &at[c->slot[axis]]);
         for (size_t w = 0; c->dimension == 3 && w < local * local * local; w++) {
             const size_t seen = at[0].index[w % local] + c->n[0] * at[1].index[w / local % local] +
-                                c->plane * at[2].index[w / (local * local)];
+                                c->plane * (at[2].index[w / (local * local)] - c->part.first);
             if (!fused_watch(c, 1, &seen)) return false;
         }
     }
     return true;
+}
+
+/* The rank that has all of these planes in its window: the lowest is its own. */
+static int holder_of(const struct consistent *c, const struct tuned_point *depth)
+{
+    size_t lowest = depth->index[0];
+    for (size_t j = 1; j < depth->count; j++)
+        lowest = depth->index[j] < lowest ? depth->index[j] : lowest;
+    return part_holder(c, lowest);
 }
 
 /* The weights are those of components that are even at symmetry planes; consistent_observe knows the others.
@@ -136,21 +145,24 @@ selas_status consistent_probe(struct model *model, const double position[3], str
         tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
         count[c->slot[axis]] = at[c->slot[axis]].count;
     }
-    const selas_status status = probe_allocate(probe, count[0] * count[1] * count[2], messages);
+    const int holder = holder_of(c, &at[DEPTH]);
+    const size_t all = holder == ranks_me(c->part.ranks) ? count[0] * count[1] * count[2] : 0;
+    const selas_status status = probe_allocate(probe, all, messages);
     if (status != SELAS_OK) return status;
     memcpy(probe->position, position, sizeof probe->position);
     probe->material = material_at(c, place[c->dimension - 1]);
+    probe->holder = holder;
     for (size_t w = 0; w < probe->count; w++) {
         const size_t i = w % count[0], j = w / count[0] % count[1], k = w / (count[0] * count[1]);
         const double value[3] = {at[0].value[i], at[1].value[j], at[2].value[k]};
         const double slope[3] = {at[0].slope[i] * value[1] * value[2], value[0] * at[1].slope[j] * value[2],
                                  value[0] * value[1] * at[2].slope[k]};
-        probe->index[w] = at[0].index[i] + c->n[0] * at[1].index[j] + c->plane * at[2].index[k];
+        probe->index[w] = at[0].index[i] + c->n[0] * at[1].index[j] + c->plane * (at[2].index[k] - c->part.first);
         probe->weight[w] = value[0] * value[1] * value[2];
         for (int axis = 0; axis < c->dimension; axis++)
             probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
     }
-    if (!watch_place(c, place)) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
+    if (all > 0 && !watch_place(c, place)) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
     return SELAS_OK;
 }
 
@@ -205,15 +217,39 @@ void consistent_field(struct model *model, selas_field field, const double *y, c
     }
 }
 
-/* Values at the Greville points become control values, one axis after the other. */
+/* Lines along an axis of one component, whose values at the Greville points become control values. */
+struct interpolation {
+    const struct consistent *c;
+    const struct band *lu;
+    int slot;
+    bool forward;
+    double *field;
+};
+
+static void interpolate_rows(void *context, size_t from, size_t end)
+{
+    const struct interpolation *task = context;
+    const struct line_set set = line_set(task->c, task->slot);
+    const struct band_rows rows = {task->lu->n, task->slot == DEPTH ? task->c->part.first : 0, from, end};
+    for (size_t line = 0; line < set.lines; line++)
+        band_lu_rows(task->lu, &rows, task->forward, task->field + line_start(&set, line), set.stride);
+}
+
+/* One axis after the other, depth last. */
 static void interpolate(struct consistent *c, int component, double *field)
 {
+    const size_t bytes = c->plane * sizeof *field;
     for (int axis = 0; axis < c->dimension; axis++) {
-        const struct band *lu = c->collocation[axis][axis == component];
-        const struct line_set set = line_set(c, c->slot[axis]);
-        for (size_t line = 0; line < set.lines; line++)
-            band_lu_solve(lu, field + line_start(&set, line), set.stride);
+        struct interpolation task = {c, c->collocation[axis][axis == component], c->slot[axis], true, field};
+        for (int half = 0; half < 2; half++) {
+            task.forward = half == 0;
+            if (task.slot == DEPTH)
+                part_sweep(c, task.forward, (size_t)c->options.degree, field, 1, 0, bytes, interpolate_rows, &task);
+            else
+                interpolate_rows(&task, 0, c->n[task.slot]);
+        }
     }
+    part_exchange(c, field, 1, 0, bytes);
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         consistent_clear_held(c, component, k, field + k * c->plane);
 }
@@ -228,7 +264,8 @@ void consistent_initialise(struct model *model, double *y)
         const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
         double position[3] = {0}, state[2][3];
         for (int axis = 0; axis < c->dimension; axis++)
-            position[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
+            position[axis] =
+                c->spline[axis]->greville[at[c->slot[axis]] + (c->slot[axis] == DEPTH ? c->part.first : 0)];
         if (scene->body.rotated) body_to_deck(&scene->body, position, position);
         initial_at(scene, position, state[0], state[1]);
         for (int kind = 0; kind < 2; kind++) {

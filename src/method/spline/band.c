@@ -84,6 +84,15 @@ struct band *band_sum(const struct band *a, double factor, const struct band *b)
     return c;
 }
 
+struct band *band_cut(const struct band *band, size_t from, size_t n)
+{
+    struct band *part = band_new(n, smaller(band->half, n - 1));
+    for (size_t i = 0; part != NULL && i < n; i++)
+        for (size_t j = first_column(part, i); j < end_column(part, i); j++)
+            band_add(part, i, j, band_get(band, from + i, from + j));
+    return part;
+}
+
 bool band_factorise(const struct band *band, double *factor)
 {
     const size_t n = band->n, half = band->half;
@@ -123,30 +132,43 @@ static void scale(double factor, size_t lanes, double *row)
 }
 
 /* Each row of the solution is a sum over rows that are known, and itself. */
-void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
+void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x, size_t stride,
+                       size_t lanes)
 {
     const struct passes *passes = taken_passes();
     double weight[MOST_HALF + 1];
-    for (size_t i = 0; i < n; i++) {
-        const size_t reach = smaller(i, half);
+    for (size_t row = rows->from; row < rows->end; row++) {
+        const size_t i = rows->first + row, reach = smaller(i, half);
         for (size_t d = 1; d <= reach; d++)
-            weight[reach - d] = -factor[i] * factor[d * n + i];
+            weight[reach - d] = -factor[i] * factor[d * rows->n + i];
         weight[reach] = factor[i];
-        passes->over_rows(weight, reach + 1, x + (i - reach) * stride, stride, lanes, NULL, x + i * stride);
+        passes->over_rows(weight, reach + 1, x + (row - reach) * stride, stride, lanes, NULL,
+                          x + row * stride);
     }
+}
+
+void band_backward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x,
+                        size_t stride, size_t lanes)
+{
+    const struct passes *passes = taken_passes();
+    double weight[MOST_HALF + 1];
+    for (size_t row = rows->end; row-- > rows->from;) {
+        const size_t i = rows->first + row, reach = smaller(rows->n - 1 - i, half);
+        for (size_t d = 1; d <= reach; d++)
+            weight[d] = -factor[i] * factor[d * rows->n + i + d];
+        weight[0] = factor[i];
+        passes->over_rows(weight, reach + 1, x + row * stride, stride, lanes, NULL, x + row * stride);
+    }
+}
+
+void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
+{
+    band_forward_rows(factor, &(struct band_rows){n, 0, 0, n}, half, x, stride, lanes);
 }
 
 void band_backward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
 {
-    const struct passes *passes = taken_passes();
-    double weight[MOST_HALF + 1];
-    for (size_t i = n; i-- > 0;) {
-        const size_t reach = smaller(n - 1 - i, half);
-        for (size_t d = 1; d <= reach; d++)
-            weight[d] = -factor[i] * factor[d * n + i + d];
-        weight[0] = factor[i];
-        passes->over_rows(weight, reach + 1, x + i * stride, stride, lanes, NULL, x + i * stride);
-    }
+    band_backward_rows(factor, &(struct band_rows){n, 0, 0, n}, half, x, stride, lanes);
 }
 
 void band_lower_multiply(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes)
@@ -173,14 +195,23 @@ bool band_lu(struct band *band)
     return true;
 }
 
+void band_lu_rows(const struct band *lu, const struct band_rows *rows, bool forward, double *x, size_t stride)
+{
+    const size_t first = rows->first;
+    for (size_t row = rows->from; row < rows->end && forward; row++)
+        for (size_t i = first + row, j = first_column(lu, i); j < i; j++)
+            x[row * stride] -= band_get(lu, i, j) * x[(j - first) * stride];
+    for (size_t row = rows->end; row-- > rows->from && !forward;) {
+        const size_t i = first + row;
+        for (size_t j = i + 1; j < end_column(lu, i); j++)
+            x[row * stride] -= band_get(lu, i, j) * x[(j - first) * stride];
+        x[row * stride] /= band_get(lu, i, i);
+    }
+}
+
 void band_lu_solve(const struct band *lu, double *x, size_t stride)
 {
-    for (size_t i = 0; i < lu->n; i++)
-        for (size_t j = first_column(lu, i); j < i; j++)
-            x[i * stride] -= band_get(lu, i, j) * x[j * stride];
-    for (size_t i = lu->n; i-- > 0;) {
-        for (size_t j = i + 1; j < end_column(lu, i); j++)
-            x[i * stride] -= band_get(lu, i, j) * x[j * stride];
-        x[i * stride] /= band_get(lu, i, i);
-    }
+    const struct band_rows all = {lu->n, 0, 0, lu->n};
+    band_lu_rows(lu, &all, true, x, stride);
+    band_lu_rows(lu, &all, false, x, stride);
 }

@@ -42,6 +42,20 @@ static inline double band_row(const struct band *band, size_t row, const double 
  * (half + 1) * n numbers. */
 bool band_factorise(const struct band *band, double *factor);
 
+/* New matrix of n rows and columns from `from` on; entries outside are left out. NULL: no memory. */
+struct band *band_cut(const struct band *band, size_t from, size_t n);
+
+/* Rows from .. end - 1 of a vector whose row 0 is row `first` of a matrix of n rows. */
+struct band_rows {
+    size_t n, first, from, end;
+};
+
+/* As band_forward() and band_backward() for some rows, those that they need before them being done. */
+void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x, size_t stride,
+                       size_t lanes);
+void band_backward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x,
+                        size_t stride, size_t lanes);
+
 /* Solves with L (forward) or L^T (backward) in place for `lanes` vectors at once: entry i of lane l stands at
  * x[i * stride + l]. */
 void band_forward(const double *factor, size_t n, size_t half, double *x, size_t stride, size_t lanes);
@@ -55,5 +69,7 @@ void band_lower_multiply(const double *factor, size_t n, size_t half, double *x,
  * pivot. Solves in place for x[i * stride]. */
 bool band_lu(struct band *band);
 void band_lu_solve(const struct band *lu, double *x, size_t stride);
+/* One half of it, forward first, for some rows, those that they need before them being done. */
+void band_lu_rows(const struct band *lu, const struct band_rows *rows, bool forward, double *x, size_t stride);
 
 #endif

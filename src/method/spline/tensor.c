@@ -209,9 +209,14 @@ void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t fr
 
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u)
 {
+    return tensor_form_planes(plan, 0, plan->n[2], w, u);
+}
+
+double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, const double *w, const double *u)
+{
     const size_t plane = plan->plane, step = rounded(plane);
 #pragma omp parallel for num_threads(plan->threads) schedule(static)
-    for (size_t k = 0; k < plan->n[2]; k++) {
+    for (size_t k = from; k < end; k++) {
         const int thread = omp_get_thread_num();
         double *out[3] = {NULL, NULL, NULL}, sum = 0;
         for (int c = 0; c < plan->components; c++) {
@@ -225,7 +230,7 @@ double tensor_form(struct tensor_plan *plan, const double *w, const double *u)
         plan->plane_sums[k] = sum;
     }
     double total = 0;
-    for (size_t k = 0; k < plan->n[2]; k++)
+    for (size_t k = from; k < end; k++)
         total += plan->plane_sums[k];
     return total;
 }

@@ -90,12 +90,31 @@ static void free_table(struct row_table *table)
     array_free(table->group);
 }
 
+/* Groups of rows of the body that the window has whole, numbered from its first row. */
+static void keep_window(struct row_table *table, struct span window)
+{
+    size_t kept = 0;
+    for (size_t g = 0; g < table->groups; g++) {
+        struct row_group *group = &table->group[g];
+        if (group->to < window.from || group->to + group->rows > window.from + window.n) {
+            array_free(group->weight);
+            continue;
+        }
+        group->to -= window.from;
+        table->group[kept++] = *group;
+    }
+    table->groups = kept;
+}
+
 /* Matrix of the rows b. */
 static bool lay_over_b(const struct fast_slab *fast, struct row_table *table, const struct tensor_term *term,
                        double factor, bool single)
 {
-    const struct span all = {0, fast->nb};
-    return lay_table(table, term->matrix[fast->axis[ROLE_B]], factor, all, all, FAST_GROUP, single);
+    const struct band *band = term->matrix[fast->axis[ROLE_B]];
+    const struct span all = {0, band->n}, window = {fast->first_b, fast->nb};
+    if (!lay_table(table, band, factor, all, window, FAST_GROUP, single)) return false;
+    keep_window(table, window);
+    return true;
 }
 
 /* By diagonals: [taps_f * width]. */
@@ -184,6 +203,7 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
     fast->damping = slab->damping + out;
     fast->ns = fast->inside.n[j];
     fast->nb = c->n[fast->axis[ROLE_B]];
+    fast->first_b = fast->axis[ROLE_B] == DEPTH ? c->part.first : 0;
     fast->nf = c->n[fast->axis[ROLE_F]];
     fast->width = rounded(fast->nf, c->options.single ? 2 * FAST_LANES : FAST_LANES);
     fast->start = slab->region.at[j] + out;

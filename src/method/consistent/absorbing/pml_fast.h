@@ -44,6 +44,7 @@ struct fast_slab {
     const struct slab *slab;
     int axis[3];                     /* by role */
     size_t ns, nb, nf, width;        /* numbers of the slab by role; in a padded row */
+    size_t first_b;                  /* row of the whole body that is the first one over b */
     struct block inside;             /* the slab's, without its outer end */
     const double *damping;           /* [ns] d there */
     size_t start;                    /* index of the region's first row along s */

@@ -285,6 +285,16 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
     FAST(c)->skipped += skipped;
 }
 
+/* phi in halo planes, where it hangs on more than the window has. */
+static void exchange_forces(const struct consistent *c, REAL *extra)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &FAST(c)->slab[i];
+        const size_t row = s->ns * s->width * sizeof *extra;
+        if (s->axis[ROLE_B] == DEPTH) part_exchange(c, extra + s->slab->phi, 3, s->nb * row, row);
+    }
+}
+
 double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
 {
     double largest = 0;
@@ -295,7 +305,7 @@ double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
             largest =
                 fmax(largest,
                      (double)taken_passes()->NAME(largest_size)(u + i * c->volume + k * c->plane, c->plane));
-    return c->options.quiet * largest;
+    return c->options.quiet * part_largest(c, largest);
 }
 
 void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_middle, double quiet,
@@ -312,6 +322,7 @@ void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_mi
     }
     for (size_t i = 0; i < c->pml->slabs; i++)
         move_forces(c, &FAST(c)->slab[i], level, dt, extra);
+    exchange_forces(c, extra);
 }
 
 /* L4 in a group of rows. */

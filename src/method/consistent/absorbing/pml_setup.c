@@ -78,7 +78,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     for (size_t i = 0; i < count; i++)
         slab->damping[i] = pml_damping_at(c, slab, spline->greville[first + i]);
     slab->inside = (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
-    slab->inside.at[slot] = first;
+    slab->inside.at[slot] = slot == DEPTH ? first - c->part.first : first;
     slab->inside.n[slot] = count;
     return lay_drag(c, slab, count, most);
 }
@@ -98,10 +98,11 @@ static void lay_region(const struct consistent *c, struct slab *slab)
 
 static struct tensor_plan *plan(struct terms t)
 {
-    if (!t.good) return NULL;
+    struct consistent *c = t.c;
+    if (!t.good || (c->slot[t.slab->axis] != DEPTH && !part_terms(c, t.term, t.count))) return NULL;
     struct tensor_plan *made =
-        tensor_plan_new(t.slab->region.n, t.c->dimension, t.term, t.count, t.c->threads);
-    if (made != NULL) t.c->pml->bytes += tensor_plan_bytes(made);
+        tensor_plan_new(t.slab->region.n, c->dimension, t.term, t.count, c->threads);
+    if (made != NULL) c->pml->bytes += tensor_plan_bytes(made);
     return made;
 }
 
@@ -133,13 +134,20 @@ static bool lay_regions(struct consistent *c)
     return good && c->pml->in != NULL && c->pml->out != NULL;
 }
 
+/* A layer over depth is one rank's own, whole (part.c). */
+static bool has_layer(const struct consistent *c, int face)
+{
+    const int rank = face % 2 == 0 ? 0 : ranks_count(c->part.ranks) - 1;
+    return c->slot[face / 2] != DEPTH || rank == ranks_me(c->part.ranks);
+}
+
 selas_status pml_create(struct consistent *c, struct messages *messages)
 {
     bool good = true;
     c->pml = array_new(1, sizeof *c->pml);
     if (c->pml == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
     for (int face = 0; good && face < 2 * c->dimension; face++) {
-        if (c->layer[face] == 0) continue;
+        if (c->layer[face] == 0 || !has_layer(c, face)) continue;
         struct slab *slab = &c->pml->slab[c->pml->slabs++];
         slab->axis = face / 2;
         slab->end = face % 2;

@@ -23,17 +23,6 @@ static const struct band *keep(struct slab *slab, struct band *band)
     return slab->band[slab->bands++] = band;
 }
 
-/* Rows and columns from .. from + n of a band matrix. */
-static struct band *cut(const struct band *band, size_t from, size_t n)
-{
-    struct band *part = band_new(n, band->half < n ? band->half : n - 1);
-    for (size_t i = 0; part != NULL && i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            if (band_get(band, from + i, from + j) != 0)
-                band_add(part, i, j, band_get(band, from + i, from + j));
-    return part;
-}
-
 /* What a term is applied to: a component's displacement, or that component's slope along an axis. */
 struct input {
     int component, slope_axis; /* slope_axis -1: the displacement */
@@ -49,7 +38,8 @@ static const struct band *fit(const struct consistent *c, struct slab *slab, int
 {
     const int slot = c->slot[axis];
     if (whole == NULL || axis != slab->axis) return keep(slab, whole);
-    struct band *part = cut(whole, slab->region.at[slot], slab->region.n[slot]);
+    const size_t first = slot == DEPTH ? c->part.first : 0;
+    struct band *part = band_cut(whole, first + slab->region.at[slot], slab->region.n[slot]);
     band_free(whole);
     return keep(slab, part);
 }
@@ -152,9 +142,10 @@ static void add_pair(struct terms *t, int out, size_t in, struct input from, int
 bool far_end_out(const struct consistent *c, const struct slab *slab)
 {
     const int slot = c->slot[slab->axis];
-    const size_t from = slab->region.at[slot], n = slab->region.n[slot];
+    const size_t first = slot == DEPTH ? c->part.first : 0;
+    const size_t from = first + slab->region.at[slot], n = slab->region.n[slot];
     return c->spline[slab->axis]->mirror[1 - slab->end] ||
-           (slab->end == 1 ? from > 0 : from + n < c->n[slot]);
+           (slab->end == 1 ? from > 0 : from + n < c->spline[slab->axis]->count);
 }
 
 /* N for the slopes of u_i along the slab's axis: that of components with their parity at symmetry planes. */

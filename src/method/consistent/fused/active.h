@@ -146,9 +146,16 @@ static double all_sizes(const struct fused *f, const REAL *u)
     return largest;
 }
 
+/* Together. */
+static double largest_of_all(const struct fused *f, double largest)
+{
+    if (f->quiet > 0) ranks_largest(f->ranks, 1, &largest);
+    return largest;
+}
+
 void NAME(fused_look)(struct fused *f, const REAL *u)
 {
-    const double level = f->quiet * all_sizes(f, u);
+    const double level = f->quiet * largest_of_all(f, all_sizes(f, u));
     const size_t reach = (size_t)f->deep / 2;
     for (size_t first = 0; first < f->n[2]; first += FUSED_PLANES) {
         struct loud loud = nothing_loud(f);

@@ -121,7 +121,9 @@ static bool lay_depth(struct consistent *c, struct fused *f)
     for (int component = 0; component < 3; component++)
         for (int which = 0; which < OVER_DEPTH_MATRICES; which++) {
             double factor = 1;
-            struct band *band = depth_matrix(c, component, (enum fused_depth)which, &factor);
+            struct band *whole = depth_matrix(c, component, (enum fused_depth)which, &factor);
+            struct band *band = whole == NULL ? NULL : band_cut(whole, c->part.first, f->n[DEPTH]);
+            band_free(whole);
             if (band != NULL)
                 f->z[component][which] = by_rows(band, factor, f->deep, rounded(f->n[2], FUSED_PLANES));
             band_free(band);
@@ -260,6 +262,7 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->plane = c->plane;
     f->volume = c->volume;
     f->threads = c->threads;
+    f->ranks = c->part.ranks;
     f->bare = !c->options.depth_exact;
     f->quiet = c->options.quiet;
     f->narrow = (int)(2 * degree + 1);
@@ -284,7 +287,7 @@ bool fused_create(struct consistent *c)
     if (c->dimension != 3 || c->weighted[WEIGHT_MU] != NULL || !shares_masses(c)) return true;
     if (degree != 2 || c->n[0] * sizeof(double) < FUSED_VECTOR) return true;
     for (int axis = 0; axis < 3; axis++)
-        if (c->n[axis] < 2 * reach + 2) return true;
+        if (c->spline[axis]->count < 2 * reach + 2) return true;
     c->fused = fused_new(c, sizeof(double));
     if (c->fused == NULL) return false;
     if (!c->options.single || c->n[0] * sizeof(float) < FUSED_VECTOR) return true;

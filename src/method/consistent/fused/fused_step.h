@@ -192,7 +192,20 @@ static double largest_before(const struct fused *f, const REAL *u)
 {
     if (f->quiet <= 0) return 0;
     const double largest = plane_size(f, f->loudest, u);
-    return largest > 0 && largest == f->largest ? largest : all_sizes(f, u);
+    return largest_of_all(f, largest > 0 && largest == f->largest ? largest : all_sizes(f, u));
+}
+
+/* The neighbours' planes of w or a. */
+static void exchange(const struct consistent *c, REAL *field)
+{
+    part_exchange(c, field, 3, c->volume * sizeof *field, c->plane * sizeof *field);
+}
+
+/* After an exchange a halo may have reached everywhere. */
+static void halo_reached(const struct consistent *c, const struct fused *f)
+{
+    for (size_t k = 0; k < f->n[2]; k++)
+        if (k < c->part.own || k >= c->part.end) f->reached[k] = fused_whole(f);
 }
 
 /* a := acceleration. */
@@ -203,6 +216,7 @@ static void accelerate(const struct consistent *c, const struct drive *drive,
     NAME(fused_look)(FUSED(c), step->u);
     pass_over(c, drive, &fields, false, 0);
     if (c->pml != NULL) NAME(pml_fast_accelerate)(c, 1, step->extra, a);
+    exchange(c, a);
 }
 
 void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
@@ -272,6 +286,8 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     struct window *spare = f->reached;
     f->reached = f->will_reach;
     f->will_reach = spare;
+    exchange(c, step->w);
+    halo_reached(c, f);
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
         const double before = watch->before[i], after = step->w[at];

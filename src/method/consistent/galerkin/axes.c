@@ -83,6 +83,7 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
         c->layout[c->slot[axis]] = c->spline[axis];
     }
     array_free(interface);
+    if (status == SELAS_OK) status = part_lay(c, messages);
     c->plane = c->n[0] * c->n[1];
     c->volume = c->plane * c->n[2];
     /* a thread that has less than this many values to work on costs more than it helps */
@@ -125,7 +126,7 @@ static bool lay_material(struct consistent *c)
 static bool lay_planes(struct consistent *c)
 {
     const struct scene *scene = c->model.scene;
-    const size_t n = c->n[DEPTH];
+    const size_t n = c->part.whole;
     c->plane_class = array_new(n, sizeof *c->plane_class);
     c->class_plane = array_new(n, sizeof *c->class_plane);
     if (c->plane_class == NULL || c->class_plane == NULL) return false;
@@ -186,7 +187,7 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
     for (int face = 0; face < 2 * c->dimension; face++) {
         if (!c->held[component][face]) continue;
         const int slot = c->slot[face / 2];
-        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        const size_t at = part_face(c, face);
         if (slot == 0)
             for (size_t j = 0; j < c->n[1]; j++)
                 plane[j * c->n[0] + at] = 0;

@@ -15,9 +15,10 @@ bool dampers_allocate(struct consistent *c)
     return c->line_buffer != NULL && c->face_buffer != NULL;
 }
 
-/* Masses of the slots along the face; NULL where the scene has no such axis. */
+/* Masses of the slots along the face, over depth the window's part; NULL where the scene has no such axis. */
 static const struct band *slot_mass(const struct consistent *c, int component, int slot)
 {
+    if (slot == DEPTH) return c->mass_depth[component];
     for (int axis = 0; axis < c->dimension; axis++)
         if (c->slot[axis] == slot) return c->mass_band[component][axis];
     return NULL;
@@ -41,7 +42,7 @@ static void subtract_side(const struct consistent *c, int face, int component, s
     const struct band *side = c->side[face][component]; /* has density and speed in it */
     const struct band *along = slot_mass(c, component, 1 - slot);
     const struct band *depth = side != NULL ? side : slot_mass(c, component, DEPTH);
-    const double factor = side != NULL ? 1 : c->property[WEIGHT_DENSITY] * c->speed[face][component][k];
+    const double factor = side != NULL ? 1 : c->property[WEIGHT_DENSITY] * c->speed[face][component][c->part.first + k];
     for (size_t j = 0; j < length; j++)
         line[j] = band_row(depth, k, v + from + j * step, c->plane);
     for (size_t j = 0; j < length; j++)
@@ -67,12 +68,12 @@ void dampers_subtract(const struct consistent *c, int thread, size_t k, const do
     for (int face = 0; face < 2 * c->dimension; face++) {
         if (!c->damped[face]) continue;
         const int slot = c->slot[face / 2];
-        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        const size_t at = part_face(c, face);
         if (slot == DEPTH && k != at) continue;
         for (int component = 0; component < c->dimension; component++) {
             const double *field = v + (size_t)component * c->volume;
             if (slot == DEPTH)
-                subtract_end(c, component, face_density(c, face) * c->speed[face][component][k],
+                subtract_end(c, component, face_density(c, face) * c->speed[face][component][c->part.first + k],
                              field + k * c->plane, line, out[component]);
             else
                 subtract_side(c, face, component, at, k, field, line, out[component]);
@@ -86,7 +87,7 @@ double dampers_power(const struct consistent *c, const double *v)
     double power = 0, *out[3] = {NULL, NULL, NULL};
     for (int component = 0; component < c->dimension; component++)
         out[component] = c->face_buffer + (size_t)component * c->plane;
-    for (size_t k = 0; k < c->n[DEPTH]; k++) {
+    for (size_t k = c->part.own; k < c->part.end; k++) {
         memset(c->face_buffer, 0, (size_t)c->dimension * c->plane * sizeof *c->face_buffer);
         dampers_subtract(c, 0, k, v, out);
         for (int component = 0; component < c->dimension; component++)

@@ -7,6 +7,7 @@
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_GALERKIN_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_GALERKIN_H
 
+#include "method/consistent/galerkin/part.h"
 #include "method/spline/tensor.h"
 #include "method/spline/tuned.h"
 #include "model/model.h"
@@ -57,20 +58,22 @@ struct consistent {
     int dimension, slot[3];         /* slot of each axis */
     struct spline *spline[3];       /* by axis */
     const struct spline *layout[3]; /* by slot; NULL where there is no axis */
-    size_t n[3], plane, volume;
+    size_t n[3], plane, volume; /* of the fields: over depth those of the rank's window */
+    struct rank_part part;
     double property[WEIGHT_NONE];  /* of the body's material */
     double *weighted[WEIGHT_NONE]; /* per element of the depth axis; NULL: the same everywhere */
     size_t matrices;
     struct axis_matrix matrix[MAX_MATRICES];
     const struct band *mass_band[3][3]; /* [component][axis], weighted by density where that varies */
+    const struct band *mass_depth[3];   /* the window's part of those over depth */
     struct tensor_plan *stiffness, *mass;
     bool held[3][BOX_FACES]; /* the face's control values of this component are prescribed */
     bool moving[BOX_FACES];
     double motion[BOX_FACES][3]; /* amplitude and direction in the body's frame */
     bool damped[BOX_FACES];
-    double *speed[BOX_FACES][3]; /* of a damped face's component at each plane: factor times wave speed */
+    double *speed[BOX_FACES][3]; /* of a damped face's component at each plane of the whole body: factor times wave speed */
     size_t classes;              /* kinds of planes by material; 1 without layers */
-    size_t *plane_class, *class_plane; /* [n[2]]; [classes]: the first plane of a class */
+    size_t *plane_class, *class_plane; /* of the whole body; [classes]: the first plane of a class */
     struct band *side[BOX_FACES][3];   /* layers: matrix over depth of a damped face across x or y */
     struct sparse *load;               /* [scene->loads]; 0 for those that move */
     size_t moving_loads;

@@ -204,6 +204,30 @@ static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *co
     return true;
 }
 
+/* A correction at two ends; none where the ends are not in the window. False: no memory. */
+static bool add_edge(struct consistent *c, int out, int in, const int end[2], const struct band *depth)
+{
+    struct hform *h = c->hform;
+    const double lambda = c->property[WEIGHT_LAMBDA], mu = c->property[WEIGHT_MU];
+    const double density = c->property[WEIGHT_DENSITY];
+    const int axes[2] = {out, in};
+    struct edge edge = {.out = out, .in = in, .to = {c->n[0], c->n[1], c->n[2]}};
+    edge.factor = (end[0] == end[1] ? -1 : 1) * lambda * mu / ((lambda + mu) * density);
+    edge.depth = part_matrix(c, depth);
+    if (depth != NULL && edge.depth == NULL) return false;
+    for (int i = 0; i < 2; i++) {
+        const int axis = axes[i], slot = c->slot[axis];
+        const size_t n = c->n[slot], first = slot == DEPTH ? c->part.first : 0;
+        edge.at[slot] = part_face(c, 2 * axis + end[i]);
+        if (edge.at[slot] == SIZE_MAX) return true;
+        edge.from[slot] = end[i] == 0 ? 0 : n - h->reach[axis];
+        edge.to[slot] = end[i] == 0 ? h->reach[axis] : n;
+        edge.column[slot] = h->column[out][axis][end[i]] + first;
+    }
+    h->edge[h->edges++] = edge;
+    return true;
+}
+
 /* Both products of K_ij in one, and what that leaves where two faces meet. */
 static bool add_mixed(struct consistent *c, struct tensor_term *terms, size_t *count, int out, int in)
 {
@@ -223,20 +247,10 @@ static bool add_mixed(struct consistent *c, struct tensor_term *terms, size_t *c
     if (c->dimension == 3 && !bare_matrix(c, across, out, in, WEIGHT_MU, &term->matrix[c->slot[across]]))
         return false;
     for (int ends = 0; ends < 4; ends++) {
-        const int end[2] = {ends % 2, ends / 2}, axes[2] = {out, in};
+        const int end[2] = {ends % 2, ends / 2};
         if (c->spline[out]->mirror[end[0]] || c->spline[in]->mirror[end[1]]) continue;
-        struct edge *edge = &h->edge[h->edges++];
-        *edge = (struct edge){.out = out, .in = in, .to = {c->n[0], c->n[1], c->n[2]}};
-        edge->depth = c->dimension == 3 ? term->matrix[c->slot[across]] : NULL;
-        edge->factor = (end[0] == end[1] ? -1 : 1) * lambda * mu / ((lambda + mu) * density);
-        for (int i = 0; i < 2; i++) {
-            const int axis = axes[i], slot = c->slot[axis];
-            const size_t n = c->n[slot];
-            edge->at[slot] = end[i] == 0 ? 0 : n - 1;
-            edge->from[slot] = end[i] == 0 ? 0 : n - h->reach[axis];
-            edge->to[slot] = end[i] == 0 ? h->reach[axis] : n;
-            edge->column[slot] = h->column[out][axis][end[i]];
-        }
+        const struct band *depth = c->dimension == 3 ? term->matrix[c->slot[across]] : NULL;
+        if (!add_edge(c, out, in, end, depth)) return false;
     }
     return true;
 }
@@ -256,7 +270,7 @@ static bool lay_plan(struct consistent *c)
                 good = good && add_term(c, terms, &count, i, j, i, j, WEIGHT_LAMBDA) &&
                        add_term(c, terms, &count, i, j, j, i, WEIGHT_MU);
         }
-    if (!good) return false;
+    if (!good || !part_terms(c, terms, count)) return false;
     c->hform->acceleration = tensor_plan_new(c->n, c->dimension, terms, count, c->threads);
     return c->hform->acceleration != NULL;
 }
@@ -284,11 +298,13 @@ static struct extent extent_of(const struct consistent *c, const struct sparse *
 }
 
 /* N along one axis of a component, over the density where that is the same everywhere and the axis the first;
- * the field is 0 out of the extent, which grows. */
-static void divide_along(const struct consistent *c, int component, int axis, struct extent *extent,
+ * the field is 0 out of the extent, which grows. False: no memory. */
+static bool divide_along(struct consistent *c, int component, int axis, struct extent *extent,
                          double *field, double *line)
 {
     const struct band *inverse = c->hform->inverse[component][axis];
+    if (c->slot[axis] == DEPTH) inverse = part_matrix(c, inverse);
+    if (inverse == NULL) return false;
     const double density = c->weighted[WEIGHT_DENSITY] == NULL && axis == 0 ? c->property[WEIGHT_DENSITY] : 1;
     const size_t stride[3] = {1, c->n[0], c->plane};
     const int slot = c->slot[axis], one = slot == 0 ? 1 : 0, other = slot == 2 ? 1 : 2;
@@ -303,10 +319,11 @@ static void divide_along(const struct consistent *c, int component, int axis, st
             for (size_t i = *from; i < *to; i++)
                 first[i * stride[slot]] = line[i];
         }
+    return true;
 }
 
 /* wide := M^-1 sparse (N along each axis). */
-static bool widen(const struct consistent *c, const struct sparse *sparse, double *field, double *line,
+static bool widen(struct consistent *c, const struct sparse *sparse, double *field, double *line,
                   struct sparse *wide)
 {
     memset(field, 0, c->model.unknowns * sizeof *field);
@@ -316,7 +333,7 @@ static bool widen(const struct consistent *c, const struct sparse *sparse, doubl
         for (size_t k = 0; k < c->n[DEPTH]; k++)
             sparse_add(c, sparse, component, k, 1, field + (size_t)component * c->volume + k * c->plane);
         for (int axis = 0; axis < c->dimension; axis++)
-            divide_along(c, component, axis, &extent, field, line);
+            if (!divide_along(c, component, axis, &extent, field, line)) return false;
     }
     return sparse_from(c, field, wide);
 }

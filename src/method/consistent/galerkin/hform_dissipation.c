@@ -90,6 +90,7 @@ bool hform_dissipation_create(struct consistent *c)
         largest = fmax(largest, bound);
     }
     c->model.dissipation = largest;
+    if (!part_terms(c, terms, count)) return false;
     h->dissipation = tensor_plan_new(c->n, c->dimension, terms, count, c->threads);
     return h->dissipation != NULL;
 }
@@ -120,7 +121,8 @@ double hform_dissipation_power(struct consistent *c, const double *v)
     mass_solve(c, &h->factors, h->work);
     const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
     double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += h->work[i] * v[i];
+    for (size_t component = 0; component < (size_t)c->dimension; component++)
+        for (size_t i = c->part.own * c->plane; i < c->part.end * c->plane; i++)
+            sum += h->work[component * c->volume + i] * v[component * c->volume + i];
     return -density * density * sum;
 }

@@ -21,9 +21,11 @@ static struct face_points face_points(const struct consistent *c, int slot)
     return (struct face_points){1, c->plane, 1, 0, c->plane};
 }
 
+/* (0 where the face is not in the window.) */
 static void gather(const struct face_points *face, size_t at, const double *field, double *values)
 {
-    for (size_t k = 0; k < face->planes; k++)
+    if (at == SIZE_MAX) memset(values, 0, face->planes * face->lanes * sizeof *values);
+    for (size_t k = 0; k < face->planes && at != SIZE_MAX; k++)
         for (size_t i = 0; i < face->lanes; i++)
             values[k * face->lanes + i] = field[i * face->lane + k * face->plane + at * face->across];
 }
@@ -34,12 +36,13 @@ static void spread(const struct consistent *c, int axis, int end, const double *
 {
     const struct face_points face = face_points(c, c->slot[axis]);
     const size_t n = c->n[c->slot[axis]], reach = c->hform->reach[axis];
-    const size_t from = end == 0 ? 0 : n - reach;
+    const size_t from = end == 0 ? 0 : n - reach, first = c->slot[axis] == DEPTH ? c->part.first : 0;
+    if (part_face(c, 2 * axis + end) == SIZE_MAX) return;
     for (size_t k = 0; k < face.planes; k++)
         for (size_t at = from; at < from + reach; at++)
             for (size_t i = 0; i < face.lanes; i++)
                 field[i * face.lane + k * face.plane + at * face.across] -=
-                    column[at] * values[k * face.lanes + i];
+                    column[first + at] * values[k * face.lanes + i];
 }
 
 /* Rows of a face across x or y in the order of the other end. */
@@ -83,7 +86,7 @@ static double damping(const struct consistent *c, int axis, int end, int compone
     const int face = 2 * axis + end;
     if (!c->damped[face]) return 0;
     const double *density = c->slot[axis] == DEPTH ? c->weighted[WEIGHT_DENSITY] : NULL;
-    if (c->slot[axis] == DEPTH) k = end == 0 ? 0 : c->n[DEPTH] - 1;
+    k = c->slot[axis] != DEPTH ? c->part.first + k : end == 0 ? 0 : c->part.whole - 1;
     return c->speed[face][component][k] *
            (density == NULL ? 1 : density[end == 0 ? 0 : c->spline[axis]->elements - 1]);
 }
@@ -95,7 +98,7 @@ static void subtract_velocities(struct consistent *c, int axis, int component, c
     for (int end = 0; end < 2; end++) {
         if (!c->damped[2 * axis + end]) continue;
         double *values = c->hform->face[0];
-        gather(&face, end == 0 ? 0 : c->n[slot] - 1, v, values);
+        gather(&face, part_face(c, 2 * axis + end), v, values);
         to_diagonal(c, slot, component, values);
         for (size_t k = 0; k < face.planes; k++)
             for (size_t i = 0; i < face.lanes; i++)
@@ -111,10 +114,10 @@ static void implicit_part(struct consistent *c, int axis, int component, double 
     double *const *column = c->hform->column[component][axis], *const *value = c->hform->face;
     const int slot = c->slot[axis];
     const struct face_points face = face_points(c, slot);
-    const size_t last = c->n[slot] - 1;
+    const size_t last = c->spline[axis]->count - 1;
     if (!c->damped[2 * axis] && !c->damped[2 * axis + 1]) return;
-    gather(&face, 0, a, value[0]);
-    gather(&face, last, a, value[1]);
+    gather(&face, part_face(c, 2 * axis), a, value[0]);
+    gather(&face, part_face(c, 2 * axis + 1), a, value[1]);
     to_diagonal(c, slot, component, value[0]);
     to_diagonal(c, slot, component, value[1]);
     for (size_t k = 0; k < face.planes; k++) {

@@ -99,9 +99,12 @@ void add_forces(const struct consistent *c, const struct drive *drive, const str
 double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field)
 {
     double sum = 0;
-    for (size_t plane = 0; plane < (size_t)c->dimension * c->n[DEPTH]; plane++)
-        for (size_t e = sparse->start[plane]; e < sparse->start[plane + 1]; e++)
-            sum += sparse->value[e] * field[plane * c->plane + sparse->index[e]];
+    for (size_t component = 0; component < (size_t)c->dimension; component++)
+        for (size_t k = c->part.own; k < c->part.end; k++) {
+            const size_t plane = component * c->n[DEPTH] + k;
+            for (size_t e = sparse->start[plane]; e < sparse->start[plane + 1]; e++)
+                sum += sparse->value[e] * field[plane * c->plane + sparse->index[e]];
+        }
     return sum;
 }
 
@@ -114,10 +117,11 @@ static void add_product(const struct consistent *c, const struct workspace *w, i
         line[c->slot[axis]] = w->line[axis];
     double *out = w->field + (size_t)component * c->volume;
     for (size_t k = 0; k < c->n[2]; k++) {
-        if (line[2][k] == 0) continue;
+        const double depth = line[2][c->part.first + k];
+        if (depth == 0) continue;
         for (size_t j = 0; j < c->n[1]; j++)
             for (size_t i = 0; i < c->n[0]; i++)
-                out[k * c->plane + j * c->n[0] + i] += factor * line[0][i] * line[1][j] * line[2][k];
+                out[k * c->plane + j * c->n[0] + i] += factor * line[0][i] * line[1][j] * depth;
     }
 }
 
@@ -275,7 +279,7 @@ static bool owns(const struct consistent *c, int component, int face, const size
     for (int other = 0; other < 2 * c->dimension; other++) {
         const int slot = c->slot[other / 2];
         if (other == face || !c->held[component][other]) continue;
-        if (at[slot] != (other % 2 == 0 ? 0 : c->n[slot] - 1)) continue;
+        if (at[slot] != part_face(c, other)) continue;
         if (!c->moving[other] || other < face) return false;
     }
     return true;
@@ -289,7 +293,7 @@ static void face_pattern(const struct consistent *c, int face, double *field)
         if (!c->held[component][face]) continue;
         for (size_t i = 0; i < c->volume; i++) {
             const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
-            if (at[slot] == (face % 2 == 0 ? 0 : c->n[slot] - 1) && owns(c, component, face, at))
+            if (at[slot] == part_face(c, face) && owns(c, component, face, at))
                 field[(size_t)component * c->volume + i] = c->motion[face][component];
         }
     }

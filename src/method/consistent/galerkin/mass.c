@@ -96,7 +96,7 @@ static void solve_plane(const struct consistent *c, const struct mass_factors *f
     double *buffer = c->lane_buffer + (size_t)thread * c->n[0] * LINES;
     for (int component = 0; component < c->dimension; component++) {
         double *plane = a + (size_t)component * c->volume + k * c->plane;
-        double *const *side = factors->side[c->plane_class[k]][component];
+        double *const *side = factors->side[c->plane_class[c->part.first + k]][component];
         if (side[1] != NULL) {
             band_forward(side[1], c->n[1], factors->half[1], plane, c->n[0], c->n[0]);
             band_backward(side[1], c->n[1], factors->half[1], plane, c->n[0], c->n[0]);
@@ -105,35 +105,53 @@ static void solve_plane(const struct consistent *c, const struct mass_factors *f
     }
 }
 
-/* One half of the solves over depth, for chunks of a plane. */
-static void solve_depth(const struct consistent *c, const struct mass_factors *factors, bool forward,
-                        double *a)
+/* One half of the solves over depth. */
+struct depth_solve {
+    const struct consistent *c;
+    const struct mass_factors *factors;
+    bool forward;
+    double *a;
+};
+
+/* Planes from .. end - 1, for chunks of a plane. */
+static void solve_planes(void *context, size_t from_plane, size_t end_plane)
 {
     enum { CHUNK = 128 };
+    const struct depth_solve *solve = context;
+    const struct consistent *c = solve->c;
+    const struct mass_factors *factors = solve->factors;
+    const struct band_rows rows = {c->part.whole, c->part.first, from_plane, end_plane};
     const size_t chunks = (c->plane + CHUNK - 1) / CHUNK, all = chunks * (size_t)c->dimension;
     const double scale = c->weighted[WEIGHT_DENSITY] == NULL ? 1 / c->property[WEIGHT_DENSITY] : 1;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t chunk = 0; chunk < all; chunk++) {
         const size_t component = chunk / chunks, from = chunk % chunks * CHUNK;
         const size_t lanes = c->plane - from < CHUNK ? c->plane - from : CHUNK;
-        double *lane = a + component * c->volume + from;
-        if (!forward) {
-            band_backward(factors->depth[component], c->n[DEPTH], factors->half[DEPTH], lane, c->plane,
-                          lanes);
+        double *lane = solve->a + component * c->volume + from;
+        if (!solve->forward) {
+            band_backward_rows(factors->depth[component], &rows, factors->half[DEPTH], lane, c->plane, lanes);
             continue;
         }
-        band_forward(factors->depth[component], c->n[DEPTH], factors->half[DEPTH], lane, c->plane, lanes);
-        for (size_t k = 0; scale != 1 && k < c->n[DEPTH]; k++)
+        band_forward_rows(factors->depth[component], &rows, factors->half[DEPTH], lane, c->plane, lanes);
+        for (size_t k = from_plane; scale != 1 && k < end_plane; k++)
             for (size_t i = 0; i < lanes; i++)
                 lane[k * c->plane + i] *= scale;
     }
+}
+
+static void solve_depth(const struct consistent *c, const struct mass_factors *factors, bool forward,
+                        double *a)
+{
+    struct depth_solve solve = {c, factors, forward, a};
+    part_sweep(c, forward, factors->half[DEPTH], a, (size_t)c->dimension, c->volume * sizeof *a,
+               c->plane * sizeof *a, solve_planes, &solve);
 }
 
 void mass_solve(struct consistent *c, const struct mass_factors *factors, double *a)
 {
     solve_depth(c, factors, true, a);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < c->n[DEPTH]; k++)
+    for (size_t k = c->part.own; k < c->part.end; k++)
         solve_plane(c, factors, omp_get_thread_num(), k, a);
     solve_depth(c, factors, false, a);
 }
@@ -145,13 +163,12 @@ static bool lay_sides(struct consistent *c)
 {
     if (c->weighted[WEIGHT_DENSITY] == NULL) return true;
     const struct mass_factors *factors = mass_factors_for(c, 0);
-    const size_t n = c->n[DEPTH], half = half_width(c, DEPTH);
+    const size_t n = c->part.whole, half = half_width(c, DEPTH);
     for (int face = 0; face < 2 * c->dimension; face++)
         for (int component = 0; component < c->dimension; component++) {
             if (!c->damped[face] || c->slot[face / 2] == DEPTH) continue;
             const double *factor = factors->depth[component], *speed = c->speed[face][component];
             struct band *side = band_new(n, half);
-            c->side[face][component] = side;
             if (side == NULL) return false;
             for (size_t m = 0; m < n; m++)
                 for (size_t i = m; i < n && i <= m + half; i++)
@@ -160,6 +177,9 @@ static bool lay_sides(struct consistent *c)
                         const double right = j == m ? 1 / factor[m] : factor[(j - m) * n + j];
                         band_add(side, i, j, left * speed[m] * right);
                     }
+            c->side[face][component] = band_cut(side, c->part.first, c->n[DEPTH]);
+            band_free(side);
+            if (c->side[face][component] == NULL) return false;
         }
     return true;
 }
@@ -181,7 +201,7 @@ bool mass_allocate(struct consistent *c)
         for (int component = 0; component < c->dimension; component++)
             for (int axis = 0; axis < c->dimension; axis++) {
                 const int slot = c->slot[axis];
-                const size_t numbers = c->n[slot] * (factors->half[slot] + 1);
+                const size_t numbers = c->spline[axis]->count * (factors->half[slot] + 1);
                 for (size_t class = 0; class < (slot == DEPTH ? 1 : c->classes); class ++) {
                     double *factor = array_new(numbers, sizeof *factor);
                     if (factor == NULL) return false;

@@ -45,7 +45,6 @@ static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *co
     for (int axis = 0; axis < c->dimension; axis++) {
         const struct band *band =
             consistent_matrix(c, axis, axis == test, axis == out, axis == trial, axis == in, weight);
-        if (band == NULL) return false;
         term->matrix[c->slot[axis]] = band;
     }
     return true;
@@ -68,7 +67,7 @@ bool consistent_plans(struct consistent *c)
 {
     struct tensor_term terms[32];
     size_t count = 0;
-    if (!stiffness_terms(c, terms, &count)) return false;
+    if (!stiffness_terms(c, terms, &count) || !part_terms(c, terms, count)) return false;
     c->stiffness = tensor_plan_new(c->n, c->dimension, terms, count, c->threads);
     count = 0;
     for (int i = 0; i < c->dimension; i++) {
@@ -76,6 +75,9 @@ bool consistent_plans(struct consistent *c)
         for (int axis = 0; axis < c->dimension; axis++)
             c->mass_band[i][axis] = terms[count - 1].matrix[c->slot[axis]];
     }
+    if (!part_terms(c, terms, count)) return false;
+    for (int i = 0; i < c->dimension; i++)
+        c->mass_depth[i] = terms[i].matrix[DEPTH];
     c->mass = tensor_plan_new(c->n, c->dimension, terms, count, c->threads);
     return c->stiffness != NULL && c->mass != NULL;
 }

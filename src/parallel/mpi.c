@@ -1,0 +1,154 @@
+/* Ranks of a program with MPI (MPI standard 3.1). A message is at most 1 GiB, so that counts are ints. */
+#include "parallel/ranks.h"
+
+#include "base/memory.h"
+
+#include <mpi.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST = 1 << 30, MOST_REQUESTS = 512 };
+
+struct ranks {
+    MPI_Comm comm; /* MPI_COMM_NULL: idle */
+    int me, count;
+    double sent;
+};
+
+struct ranks *ranks_begin(void)
+{
+    int threads, count;
+    MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &threads);
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    if (count == 1) return NULL;
+    struct ranks *ranks = array_new(1, sizeof *ranks);
+    if (ranks == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
+    MPI_Comm_dup(MPI_COMM_WORLD, &ranks->comm);
+    MPI_Comm_rank(ranks->comm, &ranks->me);
+    ranks->count = count;
+    return ranks;
+}
+
+void ranks_end(struct ranks **ended)
+{
+    struct ranks *ranks = *ended;
+    if (ranks != NULL && ranks->comm != MPI_COMM_NULL) MPI_Comm_free(&ranks->comm);
+    array_free(ranks);
+    *ended = NULL;
+    MPI_Finalize();
+}
+
+int ranks_me(const struct ranks *ranks)
+{
+    return ranks == NULL ? 0 : ranks->me;
+}
+
+int ranks_count(const struct ranks *ranks)
+{
+    return ranks == NULL ? 1 : ranks->count;
+}
+
+void ranks_take(struct ranks *ranks, int count)
+{
+    if (ranks == NULL || ranks->count <= count) return;
+    MPI_Comm part;
+    MPI_Comm_split(ranks->comm, ranks->me < count ? 0 : MPI_UNDEFINED, ranks->me, &part);
+    MPI_Comm_free(&ranks->comm);
+    ranks->comm = part;
+    ranks->count = count;
+}
+
+bool ranks_idle(const struct ranks *ranks)
+{
+    return ranks != NULL && ranks->comm == MPI_COMM_NULL;
+}
+
+void ranks_largest(struct ranks *ranks, size_t n, double *value)
+{
+    if (ranks != NULL) MPI_Allreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, MPI_MAX, ranks->comm);
+}
+
+void ranks_sum(struct ranks *ranks, size_t n, double *value)
+{
+    if (ranks != NULL) MPI_Allreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, MPI_SUM, ranks->comm);
+}
+
+void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
+{
+    if (ranks != NULL) MPI_Bcast(data, (int)bytes, MPI_BYTE, from, ranks->comm);
+}
+
+/* Messages under way. */
+struct requests {
+    int count;
+    MPI_Request request[MOST_REQUESTS];
+};
+
+static MPI_Request *next(const struct ranks *ranks, struct requests *requests)
+{
+    if (requests->count == MOST_REQUESTS) MPI_Abort(ranks->comm, 1); /* hundreds of GiB in one exchange */
+    return &requests->request[requests->count++];
+}
+
+static int length_of(size_t left)
+{
+    return (int)(left < LONGEST ? left : LONGEST);
+}
+
+void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
+{
+    struct requests requests = {0};
+    if (ranks == NULL) return;
+    for (size_t p = 0; p < pieces; p++)
+        for (size_t at = 0; at < piece[p].receive_bytes; at += LONGEST)
+            MPI_Irecv((char *)piece[p].receive + at, length_of(piece[p].receive_bytes - at), MPI_BYTE,
+                      piece[p].with, 0, ranks->comm, next(ranks, &requests));
+    for (size_t p = 0; p < pieces; p++) {
+        for (size_t at = 0; at < piece[p].send_bytes; at += LONGEST)
+            MPI_Isend((const char *)piece[p].send + at, length_of(piece[p].send_bytes - at), MPI_BYTE,
+                      piece[p].with, 0, ranks->comm, next(ranks, &requests));
+        ranks->sent += (double)piece[p].send_bytes;
+    }
+    MPI_Waitall(requests.count, requests.request, MPI_STATUSES_IGNORE);
+}
+
+double ranks_sent(const struct ranks *ranks)
+{
+    return ranks == NULL ? 0 : ranks->sent;
+}
+
+/* The text of another rank's messages, for the first one. */
+static void take_messages(struct ranks *ranks, int from, struct messages *messages)
+{
+    unsigned long size = messages->text == NULL ? 0 : messages->length;
+    char named[64];
+    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, from, ranks->comm);
+    char *text = array_new(size + 1, 1);
+    if (text == NULL) MPI_Abort(ranks->comm, 1);
+    if (ranks->me == from && size > 0) memcpy(text, messages->text, size);
+    MPI_Bcast(text, (int)size, MPI_CHAR, from, ranks->comm);
+    snprintf(named, sizeof named, "on rank %d of %d:", from, ranks->count);
+    while (size > 0 && text[size - 1] == '\n')
+        text[--size] = '\0';
+    if (ranks->me == 0) {
+        messages_add(messages, false, false, named);
+        messages_add(messages, true, false, text);
+    }
+    array_free(text);
+}
+
+selas_status ranks_agree(struct ranks *ranks, selas_status status, struct messages *messages)
+{
+    if (ranks == NULL || ranks_idle(ranks)) return status;
+    int first = status == SELAS_OK ? ranks->count : ranks->me, agreed = (int)status;
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
+    if (first == ranks->count) return SELAS_OK;
+    MPI_Bcast(&agreed, 1, MPI_INT, first, ranks->comm);
+    if (first > 0) take_messages(ranks, first, messages);
+    return (selas_status)agreed;
+}
+
+void ranks_abort(struct ranks *ranks, int exit_status)
+{
+    if (ranks != NULL && !ranks_idle(ranks)) MPI_Abort(ranks->comm, exit_status);
+}
