@@ -236,6 +236,7 @@ selas_status simulation_prepare(selas_simulation *simulation)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
     status = ranks_agree(simulation->ranks, status, messages);
+    if (status == SELAS_OK) recorder_weigh(simulation->recorder);
     simulation->prepared = status == SELAS_OK;
     simulation->figures.threads = omp_get_max_threads();
     add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
@@ -277,7 +278,9 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
     const struct stopwatch begun = start_watch();
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
+        const double sent = ranks_sent(simulation->ranks);
         simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
+        simulation->figures.halo_bytes = ranks_sent(simulation->ranks) - sent;
         status = host_answer(simulation);
         const bool stopped = status == SELAS_STOPPED;
         if (stopped) status = SELAS_OK;

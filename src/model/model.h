@@ -206,6 +206,7 @@ struct model {
                            [1/time] */
     bool small_strain;  /* forces are linear in grad u: rotations must stay small */
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
+    bool untold;        /* power() does not tell all that dampers absorb */
     unsigned energy_calls; /* operator calls that energy() takes, if more than one */
     enum patch_sight patch;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */

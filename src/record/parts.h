@@ -95,6 +95,7 @@ struct recorder {
     unsigned long last_step;
     double last_time;
     bool started;
+    double memory; /* planned bytes of the largest rank; 0: one alone */
 };
 
 /* trace.c: receivers step by step, and their finished rows */

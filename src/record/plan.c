@@ -3,6 +3,7 @@
 #include "record/parts.h"
 
 #include "base/processor.h"
+#include "parallel/ranks.h"
 #include "scene/absorbing_layers.h"
 #include "scene/resolution.h"
 
@@ -70,6 +71,13 @@ static double memory_of(const struct recorder *recorder)
          s++) /* a buffer of 6 numbers a point; a region's list */
         bytes += (recorder->scene->snapshot[s].whole ? 48.0 : 56.0) * (double)model->points;
     return bytes;
+}
+
+void recorder_weigh(struct recorder *recorder)
+{
+    double memory = memory_of(recorder);
+    ranks_largest(recorder->scene->ranks, 1, &memory);
+    recorder->memory = memory;
 }
 
 static void say_parts(const struct teller *teller, const struct scene *scene)
@@ -142,9 +150,11 @@ void plan_tell(const struct recorder *recorder,
     say_resolution(&teller, scene);
     say_parts(&teller, scene);
     say_tables(&teller, scene);
-    const double memory = memory_of(recorder);
-    say(&teller, "planned memory bytes", "%.0f", memory);
-    say(&teller, "planned bytes per point", "%.1f", memory / (double)(model->points > 0 ? model->points : 1));
+    const bool shared = ranks_count(scene->ranks) > 1;
+    const double memory = shared ? recorder->memory : memory_of(recorder);
+    say(&teller, shared ? "planned memory bytes of the largest rank" : "planned memory bytes", "%.0f", memory);
+    if (!shared)
+        say(&teller, "planned bytes per point", "%.1f", memory / (double)(model->points > 0 ? model->points : 1));
     advice_tell(scene, recorder->stepper, tell, context);
 }
 

@@ -23,11 +23,14 @@ struct run_figures {
     double setup_wall_seconds, setup_cpu_seconds; /* points, operator, time step */
     double exact_cpu_seconds;
     int threads;
+    double halo_bytes; /* that this rank sent in the last step */
 };
 
 /* Prepares probes, buffers and the folder's name; writes nothing yet. */
 selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
                              struct recorder **recorder, struct messages *messages);
+/* Together, on ranks: the memory of the largest rank, for the plan. */
+void recorder_weigh(struct recorder *recorder);
 /* Makes the folder and locks it against other runs. Not called for `check` and by hosts that want no files.
  * `work`: folder with the snapshots of the run that goes on (checkpoint_read), NULL: begins anew. */
 selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages);

@@ -43,7 +43,7 @@ static void write_energy(FILE *out, const struct recorder *recorder)
     fprintf(out, "energy kinetic: %.6e\nenergy strain: %.6e\n", watch->last.kinetic, watch->last.strain);
     fprintf(out, "energy at start: %.6e\nenergy largest: %.6e\n", watch->initial, watch->largest);
     if (!watch->by_work) return;
-    if (recorder->model->memory != NULL) { /* what layers take is not measured: there is no balance */
+    if (recorder->model->memory != NULL || recorder->model->untold) { /* there is no balance */
         fprintf(out, "work of loads: %.6e\n", watch->work);
         return;
     }
@@ -62,6 +62,8 @@ static void write_cost(FILE *out, const struct recorder *recorder, const struct 
         if (recorder->exact != NULL) fprintf(out, "exact CPU seconds: %.4g\n", figures->exact_cpu_seconds);
         fprintf(out, "stepping wall seconds: %.4g\n", figures->wall_seconds);
     }
+    if (figures != NULL && figures->halo_bytes > 0)
+        fprintf(out, "halo bytes sent in the last step: %.0f\n", figures->halo_bytes);
     fprintf(out, "operator calls: %lu\n", recorder->stepper->model->evaluations);
     const double memory = peak_memory();
     fprintf(out, "peak memory bytes: %.0f\nbytes per point: %.1f\n", memory,

@@ -215,6 +215,7 @@ static void describe(const struct model *model,
     snprintf(text, sizeof text, "%zu x %zu x %zu", control[0], control[1], control[2]);
     tell(context, "control values per component", text);
     layers_describe(c, tell, context);
+    shared_describe(c, tell, context);
 }
 
 static selas_status build(struct consistent *c, struct messages *messages)
@@ -256,7 +257,7 @@ static const struct model_core core = {
     .field = consistent_field,
     .energy = energy,
     .power = power,
-    .unseen = layers_fastest,
+    .unseen = consistent_unseen,
     .describe = describe,
 };
 static const struct model_operator spatial = {

@@ -25,6 +25,11 @@ double consistent_deficit(const struct consistent *c, size_t longest);
 selas_status consistent_shorten(const struct model *model, struct model **shorter, double *deficit,
                                 struct messages *messages);
 
+/* shared.c: lines of the plan on ranks; model_core's `unseen`. */
+void shared_describe(const struct consistent *c,
+                     void (*tell)(void *context, const char *key, const char *value), void *context);
+void consistent_unseen(struct model *model, const double *y, struct unseen *found);
+
 /* observe.c */
 bool observe_create(struct consistent *c);
 bool collocation_create(struct consistent *c);

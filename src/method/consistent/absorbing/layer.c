@@ -102,41 +102,10 @@ static void look_at_slab(const struct consistent *c, const struct slab *slab, co
         position[axis] = middle[axis] / (double)found->spoiled;
 }
 
-/* On ranks, where fields of the whole body are not at hand: the own control values, too. */
-static void look_at_own(const struct consistent *c, const double *y, struct unseen *found)
-{
-    const double *v = y + c->model.unknowns;
-    double inside[3] = {0}, middle[3] = {0}, position[3];
-    found->places = (c->part.end - c->part.own) * c->plane;
-    for (size_t p = c->part.own * c->plane; p < c->part.end * c->plane; p++) {
-        const size_t at[3] = {p % c->n[0], p / c->n[0] % c->n[1], c->part.first + p / c->plane};
-        double square = 0, way = 0;
-        for (size_t component = 0; component < (size_t)c->dimension; component++) {
-            square += v[component * c->volume + p] * v[component * c->volume + p];
-            way += y[component * c->volume + p] * y[component * c->volume + p];
-        }
-        const bool spoiled = !isfinite(square + way);
-        if (!spoiled && (found->spoiled > 0 || sqrt(square) <= found->speed)) continue;
-        found->spoiled += spoiled;
-        found->speed = spoiled ? INFINITY : sqrt(square);
-        for (int axis = 0; axis < c->dimension; axis++) {
-            inside[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
-            if (spoiled) middle[axis] += inside[axis];
-        }
-    }
-    for (int axis = 0; found->spoiled > 0 && axis < c->dimension; axis++)
-        inside[axis] = middle[axis] / (double)found->spoiled;
-    body_to_deck(&c->model.scene->body, inside, position);
-    snprintf(found->place, sizeof found->place, "%s (%.6g, %.6g, %.6g)", found->spoiled > 0 ? "about" : "at",
-             position[0], position[1], position[2]);
-}
-
 void layers_fastest(struct model *model, const double *y, struct unseen *found)
 {
     const struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
-    *found = (struct unseen){.speed = -1};
-    if (c->part.ranks != NULL) look_at_own(c, y, found);
     for (size_t s = 0; c->pml != NULL && s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
         struct unseen one;

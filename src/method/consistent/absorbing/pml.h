@@ -62,8 +62,8 @@ struct pml {
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context);
 
-/* model_core's `unseen`: the fastest control value of the layers, or the middle of those that are spoiled.
- */
+/* The fastest control value of the layers, or the middle of those that are spoiled, if it is faster, or more are, than
+ * what was found. */
 void layers_fastest(struct model *model, const double *y, struct unseen *found);
 
 /* d at a place along the slab's axis. */

@@ -366,6 +366,15 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
                                 "face %s moves along itself and slips across: that needs method%%mass = "
                                 "'exact'",
                                 face_name((enum face)face));
+    for (int face = 0; c->part.ranks != NULL && face < 2 * c->dimension; face++) {
+        if (!c->damped[face] || c->slot[face / 2] == DEPTH) continue;
+        c->model.untold = true;
+        if (c->weighted[WEIGHT_DENSITY] != NULL)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: dampers (layer = 'lysmer') beside layered ground and a mass of sweeps: on one rank "
+                        "only; start it without mpirun, or take method%%mass = 'exact' or layer = 'pml'",
+                        face_name((enum face)face));
+    }
     struct hform *h = array_new(1, sizeof *h);
     c->hform = h;
     if (h == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");

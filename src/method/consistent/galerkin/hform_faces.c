@@ -150,17 +150,25 @@ void hform_dampers(struct consistent *c, double half_step, const double *v, doub
     }
 }
 
+/* A face that ranks share would cost a solve from rank to rank at every step. */
+static bool told(const struct consistent *c, int face)
+{
+    const size_t at = part_face(c, face);
+    if (c->part.ranks == NULL) return true;
+    return c->slot[face / 2] == DEPTH && at >= c->part.own && at < c->part.end;
+}
+
 /* rho c v_e.(H (x) H) v_e: the masses of the face's own axes, one banded solve each. */
 double hform_damper_power(struct consistent *c, const double *v)
 {
     double power = 0;
     double *values = c->hform->face[0], *weighed = c->hform->face[1];
     for (int face = 0; face < 2 * c->dimension; face++) {
-        if (!c->damped[face]) continue;
+        if (!c->damped[face] || !told(c, face)) continue;
         const int slot = c->slot[face / 2], across = slot == 0 ? 1 : 0, outer = slot == DEPTH ? 1 : DEPTH;
         const struct face_points points = face_points(c, slot);
         const size_t inner = c->n[across], rows = c->n[outer];
-        const size_t at = face % 2 == 0 ? 0 : c->n[slot] - 1;
+        const size_t at = part_face(c, face);
         for (int component = 0; component < c->dimension; component++) {
             gather(&points, at, v + (size_t)component * c->volume, values);
             to_diagonal(c, slot, component, values);

@@ -64,8 +64,10 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
         ranks--;
     if (ranks == 1) part->bound[1] = whole;
     if (ranks < ranks_count(part->ranks))
-        warn(messages, "%d of %d ranks have work: the body has %zu planes, a rank needs at least %zu", ranks,
-             ranks_count(part->ranks), whole, least_of(c, -1, 1));
+        warn(messages,
+             "%d of %d ranks have work: the body has %zu planes over its last axis, a rank needs at least %zu of them "
+             "and the points of absorbing layers across that axis",
+             ranks, ranks_count(part->ranks), whole, least_of(c, -1, 1));
     ranks_take(part->ranks, ranks);
     if (ranks_idle(part->ranks)) return SELAS_STOPPED;
     const size_t me = (size_t)ranks_me(part->ranks);

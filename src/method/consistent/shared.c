@@ -1,0 +1,82 @@
+/* What the consistent model tells of its share of a body on ranks (galerkin/part.h). */
+#include "method/consistent/absorbing/pml_fast.h"
+#include "method/consistent/consistent.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Bytes that a rank sends to one neighbour at each call of the operator, or step in one pass. */
+static double halo_bytes(const struct consistent *c)
+{
+    const struct pml_fast *fast = c->pml == NULL        ? NULL
+                                  : c->pml->single != NULL ? c->pml->single
+                                                           : c->pml->fast;
+    const double number = c->model.single ? sizeof(float) : sizeof(double);
+    double numbers = c->dimension * (double)c->plane;
+    for (size_t s = 0; fast != NULL && s < c->pml->slabs; s++)
+        if (fast->slab[s].axis[ROLE_B] == DEPTH) numbers += 3 * (double)(fast->slab[s].ns * fast->slab[s].width);
+    return numbers * number * (double)c->part.halo;
+}
+
+/* And by the solves of an exact mass, one way or the other. */
+static double solve_bytes(const struct consistent *c)
+{
+    if (c->hform != NULL) return 0;
+    return c->dimension * (double)(c->plane * c->factors[0].half[DEPTH] * sizeof(double));
+}
+
+void shared_describe(const struct consistent *c,
+                     void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct rank_part *part = &c->part;
+    const int ranks = ranks_count(part->ranks), me = ranks_me(part->ranks);
+    char text[200];
+    if (part->ranks == NULL) return;
+    int used = snprintf(text, sizeof text, "%d, planes over the last axis:", ranks);
+    for (int r = 0; r < ranks && (size_t)used + 24 < sizeof text; r++)
+        used += snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
+    tell(context, "ranks", text);
+    const int neighbours = (me > 0) + (me + 1 < ranks);
+    snprintf(text, sizeof text, "%.0f by the first rank (%zu planes to a neighbour)",
+             neighbours * (halo_bytes(c) + solve_bytes(c)), part->halo);
+    tell(context, "halo bytes a step", text);
+    tell(context, "checkpoints", "none on ranks");
+}
+
+/* Where fields of the whole body are not at hand: the fastest of the own control values, or the middle of those that are
+ * spoiled. */
+static void own_fastest(const struct consistent *c, const double *y, struct unseen *found)
+{
+    const double *v = y + c->model.unknowns;
+    double inside[3] = {0}, middle[3] = {0}, position[3];
+    found->places = (c->part.end - c->part.own) * c->plane;
+    for (size_t p = c->part.own * c->plane; p < c->part.end * c->plane; p++) {
+        const size_t at[3] = {p % c->n[0], p / c->n[0] % c->n[1], c->part.first + p / c->plane};
+        double square = 0, way = 0;
+        for (size_t component = 0; component < (size_t)c->dimension; component++) {
+            square += v[component * c->volume + p] * v[component * c->volume + p];
+            way += y[component * c->volume + p] * y[component * c->volume + p];
+        }
+        const bool spoiled = !isfinite(square + way);
+        if (!spoiled && (found->spoiled > 0 || sqrt(square) <= found->speed)) continue;
+        found->spoiled += spoiled;
+        found->speed = spoiled ? INFINITY : sqrt(square);
+        for (int axis = 0; axis < c->dimension; axis++) {
+            inside[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
+            if (spoiled) middle[axis] += inside[axis];
+        }
+    }
+    for (int axis = 0; found->spoiled > 0 && axis < c->dimension; axis++)
+        inside[axis] = middle[axis] / (double)found->spoiled;
+    body_to_deck(&c->model.scene->body, inside, position);
+    snprintf(found->place, sizeof found->place, "%s (%.6g, %.6g, %.6g)", found->spoiled > 0 ? "about" : "at",
+             position[0], position[1], position[2]);
+}
+
+void consistent_unseen(struct model *model, const double *y, struct unseen *found)
+{
+    const struct consistent *c = consistent_of(model);
+    *found = (struct unseen){.speed = -1};
+    if (c->part.ranks != NULL) own_fastest(c, y, found);
+    layers_fastest(model, y, found);
+}
