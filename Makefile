@@ -64,7 +64,7 @@ setup: ## install what is missing with apt (root or sudo)
 setup-mpi: setup ## install what `make mpi` needs besides
 	@sh regress/setup mpi
 
-mpi: $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/ranks.md)
+mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/ranks.md)
 
 halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots in output/halfspace/
 	@$(MAKE) --no-print-directory all

@@ -66,6 +66,13 @@ help-checks: ## this list
 unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD)/test/relations fuzz-replay ## run all tests without the set-up
 	@$(ALONE) sh regress/run-tests $(BUILD)
 
+.PHONY: test-mpi cases-mpi
+test-mpi: mpi ## small scenes on 1, 2, 3, 4 and 7 ranks against one process: doc/ranks.md (a minute or two)
+	@$(ALONE) regress/parallel/check $(BUILD)
+
+cases-mpi: mpi ## all cases on 1, 2, 3, 4 and 7 ranks against one process (an hour)
+	@$(ALONE) regress/parallel/cases $(BUILD) '1 2 3 4 7'
+
 # Static checks
 
 .PHONY: check-format check-tidy check-cppcheck

@@ -35,6 +35,7 @@ void ranks_end(struct ranks **ended)
     if (ranks != NULL && ranks->comm != MPI_COMM_NULL) MPI_Comm_free(&ranks->comm);
     array_free(ranks);
     *ended = NULL;
+    MPI_Barrier(MPI_COMM_WORLD); /* a failed rank that ends ends the others, who may have more to say */
     MPI_Finalize();
 }
 

@@ -175,6 +175,14 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
     return run_program(simulation, restart ? arguments->deck : NULL, arguments->quiet, told);
 }
 
+/* On ranks the first one speaks, and none ends by itself. */
+static bool read_words(const struct argp *parser, int count, char **words, const struct ranks *ranks,
+                       struct arguments *arguments)
+{
+    const unsigned flags = ranks_count(ranks) == 1 ? 0 : ranks_first(ranks) ? ARGP_NO_EXIT : ARGP_SILENT;
+    return argp_parse(parser, count, words, flags, NULL, arguments) == 0 && arguments->deck != NULL;
+}
+
 int main(int count, char **words)
 {
     if (count > 1 && strcmp(words[1], "diff") == 0) return diff_command(count - 1, words + 1);
@@ -184,13 +192,16 @@ int main(int count, char **words)
     arguments.override = calloc((size_t)count + 1, sizeof *arguments.override);
     if (arguments.override == NULL) return EXIT_RUN_FAILED;
     argp_err_exit_status = EXIT_BAD_INPUT;
-    argp_parse(&parser, count, words, 0, NULL, &arguments);
+    struct ranks *ranks = ranks_begin();
+    if (!read_words(&parser, count, words, ranks, &arguments)) {
+        ranks_end(&ranks);
+        return EXIT_BAD_INPUT;
+    }
     selas_simulation *simulation = NULL;
     size_t told = 0;
     signals_no_size_limit();
     H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
                         here */
-    struct ranks *ranks = ranks_begin();
     selas_status status = open_named(&arguments, &simulation);
     if (simulation == NULL) ranks_abort(ranks, EXIT_RUN_FAILED); /* no memory for anything */
     if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);
