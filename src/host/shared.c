@@ -15,12 +15,11 @@ selas_status shared_check(selas_simulation *simulation)
     const struct deck_group *output = scene->deck != NULL ? deck_get(scene->deck, "output", 0) : NULL;
     const bool checkpoints = output != NULL && (deck_given(output, "checkpoint_every") ||
                                                 deck_given(output, "checkpoint_minutes"));
-    const char *what = scene->snapshots > 0    ? "&snapshot"
-                       : scene->profiles > 0   ? "&profile"
-                       : checkpoints           ? "checkpoints (output%checkpoint_every, checkpoint_minutes)"
-                       : simulation->work      ? "a restart"
-                       : scene_driven(scene)   ? "a host that drives loads or faces"
-                                               : NULL;
+    const char *what = scene->snapshots > 0  ? "&snapshot"
+                       : checkpoints         ? "checkpoints (output%checkpoint_every, checkpoint_minutes)"
+                       : simulation->work    ? "a restart"
+                       : scene_driven(scene) ? "a host that drives loads or faces"
+                                             : NULL;
     if (what == NULL) return SELAS_OK;
     return fail(&simulation->messages, SELAS_UNSUPPORTED,
                 "%s: on one rank only; start it without mpirun, or leave it out", what);

@@ -6,8 +6,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "parallel/ranks.h"
 #include "host/simulation.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <omp.h>

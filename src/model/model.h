@@ -40,7 +40,7 @@ struct probe {
     double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame
                          of the unknowns (the body's if model->frame is set, else the deck's) */
     const struct material *material;
-    int holder; /* the rank that can read it; on the others count is 0, and nothing reads it */
+    int holder;        /* the rank that can read it; on the others count is 0, and nothing reads it */
     unsigned mirrored; /* method/mirror.c: bit 1 << axis if the values come from the mirror image across it */
 };
 

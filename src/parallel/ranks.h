@@ -43,6 +43,14 @@ void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes);
 
 /* Sends and receives; two ranks name the pieces between them in the same order. Counts the bytes sent. */
 void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece);
+/* The first rank gets what rank `from` has there; others, and what is the first one's own: nothing to do. */
+static inline void ranks_fetch(struct ranks *ranks, int from, void *data, size_t bytes)
+{
+    const struct ranks_piece get = {.with = from, .receive = data, .receive_bytes = bytes};
+    const struct ranks_piece give = {.with = 0, .send = data, .send_bytes = bytes};
+    if (from > 0 && ranks_first(ranks)) ranks_exchange(ranks, 1, &get);
+    if (from > 0 && ranks_me(ranks) == from) ranks_exchange(ranks, 1, &give);
+}
 double ranks_sent(const struct ranks *ranks); /* bytes, by this rank */
 
 /* Together: the first failure (by rank) is that of all, and its messages reach the first rank. */

@@ -160,7 +160,8 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
         const struct echo_deck deck = {arguments->deck, arguments->overrides, arguments->override};
         const selas_status status =
             selas_plan(simulation, print_line, ranks_first(simulation->ranks) ? stdout : NULL);
-        return status == SELAS_OK && arguments->echo && ranks_first(simulation->ranks) ? check_echo(&deck) : status;
+        return status == SELAS_OK && arguments->echo && ranks_first(simulation->ranks) ? check_echo(&deck)
+                                                                                       : status;
     }
     if (strcmp(arguments->command, "exact") == 0) {
         if (!ranks_first(simulation->ranks)) return SELAS_OK;

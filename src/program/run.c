@@ -173,7 +173,8 @@ static selas_status step_on(struct run *run, struct progress *progress, unsigned
     selas_status status = SELAS_OK;
     while (status == SELAS_OK && selas_steps(simulation) < needed && !stopping(run)) {
         status = selas_step(simulation, 1);
-        if (status == SELAS_OK && (signals_save() || due(run)) && ranks_count(simulation->ranks) == 1) status = save_on_the_way(run);
+        if (status == SELAS_OK && (signals_save() || due(run)) && ranks_count(simulation->ranks) == 1)
+            status = save_on_the_way(run);
         if (!run->quiet) progress_update(progress, selas_time(simulation), selas_steps(simulation));
     }
     return status;

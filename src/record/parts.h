@@ -121,6 +121,8 @@ selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, siz
 /* profile.c */
 selas_status profile_create(struct recorder *recorder, struct messages *messages);
 void profile_observe(struct recorder *recorder, const struct state *state);
+/* Together: the first rank gets the values of others. */
+void profile_gather(struct recorder *recorder);
 selas_status profile_write(struct recorder *recorder, struct messages *messages);
 void profile_free(struct recorder *recorder);
 

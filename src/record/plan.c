@@ -152,9 +152,11 @@ void plan_tell(const struct recorder *recorder,
     say_tables(&teller, scene);
     const bool shared = ranks_count(scene->ranks) > 1;
     const double memory = shared ? recorder->memory : memory_of(recorder);
-    say(&teller, shared ? "planned memory bytes of the largest rank" : "planned memory bytes", "%.0f", memory);
+    say(&teller, shared ? "planned memory bytes of the largest rank" : "planned memory bytes", "%.0f",
+        memory);
     if (!shared)
-        say(&teller, "planned bytes per point", "%.1f", memory / (double)(model->points > 0 ? model->points : 1));
+        say(&teller, "planned bytes per point", "%.1f",
+            memory / (double)(model->points > 0 ? model->points : 1));
     advice_tell(scene, recorder->stepper, tell, context);
 }
 

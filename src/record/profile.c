@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/safe_file.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -103,10 +104,23 @@ void profile_observe(struct recorder *recorder, const struct state *state)
             if (state->step < record->first[k] || state->step >= record->first[k] + NODES) continue;
             const double weight = record->weight[NODES * k + (state->step - record->first[k])];
             double *value = record->value + k * points * record->columns;
+            const int me = ranks_me(recorder->scene->ranks);
             for (size_t i = 0; i < points && weight != 0.0; i++)
-                add_point(recorder->model, state, record, i, weight, value + i * record->columns);
+                if (record->probe[i].holder == me)
+                    add_point(recorder->model, state, record, i, weight, value + i * record->columns);
             record->seen[k]++;
         }
+    }
+}
+
+void profile_gather(struct recorder *recorder)
+{
+    for (size_t p = 0; p < recorder->scene->profiles; p++) {
+        const struct profile_record *record = &recorder->profile[p];
+        const size_t points = record->profile->points, columns = record->columns;
+        for (size_t i = 0; i < points * record->profile->times; i++)
+            ranks_fetch(recorder->scene->ranks, record->probe[i % points].holder, record->value + i * columns,
+                        columns * sizeof *record->value);
     }
 }
 

@@ -81,6 +81,7 @@ selas_status recorder_observe_again(struct recorder *recorder, const struct stat
 selas_status recorder_finish(struct recorder *recorder, struct messages *messages)
 {
     if (recorder->finished) return SELAS_OK;
+    profile_gather(recorder);
     const selas_status status = trace_finish(recorder, messages);
     recorder->finished = status == SELAS_OK;
     return status;
@@ -100,6 +101,7 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)
 {
     const char *results = recorder->folder;
+    profile_gather(recorder);
     selas_status status = trace_finish(recorder, messages);
     if (!ranks_first(recorder->scene->ranks)) return status;
     if (status == SELAS_OK) status = recorder_unfinished(recorder, &recorder->folder, messages);

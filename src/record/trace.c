@@ -206,17 +206,11 @@ static selas_status finish_one(const struct recorder *recorder, struct trace *tr
 static void gather(const struct recorder *recorder)
 {
     struct ranks *ranks = recorder->scene->ranks;
-    for (size_t r = 0; ranks_count(ranks) > 1 && r < recorder->scene->receivers; r++) {
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
         const struct trace *trace = &recorder->trace[r];
-        const int holder = trace->probe.holder;
-        const size_t bytes = 3 * trace->rows * sizeof(double);
         double *const part[3] = {trace->u, trace->v, trace->a};
-        for (size_t k = 0; holder > 0 && k < 3; k++) {
-            const struct ranks_piece get = {.with = holder, .receive = part[k], .receive_bytes = bytes};
-            const struct ranks_piece give = {.with = 0, .send = part[k], .send_bytes = bytes};
-            if (ranks_first(ranks)) ranks_exchange(ranks, 1, &get);
-            if (ranks_me(ranks) == holder) ranks_exchange(ranks, 1, &give);
-        }
+        for (size_t k = 0; k < 3; k++)
+            ranks_fetch(ranks, trace->probe.holder, part[k], 3 * trace->rows * sizeof *part[k]);
     }
 }
 

@@ -233,14 +233,14 @@ static void see(struct recorder *recorder, const struct state *state, double see
     const bool whole = !((double)state->step < watch->next);
     if (watch->by_work || watch->with_faces) {
         const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
-        recorder->model->core->power(recorder->model, &drive, state->y, &seen[SEEN_LOAD], &seen[SEEN_ABSORBED]);
+        recorder->model->core->power(recorder->model, &drive, state->y, &seen[SEEN_LOAD],
+                                     &seen[SEEN_ABSORBED]);
     }
     if (!whole && !sample_sound(recorder, state, &energetic)) seen[SEEN_UNSOUND] = 1.0;
     seen[SEEN_WHOLE] = whole ? 1.0 : 0.0;
     seen[SEEN_ENERGETIC] = energetic ? 1.0 : 0.0;
     ranks_sum(recorder->scene->ranks, SEEN, seen);
-    if (watch->by_work || watch->with_faces)
-        add_work(recorder, state, seen[SEEN_LOAD], seen[SEEN_ABSORBED]);
+    if (watch->by_work || watch->with_faces) add_work(recorder, state, seen[SEEN_LOAD], seen[SEEN_ABSORBED]);
 }
 
 /* Between the looks at everything; leaves nothing in the results. */

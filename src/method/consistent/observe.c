@@ -29,7 +29,8 @@ static void evaluate(const struct consistent *c, const struct place *place, int 
     double sum = 0, slope[3] = {0, 0, 0};
     for (size_t k = 0; k < count[2]; k++)
         for (size_t j = 0; j < count[1]; j++) {
-            const double *row = field + (at[2]->index[k] - c->part.first) * c->plane + at[1]->index[j] * c->n[0];
+            const double *row =
+                field + (at[2]->index[k] - c->part.first) * c->plane + at[1]->index[j] * c->n[0];
             double along = 0, along_slope = 0;
             for (size_t i = 0; i < count[0]; i++) {
                 along += at[0]->value[i] * row[at[0]->index[i]];
@@ -157,7 +158,8 @@ selas_status consistent_probe(struct model *model, const double position[3], str
         const double value[3] = {at[0].value[i], at[1].value[j], at[2].value[k]};
         const double slope[3] = {at[0].slope[i] * value[1] * value[2], value[0] * at[1].slope[j] * value[2],
                                  value[0] * value[1] * at[2].slope[k]};
-        probe->index[w] = at[0].index[i] + c->n[0] * at[1].index[j] + c->plane * (at[2].index[k] - c->part.first);
+        probe->index[w] =
+            at[0].index[i] + c->n[0] * at[1].index[j] + c->plane * (at[2].index[k] - c->part.first);
         probe->weight[w] = value[0] * value[1] * value[2];
         for (int axis = 0; axis < c->dimension; axis++)
             probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
@@ -244,7 +246,8 @@ static void interpolate(struct consistent *c, int component, double *field)
         for (int half = 0; half < 2; half++) {
             task.forward = half == 0;
             if (task.slot == DEPTH)
-                part_sweep(c, task.forward, (size_t)c->options.degree, field, 1, 0, bytes, interpolate_rows, &task);
+                part_sweep(c, task.forward, (size_t)c->options.degree, field, 1, 0, bytes, interpolate_rows,
+                           &task);
             else
                 interpolate_rows(&task, 0, c->n[task.slot]);
         }

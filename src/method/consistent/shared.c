@@ -8,13 +8,14 @@
 /* Bytes that a rank sends to one neighbour at each call of the operator, or step in one pass. */
 static double halo_bytes(const struct consistent *c)
 {
-    const struct pml_fast *fast = c->pml == NULL        ? NULL
+    const struct pml_fast *fast = c->pml == NULL           ? NULL
                                   : c->pml->single != NULL ? c->pml->single
                                                            : c->pml->fast;
     const double number = c->model.single ? sizeof(float) : sizeof(double);
     double numbers = c->dimension * (double)c->plane;
     for (size_t s = 0; fast != NULL && s < c->pml->slabs; s++)
-        if (fast->slab[s].axis[ROLE_B] == DEPTH) numbers += 3 * (double)(fast->slab[s].ns * fast->slab[s].width);
+        if (fast->slab[s].axis[ROLE_B] == DEPTH)
+            numbers += 3 * (double)(fast->slab[s].ns * fast->slab[s].width);
     return numbers * number * (double)c->part.halo;
 }
 
@@ -34,7 +35,8 @@ void shared_describe(const struct consistent *c,
     if (part->ranks == NULL) return;
     int used = snprintf(text, sizeof text, "%d, planes over the last axis:", ranks);
     for (int r = 0; r < ranks && (size_t)used + 24 < sizeof text; r++)
-        used += snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
+        used +=
+            snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
     tell(context, "ranks", text);
     const int neighbours = (me > 0) + (me + 1 < ranks);
     snprintf(text, sizeof text, "%.0f by the first rank (%zu planes to a neighbour)",

@@ -88,7 +88,8 @@ double consistent_deficit(const struct consistent *c, size_t longest)
 }
 
 /* The same body for one rank alone. */
-static selas_status consistent_alone(const struct consistent *c, struct model **alone, struct messages *messages)
+static selas_status consistent_alone(const struct consistent *c, struct model **alone,
+                                     struct messages *messages)
 {
     struct consistent_options options = c->options;
     struct scene *scene = NULL;

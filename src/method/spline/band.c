@@ -132,8 +132,8 @@ static void scale(double factor, size_t lanes, double *row)
 }
 
 /* Each row of the solution is a sum over rows that are known, and itself. */
-void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x, size_t stride,
-                       size_t lanes)
+void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x,
+                       size_t stride, size_t lanes)
 {
     const struct passes *passes = taken_passes();
     double weight[MOST_HALF + 1];

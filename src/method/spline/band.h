@@ -51,8 +51,8 @@ struct band_rows {
 };
 
 /* As band_forward() and band_backward() for some rows, those that they need before them being done. */
-void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x, size_t stride,
-                       size_t lanes);
+void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x,
+                       size_t stride, size_t lanes);
 void band_backward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x,
                         size_t stride, size_t lanes);
 
@@ -70,6 +70,7 @@ void band_lower_multiply(const double *factor, size_t n, size_t half, double *x,
 bool band_lu(struct band *band);
 void band_lu_solve(const struct band *lu, double *x, size_t stride);
 /* One half of it, forward first, for some rows, those that they need before them being done. */
-void band_lu_rows(const struct band *lu, const struct band_rows *rows, bool forward, double *x, size_t stride);
+void band_lu_rows(const struct band *lu, const struct band_rows *rows, bool forward, double *x,
+                  size_t stride);
 
 #endif

@@ -35,6 +35,7 @@ void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t fr
 
 /* w^T A u, summed plane by plane; of the planes from .. end - 1 of w alone. */
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u);
-double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, const double *w, const double *u);
+double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, const double *w,
+                          const double *u);
 
 #endif

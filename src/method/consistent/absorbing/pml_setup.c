@@ -100,8 +100,7 @@ static struct tensor_plan *plan(struct terms t)
 {
     struct consistent *c = t.c;
     if (!t.good || (c->slot[t.slab->axis] != DEPTH && !part_terms(c, t.term, t.count))) return NULL;
-    struct tensor_plan *made =
-        tensor_plan_new(t.slab->region.n, c->dimension, t.term, t.count, c->threads);
+    struct tensor_plan *made = tensor_plan_new(t.slab->region.n, c->dimension, t.term, t.count, c->threads);
     if (made != NULL) c->pml->bytes += tensor_plan_bytes(made);
     return made;
 }

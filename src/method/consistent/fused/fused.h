@@ -95,7 +95,7 @@ struct fused {
     size_t kept_bytes;         /* ... e behind it if they relax; in single precision u before it and the
                                  layers' memory behind it */
     struct relaxing *relaxing; /* NULL: steps do not relax */
-    struct ranks *ranks; /* that share the planes; NULL: alone */
+    struct ranks *ranks;       /* that share the planes; NULL: alone */
     int threads;
     void **buffer;    /* [threads] */
     size_t ring_size; /* numbers in the rings of a plane */

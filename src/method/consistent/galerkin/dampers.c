@@ -42,7 +42,8 @@ static void subtract_side(const struct consistent *c, int face, int component, s
     const struct band *side = c->side[face][component]; /* has density and speed in it */
     const struct band *along = slot_mass(c, component, 1 - slot);
     const struct band *depth = side != NULL ? side : slot_mass(c, component, DEPTH);
-    const double factor = side != NULL ? 1 : c->property[WEIGHT_DENSITY] * c->speed[face][component][c->part.first + k];
+    const double factor =
+        side != NULL ? 1 : c->property[WEIGHT_DENSITY] * c->speed[face][component][c->part.first + k];
     for (size_t j = 0; j < length; j++)
         line[j] = band_row(depth, k, v + from + j * step, c->plane);
     for (size_t j = 0; j < length; j++)
@@ -73,7 +74,8 @@ void dampers_subtract(const struct consistent *c, int thread, size_t k, const do
         for (int component = 0; component < c->dimension; component++) {
             const double *field = v + (size_t)component * c->volume;
             if (slot == DEPTH)
-                subtract_end(c, component, face_density(c, face) * c->speed[face][component][c->part.first + k],
+                subtract_end(c, component,
+                             face_density(c, face) * c->speed[face][component][c->part.first + k],
                              field + k * c->plane, line, out[component]);
             else
                 subtract_side(c, face, component, at, k, field, line, out[component]);

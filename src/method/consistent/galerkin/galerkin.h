@@ -58,7 +58,7 @@ struct consistent {
     int dimension, slot[3];         /* slot of each axis */
     struct spline *spline[3];       /* by axis */
     const struct spline *layout[3]; /* by slot; NULL where there is no axis */
-    size_t n[3], plane, volume; /* of the fields: over depth those of the rank's window */
+    size_t n[3], plane, volume;     /* of the fields: over depth those of the rank's window */
     struct rank_part part;
     double property[WEIGHT_NONE];  /* of the body's material */
     double *weighted[WEIGHT_NONE]; /* per element of the depth axis; NULL: the same everywhere */
@@ -71,8 +71,10 @@ struct consistent {
     bool moving[BOX_FACES];
     double motion[BOX_FACES][3]; /* amplitude and direction in the body's frame */
     bool damped[BOX_FACES];
-    double *speed[BOX_FACES][3]; /* of a damped face's component at each plane of the whole body: factor times wave speed */
-    size_t classes;              /* kinds of planes by material; 1 without layers */
+    double
+        *speed[BOX_FACES]
+              [3]; /* of a damped face's component at each plane of the whole body: factor times wave speed */
+    size_t classes;                    /* kinds of planes by material; 1 without layers */
     size_t *plane_class, *class_plane; /* of the whole body; [classes]: the first plane of a class */
     struct band *side[BOX_FACES][3];   /* layers: matrix over depth of a damped face across x or y */
     struct sparse *load;               /* [scene->loads]; 0 for those that move */

@@ -299,8 +299,8 @@ static struct extent extent_of(const struct consistent *c, const struct sparse *
 
 /* N along one axis of a component, over the density where that is the same everywhere and the axis the first;
  * the field is 0 out of the extent, which grows. False: no memory. */
-static bool divide_along(struct consistent *c, int component, int axis, struct extent *extent,
-                         double *field, double *line)
+static bool divide_along(struct consistent *c, int component, int axis, struct extent *extent, double *field,
+                         double *line)
 {
     const struct band *inverse = c->hform->inverse[component][axis];
     if (c->slot[axis] == DEPTH) inverse = part_matrix(c, inverse);
@@ -370,10 +370,11 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
         if (!c->damped[face] || c->slot[face / 2] == DEPTH) continue;
         c->model.untold = true;
         if (c->weighted[WEIGHT_DENSITY] != NULL)
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "face %s: dampers (layer = 'lysmer') beside layered ground and a mass of sweeps: on one rank "
-                        "only; start it without mpirun, or take method%%mass = 'exact' or layer = 'pml'",
-                        face_name((enum face)face));
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "face %s: dampers (layer = 'lysmer') beside layered ground and a mass of sweeps: on one rank "
+                "only; start it without mpirun, or take method%%mass = 'exact' or layer = 'pml'",
+                face_name((enum face)face));
     }
     struct hform *h = array_new(1, sizeof *h);
     c->hform = h;

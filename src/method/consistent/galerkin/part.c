@@ -65,7 +65,8 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
     if (ranks == 1) part->bound[1] = whole;
     if (ranks < ranks_count(part->ranks))
         warn(messages,
-             "%d of %d ranks have work: the body has %zu planes over its last axis, a rank needs at least %zu of them "
+             "%d of %d ranks have work: the body has %zu planes over its last axis, a rank needs at least "
+             "%zu of them "
              "and the points of absorbing layers across that axis",
              ranks, ranks_count(part->ranks), whole, least_of(c, -1, 1));
     ranks_take(part->ranks, ranks);
@@ -94,8 +95,7 @@ const struct band *part_matrix(struct consistent *c, const struct band *whole)
     if (whole == NULL || part->whole == c->n[DEPTH]) return whole;
     for (size_t i = 0; i < part->matrices; i++)
         if (part->matrix[i] == whole) return part->cut[i];
-    struct band *cut =
-        part->matrices == PART_MATRICES ? NULL : band_cut(whole, part->first, c->n[DEPTH]);
+    struct band *cut = part->matrices == PART_MATRICES ? NULL : band_cut(whole, part->first, c->n[DEPTH]);
     if (cut == NULL) return NULL;
     part->matrix[part->matrices] = whole;
     part->cut[part->matrices++] = cut;
@@ -152,10 +152,9 @@ static void add_pieces(const struct fields *f, int with, struct planes send, str
 {
     for (size_t i = 0; i < f->fields; i++) {
         char *field = f->field + i * f->apart;
-        piece[(*pieces)++] = (struct ranks_piece){with, field + send.from * f->plane,
-                                                  field + receive.from * f->plane,
-                                                  (send.end - send.from) * f->plane,
-                                                  (receive.end - receive.from) * f->plane};
+        piece[(*pieces)++] =
+            (struct ranks_piece){with, field + send.from * f->plane, field + receive.from * f->plane,
+                                 (send.end - send.from) * f->plane, (receive.end - receive.from) * f->plane};
     }
 }
 
