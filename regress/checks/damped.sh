@@ -71,7 +71,7 @@ refused "Q_s alone" "'q_p' is not given" material%q_p=
 refused "so low a Q" "cannot stand for so low a Q" material%q_p=0.05 material%q_s=0.05
 refused "points without order" "'cloud', has no damping by q_p and q_s" method%variant=cloud method%mechanisms=
 refused "the modified equation" "need scheme 'leapfrog', not 'modified-equation'" stepping%scheme=modified-equation
-refused "single precision" "damped materials need method%precision = 'double'" method%precision=single
+
 refused "an undamped reference" "reference 'lamb' is undamped" reference%kind=lamb reference%tolerance=
 refused "an accuracy" "no table of errors for this scene, only for materials without q_p and q_s" scene%accuracy=0.01 body%spacing=
 check "the plan says what is reached" sh -c "'$selas' check input/damped.nml | grep -q 'damping of rock: Q_p 40 wanted, 39.* reached'"

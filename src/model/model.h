@@ -139,11 +139,17 @@ struct model_operator {
 
 enum { MODEL_MECHANISMS = 8 };
 
-/* Relaxation mechanisms that all moduli share: stiffness acts on e = given u + sum over l of weight_l D_l,
- * D_l' = v - rate_l D_l (doc/damping.md, Eqs 11, 12). */
+/* Relaxation mechanisms, D_l' = v - rate_l D_l: the stiffness of the model of each part p acts on
+ * e_p = given_p u + sum over l of weight_pl D_l (doc/damping.md, Eqs 11, 12). The extra part of the state,
+ * `extra` numbers, begins with the D_l, [mechanisms][unknowns]; that of part p is at `extra` of the part. */
 struct relaxing {
-    size_t mechanisms;
-    double given, weight[MODEL_MECHANISMS], rate[MODEL_MECHANISMS];
+    size_t mechanisms, parts, extra;
+    double rate[MODEL_MECHANISMS];
+    struct relaxing_part {
+        struct model *model;
+        double given, weight[MODEL_MECHANISMS];
+        size_t extra;
+    } part[1 + MODEL_MECHANISMS];
 };
 
 /* Steps of leapfrog in one pass over the fields. The model keeps the velocity half a step ahead and perhaps
@@ -157,9 +163,9 @@ struct model_one_pass {
     void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
     /* What is kept beside y, for checkpoints. */
     void *(*kept)(struct model *model, size_t *bytes);
-    /* From now on steps in one pass, and they alone, relax: the extra part of their y begins with the D_l,
-     * [mechanisms][unknowns]. False: no memory. */
-    bool (*relax)(struct model *model, const struct relaxing *relaxing);
+    /* From now on steps in one pass, and they alone, relax; the model is that of part 0. SELAS_UNSUPPORTED:
+     * not in one pass; SELAS_NO_MEMORY. */
+    selas_status (*relax)(struct model *model, const struct relaxing *relaxing);
 };
 
 /* Memory of linear models (absorbing layers, damped materials). */

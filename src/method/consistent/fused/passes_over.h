@@ -150,45 +150,56 @@ static REAL drift(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, RE
     return measured_rows(n, rows, step, u, column);
 }
 
-/* u and its memory go on (fused.h, fused_relax), n numbers. */
-INLINED void relaxed(const size_t mechanisms, size_t n, const struct fused_relax *r, const REAL *restrict w,
-                     REAL *restrict memory, REAL *restrict u)
+/* u, `other` if there are two parts, and their memory go on (fused.h, fused_relax), n numbers. */
+INLINED void relaxed(const size_t mechanisms, const size_t parts, size_t n, const struct fused_relax *r,
+                     const REAL *restrict w, REAL *restrict memory, REAL *restrict u, REAL *restrict other)
 {
-    const REAL given = (REAL)r->given;
+    const REAL given = (REAL)(r->given[0] * r->dt), given_other = (REAL)(r->given[1] * r->dt);
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        REAL change = given * w[i];
+        REAL change = given * w[i], change_other = given_other * w[i];
         for (size_t l = 0; l < mechanisms; l++) {
             const REAL before = memory[l * r->apart + i];
             const REAL after = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
             memory[l * r->apart + i] = after;
-            change += (REAL)r->weight[l] * (after - before);
+            change += (REAL)r->weight[0][l] * (after - before);
+            if (parts > 1) change_other += (REAL)r->weight[1][l] * (after - before);
         }
         u[i] += change;
+        if (parts > 1) other[i] += change_other;
+    }
+}
+
+INLINED void relaxed_by(const size_t parts, size_t n, const struct fused_relax *r, const REAL *w,
+                        REAL *memory, REAL *u, REAL *other)
+{
+    switch (r->mechanisms) {
+    case 1:
+        relaxed(1, parts, n, r, w, memory, u, other);
+        break;
+    case 2:
+        relaxed(2, parts, n, r, w, memory, u, other);
+        break;
+    case 3:
+        relaxed(3, parts, n, r, w, memory, u, other);
+        break;
+    case 4:
+        relaxed(4, parts, n, r, w, memory, u, other);
+        break;
+    default:
+        relaxed(r->mechanisms, parts, n, r, w, memory, u, other);
     }
 }
 
 static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
-                  REAL *memory, REAL *u, REAL *column)
+                  REAL *memory, REAL *u, REAL *other, REAL *column)
 {
     for (size_t row = 0; row < rows; row++) {
         const size_t at = row * step;
-        switch (r->mechanisms) {
-        case 1:
-            relaxed(1, n, r, w + at, memory + at, u + at);
-            break;
-        case 2:
-            relaxed(2, n, r, w + at, memory + at, u + at);
-            break;
-        case 3:
-            relaxed(3, n, r, w + at, memory + at, u + at);
-            break;
-        case 4:
-            relaxed(4, n, r, w + at, memory + at, u + at);
-            break;
-        default:
-            relaxed(r->mechanisms, n, r, w + at, memory + at, u + at);
-        }
+        if (other == NULL)
+            relaxed_by(1, n, r, w + at, memory + at, u + at, NULL);
+        else
+            relaxed_by(2, n, r, w + at, memory + at, u + at, other + at);
     }
     return measured_rows(n, rows, step, u, column);
 }
