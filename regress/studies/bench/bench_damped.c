@@ -88,9 +88,15 @@ int main(int count, char **word)
 {
     static struct side side[] = {
         {.what = "undamped", .damping = "", .method = ""},
-        {.what = "Q_p = Q_s, n = 1", .damping = ", q_p = 20.0, q_s = 20.0, q_frequency = 0.05", .method = ", mechanisms = 1"},
-        {.what = "Q_p = Q_s, n = 3", .damping = ", q_p = 20.0, q_s = 20.0, q_frequency = 0.05", .method = ", mechanisms = 3"},
-        {.what = "Q_p = 2 Q_s, n = 3", .damping = ", q_p = 40.0, q_s = 20.0, q_frequency = 0.05", .method = ", mechanisms = 3"},
+        {.what = "Q_p = Q_s, n = 1",
+         .damping = ", q_p = 20.0, q_s = 20.0, q_frequency = 0.05",
+         .method = ", mechanisms = 1"},
+        {.what = "Q_p = Q_s, n = 3",
+         .damping = ", q_p = 20.0, q_s = 20.0, q_frequency = 0.05",
+         .method = ", mechanisms = 3"},
+        {.what = "Q_p = 2 Q_s, n = 3",
+         .damping = ", q_p = 40.0, q_s = 20.0, q_frequency = 0.05",
+         .method = ", mechanisms = 3"},
     };
     enum { SIDES = sizeof side / sizeof side[0] };
     const int n = count > 1 ? atoi(word[1]) : 49;

@@ -72,6 +72,7 @@ struct fused {
     size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
     int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
     bool bare;                                          /* B is the identity */
+    bool bulk; /* mu is 0, and all that it is a factor of: A of x and y, S_x b_y, S_y b_x, S_x b_z, S_y b_z */
     size_t late[2];         /* rows that narrow and wide passes over y lag behind */
     void *x[SIDE_MATRICES]; /* [width / vector][taps][vector] */
     void *y[SIDE_MATRICES]; /* [rows * taps] */

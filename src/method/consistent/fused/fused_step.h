@@ -19,8 +19,8 @@ struct pass {
     const struct NAME(step_fields) * step;
     const struct drive *drive;
     struct fused_fields fields; /* of part 0 */
-    double level;       /* smaller displacements move nothing */
-    size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
+    double level;               /* smaller displacements move nothing */
+    size_t next, limit;         /* the next plane to be brought on; those from `limit` on are already */
     int thread;
 };
 
@@ -294,8 +294,8 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = step->w[watch->entry[i]];
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
-        NAME(pml_fast_remember)(step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p),
-                                step->part[p].extra);
+        NAME(pml_fast_remember)
+        (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
     pass_over(c, step, drive, &fields, true, level);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++) {
         NAME(pml_fast_accelerate)(step->part[p].c, dt, step->part[p].extra, step->w);

@@ -20,7 +20,7 @@
             int taps;                                                                                        \
             fused_x_##precision *x;                                                                          \
             fused_y_##precision *y, *y_ends;                                                                 \
-            fused_depth_##precision *two, *three;                                                            \
+            fused_depth_##precision *depth[2][2]; /* [B is a matrix of its own][A is 0] */                   \
         } of[3]; /* one, two and three sweeps; the first is the narrow one too */                            \
         real (*measure)(size_t n, size_t rows, size_t step, const real *u, real *column);                    \
         real (*drift)(size_t n, size_t rows, size_t step, real dt, const real *w, real *u, real *column);    \

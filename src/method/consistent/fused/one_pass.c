@@ -183,8 +183,7 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    const struct fused_relax factors =
-        c->fused->relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
+    const struct fused_relax factors = c->fused->relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
     const struct fused_relax *relax = c->fused->relaxing != NULL ? &factors : NULL;
     model->evaluations++;
     if (model->single) {

@@ -24,11 +24,11 @@ INLINED const lanes *at(const REAL *place)
 #endif
 
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
- * for one row of n points. Without the last matrix, B, which is then the identity, its results are the input.
+ * for one row of n points, matrices m from `begin` to `end` - 1. Without the last matrix, B, which is then the identity, its results are the input.
  * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
  * does not foresee them. Floats, half as long, gain nothing from that. */
-INLINED void over_depth(const int taps, const int matrices, const REAL *const *in, const REAL *const *weight,
-                        size_t n, size_t ahead, REAL *const *result)
+INLINED void over_depth(const int taps, const int begin, const int end, const REAL *const *in,
+                        const REAL *const *weight, size_t n, size_t ahead, REAL *const *result)
 {
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
@@ -37,13 +37,13 @@ INLINED void over_depth(const int taps, const int matrices, const REAL *const *i
         {
             const lanes value = *at(in[t] + i);
             if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
-            if (matrices < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
+            if (end < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
                 *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
-            UNROLLED for (int m = 0; m < matrices; m++)
+            UNROLLED for (int m = begin; m < end; m++)
                 UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
                 weight[m][r * taps + t - r] * value;
         }
-        UNROLLED for (int m = 0; m < matrices; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
+        UNROLLED for (int m = begin; m < end; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
             (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
         if (i + LANES >= n) break;
     }
@@ -210,6 +210,13 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     moved(n, dt, a, w);
 }
 
+#define DEPTH(name, deep, begin, end)                                                                        \
+    static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
+                     REAL *const *result)                                                                    \
+    {                                                                                                        \
+        over_depth(deep, begin, end, in, weight, n, ahead, result);                                          \
+    }
+
 /* One function for each pass and number of taps. */
 #define PASSES(wide, deep)                                                                                   \
     static void x_##wide(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride,  \
@@ -227,23 +234,23 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     {                                                                                                        \
         across_y(wide, weight, wide, in, init, width, stride, out);                                          \
     }                                                                                                        \
-    static void two_##deep(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,         \
-                           REAL *const *result)                                                              \
-    {                                                                                                        \
-        over_depth(deep, 2, in, weight, n, ahead, result);                                                   \
-    }                                                                                                        \
-    static void three_##deep(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,       \
-                             REAL *const *result)                                                            \
-    {                                                                                                        \
-        over_depth(deep, 3, in, weight, n, ahead, result);                                                   \
-    }
+    DEPTH(two_##deep, deep, 0, 2)                                                                            \
+    DEPTH(three_##deep, deep, 0, 3)                                                                          \
+    DEPTH(two_bulk_##deep, deep, 1, 2)                                                                       \
+    DEPTH(three_bulk_##deep, deep, 1, 3)
 PASSES(5, 9)
 PASSES(9, 13)
 PASSES(13, 17)
 
 #define OF(wide, deep)                                                                                       \
     {                                                                                                        \
-        wide, x_##wide, y_##wide, ends_##wide, two_##deep, three_##deep                                      \
+        wide, x_##wide, y_##wide, ends_##wide,                                                               \
+        {                                                                                                    \
+            {two_##deep, two_bulk_##deep},                                                                   \
+            {                                                                                                \
+                three_##deep, three_bulk_##deep                                                              \
+            }                                                                                                \
+        }                                                                                                    \
     }
 const struct NAME(fused_kernels)
     OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick};
