@@ -51,11 +51,34 @@ apart() {
 }
 check "Q = 1e6 is $(apart plain large) off no damping" less "$(apart plain large)" 1e-5
 
-# steps in one pass are steps pass by pass, but for rounding
-run pass 20 20 $small
-run passes 20 20 $small method%fused=F
-check "one pass is $(apart passes pass) off pass by pass" less "$(apart passes pass)" 1e-11
-check "and the plan says so" grep -q "^step: leapfrog's is one pass" "$out/pass/report.txt"
+# steps in one pass, with one operator and with two, are steps pass by pass, but for rounding; in single precision too
+for p in 20 40; do
+    run pass $p 20 $small
+    run passes $p 20 $small method%fused=F
+    run single $p 20 $small method%precision=single
+    check "Q $p/20: one pass is $(apart passes pass) off pass by pass" less "$(apart passes pass)" 1e-11
+    check "and the plan says so" grep -q "^step: leapfrog's is one pass" "$out/pass/report.txt"
+    said=$(sed -n 's/^single precision adds: about \([^ ]*\) of .*/\1/p' "$out/single/report.txt")
+    check "Q $p/20: single precision is $(apart passes single) off, said: $said" less "$(apart passes single)" "$said"
+done
+
+# what damping takes, by the balance of energy and measured: errors fall as the square of the step
+cat >"$out/box.nml" <<END
+&scene dimension = 3, end_time = 6.0 /
+&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0, q_p = 40.0, q_s = 20.0, q_frequency = 0.5 /
+&body material = 'rock', shape = 'box', low = -2, -2, 0, high = 2, 2, 2, spacing = 0.25 /
+&load face = 'z-', shape = 'square', centre = 3*0.0, size = 1.0, 1.0, direction = 0.0, 0.0, 1.0, history = 'gaussian', width = 0.5, delay = 2.0 /
+&output plots = .false. /
+END
+for step in 0.05 0.025; do
+    "$selas" -q "$out/box.nml" stepping%time_step=$step output%balance=T output%directory="$out/balance$step" >"$out/log" 2>&1 || cat "$out/log"
+done
+"$selas" -q "$out/box.nml" stepping%time_step=0.025 output%directory="$out/unasked" >"$out/log" 2>&1 || cat "$out/log"
+figure() { sed -n "s/^energy $2: \([^ ]*\).*/\1/p" "$out/$1/report.txt"; }
+coarse=$(figure balance0.05 'balance defect') fine=$(figure balance0.025 'balance defect')
+check "balance of energy: $coarse, at half the step $fine" awk "BEGIN { exit !($fine < 5e-4 && $coarse / $fine > 3.5 && $coarse / $fine < 4.5) }"
+one=$(figure unasked 'taken by damping') other=$(figure balance0.025 'taken by damping')
+check "damping takes $other, by what is left $one" awk "BEGIN { off = $one - $other; exit !($one > .04 && off * off < (5e-4 * .2241)^2) }"
 
 refused() { # refused TITLE MESSAGE WORDS...
     title=$1 message=$2

@@ -100,6 +100,9 @@ struct model_core {
      */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed);
+    /* Power that materials take beside that, >= 0, at the cost of energy_calls operator calls or so. NULL:
+     * they take none. */
+    double (*loss)(struct model *model, const double *y);
     /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
      * their memory; density). Only called when a run has failed. NULL: there are no such places. */
     void (*unseen)(struct model *model, const double *y, struct unseen *found);
@@ -205,11 +208,13 @@ struct model {
     size_t bytes;       /* memory held by the model */
     bool single;        /* steps in one pass keep the state in single precision; y is what others see of it */
     bool damped;        /* C is not zero */
+    bool layers;        /* absorbing layers take energy, nobody tells how much */
     double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
                            [1/time] */
     bool small_strain;  /* forces are linear in grad u: rotations must stay small */
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
     unsigned energy_calls; /* operator calls that energy() takes, if more than one */
+    unsigned parts;        /* operators whose sum a step takes, if more than one */
     enum patch_sight patch;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (

@@ -166,6 +166,7 @@ struct output_choice {
     bool plots;
     double history_step;       /* 0: every step */
     double low_pass;           /* angular frequency of the zero-phase low-pass, 0: none */
+    bool balance;              /* what damped materials take is measured */
     long checkpoint_every;     /* steps between checkpoints; 0: none */
     double checkpoint_minutes; /* the same by the clock */
 };

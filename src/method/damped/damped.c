@@ -218,6 +218,7 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
                     "method%%precision = 'single' needs one damped material and no more");
     *model = *first;
     model->core = &damped_core;
+    model->parts = (unsigned)d->parts;
     model->energy_calls = (unsigned)(d->parts * (1 + mechanisms_of(d)));
     model->spatial = &spatial;
     model->memory = &memory;
