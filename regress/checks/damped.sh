@@ -96,5 +96,14 @@ refused "points without order" "'cloud', has no damping by q_p and q_s" method%v
 refused "the modified equation" "need scheme 'leapfrog', not 'modified-equation'" stepping%scheme=modified-equation
 
 refused "an undamped reference" "reference 'lamb' is undamped" reference%kind=lamb reference%tolerance=
-refused "an accuracy" "no table of errors for this scene, only for materials without q_p and q_s" scene%accuracy=0.01 body%spacing=
+refused "an accuracy that leaves no choice of mechanisms" "'mechanisms' does not belong to a deck with scene%accuracy" scene%accuracy=0.01 body%spacing=
 check "the plan says what is reached" sh -c "'$selas' check input/damped.nml | grep -q 'damping of rock: Q_p 40 wanted, 39.* reached'"
+
+# a wanted error: spacing and number of mechanisms follow
+for wanted in 0.1 0.02 0.005; do
+    "$selas" -q input/damped.nml scene%accuracy=$wanted scene%end_time=8 body%spacing= method%mechanisms= output%plots=F output%directory="$out/wanted" >"$out/log" 2>&1 ||
+        cat "$out/log"
+    reached=$(sed -n 's/^error largest: \([^ ]*\).*/\1/p' "$out/wanted/report.txt")
+    check "wanted $wanted, reached $reached:$(sed -n 's/^accuracy:.*;\(.* mechanisms\), .*/\1/p' "$out/wanted/report.txt")" \
+        awk "BEGIN { exit !($reached < $wanted && $reached > $wanted / 5) }"
+done

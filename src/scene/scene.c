@@ -78,6 +78,8 @@ static void build_method(struct builder *builder)
     if (given && found == VARIANTS) refuse_variant(builder, group, family);
     if (found == VARIANTS) found = first;
     method->group = group;
+    method->mechanisms =
+        deck_values(group, "mechanisms") > 0 ? (size_t)deck_integer(group, "mechanisms", 0) : 3;
     method->points = variants[found].points;
     snprintf(method->name, sizeof method->name, "%s", family);
     snprintf(method->variant, sizeof method->variant, "%s", variants[found].name);
@@ -191,6 +193,7 @@ selas_status scene_build(const struct deck *deck, const struct scene_choice *cho
         choice->check(&builder);
         (*scene)->method.degree = choice->degree;
         (*scene)->method.sweeps = choice->sweeps;
+        if (choice->mechanisms > 0) (*scene)->method.mechanisms = choice->mechanisms;
         if (choice->scheme != NULL)
             snprintf((*scene)->stepping.scheme, sizeof(*scene)->stepping.scheme, "%s", choice->scheme);
         if (choice->courant > 0) {

@@ -151,6 +151,7 @@ struct method_choice {
     enum point_places points;
     const struct deck_group *group; /* further options: each method reads its own with deck_*() */
     int degree, sweeps; /* of the consistent method, chosen by scene%accuracy; degree 0: by group */
+    size_t mechanisms;  /* relaxation mechanisms of damped materials */
 };
 
 struct stepping_choice {
@@ -211,6 +212,7 @@ struct scene_choice {
     double spacing;     /* 0: a first guess */
     long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
     int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
+    size_t mechanisms;  /* of damped materials; 0: as without */
     const char *scheme; /* NULL: as without */
     double courant;     /* 0: the default step */
     char text[200];     /* for the plan */

@@ -24,7 +24,8 @@ INLINED const lanes *at(const REAL *place)
 #endif
 
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
- * for one row of n points, matrices m from `begin` to `end` - 1. Without the last matrix, B, which is then the identity, its results are the input.
+ * for one row of n points, matrices m from `begin` to `end` - 1. Without the last matrix, B, which is then the
+ * identity, its results are the input.
  * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
  * does not foresee them. Floats, half as long, gain nothing from that. */
 INLINED void over_depth(const int taps, const int begin, const int end, const REAL *const *in,
