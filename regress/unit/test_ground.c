@@ -98,7 +98,7 @@ static void test_model(void **state)
     (void)state;
     write_model(6, 2, true);
     struct from_deck made = right_scene(MODEL);
-    assert_rock(made.scene, 0, 0, -.5, 2, 4, 2);
+    assert_rock(made.scene, 0, 0, -.5, 2.1, 4, 2); /* beyond the body as at its face */
     assert_rock(made.scene, 1.3, .5, .25, 2.15, 4, 1.95);
     assert_rock(made.scene, 9, 9, 9, 2.5, 4, 1.8); /* as at the grid's edge */
     assert_near(scene_fastest(made.scene), 4, 1e-12);
@@ -113,11 +113,12 @@ static void test_refused_models(void **state)
 {
     (void)state;
     write_model(6, 0, true);
-    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "(0, 0, 1.5)", "no s_speed", NULL});
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"the value at (0, 0, 1.5) of ", "no s_speed", NULL});
     write_model(6, 3.9, true);
-    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "bulk modulus is negative", NULL});
+    assert_refused(
+        MODEL, "t.nml:4:", (const char *[]){"the value at (0, 0, 1.5)", "bulk modulus is negative", NULL});
     write_model(6, NAN, true);
-    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "is not finite", NULL});
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"the value at (0, 0, 1.5)", "is not finite", NULL});
     write_model(5, 2, true);
     assert_refused(MODEL, "t.nml:4:", (const char *[]){"-0.5 to 1.5 along z", "the body from 0 to 2", NULL});
     write_model(6, 2, false);
