@@ -224,7 +224,8 @@ static inline void write_blocks(const char *path, int floor, const char *unit, d
         const hid_t set = put_set(blocks, b == 0 ? "upper" : "lower", 4, n[b], value);
         double up[4];
         for (int k = 0; k < 4; k++)
-            up[k] = -z_of[b][k];
+            up[k] =
+                b == 0 ? -z_of[b][3 - k] : -z_of[b][k]; /* listed upward, which says nothing of the values */
         if (b == 0) {
             put_numbers(set, "x_coordinates", 4, x_of[b]);
             put_one(set, "y_resolution", step);

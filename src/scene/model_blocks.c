@@ -88,7 +88,8 @@ static bool find_top(hid_t set, double *top)
     if (model_extent(set, extent) != 4 || extent[2] == 0 || extent[2] > 1000000) return false;
     double *place = array_new(extent[2], sizeof *place);
     const bool good = place != NULL && model_numbers(set, "z_coordinates", extent[2], place);
-    if (good) *top = place[0];
+    for (size_t i = 0; good && i < extent[2]; i++)
+        *top = i == 0 ? place[0] : fmax(*top, place[i]);
     array_free(place);
     return good;
 }
@@ -116,6 +117,12 @@ static bool find_blocks(struct blocks *blocks)
     return true;
 }
 
+static int rising(const void *one, const void *other)
+{
+    const double a = *(const double *)one, b = *(const double *)other;
+    return (a > b) - (a < b);
+}
+
 /* Places along one axis of a data set: even or listed; z downward. */
 static bool lay_axis(const struct blocks *blocks, hid_t set, const char *name, int axis, size_t count,
                      double top, struct model_grid *grid, size_t *first)
@@ -133,6 +140,7 @@ static bool lay_axis(const struct blocks *blocks, hid_t set, const char *name, i
         good = model_fault(blocks->source, "'%s' has neither %s nor %zu %s", name, even, count, listed);
     for (size_t i = 0; good && i < count && axis == 2; i++)
         place[i] = -place[i];
+    if (good) qsort(place, count, sizeof *place, rising); /* in any order in the file, values top down */
     good = good && model_part(blocks->source, grid, axis, place, count, first);
     array_free(place);
     return good;
@@ -164,7 +172,9 @@ static bool read_block(const struct blocks *blocks, size_t i)
     const char *name = blocks->block[i].name;
     size_t first[3] = {0};
     const hid_t set = stored_set(blocks->group[0], name);
-    bool good = lay_grid(blocks, set, name, 3, blocks->block[i].top, grid, first);
+    bool good = lay_grid(blocks, set, name, 3, blocks->block[i].top, grid, first) &&
+                model_meets(blocks->source, i) &&
+                (i > 0 || model_covers(blocks->source, 2, blocks->source->whole[2][0], blocks->bottom));
     for (int which = 0; good && which < MODEL_VALUES; which++) {
         good = model_read_part(set, grid, first, blocks->component[which], grid->value[which]) ||
                model_fault(blocks->source, "cannot read block '%s'", name);

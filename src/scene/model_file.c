@@ -90,6 +90,15 @@ bool model_covers(const struct model_source *source, int axis, double low, doubl
         low, high, "xyz"[axis], range[0], range[1], axis == 2 ? "depths" : "coordinates");
 }
 
+bool model_meets(struct model_source *source, size_t i)
+{
+    const double *whole = source->whole[2], before = source->end;
+    source->end = whole[1];
+    if (i == 0 || fabs(whole[0] - before) <= 1e-4 * (whole[1] - whole[0])) return true;
+    return model_fault(source, "a block that begins at depth %.9g follows one that ends at %.9g", whole[0],
+                       before);
+}
+
 /* --- Checks --- */
 
 /* What is wrong with a value; NULL: nothing. */

@@ -21,6 +21,8 @@ struct model_source {
     bool si;            /* speeds in m/s and densities in kg/m^3, by the format */
     bool damped;        /* the file has q_p, q_s */
     size_t filled;      /* values of air or water that took those of the rock below */
+    double whole[3][2]; /* first and last place in the file along each axis of the last grid */
+    double end;         /* model_meets() */
 };
 
 /* Complains of the file; false. */
@@ -40,6 +42,9 @@ struct model_axes {
 bool model_place(struct model_source *source, const struct model_axes *axes);
 /* Complains if the model, which reaches from `low` to `high` along an axis, does not cover the range. */
 bool model_covers(const struct model_source *source, int axis, double low, double high);
+
+/* Complains unless grid i, the last one of which the places are known, begins at the end of grid i - 1. */
+bool model_meets(struct model_source *source, size_t i);
 
 /* Adds `count` grids or surfaces; false after complaining. */
 bool model_grids(struct model_source *source, size_t grids, size_t surfaces);

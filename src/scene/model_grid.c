@@ -137,6 +137,8 @@ bool model_part(struct model_source *source, struct model_grid *grid, int axis, 
                                "rows %zu and %zu along %c coincide or go back, from %g to %g; expected "
                                "places one after the other",
                                i, i + 1, "xyz"[axis], place[i], place[i + 1]);
+    source->whole[axis][0] = place[0];
+    source->whole[axis][1] = place[last];
     *first = 0;
     while (*first + 2 < count && place[*first + 1] <= source->range[axis][0])
         ++*first;

@@ -205,7 +205,8 @@ bool model_read_rfile(struct model_source *source, FILE *file)
     if (!model_place(source, &axes) || !model_grids(source, rfile.blocks - 1, 1) || !read_surface(&rfile))
         return false;
     for (size_t b = 1; b < rfile.blocks; b++)
-        if (!read_block(&rfile, &rfile.block[b], &source->model->grid[b - 1])) return false;
+        if (!read_block(&rfile, &rfile.block[b], &source->model->grid[b - 1]) || !model_meets(source, b - 1))
+            return false;
     model_fill(source, -999);
     return true;
 }

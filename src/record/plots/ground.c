@@ -208,8 +208,8 @@ static void write_page(struct page *page, FILE *data)
     fprintf(
         page->script,
         "set palette defined (0 '#fdf3c2', .25 '#d3e49b', .5 '#98cda3', .75 '#74b3bb', 1 '#7f97cc')\n"
-        "unset grid\nset datafile separator whitespace\nset key at screen .5, screen %.5f center horizontal "
-        "maxrows 1 samplen 2\nset multiplot\n",
+        "unset grid\nset datafile separator whitespace\nset key at screen .5, screen %.5f center vertical "
+        "maxrows 2 samplen 2\nset multiplot\n",
         26. / page->height);
     if (page->cuts > 1) draw_map(page, skip[2]);
     draw_sections(page, page->cuts > 1 ? LEFT + page->size[1][0] + LEFT + 20 : LEFT, skip);
