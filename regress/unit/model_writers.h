@@ -245,17 +245,18 @@ static inline void write_blocks(const char *path, int floor, const char *unit, d
 
 /* --- tomography_model.xyz --- */
 
-/* 3 x 4 x 5 values, 500 x 300 x 200 apart from (1000, 2000, -700) on; line `wrong` (of the values, from 1) is
- * `text`; only the first `lines` values. */
-static inline void write_text(const char *path, int wrong, const char *text, int lines)
+/* 3 x 4 x 5 values, 500 x 300 x 200 apart from (1000, 2000, -700) on, or downward from 100; line `wrong` (of the
+ * values, from 1) is `text`; only the first `lines` values. */
+static inline void write_text(const char *path, int downward, int wrong, const char *text, int lines)
 {
     FILE *file = fopen(path, "w");
-    fputs(
-        "# a model\r\n1000 2000 -700 2000 2900 100 # corners\n\n500 300 200\n3 4 5\n1000 9000 500 2200 1000 "
-        "4000\n",
-        file);
+    const double from = downward ? 100 : -700, to = -600 - from, step = downward ? -200 : 200;
+    fprintf(file,
+            "# a model\r\n1000 2000 %g 2000 2900 %g # corners\n\n500 300 %g\n3 4 5\n1000 9000 500 2200 1000 "
+            "4000\n",
+            from, to, step);
     for (int i = 0; i < 60 && i < lines; i++) {
-        const double x = i % 3 * 500, y = i / 3 % 4 * 300, z = i / 12 * 200 - 700;
+        const double x = i % 3 * 500, y = i / 3 % 4 * 300, z = from + i / 12 * step;
         double value[3];
         field(x, y, -z, value);
         if (i + 1 == wrong)

@@ -122,7 +122,7 @@ static void test_blocks(void **state)
 static void test_text(void **state)
 {
     (void)state;
-    write_text(stored, 0, "", 60);
+    write_text(stored, 0, 0, "", 60);
     struct from_deck made = right_scene(DECK("700, 800, 300", "origin = 1100, 2850, -100, azimuth = 90"));
     static const double place[][3] = {{0, 0, 0}, {700, 800, 300}, {333, 222, 111}};
     for (int i = 0; i < 3; i++)
@@ -130,10 +130,11 @@ static void test_text(void **state)
     assert_text(&made, "depth 0 is its elevation -100", NULL);
     assert_int_equal(made.scene->body.model->grid[0].n[2], 3); /* of 5 */
     from_deck_free(&made);
+    write_text(stored, 1, 0, "", 60);
     made = right_scene(DECK("700, 800, 600", "")); /* x towards north: the file's y */
     assert_field(made.scene, (double[]){600, 700, 500}, 700, 600, 500, 1e-12);
     from_deck_free(&made);
-    write_text(stored, 12, "2000 2900 -700 99000 2000 2000 # too fast\n", 60);
+    write_text(stored, 0, 12, "2000 2900 -700 99000 2000 2000 # too fast\n", 60);
     made = right_scene(DECK("700, 800, 600", ""));
     assert_text(&made, NULL, "1 numbers lie beyond the bounds");
     from_deck_free(&made);
@@ -163,10 +164,10 @@ static void test_wrong_text(void **state)
         {60, "2000 2900 100 4000 2000 2000\n1 1 1 4000 2000 2000\n", 60, {"more than 3 x 4 x 5", NULL}},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        write_text(stored, wrong[i].line, wrong[i].text, wrong[i].lines);
+        write_text(stored, 0, wrong[i].line, wrong[i].text, wrong[i].lines);
         assert_refused(TEXT, "t.nml:4:", wrong[i].words);
     }
-    write_text(stored, 0, "", 60);
+    write_text(stored, 0, 0, "", 60);
     assert_refused(DECK("700, 1010, 600", ""),
                    "t.nml:4:", (const char *[]){"1000 to 2000 along x", "1000 to 2010", NULL});
     assert_refused(DECK("700, 800, 800", ""),

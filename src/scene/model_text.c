@@ -1,6 +1,6 @@
 /* SPECFEM's tomography_model.xyz: text, '#' comments; ORIG_X ORIG_Y ORIG_Z END_X END_Y END_Z, the spacings, the
  * numbers of values NX NY NZ, least and greatest p_speed, s_speed and density, to which what lies between the
- * values is held; then a line for each, x y z p_speed s_speed density [q_p q_s], x fastest, z upward (SPECFEM3D
+ * values is held; then a line for each, x y z p_speed s_speed density [q_p q_s], x fastest (SPECFEM3D
  * Cartesian, user manual, "Changing the model", and src/generate_databases/model_tomography.f90). Values are
  * held to their bounds here, and linear between them. */
 #include "base/lines.h"
@@ -17,7 +17,7 @@ struct text {
     struct model_source *source;
     FILE *file;
     size_t line, clipped;
-    double origin[3], step[3], bound[6];
+    double origin[3], step[3], bound[6]; /* steps may lead back: z upward or downward */
     size_t n[3], first[3];
     size_t columns; /* of the first value */
 };
@@ -72,12 +72,12 @@ static bool read_head(struct text *text)
     }
     for (int axis = 0; axis < 3; axis++) {
         const double origin = value[0][axis], step = value[1][axis], n = value[2][axis];
-        if (!(n >= 2) || n > 1e6 || n != floor(n) || !(step > 0))
+        if (!(n >= 2) || n > 1e6 || n != floor(n) || step == 0)
             return model_fault(text->source,
-                               "%g values along %c, %g apart; expected at least 2 and a step "
-                               "above 0",
+                               "%g values along %c, %g apart; expected at least 2, "
+                               "at different places",
                                n, "xyz"[axis], step);
-        if (fabs(origin + step * (n - 1) - value[0][3 + axis]) > 1e-3 * step)
+        if (fabs(origin + step * (n - 1) - value[0][3 + axis]) > 1e-3 * fabs(step))
             return model_fault(text->source, "%g values along %c, %g apart, lead from %g to %g, END_%c is %g",
                                n, "xyz"[axis], step, origin, origin + step * (n - 1), "XYZ"[axis],
                                value[0][3 + axis]);
@@ -94,15 +94,17 @@ static bool lay_grid(struct text *text)
 {
     struct model_source *source = text->source;
     struct ground_model *model = source->model;
-    struct model_axes axes = {.north = 1, .corner = {text->origin[0], text->origin[1]}, .coordinates = 3};
+    struct model_axes axes = {.north = 1, .coordinates = 3};
+    for (int axis = 0; axis < 2; axis++)
+        axes.corner[axis] = text->origin[axis] + fmin(text->step[axis] * (double)(text->n[axis] - 1), 0);
     if (!model_grids(source, 1, 0) || !model_place(source, &axes)) return false;
     model->shift = -model->shift; /* from an elevation */
     source->range[2][0] += model->shift;
     source->range[2][1] += model->shift;
     for (int axis = 0; axis < 3; axis++) {
-        const double length = text->step[axis] * (double)(text->n[axis] - 1);
-        const double from = axis < 2 ? text->origin[axis] : -text->origin[2] - length;
-        if (!model_even_part(source, &model->grid[0], axis, from, text->step[axis], text->n[axis],
+        const double way = text->step[axis] * (double)(text->n[axis] - 1), length = fabs(way);
+        const double low = text->origin[axis] + fmin(way, 0), from = axis < 2 ? low : -low - length;
+        if (!model_even_part(source, &model->grid[0], axis, from, fabs(text->step[axis]), text->n[axis],
                              &text->first[axis]) ||
             !model_covers(source, axis, from, from + length))
             return false;
@@ -123,9 +125,10 @@ static void keep(struct text *text, const size_t at[3], const double value[COLUM
     struct model_grid *grid = &text->source->model->grid[0];
     size_t index = 0;
     for (int axis = 0; axis < 3; axis++) {
-        const size_t down = axis == 2 ? text->n[2] - 1 - at[2] : at[axis];
-        if (down < text->first[axis] || down - text->first[axis] >= grid->n[axis]) return;
-        index = index * grid->n[axis] + down - text->first[axis];
+        const bool forth = (text->step[axis] > 0) == (axis < 2);
+        const size_t i = forth ? at[axis] : text->n[axis] - 1 - at[axis];
+        if (i < text->first[axis] || i - text->first[axis] >= grid->n[axis]) return;
+        index = index * grid->n[axis] + i - text->first[axis];
     }
     grid->value[0][index] = held(text, value[5], text->bound + 4);
     grid->value[1][index] = held(text, value[3], text->bound);
@@ -149,7 +152,7 @@ static bool read_value(struct text *text, const size_t at[3])
                            text->line, count);
     for (int axis = 0; axis < 3; axis++) {
         const double expected = text->origin[axis] + (double)at[axis] * text->step[axis];
-        if (fabs(value[axis] - expected) > 1e-3 * text->step[axis])
+        if (fabs(value[axis] - expected) > 1e-3 * fabs(text->step[axis]))
             return model_fault(text->source,
                                "line %zu: value %zu lies at %c = %.9g; expected %.9g (even rows, x fastest, "
                                "then y, then z)",
