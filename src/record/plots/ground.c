@@ -1,10 +1,11 @@
 /* ground.png: the ground as a run sees it, before anything is computed. Three dimensions: a map of the surface
  * and, along the line A-B through the first source (or receiver) and the receiver farthest from it, sections of
  * both speeds; two dimensions: the speeds. Sources, receivers, absorbing layers, what the faces do. */
+#include "scene/ground.h"
 #include "base/gnuplot.h"
 #include "base/safe_file.h"
+#include "record/parts.h"
 #include "record/plots/marks.h"
-#include "record/record.h"
 #include "record/results.h"
 
 #include <math.h>
@@ -238,25 +239,40 @@ static bool make_cuts(struct page *page)
     return true;
 }
 
-selas_status record_ground(const struct scene *scene, struct messages *messages)
+static bool can_plot(const struct scene *scene)
+{
+    return scene->dimension > 1 && body_is_box(&scene->body);
+}
+
+bool plots_ground(const struct scene *scene)
+{
+    return can_plot(scene) && (ground_is_general(scene) || body_is_layered(&scene->body));
+}
+
+void plot_ground(const struct scene *scene, struct messages *messages)
 {
     struct page page = {.scene = scene};
     struct gnuplot plot;
-    if (scene->dimension == 1 || !body_is_box(&scene->body))
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "there is no plot of the ground of this body; expected a box in two or three dimensions");
-    selas_status status = make_folder(scene->output.directory, messages);
-    if (status == SELAS_OK) status = results_claim(scene, "\nground.png\n", messages);
-    if (status == SELAS_OK) status = results_list(scene, "\nground.png\n", messages);
-    if (status != SELAS_OK) return status;
-    if (!make_cuts(&page))
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for the plot of the ground");
-    else if (gnuplot_begin(&plot, messages)) {
+    if (!make_cuts(&page)) {
+        warn(messages, "no plot of the ground: no memory");
+    } else if (gnuplot_begin(&plot, messages)) {
         page.script = plot.script;
         write_page(&page, plot.data);
         gnuplot_keep(scene->output.directory, picture, gnuplot_run(&plot, "the ground", messages), messages);
     }
     for (size_t c = 0; c < page.cuts; c++)
         cut_free(&page.cut[c]);
+}
+
+selas_status record_ground(const struct scene *scene, struct messages *messages)
+{
+    static const char names[] = "\nground.png\n";
+    if (!can_plot(scene))
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "there is no plot of the ground of this body; expected a box in two or three dimensions");
+    selas_status status = make_folder(scene->output.directory, messages);
+    if (status == SELAS_OK) status = results_claim(scene, names, messages);
+    if (status == SELAS_OK) status = results_list(scene, names, messages);
+    if (status == SELAS_OK) plot_ground(scene, messages);
     return status;
 }
