@@ -213,7 +213,15 @@ static const struct word layer_words[] = {
 
 static const struct word model_words[] = {
     {"file", WORD_FILE, 1, NULL, NULL, OBLIGATORY,
-     "HDF5 file: density, p_speed, s_speed on an even grid, attributes origin and spacing"},
+     "plain grid or GeoModelGrids (HDF5), SW4's rfile or sfile, SPECFEM's tomography_model.xyz"},
+    {"origin", WORD_REAL, 3, NULL, NULL, OPTIONAL,
+     "where x = y = 0 of the body lies, in the file's coordinates [length]; the third one, of plain grids "
+     "and "
+     "tomography_model.xyz: where z = 0, or the surface, lies; else the file's corner, of plain grids 0, 0, "
+     "0"},
+    {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
+     "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
+     "that is nearest to north"},
 };
 
 static const struct word block_words[] = {

@@ -76,6 +76,7 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
 {
     if (scene->body.accuracy[0] != '\0') say(teller, "accuracy", "%s", scene->body.accuracy);
     if (scene->body.chosen) say(teller, "box chosen", "%s", scene->body.choice);
+    if (scene->body.model != NULL) say(teller, "ground", "%s", scene->body.model->text);
     say(teller, "loads", "%zu", scene->loads);
     say(teller, "receivers", "%zu", scene->receivers);
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);

@@ -105,7 +105,7 @@ bool ground_grades(const struct scene *scene)
 double ground_detail(const struct scene *scene, int axis)
 {
     const struct body *body = &scene->body;
-    return body->model == NULL || body->blocks > 0 ? 0 : body->model->spacing[axis];
+    return body->model == NULL || body->blocks > 0 ? 0 : body->model->detail[axis];
 }
 
 bool ground_varies(const struct scene *scene, int axis)
