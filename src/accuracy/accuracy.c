@@ -50,6 +50,7 @@ const char *accuracy_gradient(const struct scene *scene)
 const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene)
 {
     if (ground_is_damped(scene)) return "materials without q_p and q_s";
+    if (scene->body.topography != NULL) return "level ground, without &topography";
     if (kind->variant != NULL && strcmp(kind->variant, scene->method.variant) != 0) return kind->served;
     return kind->refusal(scene);
 }

@@ -1,6 +1,11 @@
 /* Lines of text files of numbers (see the header). */
 #include "base/lines.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
 enum line_found line_next(FILE *file, char line[LINE_SIZE])
 {
     size_t length = 0;
@@ -20,4 +25,18 @@ const char *line_fault(enum line_found found)
 {
     return found == LINE_TOO_LONG ? "the line is too long: expected a few numbers"
                                   : "a byte 0: this is not a text file";
+}
+
+int line_numbers(const char *line, int most, double *value)
+{
+    int count = 0;
+    while (true) {
+        line += strspn(line, " \t,\r\n");
+        if (*line == '\0' || *line == '#' || *line == '!') return count;
+        char *end = NULL;
+        const double x = strtod(line, &end);
+        if (end == line || count == most || !isfinite(x)) return -1;
+        value[count++] = x;
+        line = end;
+    }
 }

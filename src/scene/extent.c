@@ -2,11 +2,15 @@
  * compile (-Wswitch, an error in CI); a group that is missing in the table below fails test_extent. */
 #include "scene/extent.h"
 
+#include "scene/topography.h"
+
 #include <math.h>
 #include <string.h>
 
 /* A Gaussian of width w ends here: exp(-5^2 / 2) = 4e-6. */
 static const double gaussian_end = 5;
+/* A hill's profile ends here: exp(-3^2 / 2) = .011. */
+static const double shape_end = 3;
 /* Root mean square frequency of a Gaussian's slope over that of the Gaussian itself. */
 static const double slope_over_value = 1.7320508075688772;
 
@@ -245,6 +249,26 @@ static void state_block(const struct scene *scene, size_t index, struct extent *
     widen(scene, block->centre, half, extent);
 }
 
+/* A hill, ridge or canyon is in the box as far as three times its width; a file's heights only need to reach as far
+ * as the box. */
+static size_t count_topography(const struct scene *scene)
+{
+    return scene->body.topography != NULL && scene->body.topography->map == NULL ? 1 : 0;
+}
+
+static void state_topography(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct topography *topography = scene->body.topography;
+    (void)index;
+    extent->role = EXTENT_SEEN;
+    begin_place(extent);
+    for (int axis = 0; axis < topography->axis; axis++) {
+        extent->low[axis] = topography->centre[axis] - shape_end * topography->width;
+        extent->high[axis] = topography->centre[axis] + shape_end * topography->width;
+    }
+    extent->low[topography->axis] = extent->high[topography->axis] = topography->plane;
+}
+
 /* --- All of them ---------------------------------------------------------------------------------------- */
 
 static const struct kind {
@@ -266,6 +290,7 @@ static const struct kind {
     {"layer", NULL, NULL},
     {"block", count_blocks, state_block},
     {"model", NULL, NULL}, /* in boxes that the deck gives */
+    {"topography", count_topography, state_topography},
     {"output", NULL, NULL},
     {"reference", NULL, NULL}, /* its histories are those of receivers */
 };

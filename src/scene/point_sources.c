@@ -26,21 +26,6 @@ static struct point_source *add(struct point_sources *sources, size_t *room)
     return &sources->source[sources->count++];
 }
 
-/* Numbers of a line; -1 if there is something else in it, or too many. */
-static int numbers(const char *line, double value[MOST_NUMBERS])
-{
-    int count = 0;
-    while (true) {
-        line += strspn(line, " \t,\r\n");
-        if (*line == '\0' || *line == '#' || *line == '!') return count;
-        char *end = NULL;
-        const double x = strtod(line, &end);
-        if (end == line || count == MOST_NUMBERS || !isfinite(x)) return -1;
-        value[count++] = x;
-        line = end;
-    }
-}
-
 static selas_status read_lines(FILE *file, const char *path, size_t values, struct point_sources *sources,
                                struct messages *messages)
 {
@@ -51,7 +36,7 @@ static selas_status read_lines(FILE *file, const char *path, size_t values, stru
         double value[MOST_NUMBERS] = {0};
         if (next != LINE_READ)
             return fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
-        const int count = numbers(line, value), least = (int)(3 + values);
+        const int count = line_numbers(line, MOST_NUMBERS, value), least = (int)(3 + values);
         if (count == 0) continue;
         if (count < least || count > least + 2)
             return fail(messages, SELAS_FILE_ERROR,

@@ -50,7 +50,9 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
     const struct body *body = &builder->scene->body;
     const int dimension = builder->scene->dimension;
     double nearest[3];
-    if (!need_vector(builder, group, name, what, position) || !builder->body_known) return;
+    const bool placed = strcmp(name, "position") == 0 ? need_place(builder, group, name, what, position)
+                                                      : need_vector(builder, group, name, what, position);
+    if (!placed || !builder->body_known) return;
     if (body_holds(body, dimension, position, nearest)) return;
     double off = 0; /* the box is missed by this much */
     for (int c = 0; c < 3; c++)
