@@ -60,7 +60,7 @@ module selas
          set_text_many
       procedure, public :: advance, step, time, end_time, time_step, steps, steps_needed
       procedure, public :: receiver, finish, history, record, write => write_results, write_exact, plan
-      procedure, public :: set_traction, set_body_force, set_motion, set_load, load_mean
+      procedure, public :: set_traction, set_body_force, set_motion, set_load, load_mean, load_response
       procedure, public :: points, field, energy, save => save_state, restore
       procedure, public :: status => kept_status, message, last_message, output_directory, &
          close => close_simulation
@@ -281,6 +281,13 @@ module selas
          integer(c_int), value :: field
          real(c_double), intent(out) :: val
          integer(c_int) :: c_load_mean
+      end function
+      function c_load_response(sim, load, moved, val) bind(c, name='selas_load_response')
+         import :: c_int, c_char, c_ptr, c_double
+         type(c_ptr), value :: sim
+         character(kind=c_char), intent(in) :: load(*), moved(*)
+         real(c_double), intent(out) :: val
+         integer(c_int) :: c_load_response
       end function
       function c_points(sim, count, position) bind(c, name='selas_points')
          import :: c_int, c_ptr, c_size_t
@@ -873,5 +880,14 @@ contains
       integer, intent(out), optional :: status
       value = 0
       call report(self, c_load_mean(self%handle, terminated(load), int(field, c_int), value), status)
+   end subroutine
+
+   subroutine load_response(self, load, moved, value, status)
+      class(selas_simulation), intent(inout) :: self
+      character(*), intent(in) :: load, moved
+      real(real64), intent(out) :: value
+      integer, intent(out), optional :: status
+      value = 0
+      call report(self, c_load_response(self%handle, terminated(load), terminated(moved), value), status)
    end subroutine
 end module selas

@@ -237,6 +237,20 @@ subroutine slmean(sim, load, field, value, ierr)
    if (associated(found)) call found%load_mean(load, field, value, ierr)
 end subroutine
 
+! Mean acceleration of the patch of load MOVED that a unit of the held LOAD makes at once.
+subroutine slresp(sim, load, moved, value, ierr)
+   use selas77
+   implicit none
+   integer(int64), intent(in) :: sim
+   character(*), intent(in) :: load, moved
+   real(real64), intent(out) :: value
+   integer, intent(out) :: ierr
+   type(selas_simulation), pointer :: found
+   found => simulation_of(sim)
+   ierr = selas_bad_argument
+   if (associated(found)) call found%load_response(load, moved, value, ierr)
+end subroutine
+
 ! Kinetic and strain energy of the body.
 subroutine slener(sim, kinetic, strain, ierr)
    use selas77

@@ -43,6 +43,7 @@ static void call_all(selas_simulation *s)
     wrong(s, selas_set_motion(s, "x-", triangle, &push));
     wrong(s, selas_set_load(s, "hammer", 1));
     wrong(s, selas_load_mean(s, "hammer", SELAS_VELOCITY, value));
+    wrong(s, selas_load_response(s, "hammer", "hammer", value));
     wrong(s, selas_points(s, &count, &values));
     wrong(s, selas_field_values(s, SELAS_VELOCITY, &count, &count, &values));
     wrong(s, selas_energy(s, value, value));
@@ -164,6 +165,8 @@ static void test_wrong_calls(void **state)
         wrong(s, selas_set_motion(s, names[i], triangle, &push));
         wrong(s, selas_set_load(s, names[i], 1));
         wrong(s, selas_load_mean(s, names[i], SELAS_VELOCITY, value));
+        wrong(s, selas_load_response(s, names[i], "hammer", value));
+        wrong(s, selas_load_response(s, "hammer", names[i], value));
     }
     for (int i = 0; i < 3; i++) {
         wrong(s, selas_receiver(s, "r", fields[i], value));
@@ -181,6 +184,7 @@ static void test_wrong_calls(void **state)
     wrong(s, selas_set_load(s, "hammer", INFINITY));
     wrong(s, selas_load_mean(s, "hammer", SELAS_STRESS, value));
     wrong(s, selas_load_mean(s, "hammer", SELAS_VELOCITY, NULL));
+    wrong(s, selas_load_response(s, "hammer", "hammer", value)); /* not held */
     wrong(s, selas_points(s, NULL, &values));
     wrong(s, selas_points(s, &count, NULL));
     wrong(s, selas_field_values(s, SELAS_VELOCITY, NULL, &count, &values));

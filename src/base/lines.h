@@ -19,8 +19,8 @@ enum line_found line_next(FILE *file, char line[LINE_SIZE]);
 /* What is wrong after LINE_TOO_LONG or LINE_NO_TEXT, for a message. */
 const char *line_fault(enum line_found found);
 
-/* Numbers of a line, at most `most`, parted by blanks or commas, before a '#' or '!': how many; -1 if there is anything
- * else in it, or more. */
+/* Numbers of a line, parted by blanks or commas, up to its end or a comment (# or !). Returns how many; -1 if there
+ * is something else in it, or more than `most`. */
 int line_numbers(const char *line, int most, double *value);
 
 #endif

@@ -6,6 +6,7 @@
 #include "exact/lamb_sum.h"
 
 #include "base/memory.h"
+#include "base/sums.h"
 #include "exact/gauss12.h"
 
 #include <math.h>
@@ -159,19 +160,6 @@ double lamb_sum_effort(const struct lamb_sum *sum, double end)
     return PANEL * ((end - near) / sum->wide.panel + near / sum->narrow.panel);
 }
 
-/* sum of a[i] b[i] in a fixed order */
-static inline double dot(const double *a, const double *b, size_t n)
-{
-    double sum[4] = {0, 0, 0, 0};
-    size_t i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (size_t j = 0; j < 4; j++)
-            sum[j] += a[i + j] * b[i + j];
-    for (; i < n; i++)
-        sum[0] += a[i] * b[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
 /* Sum over one block of wavenumbers for one path; `weight`: its coefficients from the block on. */
 static void add_block(bool horizontal, const double *weight, size_t room, size_t count,
                       const struct compliance *compliance, double complex value[LAMB_COMPONENTS])
@@ -184,7 +172,8 @@ static void add_block(bool horizontal, const double *weight, size_t room, size_t
             const int g = used[c][i];
             if (g < 0) continue;
             const double *line = weight + (c * KERNELS + (size_t)g) * room;
-            value[c] += dot(line, parts[g][0], count) + I * dot(line, parts[g][1], count);
+            value[c] += short_sum_of_products(line, parts[g][0], count) +
+                        I * short_sum_of_products(line, parts[g][1], count);
         }
 }
 

@@ -4,6 +4,8 @@
  * A source of cos(m phi) seen through cos(n phi) gives (C_(m-n) + C_(m+n))/2, sines (C_(m-n) - C_(m+n))/2. */
 #include "exact/seismogram_work.h"
 
+#include "base/sums.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -199,19 +201,6 @@ void path_weights(const struct path *path, size_t count, const double *k, const 
     }
 }
 
-/* sum of a[i] b[i] in a fixed order */
-static inline double dot(const double *a, const double *b, size_t n)
-{
-    double sum[4] = {0, 0, 0, 0};
-    size_t i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (size_t j = 0; j < 4; j++)
-            sum[j] += a[i + j] * b[i + j];
-    for (; i < n; i++)
-        sum[0] += a[i] * b[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
 void path_sum(const struct path *path, size_t count, const double *weight, const double *response,
               double complex component[COMPONENTS])
 {
@@ -227,7 +216,8 @@ void path_sum(const struct path *path, size_t count, const double *weight, const
             from = (size_t)column * RESPONSES + view->response;
         }
         const double *line = response + 2 * NODES * from;
-        component[to] += dot(weight, line, count) + I * dot(weight, line + NODES, count);
+        component[to] += short_sum_of_products(weight, line, count) +
+                         I * short_sum_of_products(weight, line + NODES, count);
     }
 }
 

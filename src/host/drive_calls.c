@@ -146,19 +146,12 @@ static void translate(const struct model *model, const double direction[3], doub
             velocity[c * model->component_stride + i * model->point_stride] = own[c];
 }
 
-selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
+/* Mean of a part [unknowns] of the state or of a change of it over the patch of a load. The power of a unit load
+ * is the integral of what it does work on. */
+static selas_status mean_of(selas_simulation *simulation, size_t index, const double *part, double *value)
 {
-    AT_THE_DOOR(simulation);
-    simulation_call(simulation);
-    selas_status status = simulation_begin(simulation);
-    size_t index = 0;
-    if (status == SELAS_OK) status = find_load(simulation, load, &index);
-    if (status != SELAS_OK) return status;
     struct model *model = simulation->model;
     const struct load *named = &simulation->scene->load[index];
-    if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ACCELERATION)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
-                    "means are those of displacement, velocity or acceleration, and need room for a value");
     if (model->core->power == NULL || model->state_size < 2 * model->unknowns ||
         named->kind == LOAD_MOMENT_TENSOR || named->amplitude == 0.0)
         return fail(&simulation->messages, SELAS_UNSUPPORTED, "this load or method has no mean displacement");
@@ -168,16 +161,11 @@ selas_status selas_load_mean(selas_simulation *simulation, const char *load, sel
         simulation->scratch = array_new(model->state_size + 2 * loads, sizeof(double));
     if (simulation->scratch == NULL)
         return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a mean");
-    /* the power of a unit load is the integral of what it does work on */
     double *y = simulation->scratch, *unit = y + model->state_size;
-    const double *part = field == SELAS_DISPLACEMENT ? state->y
-                         : field == SELAS_VELOCITY   ? state->y + n
-                                                     : state->a;
     for (size_t k = 0; k < loads; k++)
         unit[k] = k == index ? 1.0 / named->amplitude : 0.0;
     const struct drive drive = {.time = state->time, .load = unit};
     double measure = 0.0, power = 0.0, absorbed = 0.0;
-    state_settle(simulation->stepper, state, true);
     memcpy(y, state->y, model->state_size * sizeof *y);
     translate(model, named->direction, y + n);
     model->core->power(model, &drive, y, &measure, &absorbed);
@@ -185,4 +173,53 @@ selas_status selas_load_mean(selas_simulation *simulation, const char *load, sel
     model->core->power(model, &drive, y, &power, &absorbed);
     *value = power / measure;
     return SELAS_OK;
+}
+
+selas_status selas_load_mean(selas_simulation *simulation, const char *load, selas_field field, double *value)
+{
+    AT_THE_DOOR(simulation);
+    simulation_call(simulation);
+    selas_status status = simulation_begin(simulation);
+    size_t index = 0;
+    if (status == SELAS_OK) status = find_load(simulation, load, &index);
+    if (status != SELAS_OK) return status;
+    if (value == NULL || field < SELAS_DISPLACEMENT || field > SELAS_ACCELERATION)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "means are those of displacement, velocity or acceleration, and need room for a value");
+    const struct state *state = &simulation->state;
+    state_settle(simulation->stepper, state, true);
+    return mean_of(simulation, index,
+                   field == SELAS_ACCELERATION
+                       ? state->a
+                       : state->y + (field == SELAS_VELOCITY ? simulation->model->unknowns : 0),
+                   value);
+}
+
+selas_status selas_load_response(selas_simulation *simulation, const char *load, const char *moved,
+                                 double *value)
+{
+    AT_THE_DOOR(simulation);
+    simulation_call(simulation);
+    selas_status status = simulation_begin(simulation);
+    size_t pushed = 0, seen = 0, row = 0;
+    if (status == SELAS_OK) status = find_load(simulation, load, &pushed);
+    if (status == SELAS_OK) status = find_load(simulation, moved, &seen);
+    if (status != SELAS_OK) return status;
+    if (value == NULL) return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no room for the response");
+    const struct held *held = &simulation->stepper->held;
+    while (row < held->loads && held->load[row] != pushed)
+        row++;
+    if (row == held->loads)
+        return fail(
+            &simulation->messages, SELAS_UNSUPPORTED,
+            "the response to load '%s' is known where set_load holds it, with scheme 'leapfrog', a linear "
+            "method and no functions of the host",
+            load);
+    double *change = array_new(simulation->model->unknowns, sizeof *change);
+    if (change == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a response");
+    for (size_t i = 0; i < held->count; i++)
+        change[held->index[i]] = held->pull[row * held->count + i];
+    status = mean_of(simulation, seen, change, value);
+    array_free(change);
+    return status;
 }

@@ -64,11 +64,13 @@ static selas_status place_results(selas_simulation *simulation)
 /* The scene of the deck, with what the host drives put into it. */
 static selas_status build_scene(selas_simulation *simulation)
 {
+    const struct stopwatch begun = start_watch();
     selas_status status =
         accuracy_build(simulation->deck, host_trial, &simulation->scene, &simulation->messages);
     if (status == SELAS_OK) status = place_results(simulation);
     if (status == SELAS_OK) status = host_prepare_scene(simulation);
     if (status != SELAS_OK) scene_free(&simulation->scene);
+    add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
 }
 

@@ -49,21 +49,6 @@ static bool make_room_for_lines(struct table *table)
     return true;
 }
 
-/* Numbers of a line; -1 if there is something else in it. */
-static int numbers(const char *line, double value[COLUMNS])
-{
-    int count = 0;
-    while (true) {
-        line += strspn(line, " \t,\r\n");
-        if (*line == '\0' || *line == '#' || *line == '!') return count;
-        char *end = NULL;
-        const double x = strtod(line, &end);
-        if (end == line || count == COLUMNS) return -1;
-        value[count++] = x;
-        line = end;
-    }
-}
-
 static selas_status add_row(struct table *table, size_t d, int count, const double *value, const char *path,
                             size_t line, struct messages *messages)
 {
@@ -96,7 +81,7 @@ static selas_status read_text(const char *path, size_t d, struct table *table, s
             status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
             break;
         }
-        const int count = numbers(line, value);
+        const int count = line_numbers(line, COLUMNS, value);
         if (count != 0) status = add_row(table, d, count, value, path, number, messages);
     }
     if (status == SELAS_OK && ferror(file) != 0)

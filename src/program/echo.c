@@ -7,6 +7,7 @@
 #include "scene/absorbing_layers.h"
 #include "scene/build.h"
 #include "scene/echo.h"
+#include "scene/ground.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -182,8 +183,9 @@ selas_status check_echo(const struct echo_deck *deck)
         if ((scene_needs(one->scene) & CAN_DAMP) != 0)
             printf("echo expected: not known (dampers)\n");
         else
-            printf("echo expected: %.2e (at the worst of them, this spacing)\n",
-                   expected_at_worst(one->scene));
+            printf("echo expected: %.2e (at the worst of them, this spacing%s)\n",
+                   expected_at_worst(one->scene),
+                   ground_is_general(one->scene) ? "; a law of level ground, which this is not" : "");
     } else {
         fputs(selas_message(other != NULL ? other : one), stderr);
     }

@@ -128,6 +128,8 @@ static void pass_all(struct walk *walk, struct recorder *recorder, struct state 
         void *kept = model->one_pass->kept(model, &bytes);
         pass(walk, "kept", H5T_NATIVE_UCHAR, kept, bytes);
     }
+    const struct held *held = &recorder->stepper->held;
+    if (held->count > 0) pass_real(walk, "held", 0, "", held->rest, held->count);
     pass(walk, "watch", H5T_NATIVE_DOUBLE, &recorder->watch, WATCH_NUMBERS);
     pass(walk, "before", H5T_NATIVE_DOUBLE, &recorder->before, WATCH_NUMBERS);
     pass_traces(walk, recorder, (size_t)figures[STEP] + 1);

@@ -20,7 +20,7 @@ struct history_rows {
 /* What has to be known of the run for the report besides what the recorder saw. */
 struct run_figures {
     double wall_seconds, cpu_seconds;             /* stepping */
-    double setup_wall_seconds, setup_cpu_seconds; /* points, operator, time step */
+    double setup_wall_seconds, setup_cpu_seconds; /* trial of scene%accuracy, points, operator, time step */
     double exact_cpu_seconds;
     int threads;
 };

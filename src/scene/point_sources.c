@@ -43,6 +43,10 @@ static selas_status read_lines(FILE *file, const char *path, size_t values, stru
                         "%s:%zu: expected %d numbers, x y z and %s, and after them amplitude and start if "
                         "they are not 1 and 0",
                         path, number, least, values == 6 ? "moment xx yy zz xy yz zx" : "force x y z");
+        for (int i = 0; i < count; i++)
+            if (!isfinite(value[i]))
+                return fail(messages, SELAS_FILE_ERROR, "%s:%zu: number %d is not finite", path, number,
+                            i + 1);
         if (value[least + 1] < 0)
             return fail(messages, SELAS_FILE_ERROR, "%s:%zu: the start is %g; expected 0 or later", path,
                         number, value[least + 1]);

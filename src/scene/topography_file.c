@@ -65,7 +65,9 @@ static selas_status read_rows(const char *path, int axes, struct rows *rows, str
     enum line_found next = LINE_END;
     for (size_t number = 1; status == SELAS_OK && (next = line_next(file, line)) != LINE_END; number++) {
         double value[3];
-        const int count = next == LINE_READ ? line_numbers(line, 3, value) : 0;
+        int count = next == LINE_READ ? line_numbers(line, 3, value) : 0;
+        for (int i = 0; i < count; i++)
+            if (!isfinite(value[i])) count = -1;
         if (next != LINE_READ)
             status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
         else if (count != 0 && count != axes + 1)

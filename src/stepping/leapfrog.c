@@ -50,7 +50,9 @@ static void close_step(struct stepper *stepper, struct state *state)
     double *v = state->y + model->unknowns;
     struct drive drive = driver_at_step(&stepper->driver, state->step, false);
     if (model->memory != NULL) drive.extra = v + model->unknowns;
-    model->spatial->accelerate(model, &drive, 0.5 * stepper->dt, u, v, state->a);
+    const struct drive rest = held_left_out(&stepper->held, model->scene, &drive);
+    model->spatial->accelerate(model, &rest, 0.5 * stepper->dt, u, v, state->a);
+    held_add(&stepper->held, &drive, state->a);
     leapfrog_kick(stepper, state);
 }
 
@@ -75,6 +77,11 @@ static void again(struct stepper *stepper, struct state *state)
         start(stepper, state);
         return;
     }
+    if (stepper->held.loads > 0) {
+        const struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+        held_change(&stepper->held, &drive, 0.5 * stepper->dt, state->y + stepper->model->unknowns, state->a);
+        return;
+    }
     leapfrog_unkick(stepper, state);
     close_step(stepper, state);
 }
@@ -94,6 +101,7 @@ const struct scheme_class scheme_leapfrog = {
     .default_for = DEFAULT_FOR_ACCELERATE,
     .needs_acceleration = true,
     .evaluations = 1.0,
+    .holds = true,
     .limit = limit,
     .start = start,
     .resume = resume,

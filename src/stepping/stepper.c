@@ -218,7 +218,8 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     if (status != SELAS_OK) return status;
     stepper->steps = (unsigned long)ceil(stepper->model->scene->end_time / stepper->dt - 1e-9);
     stepper->extra = steps_beyond(stepper);
-    return take_memory(stepper, messages);
+    if (stepper->scheme->holds) status = held_create(&stepper->held, stepper->model, stepper->dt, messages);
+    return status == SELAS_OK ? take_memory(stepper, messages) : status;
 }
 
 selas_status stepper_create(struct model *model, struct stepper **created, struct messages *messages)
@@ -244,6 +245,7 @@ void stepper_free(struct stepper **freed)
         array_free(stepper->work[i]);
     array_free(stepper->work);
     driver_free(&stepper->driver);
+    held_free(&stepper->held);
     free(stepper);
     *freed = NULL;
 }

@@ -4,6 +4,7 @@
 #define SELAS_STEPPING_H
 
 #include "stepping/driver.h"
+#include "stepping/held.h"
 
 struct state {
     double time;
@@ -35,6 +36,7 @@ struct scheme_class {
     enum scheme_default default_for;
     bool needs_acceleration; /* uses accelerate() (second-order form); otherwise rate() */
     double evaluations;      /* operator calls a step, or a stage where their number is free */
+    bool holds;              /* changes held loads without the operator (held.h) */
     /* R(z) of a Runge-Kutta scheme, y_(n+1) = R(dt lambda) y_n, from which its limit follows; else NULL and
      * limit(): see scheme_limit(). */
     double _Complex (*polynomial)(double _Complex z, long stages);
@@ -71,6 +73,7 @@ struct stepper {
     size_t vectors;
     double **work; /* [vectors] arrays of state_size */
     struct driver driver;
+    struct held held;
     bool one_pass; /* the model makes whole steps: settle() before all of y is looked at */
 };
 

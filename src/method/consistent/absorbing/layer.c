@@ -2,6 +2,7 @@
 #include "method/consistent/absorbing/pml_fast.h"
 #include "scene/absorbing_layers.h"
 #include "scene/echo.h"
+#include "scene/ground.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -34,8 +35,9 @@ void layers_describe(const struct consistent *c,
         const double expected =
             fmax(echo_of_layer(scene, face, c->layer[face]), layer_expected_reflection(c->layer[face]));
         snprintf(text + used, sizeof text - (size_t)used,
-                 ", expected reflection %.1g %% of the velocity at the worst place looked at%s",
+                 ", expected reflection %.1g %% of the velocity at the worst place looked at%s%s",
                  100 * fmin(1, expected + dragged_part * drag / (points * points)),
+                 ground_is_general(scene) ? " if the ground were level" : "",
                  drag > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
     }
