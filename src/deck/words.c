@@ -296,7 +296,9 @@ static const struct word snapshot_words[] = {
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
     {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
     {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
-     "lowest, then highest corner of the part that is written [length]; else the whole body"},
+     "lowest, then highest corner of the part that is written [length]; else the whole body; with "
+     "&topography on the "
+     "lattice, whose surface is the plane of face z-"},
 };
 
 static const struct word output_words[] = {

@@ -228,6 +228,7 @@ static void state_snapshot(const struct scene *scene, size_t index, struct exten
         double place[3];
         for (int c = 0; c < 3; c++)
             place[c] = corner >> c & 1 ? snapshot->region_high[c] : snapshot->region_low[c];
+        if (scene->body.topography != NULL) topography_to_deck(scene->body.topography, place);
         widen(scene, place, nothing, extent);
     }
 }
