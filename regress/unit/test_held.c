@@ -31,6 +31,11 @@ static const struct ground {
      "&material name = 'soil', density = .8, lambda = .5, mu = .3 /\n&block material = 'soil', shape = "
      "'box', centre = 3, 4, 0, size = 2, 2, 2 /\n",
      ""},
+    {"modified equation", "&stepping scheme = 'modified-equation' /\n", ""},
+    {"modified equation, dampers",
+     "&stepping scheme = 'modified-equation' /\n&boundary face = 'x-', 'z+', kind = 'transmitting', layer = "
+     "'lysmer' /\n",
+     ""},
     {"damped", "&method mechanisms = 2 /\n", ", q_p = 20, q_s = 10, q_frequency = .5"},
 };
 
@@ -90,8 +95,9 @@ static void test_changes(void **state)
         print_message("# %s: %.1e, accelerations %.1e; %lu operator calls, %lu without\n", grounds[g].name,
                       moved, accelerated, calls(one[0]) - before[0], calls(one[1]) - before[1]);
         assert_true(moved < 1e-13 && accelerated < 1e-12);
-        assert_true(calls(one[0]) - before[0] <= STEPS + 2); /* two changes at t = 0 */
-        assert_int_equal(calls(one[1]) - before[1], 3 * STEPS);
+        const unsigned long a_step = (unsigned long)one[0]->stepper->scheme->evaluations;
+        assert_true(calls(one[0]) - before[0] <= a_step * (STEPS + 2)); /* two changes at t = 0 */
+        assert_int_equal(calls(one[1]) - before[1], 3 * a_step * STEPS);
         selas_close(&one[0]);
         selas_close(&one[1]);
     }

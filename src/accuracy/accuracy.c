@@ -23,7 +23,7 @@ static void refuse_choices(struct builder *builder, const struct accuracy_kind *
 {
     static const char *const method[] = {"degree",           "ends",        "mass",      "tuned",
                                          "depth_mass",       "dissipation", "hourglass", "kernel",
-                                         "smoothing_length", NULL};
+                                         "smoothing_length", "mechanisms",  NULL};
     static const char *const particles[] = {"gradient", "viscosity_alpha", "viscosity_beta", NULL};
     static const char *const step[] = {"scheme", "time_step", "courant", "safety", "unwarp", "force", NULL};
     static const char *const body_words[] = {"spacing", NULL};
@@ -49,8 +49,9 @@ const char *accuracy_gradient(const struct scene *scene)
 
 const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene)
 {
-    if (ground_is_damped(scene)) return "materials without q_p and q_s";
     if (scene->body.topography != NULL) return "level ground, without &topography";
+    if (ground_is_damped(scene) && kind != &accuracy_ground)
+        return "materials without q_p and q_s, but on half-spaces and boxes of ground";
     if (kind->variant != NULL && strcmp(kind->variant, scene->method.variant) != 0) return kind->served;
     return kind->refusal(scene);
 }

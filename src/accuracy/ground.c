@@ -6,12 +6,14 @@
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
 #include "base/memory.h"
+#include "damping/ground.h"
 #include "exact/half_space.h"
 #include "scene/absorbing_layers.h"
 #include "scene/echo.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double SLOWLY = 1.1;
 /* A trial's spacing over the chosen one, at most: a fifth of the run's work; point-steps that a trial may take,
@@ -111,6 +113,7 @@ static double quiet_spacing(const struct scene *scene, const struct surface_plac
 static const char *range_refusal(const struct scene *scene)
 {
     static const double low = .1, high = .4; /* of Poisson's ratio */
+    if (ground_is_damped(scene)) return "materials without q_p and q_s";
     for (size_t m = 0; m < scene->materials; m++) {
         const double ratio = pow(scene->material[m].p_speed / scene->material[m].s_speed, 2);
         const double nu = (ratio - 2) / (2 * ratio - 2);
@@ -343,9 +346,12 @@ static selas_status choose_for(const struct scene *scene, double accuracy, const
                                struct scene_choice *choice, struct messages *messages)
 {
     struct task task;
+    char damping[DAMPING_TEXT] = "";
     selas_status status = begin_task(scene, &task, messages);
     task.accuracy = accuracy;
+    if (status == SELAS_OK) status = enough_mechanisms(&task, choice, damping, messages);
     if (status == SELAS_OK) status = choose(&task, trial, choice, messages);
+    strncat(choice->text, damping, sizeof choice->text - strlen(choice->text) - 1);
     end_task(&task);
     return status;
 }

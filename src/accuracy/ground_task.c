@@ -3,9 +3,11 @@
 
 #include "base/fft_room.h"
 #include "base/memory.h"
+#include "damping/ground.h"
 
 #include <fftw3.h>
 #include <math.h>
+#include <stdio.h>
 
 enum { ROWS = SURFACE_ROWS };
 
@@ -97,17 +99,77 @@ selas_status begin_task(const struct scene *scene, struct task *task, struct mes
         patches = patches && scene->load[k].shape != LOAD_POINT;
     task->longer.end_time *= 1.25;
     task->longer.reference.tolerance = 1e-3;
+    task->longer.reference.scheme = false;
     task->place = array_new(scene->receivers, sizeof *task->place);
     task->power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *task->power);
     if (task->place == NULL || task->power == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
-    selas_status status =
-        exact_find(patches ? "lamb" : "layered")->create(&task->longer, &task->exact, messages);
+    selas_status status = exact_find(patches && !ground_is_damped(scene) ? "lamb" : "layered")
+                              ->create(&task->longer, &task->exact, messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
         struct surface_place *place = &task->place[i];
         place->power = task->power + i * (ROWS / 2 + 1);
         set_place(scene, scene->receiver[i].position, place);
         status = find_power(task->exact, scene->end_time, &scene->receiver[i], place->power, messages);
     }
+    return status;
+}
+
+/* Of two histories of a receiver: relative L2 of the velocity vector. */
+static double apart(const double *value, const double *other)
+{
+    double off = 0, size = 0;
+    for (size_t i = 0; i < (size_t)6 * ROWS; i++) {
+        if (i % 6 < 3) continue;
+        off += (value[i] - other[i]) * (value[i] - other[i]);
+        size += other[i] * other[i];
+    }
+    return size > 0 ? sqrt(off / size) : 0;
+}
+
+/* What so many mechanisms are off at the worst receiver; `room`: [2][6 * ROWS]. */
+static selas_status mechanisms_off(const struct task *task, size_t mechanisms, const double *time,
+                                   double *room, double *off, struct messages *messages)
+{
+    struct scene scene = task->longer;
+    struct exact *exact = NULL;
+    double *value = room, *constant = room + (size_t)6 * ROWS;
+    scene.method.mechanisms = mechanisms;
+    scene.reference.scheme = true;
+    selas_status status = exact_find("layered")->create(&scene, &exact, messages);
+    *off = 0;
+    for (size_t i = 0; i < scene.receivers && status == SELAS_OK; i++) {
+        const double *place = scene.receiver[i].position;
+        status = exact->class->history(exact, place, ROWS, time, value, messages);
+        if (status == SELAS_OK)
+            status = task->exact->class->history(task->exact, place, ROWS, time, constant, messages);
+        if (status == SELAS_OK) *off = fmax(*off, apart(value, constant));
+    }
+    exact_free(&exact);
+    return status;
+}
+
+selas_status enough_mechanisms(const struct task *task, struct scene_choice *choice, char text[DAMPING_TEXT],
+                               struct messages *messages)
+{
+    static const double share = .3; /* of the wanted error */
+    if (!ground_is_damped(task->scene)) return SELAS_OK;
+    double *time = array_new(ROWS, sizeof *time), *room = array_new((size_t)12 * ROWS, sizeof *room);
+    double off = INFINITY;
+    selas_status status = SELAS_OK;
+    if (time == NULL || room == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the mechanisms of a trial");
+    for (int i = 0; time != NULL && i < ROWS; i++)
+        time[i] = task->scene->end_time / ROWS * i;
+    while (status == SELAS_OK && off > share * task->accuracy && choice->mechanisms < MOST_MECHANISMS)
+        status = mechanisms_off(task, ++choice->mechanisms, time, room, &off, messages);
+    if (status == SELAS_OK && off > share * task->accuracy)
+        status = fail(
+            messages, SELAS_BAD_SCENE,
+            "scene%%accuracy = %g is out of reach here: %d relaxation mechanisms are %.2g off constant Q",
+            task->accuracy, MOST_MECHANISMS, off);
+    snprintf(text, DAMPING_TEXT, "; %zu mechanisms, %.2g off constant Q", choice->mechanisms, off);
+    array_free(time);
+    array_free(room);
     return status;
 }

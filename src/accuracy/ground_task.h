@@ -15,9 +15,15 @@ struct task {
     double accuracy, aim;
 };
 
-/* Places and spectra of all receivers, from the reference 'lamb' or, with points that act, 'layered'. To be ended
- * whatever comes back. */
+/* Places and spectra of all receivers, from the reference 'lamb' or, with points that act or damping (constant
+ * Q), 'layered'. To be ended whatever comes back. */
 selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages);
 void end_task(struct task *task);
+
+enum { DAMPING_TEXT = 64 };
+/* Damped ground: the fewest relaxation mechanisms whose exact histories are at all receivers within .3 of the wanted
+ * error of those of constant Q, and words of it for the plan. SELAS_BAD_SCENE: none are. */
+selas_status enough_mechanisms(const struct task *task, struct scene_choice *choice, char text[DAMPING_TEXT],
+                               struct messages *messages);
 
 #endif

@@ -119,10 +119,7 @@ static selas_status set_wanted(const struct scene *scene, struct ground_damping 
 
 static selas_status fit(const struct scene *scene, struct ground_damping *damping, struct messages *messages)
 {
-    const struct deck_group *group = scene->method.group;
-    damping->mechanisms = group != NULL && deck_values(group, "mechanisms") > 0
-                              ? (size_t)deck_integer(group, "mechanisms", 0)
-                              : 3;
+    damping->mechanisms = scene->method.mechanisms;
     selas_status status = choose_rates(damping, messages);
     for (size_t i = 0; i < damping->materials && status == SELAS_OK; i++)
         if (damping->wanted[i].shear.power > 0)

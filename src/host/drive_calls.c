@@ -210,11 +210,11 @@ selas_status selas_load_response(selas_simulation *simulation, const char *load,
     while (row < held->loads && held->load[row] != pushed)
         row++;
     if (row == held->loads)
-        return fail(
-            &simulation->messages, SELAS_UNSUPPORTED,
-            "the response to load '%s' is known where set_load holds it, with scheme 'leapfrog', a linear "
-            "method and no functions of the host",
-            load);
+        return fail(&simulation->messages, SELAS_UNSUPPORTED,
+                    "the response to load '%s' is known where set_load holds it, with 'leapfrog' or "
+                    "'modified-equation', a linear "
+                    "method and no functions of the host",
+                    load);
     double *change = array_new(simulation->model->unknowns, sizeof *change);
     if (change == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a response");
     for (size_t i = 0; i < held->count; i++)

@@ -16,6 +16,7 @@ struct mirror {
     struct model model;
     struct scene part_scene;
     unsigned axes;
+    struct model_core core; /* what the part has no function for is not there */
 };
 
 bool mirrors_wanted(const struct scene *scene)
@@ -185,6 +186,11 @@ static void whole_energy(struct model *model, const double *y, struct energy *en
     energy->strain *= copies(model);
 }
 
+static double whole_loss(struct model *model, const double *y)
+{
+    return copies(model) * model->part->core->loss(model->part, y);
+}
+
 static void whole_power(struct model *model, const struct drive *drive, const double *y, double *load,
                         double *absorbed)
 {
@@ -234,7 +240,9 @@ static void fill(struct mirror *mirror, struct model *part, const struct scene *
     struct model *model = &mirror->model;
     *model = *part;
     model->part = part;
-    model->core = &mirror_core;
+    mirror->core = mirror_core;
+    if (part->core->loss != NULL) mirror->core.loss = whole_loss;
+    model->core = &mirror->core;
     model->scene = scene;
     for (int axis = 0; axis < 3; axis++)
         if ((mirror->axes & 1u << axis) != 0) model->grid[axis] = 2 * part->grid[axis] - 1;

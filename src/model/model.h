@@ -100,6 +100,9 @@ struct model_core {
      */
     void (*power)(struct model *model, const struct drive *drive, const double *y, double *load,
                   double *absorbed);
+    /* Power that materials take beside that, >= 0, at the cost of energy_calls operator calls or so. NULL:
+     * they take none. */
+    double (*loss)(struct model *model, const double *y);
     /* Where the body moves fastest, or is spoiled, where no field of the body shows it (absorbing layers and
      * their memory; density). Only called when a run has failed. NULL: there are no such places. */
     void (*unseen)(struct model *model, const double *y, struct unseen *found);
@@ -139,11 +142,17 @@ struct model_operator {
 
 enum { MODEL_MECHANISMS = 8 };
 
-/* Relaxation mechanisms that all moduli share: stiffness acts on e = given u + sum over l of weight_l D_l,
- * D_l' = v - rate_l D_l (doc/damping.md, Eqs 11, 12). */
+/* Relaxation mechanisms, D_l' = v - rate_l D_l: the stiffness of the model of each part p acts on
+ * e_p = given_p u + sum over l of weight_pl D_l (doc/damping.md, Eqs 11, 12). The extra part of the state,
+ * `extra` numbers, begins with the D_l, [mechanisms][unknowns]; that of part p is at `extra` of the part. */
 struct relaxing {
-    size_t mechanisms;
-    double given, weight[MODEL_MECHANISMS], rate[MODEL_MECHANISMS];
+    size_t mechanisms, parts, extra;
+    double rate[MODEL_MECHANISMS];
+    struct relaxing_part {
+        struct model *model;
+        double given, weight[MODEL_MECHANISMS];
+        size_t extra;
+    } part[1 + MODEL_MECHANISMS];
 };
 
 /* Steps of leapfrog in one pass over the fields. The model keeps the velocity half a step ahead and perhaps
@@ -157,9 +166,9 @@ struct model_one_pass {
     void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
     /* What is kept beside y, for checkpoints. */
     void *(*kept)(struct model *model, size_t *bytes);
-    /* From now on steps in one pass, and they alone, relax: the extra part of their y begins with the D_l,
-     * [mechanisms][unknowns]. False: no memory. */
-    bool (*relax)(struct model *model, const struct relaxing *relaxing);
+    /* From now on steps in one pass, and they alone, relax; the model is that of part 0. SELAS_UNSUPPORTED:
+     * not in one pass; SELAS_NO_MEMORY. */
+    selas_status (*relax)(struct model *model, const struct relaxing *relaxing);
 };
 
 /* Memory of linear models (absorbing layers, damped materials). */
@@ -199,11 +208,13 @@ struct model {
     size_t bytes;       /* memory held by the model */
     bool single;        /* steps in one pass keep the state in single precision; y is what others see of it */
     bool damped;        /* C is not zero */
+    bool layers;        /* absorbing layers take energy, nobody tells how much */
     double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
                            [1/time] */
     bool small_strain;  /* forces are linear in grad u: rotations must stay small */
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
     unsigned energy_calls; /* operator calls that energy() takes, if more than one */
+    unsigned parts;        /* operators whose sum a step takes, if more than one */
     enum patch_sight patch;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (

@@ -54,12 +54,14 @@ struct watch {
     /* numbers that go on with a run: a checkpoint holds them all, in this order */
     double work, gross, absorbed;      /* trapezoid sums; gross: of positive power only */
     double power, power_absorbed;      /* at the last step */
+    double damped, power_damped;       /* what damped materials take, if output%balance asks for it */
     double initial, largest;           /* energy: at the start, largest so far */
     double reference, reference_until; /* without work: largest energy up to this time */
     double turn, strain;               /* largest rotation [rad] and strain at recorder->place */
     double due, arrived; /* energy that was given, about when it was most, and what the body had of it */
     struct energy last;
-    double largest_defect; /* largest |E - E0 - work + absorbed| */
+    double taken, lost; /* at that time: of `damped`; of what was given and is not there */
+    double largest_defect; /* largest |E - E0 - work + absorbed + damped| */
     double last_time;
     double sampled; /* sum of squares of a sample of the velocities when they were last energetic */
     double next;    /* step of the next look at the whole state */

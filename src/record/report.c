@@ -43,13 +43,19 @@ static void write_energy(FILE *out, const struct recorder *recorder)
     fprintf(out, "energy kinetic: %.6e\nenergy strain: %.6e\n", watch->last.kinetic, watch->last.strain);
     fprintf(out, "energy at start: %.6e\nenergy largest: %.6e\n", watch->initial, watch->largest);
     if (!watch->by_work) return;
-    if (recorder->model->memory != NULL) { /* what layers take is not measured: there is no balance */
-        fprintf(out, "work of loads: %.6e\n", watch->work);
+    fprintf(out, "work of loads: %.6e\n", watch->work);
+    const bool losing = recorder->model->core->loss != NULL, told = losing && recorder->scene->output.balance;
+    if (told) fprintf(out, "energy taken by damping: %.6e\n", watch->taken);
+    if (recorder->model->layers) return; /* what they take is not measured: there is no balance */
+    if (losing && !told) {
+        fprintf(out, "energy taken by damping: %.6e (work less what is left; output%%balance measures it)\n",
+                watch->lost);
         return;
     }
-    fprintf(out, "work of loads: %.6e\nenergy absorbed: %.6e\n", watch->work, watch->absorbed);
-    fprintf(out, "energy balance defect: %.3e (largest |E - E0 - work + absorbed|, relative to %.3e)\n",
-            per(watch->largest_defect, watch->initial + watch->gross), watch->initial + watch->gross);
+    fprintf(out, "energy absorbed: %.6e\n", watch->absorbed);
+    fprintf(out, "energy balance defect: %.3e (largest |E - E0 - work + absorbed%s|, relative to %.3e)\n",
+            per(watch->largest_defect, watch->initial + watch->gross), told ? " + damped" : "",
+            watch->initial + watch->gross);
 }
 
 static void write_cost(FILE *out, const struct recorder *recorder, const struct run_figures *figures)
@@ -101,11 +107,12 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
 }
 
 /* What rounding of the state adds: each step rounds u and the sums of a anew, and the weights in single
- * precision are those of a ground whose waves are a little faster or slower (doc/performance.md, F3).
- */
+ * precision are those of a ground whose waves are a little faster or slower (doc/performance.md, F3); each
+ * operator of damped ground adds as much. */
 static void write_precision(FILE *out, const struct recorder *recorder)
 {
     const double steps = (double)recorder->last_step;
+    const unsigned parts = recorder->model->parts;
     double worst = 0.0;
     for (size_t r = 0; r < recorder->scene->receivers; r++) {
         double size[2] = {0.0, 0.0};
@@ -117,7 +124,7 @@ static void write_precision(FILE *out, const struct recorder *recorder)
     }
     if (recorder->model->single && worst > 0.0)
         fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",
-                worst);
+                worst * (parts > 1 ? parts : 1));
 }
 
 /* What the low-pass alone takes off the exact velocity: no method comes below that. */

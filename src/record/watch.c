@@ -83,15 +83,21 @@ static void add_work(struct recorder *recorder, const struct state *state)
 {
     struct watch *watch = &recorder->watch;
     const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
-    double load = 0.0, absorbed = 0.0;
+    double load = 0.0, absorbed = 0.0, damped = 0.0;
     recorder->model->core->power(recorder->model, &drive, state->y, &load, &absorbed);
+    if (recorder->scene->output.balance && recorder->model->core->loss != NULL) {
+        state_settle(recorder->stepper, state, false);
+        damped = recorder->model->core->loss(recorder->model, state->y);
+    }
     if (recorder->started) {
         const double half = 0.5 * (state->time - recorder->last_time);
         watch->work += half * (watch->power + load);
         watch->gross += half * (fmax(watch->power, 0.0) + fmax(load, 0.0));
         watch->absorbed += half * (watch->power_absorbed + absorbed);
+        watch->damped += half * (watch->power_damped + damped);
     }
     watch->power = load;
+    watch->power_damped = damped;
     watch->power_absorbed = absorbed;
 }
 
@@ -155,7 +161,7 @@ static double energy_of_waves(const struct recorder *recorder, const struct stat
 /* Energy from nowhere that is not yet enough to stop, but too much to trust: said once, at the end. */
 static void warn_of_growth(const struct watch *watch, double waves, double given, struct messages *messages)
 {
-    const double gained = waves - watch->initial - watch->work + watch->absorbed;
+    const double gained = waves - watch->initial - watch->work + watch->absorbed + watch->damped;
     if (gained > growth_noted * given)
         warn(messages,
              "the body ends with %.3g of energy that nobody gave it (%.3g was given): the results grow by "
@@ -194,9 +200,11 @@ static void keep_energy(struct recorder *recorder, const struct state *state, co
     if (!recorder->started) watch->initial = total;
     watch->largest = fmax(watch->largest, total);
     watch->last = *energy;
+    watch->taken = watch->damped;
+    watch->lost = watch->initial + watch->work - watch->absorbed - total;
     watch->last_time = state->time;
     if (watch->by_work) {
-        const double defect = fabs(total - watch->initial - watch->work + watch->absorbed);
+        const double defect = fabs(total - watch->initial - watch->work + watch->absorbed + watch->damped);
         watch->largest_defect = fmax(watch->largest_defect, defect);
         if (state->step == recorder->stepper->steps && state->step >= NOTED_STEPS)
             warn_of_growth(watch, waves, watch->initial + watch->gross, messages);

@@ -79,6 +79,8 @@ static void build_method(struct builder *builder)
     if (given && found == VARIANTS) refuse_variant(builder, group, family);
     if (found == VARIANTS) found = first;
     method->group = group;
+    method->mechanisms =
+        deck_values(group, "mechanisms") > 0 ? (size_t)deck_integer(group, "mechanisms", 0) : 3;
     method->points = variants[found].points;
     snprintf(method->name, sizeof method->name, "%s", family);
     snprintf(method->variant, sizeof method->variant, "%s", variants[found].name);
@@ -130,6 +132,7 @@ static void build_output(struct builder *builder)
     output->plots = deck_logical(group, "plots", 0);
     output->history_step = deck_real(group, "history_step", 0);
     output->low_pass = deck_real(group, "low_pass", 0);
+    output->balance = deck_logical(group, "balance", 0);
     output->checkpoint_every = deck_integer(group, "checkpoint_every", 0);
     output->checkpoint_minutes = deck_real(group, "checkpoint_minutes", 0);
 }
@@ -192,6 +195,7 @@ selas_status scene_build(const struct deck *deck, const struct scene_choice *cho
         choice->check(&builder);
         (*scene)->method.degree = choice->degree;
         (*scene)->method.sweeps = choice->sweeps;
+        if (choice->mechanisms > 0) (*scene)->method.mechanisms = choice->mechanisms;
         if (choice->scheme != NULL)
             snprintf((*scene)->stepping.scheme, sizeof(*scene)->stepping.scheme, "%s", choice->scheme);
         if (choice->courant > 0) {

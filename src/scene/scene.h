@@ -154,6 +154,7 @@ struct method_choice {
     enum point_places points;
     const struct deck_group *group; /* further options: each method reads its own with deck_*() */
     int degree, sweeps; /* of the consistent method, chosen by scene%accuracy; degree 0: by group */
+    size_t mechanisms;  /* relaxation mechanisms of damped materials */
 };
 
 struct stepping_choice {
@@ -169,6 +170,7 @@ struct output_choice {
     bool plots;
     double history_step;       /* 0: every step */
     double low_pass;           /* angular frequency of the zero-phase low-pass, 0: none */
+    bool balance;              /* what damped materials take is measured */
     long checkpoint_every;     /* steps between checkpoints; 0: none */
     double checkpoint_minutes; /* the same by the clock */
 };
@@ -213,6 +215,7 @@ struct scene_choice {
     double spacing;     /* 0: a first guess */
     long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
     int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
+    size_t mechanisms;  /* of damped materials; 0: as without */
     const char *scheme; /* NULL: as without */
     double courant;     /* 0: the default step */
     char text[200];     /* for the plan */

@@ -39,7 +39,8 @@ enum { TOPOGRAPHY_LINES = 4 };
 double topography_drop(const struct topography *topography, const double place[2]);
 /* f at a depth below the plane of face z-, its slope over depth in *slope. */
 double topography_share(const struct topography *topography, double depth, double *slope);
-/* Vertical coordinate of a place of the lattice whose column has a surface `drop` below the plane, and the other way. */
+/* Vertical coordinate of a place of the lattice whose column has a surface `drop` below the plane, and the other way.
+ */
 double topography_real(const struct topography *topography, double drop, double lattice);
 double topography_lattice(const struct topography *topography, double drop, double real);
 /* A place of the deck becomes one of the lattice, and the other way. */

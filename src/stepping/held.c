@@ -26,24 +26,18 @@ static selas_status list(struct held *held, const struct scene *scene, struct me
     return SELAS_OK;
 }
 
-/* Acceleration of the body at rest by a unit of one load. */
-static void pull_alone(struct held *held, struct model *model, double half_step, size_t k, const double *rest,
-                       double *a)
-{
-    memset(held->others, 0, model->scene->loads * sizeof *held->others);
-    held->others[held->load[k]] = 1;
-    const struct drive drive = {.load = held->others};
-    model->spatial->accelerate(model, &drive, half_step, rest, rest, a);
-}
-
 /* Takes all g_k; `whole` has room for [loads + 1][unknowns], of which the first row is 0. */
-static selas_status take(struct held *held, struct model *model, double half_step, double *whole,
-                         struct messages *messages)
+static selas_status take(struct held *held, const struct model *model, held_acceleration *accelerate,
+                         void *scheme, double *whole, struct messages *messages)
 {
     const size_t n = model->unknowns;
     double largest = 0;
-    for (size_t k = 0; k < held->loads; k++)
-        pull_alone(held, model, half_step, k, whole, whole + (k + 1) * n);
+    const struct drive drive = {.load = held->others};
+    for (size_t k = 0; k < held->loads; k++) {
+        held->others[held->load[k]] = 1;
+        accelerate(scheme, &drive, whole, whole, whole + (k + 1) * n);
+        held->others[held->load[k]] = 0;
+    }
     for (size_t i = 0; i < held->loads * n; i++)
         largest = fmax(largest, fabs(whole[n + i]));
     held->index = array_new(n, sizeof *held->index);
@@ -64,16 +58,16 @@ static selas_status take(struct held *held, struct model *model, double half_ste
     return SELAS_OK;
 }
 
-selas_status held_create(struct held *held, struct model *model, double dt, struct messages *messages)
+selas_status held_create(struct held *held, const struct model *model, held_acceleration *accelerate,
+                         void *scheme, struct messages *messages)
 {
     *held = (struct held){0};
     const struct scene *scene = model->scene;
-    const struct model_operator *spatial = model->spatial;
-    if (!scene_driven(scene) || spatial->accelerate == NULL || spatial->linearise != NULL) return SELAS_OK;
+    if (accelerate == NULL || !scene_driven(scene) || model->spatial->linearise != NULL) return SELAS_OK;
     selas_status status = list(held, scene, messages);
     if (status != SELAS_OK || held->loads == 0) return status;
     double *whole = array_new((held->loads + 1) * model->unknowns, sizeof *whole);
-    status = whole != NULL ? take(held, model, 0.5 * dt, whole, messages)
+    status = whole != NULL ? take(held, model, accelerate, scheme, whole, messages)
                            : fail(messages, SELAS_NO_MEMORY, "no memory for the host's loads");
     array_free(whole);
     return status;

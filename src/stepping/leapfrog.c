@@ -42,6 +42,12 @@ static void resume(struct stepper *stepper, struct state *state)
     if (stepper->one_pass) driver_at_step(&stepper->driver, state->step, false);
 }
 
+static void accelerate(void *scheme, const struct drive *drive, const double *u, const double *v, double *a)
+{
+    const struct stepper *stepper = scheme;
+    stepper->model->spatial->accelerate(stepper->model, drive, 0.5 * stepper->dt, u, v, a);
+}
+
 /* The second half of a step: from w(n+1/2) to v(n+1), memory being at its end. */
 static void close_step(struct stepper *stepper, struct state *state)
 {
@@ -51,7 +57,7 @@ static void close_step(struct stepper *stepper, struct state *state)
     struct drive drive = driver_at_step(&stepper->driver, state->step, false);
     if (model->memory != NULL) drive.extra = v + model->unknowns;
     const struct drive rest = held_left_out(&stepper->held, model->scene, &drive);
-    model->spatial->accelerate(model, &rest, 0.5 * stepper->dt, u, v, state->a);
+    accelerate(stepper, &rest, u, v, state->a);
     held_add(&stepper->held, &drive, state->a);
     leapfrog_kick(stepper, state);
 }
@@ -77,11 +83,7 @@ static void again(struct stepper *stepper, struct state *state)
         start(stepper, state);
         return;
     }
-    if (stepper->held.loads > 0) {
-        const struct drive drive = driver_at_step(&stepper->driver, state->step, false);
-        held_change(&stepper->held, &drive, 0.5 * stepper->dt, state->y + stepper->model->unknowns, state->a);
-        return;
-    }
+    if (leapfrog_hold(stepper, state)) return;
     leapfrog_unkick(stepper, state);
     close_step(stepper, state);
 }
@@ -101,7 +103,7 @@ const struct scheme_class scheme_leapfrog = {
     .default_for = DEFAULT_FOR_ACCELERATE,
     .needs_acceleration = true,
     .evaluations = 1.0,
-    .holds = true,
+    .accelerate = accelerate,
     .limit = limit,
     .start = start,
     .resume = resume,

@@ -45,3 +45,11 @@ void leapfrog_unkick(struct stepper *stepper, struct state *state)
 {
     add_acceleration(stepper, state, -0.5 * stepper->dt);
 }
+
+bool leapfrog_hold(struct stepper *stepper, struct state *state)
+{
+    if (stepper->held.loads == 0) return false;
+    const struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+    held_change(&stepper->held, &drive, 0.5 * stepper->dt, state->y + stepper->model->unknowns, state->a);
+    return true;
+}

@@ -26,21 +26,41 @@ static double limit(const struct spectrum *spectrum, long stages)
     return fmin(waves, viscous);
 }
 
-static void accelerate(struct stepper *stepper, struct state *state, double half_step)
+/* The drive of a step; after the first without loads that are held. */
+static struct drive drive_of(struct stepper *stepper, unsigned long step, bool corrected)
+{
+    const struct drive drive = driver_at_step(&stepper->driver, step, corrected);
+    return step > 0 ? held_left_out(&stepper->held, stepper->model->scene, &drive) : drive;
+}
+
+/* With the drive given, or (NULL) that of the step. */
+static void accelerate_by(struct stepper *stepper, const struct drive *given, unsigned long step,
+                          const double *restrict u, const double *v, double *restrict a)
 {
     struct model *model = stepper->model;
     const size_t n = model->unknowns;
-    const double twelfth = stepper->dt * stepper->dt / 12.0;
-    const double *restrict u = state->y;
-    double *restrict a = state->a;
+    const double twelfth = stepper->dt * stepper->dt / 12.0, half_step = step > 0 ? 0.5 * stepper->dt : 0.0;
     double *restrict lifted = stepper->work[0];
-    struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+    struct drive drive = given != NULL ? *given : drive_of(stepper, step, false);
     model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
         lifted[i] = u[i] + twelfth * a[i];
-    drive = driver_at_step(&stepper->driver, state->step, true);
-    model->spatial->accelerate(model, &drive, half_step, lifted, state->y + n, a);
+    if (given == NULL) drive = drive_of(stepper, step, true);
+    model->spatial->accelerate(model, &drive, half_step, lifted, v, a);
+}
+
+static void accelerate(void *scheme, const struct drive *drive, const double *u, const double *v, double *a)
+{
+    accelerate_by(scheme, drive, 1, u, v, a);
+}
+
+static void accelerate_now(struct stepper *stepper, struct state *state)
+{
+    accelerate_by(stepper, NULL, state->step, state->y, state->y + stepper->model->unknowns, state->a);
+    if (state->step == 0) return;
+    const struct drive drive = driver_last(&stepper->driver, state->time);
+    held_add(&stepper->held, &drive, state->a);
 }
 
 /* The scheme's v is (u(1) - u(-1)) / (2 dt) = u' + dt^2/6 u''', so a body that moves at t = 0 starts with
@@ -58,24 +78,25 @@ static void start(struct stepper *stepper, struct state *state)
     if (model->spatial->linearise != NULL) model->spatial->linearise(model, false);
     for (size_t i = 0; i < n; i++)
         v[i] += sixth * third[i];
-    accelerate(stepper, state, 0.0);
+    accelerate_now(stepper, state);
 }
 
 static void step(struct stepper *stepper, struct state *state)
 {
     leapfrog_drift(stepper, state);
-    accelerate(stepper, state, 0.5 * stepper->dt);
+    accelerate_now(stepper, state);
     leapfrog_kick(stepper, state);
 }
 
 static void again(struct stepper *stepper, struct state *state)
 {
     if (state->step == 0) { /* the start has no half kick */
-        accelerate(stepper, state, 0.0);
+        accelerate_now(stepper, state);
         return;
     }
+    if (leapfrog_hold(stepper, state)) return;
     leapfrog_unkick(stepper, state);
-    accelerate(stepper, state, 0.5 * stepper->dt);
+    accelerate_now(stepper, state);
     leapfrog_kick(stepper, state);
 }
 
@@ -104,6 +125,7 @@ const struct scheme_class scheme_modified_equation = {
     .can = SCHEME_WAVES | SCHEME_FILTERS, /* knows how loads vary in time, not how they move */
     .needs_acceleration = true,
     .evaluations = 2.0,
+    .accelerate = accelerate,
     .limit = limit,
     .vectors = 1,
     .start = start,

@@ -14,5 +14,7 @@ void leapfrog_drift(struct stepper *stepper, struct state *state);
 /* v := v + dt/2 a, and back. */
 void leapfrog_kick(struct stepper *stepper, struct state *state);
 void leapfrog_unkick(struct stepper *stepper, struct state *state);
+/* Brings held loads that have changed into a and, by half a step, into v; false if that takes the operator. */
+bool leapfrog_hold(struct stepper *stepper, struct state *state);
 
 #endif

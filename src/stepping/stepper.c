@@ -218,8 +218,9 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     if (status != SELAS_OK) return status;
     stepper->steps = (unsigned long)ceil(stepper->model->scene->end_time / stepper->dt - 1e-9);
     stepper->extra = steps_beyond(stepper);
-    if (stepper->scheme->holds) status = held_create(&stepper->held, stepper->model, stepper->dt, messages);
-    return status == SELAS_OK ? take_memory(stepper, messages) : status;
+    status = take_memory(stepper, messages);
+    if (status != SELAS_OK) return status;
+    return held_create(&stepper->held, stepper->model, stepper->scheme->accelerate, stepper, messages);
 }
 
 selas_status stepper_create(struct model *model, struct stepper **created, struct messages *messages)

@@ -36,7 +36,9 @@ struct scheme_class {
     enum scheme_default default_for;
     bool needs_acceleration; /* uses accelerate() (second-order form); otherwise rate() */
     double evaluations;      /* operator calls a step, or a stage where their number is free */
-    bool holds;              /* changes held loads without the operator (held.h) */
+    /* Acceleration in a step other than the first, as a linear function of u, v and the drive: held loads change
+     * without the operator (held.h; the scheme is the stepper). NULL: they do not. */
+    held_acceleration *accelerate;
     /* R(z) of a Runge-Kutta scheme, y_(n+1) = R(dt lambda) y_n, from which its limit follows; else NULL and
      * limit(): see scheme_limit(). */
     double _Complex (*polynomial)(double _Complex z, long stages);

@@ -281,6 +281,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.small_strain = true;
     status = build(c, messages);
     if (c->pml != NULL) c->model.memory = &memory;
+    c->model.layers = c->pml != NULL;
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
     if (status == SELAS_OK) status = fused_steps_create(c, messages);
     if (status != SELAS_OK) {

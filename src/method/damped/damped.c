@@ -177,18 +177,22 @@ static void *kept(struct model *model, size_t *bytes)
     return first->one_pass->kept(first, bytes);
 }
 
-/* False: no memory. */
-static bool relax(struct damped *d)
+/* Steps in one pass where the parts' can be made together, else pass by pass. */
+static selas_status relax(struct damped *d, size_t extra)
 {
     struct model *first = d->part[0].model;
-    struct relaxing relaxing = {.mechanisms = mechanisms_of(d), .given = d->part[0].given};
-    for (size_t l = 0; l < mechanisms_of(d); l++) {
-        relaxing.weight[l] = d->part[0].memory[l];
-        relaxing.rate[l] = d->damping->rate[l];
+    struct relaxing relaxing = {.mechanisms = mechanisms_of(d), .parts = d->parts, .extra = extra};
+    memcpy(relaxing.rate, d->damping->rate, sizeof relaxing.rate);
+    for (size_t p = 0; p < d->parts; p++) {
+        const struct damped_part *part = &d->part[p];
+        relaxing.part[p] =
+            (struct relaxing_part){.model = part->model, .given = part->given, .extra = part->extra};
+        memcpy(relaxing.part[p].weight, part->memory, sizeof relaxing.part[p].weight);
     }
-    for (size_t p = 0; p < d->parts && d->parts > 1; p++)
-        d->part[p].model->one_pass = NULL;
-    return first->one_pass == NULL || first->one_pass->relax(first, &relaxing);
+    const selas_status status =
+        first->one_pass != NULL ? first->one_pass->relax(first, &relaxing) : SELAS_UNSUPPORTED;
+    if (status == SELAS_UNSUPPORTED) first->one_pass = NULL;
+    return status == SELAS_NO_MEMORY ? status : SELAS_OK;
 }
 
 static const struct model_one_pass one_pass = {
@@ -202,17 +206,19 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
     struct model *model = &d->model;
     struct model *first = d->part[0].model;
     size_t extra = 0, bytes = 0;
-    if (first->single)
-        return fail(messages, SELAS_UNSUPPORTED, "damped materials need method%%precision = 'double'");
-    const bool room = relax(d);
-    *model = *first;
-    extra = d->damping->mechanisms * model->unknowns;
+    extra = d->damping->mechanisms * first->unknowns;
     for (size_t p = 0; p < d->parts; p++) {
         d->part[p].extra = extra;
-        extra += d->part[p].model->state_size - 2 * model->unknowns;
+        extra += d->part[p].model->state_size - 2 * first->unknowns;
         bytes += d->part[p].model->bytes;
     }
+    const bool room = relax(d, extra) == SELAS_OK;
+    if (first->single && first->one_pass == NULL)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "method%%precision = 'single' needs one damped material and no more");
+    *model = *first;
     model->core = &damped_core;
+    model->parts = (unsigned)d->parts;
     model->energy_calls = (unsigned)(d->parts * (1 + mechanisms_of(d)));
     model->spatial = &spatial;
     model->memory = &memory;

@@ -55,7 +55,5 @@ void damped_describe(const struct model *model,
 
 /* show.c: what users see of it. */
 extern const struct model_core damped_core;
-/* Energy that damping takes a unit of time, sum over l of r_l D_l.K_l D_l. */
-double damped_loss(struct damped *d, const double *extra);
 
 #endif

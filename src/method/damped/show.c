@@ -147,14 +147,16 @@ static void energy(struct model *model, const double *y, struct energy *energy)
     }
 }
 
-double damped_loss(struct damped *d, const double *extra)
+/* What damping takes: sum over l of r_l D_l.K_l D_l. */
+static double loss(struct model *model, const double *y)
 {
-    const size_t n = d->model.unknowns;
-    double loss = 0;
+    struct damped *d = damped_of(model);
+    const size_t n = model->unknowns;
+    double sum = 0;
     for (size_t l = 0; l < d->damping->mechanisms; l++)
         for (size_t p = 0; p < d->parts; p++)
-            loss += 2 * d->damping->rate[l] * d->part[p].memory[l] * strain_of(d, &d->part[p], extra + l * n);
-    return loss;
+            sum += 2 * d->damping->rate[l] * d->part[p].memory[l] * strain_of(d, &d->part[p], y + (2 + l) * n);
+    return sum;
 }
 
 static void power(struct model *model, const struct drive *drive, const double *y, double *load,
@@ -191,6 +193,7 @@ const struct model_core damped_core = {
     .field = whole_field,
     .energy = energy,
     .power = power,
+    .loss = loss,
     .unseen = unseen,
     .describe = damped_describe,
 };

@@ -38,7 +38,8 @@ static REAL move_rows(const struct fused *f, const struct fused_fields *fields, 
     const REAL *w = (const REAL *)fields->a + at;
     REAL *u = (REAL *)fields->moved + at;
     if (fields->relax == NULL) return kernels->drift(n, rows, f->n[0], (REAL)fields->dt, w, u, column);
-    return kernels->relax(n, rows, f->n[0], fields->relax, w, (REAL *)fields->memory + at, u, column);
+    REAL *other = fields->other == NULL ? NULL : (REAL *)fields->other + at;
+    return kernels->relax(n, rows, f->n[0], fields->relax, w, (REAL *)fields->memory + at, u, other, column);
 }
 
 /* Numbers of plane k of a field u or, with `fields`, of their u brought on: a window of it. */

@@ -261,6 +261,7 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->volume = c->volume;
     f->threads = c->threads;
     f->bare = !c->options.depth_exact;
+    f->bulk = c->property[WEIGHT_MU] == 0;
     f->quiet = c->options.quiet;
     f->narrow = (int)(2 * degree + 1);
     f->wide = (int)(2 * reach + 1);

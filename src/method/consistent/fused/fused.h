@@ -56,11 +56,14 @@ struct fused_watch {
     double *before;
 };
 
-/* How displacements e that relax go on with their memory (model.h, relaxing), in a step:
- * D_l := kept_l D_l + taken_l w, e += given w + sum over l of weight_l (change of D_l). */
+/* How displacements e_p that relax go on with their memory (model.h, relaxing), in a step of dt:
+ * D_l := kept_l D_l + taken_l w, e_p += given_p dt w + sum over l of weight_pl (change of D_l). One kind of
+ * ground has not more than two parts. */
+enum { FUSED_PARTS = 2 };
 struct fused_relax {
-    size_t mechanisms, apart; /* numbers from the memory of one mechanism to that of the next */
-    double given, weight[MODEL_MECHANISMS], kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
+    size_t mechanisms, parts, apart; /* numbers from the memory of one mechanism to that of the next */
+    double dt, kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
+    double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS];
 };
 
 struct fused {
@@ -69,6 +72,7 @@ struct fused {
     size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
     int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
     bool bare;                                          /* B is the identity */
+    bool bulk; /* mu is 0, and all that it is a factor of: A of x and y, S_x b_y, S_y b_x, S_x b_z, S_y b_z */
     size_t late[2];         /* rows that narrow and wide passes over y lag behind */
     void *x[SIDE_MATRICES]; /* [width / vector][taps][vector] */
     void *y[SIDE_MATRICES]; /* [rows * taps] */
@@ -92,8 +96,8 @@ struct fused {
     struct fused *single;      /* the same in floats, if the scene's steps are */
     struct fused_watch watch;  /* of both */
     void *kept;                /* what steps in one pass go on from: the velocity half a step ahead, ... */
-    size_t kept_bytes;         /* ... e behind it if they relax; in single precision u before it and the
-                                 layers' memory behind it */
+    size_t kept_bytes;         /* ... the e_p behind it if they relax; in single precision u or e_0 before it
+                                 and all memory, then e_1, behind it */
     struct relaxing *relaxing; /* NULL: steps do not relax */
     int threads;
     void **buffer;    /* [threads] */
@@ -107,8 +111,9 @@ struct fused_fields {
     void *a;     /* w in a step */
     void *moved; /* u again */
     double dt;
-    const struct fused_relax *relax; /* u goes on by this and its `memory`; NULL: by dt w */
-    void *memory;
+    const struct fused_relax *relax; /* u goes on by this and its `memory`, `other` (e_1) too if there are two
+                                        parts; NULL: by dt w */
+    void *memory, *other;
     size_t bring_on, before; /* planes of u to be brought on on the way */
 };
 
@@ -130,16 +135,21 @@ struct window fused_whole(const struct fused *fused);
 /* Counts the points of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
 
-/* What steps in one pass work on; extra: the layers' memory variables, NULL without layers; memory: that of
- * `relax`, if there is one. */
-struct step_fields_double {
-    double *u, *w, *extra, *work, *memory;
-    const struct fused_relax *relax;
-};
-struct step_fields_single {
-    float *u, *w, *extra, *work, *memory;
-    const struct fused_relax *relax;
-};
+/* What steps in one pass work on. Each part has displacements u and the layers' memory variables (NULL
+ * without layers); with `relax` (NULL: none) u of part p is e_p, and its memory is there. */
+#define STEP_FIELDS(real, precision)                                                                         \
+    struct step_fields_##precision {                                                                         \
+        real *w, *work, *memory;                                                                             \
+        const struct fused_relax *relax;                                                                     \
+        size_t parts;                                                                                        \
+        struct {                                                                                             \
+            const struct consistent *c;                                                                      \
+            real *u, *extra;                                                                                 \
+        } part[FUSED_PARTS];                                                                                 \
+    };
+STEP_FIELDS(double, double)
+STEP_FIELDS(float, single)
+#undef STEP_FIELDS
 
 /* fused_step.h. w := v + dt/2 a from w = v, with entries of a that are watched; `work` has room for a. */
 void fused_begin_double(const struct consistent *c, const struct drive *drive, double dt,

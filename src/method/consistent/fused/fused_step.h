@@ -16,10 +16,11 @@
 /* What the blocks of a thread share. */
 struct pass {
     const struct consistent *c;
+    const struct NAME(step_fields) * step;
     const struct drive *drive;
-    struct fused_fields fields;
-    double level;       /* smaller displacements move nothing */
-    size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
+    struct fused_fields fields; /* of part 0 */
+    double level;               /* smaller displacements move nothing */
+    size_t next, limit;         /* the next plane to be brought on; those from `limit` on are already */
     int thread;
 };
 
@@ -93,22 +94,32 @@ static void take_window(struct pass *pass, size_t first)
     f->computed[first / FUSED_PLANES] = window;
 }
 
+/* Part 0, which brings all displacements on, and what others add to it. */
 static void pass_block(struct pass *pass, size_t first)
 {
-    const struct consistent *c = pass->c;
-    const struct fused *f = FUSED(c);
-    const struct fused_fields *fields = &pass->fields;
-    const bool step = fields->moved != NULL;
+    const struct NAME(step_fields) *of = pass->step;
+    const struct fused *f = FUSED(pass->c);
+    const bool step = pass->fields.moved != NULL;
+    const double factor = step ? pass->fields.dt : 1;
+    const struct drive quiet = {0};
     if (step) take_window(pass, first);
-    NAME(fused_planes)(f, pass->thread, first, fields);
-    for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
-        add_rest(c, pass->drive, k, step ? fields->dt : 1, fields->u, fields->a);
-        if (!step) continue;
-        const struct window edges = reached_by_edges(c, f, k);
+    for (size_t p = 0; p < of->parts; p++) {
+        const struct consistent *c = of->part[p].c;
+        REAL *u = of->part[p].u;
+        const struct fused_fields more = {.u = u, .a = pass->fields.a, .moved = u, .dt = factor};
+        FUSED(c)->computed[first / FUSED_PLANES] = f->computed[first / FUSED_PLANES];
+        NAME(fused_planes)(FUSED(c), pass->thread, first, p == 0 ? &pass->fields : &more);
+        for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
+            add_rest(c, p == 0 ? pass->drive : &quiet, k, factor, u, pass->fields.a);
+    }
+    for (size_t k = first; step && k < first + FUSED_PLANES && k < f->n[2]; k++) {
         struct window *after = &f->will_reach[k];
         *after = window_join(&f->reached[k], &f->computed[first / FUSED_PLANES]);
         *after = window_join(after, &f->loaded[k]);
-        *after = window_join(after, &edges);
+        for (size_t p = 0; p < of->parts; p++) {
+            const struct window edges = reached_by_edges(of->part[p].c, f, k);
+            *after = window_join(after, &edges);
+        }
     }
 }
 
@@ -142,8 +153,9 @@ static void lay_bounds(const struct fused *f)
 }
 
 /* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. */
-static void pass_thread(const struct consistent *c, const struct drive *drive,
-                        const struct fused_fields *fields, bool bring, double level, int thread, int stage)
+static void pass_thread(const struct consistent *c, const struct NAME(step_fields) * step,
+                        const struct drive *drive, const struct fused_fields *fields, bool bring,
+                        double level, int thread, int stage)
 {
     const struct fused *f = FUSED(c);
     const size_t reach = (size_t)f->deep / 2, from = f->bound[thread], end = f->bound[thread + 1];
@@ -154,14 +166,14 @@ static void pass_thread(const struct consistent *c, const struct drive *drive,
         bring_planes(f, fields, high, end);
         return;
     }
-    struct pass pass = {c, drive, *fields, level, low, high, thread};
+    struct pass pass = {c, step, drive, *fields, level, low, high, thread};
     for (size_t first = from; first < end; first += FUSED_PLANES)
         pass_block(&pass, first);
 }
 
 /* All planes; u is brought on too if `bring`. */
-static void pass_over(const struct consistent *c, const struct drive *drive,
-                      const struct fused_fields *fields, bool bring, double level)
+static void pass_over(const struct consistent *c, const struct NAME(step_fields) * step,
+                      const struct drive *drive, const struct fused_fields *fields, bool bring, double level)
 {
     const struct fused *f = FUSED(c);
     lay_bounds(f);
@@ -170,7 +182,7 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
 #pragma omp for schedule(static, 1)
         for (int thread = 0; thread < f->threads; thread++) {
             const unsigned before = tiny_as_zero();
-            pass_thread(c, drive, fields, bring, level, thread, stage);
+            pass_thread(c, step, drive, fields, bring, level, thread, stage);
             tiny_as_before(before);
         }
     }
@@ -199,10 +211,11 @@ static double largest_before(const struct fused *f, const REAL *u)
 static void accelerate(const struct consistent *c, const struct drive *drive,
                        const struct NAME(step_fields) * step, REAL *a)
 {
-    const struct fused_fields fields = {.u = step->u, .a = a};
-    NAME(fused_look)(FUSED(c), step->u);
-    pass_over(c, drive, &fields, false, 0);
-    if (c->pml != NULL) NAME(pml_fast_accelerate)(c, 1, step->extra, a);
+    const struct fused_fields fields = {.u = step->part[0].u, .a = a};
+    NAME(fused_look)(FUSED(c), step->part[0].u);
+    pass_over(c, step, drive, &fields, false, 0);
+    for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
+        NAME(pml_fast_accelerate)(step->part[p].c, 1, step->part[p].extra, a);
 }
 
 void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
@@ -217,16 +230,17 @@ void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, do
         a[watch->entry[i]] = step->work[watch->entry[i]];
 }
 
-/* Mean velocities of the u that relax over the step to come, in `work`, where layers ask for them. */
-static const REAL *rates(const struct consistent *c, double dt, const struct NAME(step_fields) * step)
+/* Mean velocities of the u of a part over the step to come, where layers ask for them: w, or if they relax in
+ * `work`. */
+static const REAL *rates(const struct consistent *c, const struct NAME(step_fields) * step, size_t part)
 {
     const struct fused_relax *relax = step->relax;
-    REAL factor = (REAL)relax->given, before[MODEL_MECHANISMS];
+    if (relax == NULL) return step->w;
+    REAL factor = (REAL)relax->given[part], before[MODEL_MECHANISMS];
     for (size_t l = 0; l < relax->mechanisms; l++) {
-        factor += (REAL)(relax->weight[l] * relax->taken[l]);
-        before[l] = (REAL)(relax->weight[l] * (relax->kept[l] - 1) / dt);
+        factor += (REAL)(relax->weight[part][l] * relax->taken[l] / relax->dt);
+        before[l] = (REAL)(relax->weight[part][l] * (relax->kept[l] - 1) / relax->dt);
     }
-    factor /= (REAL)dt;
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct block *region = &c->pml->slab[s].region;
         const size_t rows = region->n[1] * region->n[2];
@@ -246,6 +260,17 @@ static const REAL *rates(const struct consistent *c, double dt, const struct NAM
     return step->work;
 }
 
+/* u itself at a place. */
+static double displacement(const struct NAME(step_fields) * step, size_t at)
+{
+    const struct fused_relax *relax = step->relax;
+    double u = step->part[0].u[at];
+    if (relax == NULL) return u;
+    for (size_t l = 0; l < relax->mechanisms; l++)
+        u -= relax->weight[0][l] * step->memory[l * relax->apart + at];
+    return u / relax->given[0];
+}
+
 /* The layers' memory goes on before u does, from the displacements in the middle of the step; what it does
  * then comes last. */
 void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, double dt,
@@ -253,29 +278,36 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
 {
     struct fused *f = FUSED(c);
     const struct fused_watch *watch = &c->fused->watch;
-    const struct fused_fields fields = {
-        .u = step->u, .a = step->w, .moved = step->u, .dt = dt, .relax = step->relax, .memory = step->memory};
-    const double level = f->quiet * largest_before(f, step->u);
+    REAL *u = step->part[0].u;
+    const struct fused_fields fields = {.u = u,
+                                        .a = step->w,
+                                        .moved = u,
+                                        .dt = dt,
+                                        .relax = step->relax,
+                                        .memory = step->memory,
+                                        .other = step->parts > 1 ? step->part[1].u : NULL};
+    const double level = f->quiet * largest_before(f, u);
     const size_t n = c->model.unknowns;
-    if (!f->known) find_reached(f, step->u, step->w);
+    if (!f->known) find_reached(f, u, step->w);
     for (size_t k = 0; k < f->n[2]; k++)
         forget_sizes(f, k);
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = step->w[watch->entry[i]];
-    if (c->pml != NULL) {
-        const REAL *rate = step->relax != NULL ? rates(c, dt, step) : step->w;
-        NAME(pml_fast_remember)(c, dt, dt / 2, level, step->u, rate, step->extra);
+    for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
+        NAME(pml_fast_remember)
+        (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
+    pass_over(c, step, drive, &fields, true, level);
+    for (size_t p = 0; p < step->parts && c->pml != NULL; p++) {
+        NAME(pml_fast_accelerate)(step->part[p].c, dt, step->part[p].extra, step->w);
+        NAME(pml_fast_reached)(step->part[p].c, f->will_reach);
     }
-    pass_over(c, drive, &fields, true, level);
-    if (c->pml != NULL) NAME(pml_fast_accelerate)(c, dt, step->extra, step->w);
-    if (c->pml != NULL) NAME(pml_fast_reached)(c, f->will_reach);
     struct window *spare = f->reached;
     f->reached = f->will_reach;
     f->will_reach = spare;
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
         const double before = watch->before[i], after = step->w[at];
-        y[at] = step->u[at];
+        y[at] = displacement(step, at);
         y[n + at] = (before + after) / 2;
         a[at] = (after - before) / dt;
     }
@@ -293,7 +325,8 @@ void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, d
 {
     enum { PAGE = 512 };
     const size_t n = c->model.unknowns;
-    const bool apart = (const void *)step->u != (const void *)y;
+    const REAL *u = step->part[0].u;
+    const bool apart = (const void *)u != (const void *)y;
     accelerate(c, drive, step, step->work);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = 0; from < n; from += PAGE) {
@@ -303,7 +336,7 @@ void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, d
             value[i] = step->w[from + i] - dt / 2 * step->work[from + i];
         put(count, value, y + n + from);
         for (size_t i = 0; i < count && apart; i++)
-            value[i] = step->u[from + i];
+            value[i] = u[from + i];
         if (apart) put(count, value, y + from);
         for (size_t i = 0; i < count && a != NULL; i++)
             value[i] = step->work[from + i];

@@ -74,10 +74,14 @@ static void first_rows(const struct strip *s, size_t j)
     x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_BX, j), s->zero, spare);
     x_pass(s, true, SIDE_N_EVEN, spare, row_of(f, ring, ROW_CZ, j), row_of(f, ring, ROW_G, j));
     if (j < s->from || j >= s->end) return;
-    x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BY, j), s->zero, spare);
-    x_pass(s, true, SIDE_N_EVEN, spare, ay, ay);
-    x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BZ, j), s->zero, spare);
-    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_CX, j), spare, spare);
+    const REAL *before = s->zero;
+    if (!f->bulk) {
+        x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BY, j), s->zero, spare);
+        x_pass(s, true, SIDE_N_EVEN, spare, ay, ay);
+        x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BZ, j), s->zero, spare);
+        before = spare;
+    }
+    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_CX, j), before, spare);
     x_pass(s, true, SIDE_N_EVEN, spare, az, az);
 }
 
@@ -88,11 +92,11 @@ static void second_rows(const struct strip *s, size_t j)
     REAL *t1 = row_of(f, s->ring, ROW_T1, j), *t2 = row_of(f, s->ring, ROW_T2, j);
     REAL *t3 = row_of(f, s->ring, ROW_T3, j), *t4 = row_of(f, s->ring, ROW_T4, j);
     y_pass(s, s->all, false, SIDE_G_FIRST, ROW_BY, j, s->zero, t1);
-    y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX, j, s->zero, t2);
+    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX, j, s->zero, t2);
     y_pass(s, s->own, false, SIDE_S_ODD, ROW_BY, j, s->zero, t3);
     y_pass(s, s->own, false, SIDE_G_SECOND, ROW_G, j, t3, t3);
-    y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
-    y_pass(s, s->own, false, SIDE_G_FIRST, ROW_CY, j, t4, t4);
+    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
+    y_pass(s, s->own, false, SIDE_G_FIRST, ROW_CY, j, f->bulk ? s->zero : t4, t4);
 }
 
 /* Wide passes over y, and along x of what waited for them. */
@@ -103,12 +107,12 @@ static void third_rows(const struct strip *s, size_t j)
     REAL *ax = row_of(f, ring, ROW_AX, j), *ay = row_of(f, ring, ROW_AY, j), *az = row_of(f, ring, ROW_AZ, j);
     REAL *divergence = row_of(f, ring, ROW_CZ, j);
     y_pass(s, s->all, true, SIDE_N_EVEN, ROW_T1, j, divergence, divergence);
-    y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T2, j, ax, ax);
-    y_pass(s, s->own, true, SIDE_N_ODD, ROW_T3, j, ay, ay);
+    if (!f->bulk) y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T2, j, ax, ax);
+    y_pass(s, s->own, true, SIDE_N_ODD, ROW_T3, j, f->bulk ? s->zero : ay, ay);
     y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T4, j, az, az);
     x_pass(s, false, SIDE_S_ODD, row_of(f, ring, ROW_BX, j), s->zero, spare);
     x_pass(s, false, SIDE_G_SECOND, divergence, spare, spare);
-    x_pass(s, true, SIDE_N_ODD, spare, ax, ax);
+    x_pass(s, true, SIDE_N_ODD, spare, f->bulk ? s->zero : ax, ax);
 }
 
 /* Passes over depth for row j of FUSED_PLANES planes; planes that are not there have weight 0. */
@@ -133,8 +137,7 @@ static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL
                 out[m * FUSED_PLANES + r] =
                     row_of(f, s->rings + r * f->ring_size, result[component][m], j) + s->all.at;
         }
-        (f->bare ? s->kernel->of[s->sweeps].two : s->kernel->of[s->sweeps].three)(in, weight, n, f->n[0],
-                                                                                  out);
+        s->kernel->of[s->sweeps].depth[!f->bare][f->bulk && component != DEPTH](in, weight, n, f->n[0], out);
     }
 }
 

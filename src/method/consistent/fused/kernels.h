@@ -20,12 +20,12 @@
             int taps;                                                                                        \
             fused_x_##precision *x;                                                                          \
             fused_y_##precision *y, *y_ends;                                                                 \
-            fused_depth_##precision *two, *three;                                                            \
+            fused_depth_##precision *depth[2][2]; /* [B is a matrix of its own][A is 0] */                   \
         } of[3]; /* one, two and three sweeps; the first is the narrow one too */                            \
         real (*measure)(size_t n, size_t rows, size_t step, const real *u, real *column);                    \
         real (*drift)(size_t n, size_t rows, size_t step, real dt, const real *w, real *u, real *column);    \
         real (*relax)(size_t n, size_t rows, size_t step, const struct fused_relax *relax, const real *w,    \
-                      real *memory, real *u, real *column);                                                  \
+                      real *memory, real *u, real *other, real *column);                                     \
         void (*kick)(size_t n, real dt, const real *a, real *w);                                             \
     };                                                                                                       \
     EACH_PROCESSOR(struct fused_kernels_##precision, fused_kernels_##precision)

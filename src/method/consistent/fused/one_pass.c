@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const struct model_one_pass one_pass;
+
 static int by_place(const void *one, const void *other)
 {
     const size_t a = *(const size_t *)one, b = *(const size_t *)other;
@@ -68,120 +70,154 @@ static bool watch_loads(struct consistent *c)
 static struct fused_relax relax_of(const struct consistent *c, double dt)
 {
     const struct relaxing *relaxing = c->fused->relaxing;
-    struct fused_relax relax = {.mechanisms = relaxing->mechanisms, .apart = c->model.unknowns};
-    relax.given = relaxing->given * dt;
+    struct fused_relax relax = {
+        .mechanisms = relaxing->mechanisms, .parts = relaxing->parts, .apart = c->model.unknowns, .dt = dt};
     for (size_t l = 0; l < relaxing->mechanisms; l++) {
         const double half = relaxing->rate[l] * dt / 2;
-        relax.weight[l] = relaxing->weight[l];
         relax.kept[l] = (1 - half) / (1 + half);
         relax.taken[l] = dt / (1 + half);
+    }
+    for (size_t p = 0; p < relaxing->parts; p++) {
+        relax.given[p] = relaxing->part[p].given;
+        memcpy(relax.weight[p], relaxing->part[p].weight, sizeof relax.weight[p]);
     }
     return relax;
 }
 
-static struct step_fields_double fields_double(const struct consistent *c, double *y)
+/* The model of a part, and where in the state's extra part its own begins. */
+static const struct consistent *part_of(const struct consistent *c, size_t p, size_t *extra)
+{
+    const struct relaxing *relaxing = c->fused->relaxing;
+    *extra = relaxing != NULL ? relaxing->part[p].extra : 0;
+    return relaxing != NULL ? consistent_of(relaxing->part[p].model) : c;
+}
+
+static struct step_fields_double fields_double(const struct consistent *c, double *y,
+                                               const struct fused_relax *relax)
 {
     const size_t n = c->model.unknowns;
-    double *w = c->fused->kept;
-    struct step_fields_double fields = {.u = y, .w = w, .extra = y + 2 * n, .work = c->hform->work};
-    if (c->fused->relaxing == NULL) return fields;
-    fields.u = w + n;
-    fields.memory = fields.extra;
-    fields.extra += c->fused->relaxing->mechanisms * n;
+    double *w = c->fused->kept, *memory = y + 2 * n;
+    struct step_fields_double fields = {.w = w, .work = c->hform->work, .relax = relax, .parts = 1};
+    if (relax != NULL) {
+        fields.parts = relax->parts;
+        fields.memory = memory;
+    }
+    for (size_t p = 0; p < fields.parts; p++) {
+        size_t extra;
+        fields.part[p].c = part_of(c, p, &extra);
+        fields.part[p].u = relax != NULL ? w + (1 + p) * n : y;
+        fields.part[p].extra = memory + extra;
+    }
     return fields;
 }
 
-/* sum over l of weight_l D_l at an entry. */
-static double remembered(const struct relaxing *relaxing, size_t n, const double *memory, size_t at)
+/* Numbers in the extra part of a state. */
+static size_t extra_of(const struct consistent *c)
+{
+    const struct relaxing *relaxing = c->fused->relaxing;
+    return relaxing != NULL ? relaxing->extra : c->model.state_size - 2 * c->model.unknowns;
+}
+
+static struct step_fields_single fields_single(const struct consistent *c, const struct fused_relax *relax)
+{
+    const size_t n = c->model.unknowns;
+    float *kept = c->fused->kept, *memory = kept + 2 * n;
+    void *work = c->hform->work;
+    struct step_fields_single fields = {.w = kept + n, .work = work, .relax = relax, .parts = 1};
+    if (relax != NULL) {
+        fields.parts = relax->parts;
+        fields.memory = memory;
+    }
+    for (size_t p = 0; p < fields.parts; p++) {
+        size_t extra;
+        fields.part[p].c = part_of(c, p, &extra);
+        fields.part[p].u = p == 0 ? kept : memory + extra_of(c);
+        fields.part[p].extra = memory + extra;
+    }
+    return fields;
+}
+
+/* sum over l of weight_pl D_l at an entry of a state. */
+static double remembered(const struct relaxing *relaxing, size_t p, size_t n, const double *y, size_t at)
 {
     double sum = 0;
     for (size_t l = 0; l < relaxing->mechanisms; l++)
-        sum += relaxing->weight[l] * memory[l * n + at];
+        sum += relaxing->part[p].weight[l] * y[(2 + l) * n + at];
     return sum;
 }
 
-/* e of a state, or the displacements in it of e. */
-static void to_effective(const struct consistent *c, const double *y, double *e)
+/* e_p of a state at an entry. */
+static double effective(const struct relaxing *relaxing, size_t p, size_t n, const double *y, size_t at)
 {
-    const struct relaxing *relaxing = c->fused->relaxing;
-    const size_t n = c->model.unknowns;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < n; i++)
-        e[i] = relaxing->given * y[i] + remembered(relaxing, n, y + 2 * n, i);
-}
-static void from_effective(const struct consistent *c, const double *e, double *y)
-{
-    const struct relaxing *relaxing = c->fused->relaxing;
-    const size_t n = c->model.unknowns;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < n; i++)
-        y[i] = (e[i] - remembered(relaxing, n, y + 2 * n, i)) / relaxing->given;
-}
-
-static struct step_fields_single fields_single(const struct consistent *c)
-{
-    const size_t n = c->model.unknowns;
-    float *kept = c->fused->kept;
-    void *work = c->hform->work;
-    return (struct step_fields_single){.u = kept, .w = kept + n, .extra = kept + 2 * n, .work = work};
+    return relaxing->part[p].given * y[at] + remembered(relaxing, p, n, y, at);
 }
 
 static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
+    const struct relaxing *relaxing = c->fused->relaxing;
+    const struct fused_relax factors = relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
+    const struct fused_relax *relax = relaxing != NULL ? &factors : NULL;
     const size_t n = model->unknowns;
     sort_watched(&c->fused->watch);
     model->evaluations++;
     if (model->single) {
-        const struct step_fields_single fields = fields_single(c);
-        for (size_t i = 0; i < model->state_size; i++)
-            fields.u[i] = (float)y[i];
+        const struct step_fields_single fields = fields_single(c, relax);
+        float *kept = c->fused->kept;
+        for (size_t i = 0; i < 2 * n + extra_of(c); i++)
+            kept[i] = (float)y[i];
+        for (size_t p = 0; p < fields.parts && relax != NULL; p++)
+            for (size_t i = 0; i < n; i++)
+                fields.part[p].u[i] = (float)effective(relaxing, p, n, y, i);
         fused_begin_single(c, drive, dt, &fields, a);
         return;
     }
-    const struct step_fields_double fields = fields_double(c, y);
+    const struct step_fields_double fields = fields_double(c, y, relax);
     memcpy(fields.w, y + n, n * sizeof *y);
-    if (fields.memory != NULL) to_effective(c, y, fields.u);
+    for (size_t p = 0; p < fields.parts && relax != NULL; p++)
+        for (size_t i = 0; i < n; i++)
+            fields.part[p].u[i] = effective(relaxing, p, n, y, i);
     fused_begin_double(c, drive, dt, &fields, a);
 }
 
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
+    const struct fused_relax factors = c->fused->relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
+    const struct fused_relax *relax = c->fused->relaxing != NULL ? &factors : NULL;
     model->evaluations++;
     if (model->single) {
-        const struct step_fields_single fields = fields_single(c);
+        const struct step_fields_single fields = fields_single(c, relax);
         fused_advance_single(c, drive, dt, &fields, y, a);
-        return;
-    }
-    struct step_fields_double fields = fields_double(c, y);
-    struct fused_relax relax = {0};
-    if (fields.memory != NULL) {
-        relax = relax_of(c, dt);
-        fields.relax = &relax;
-    }
-    fused_advance_double(c, drive, dt, &fields, y, a);
-    const struct fused_watch *watch = &c->fused->watch;
-    for (size_t i = 0; fields.memory != NULL && i < watch->count; i++) {
-        const size_t at = watch->entry[i];
-        y[at] = (fields.u[at] - remembered(c->fused->relaxing, model->unknowns, fields.memory, at)) /
-                c->fused->relaxing->given;
+    } else {
+        const struct step_fields_double fields = fields_double(c, y, relax);
+        fused_advance_double(c, drive, dt, &fields, y, a);
     }
 }
 
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    if (!model->single) {
-        const struct step_fields_double fields = fields_double(c, y);
+    const struct relaxing *relaxing = c->fused->relaxing;
+    const struct fused_relax factors = relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
+    const struct fused_relax *relax = relaxing != NULL ? &factors : NULL;
+    const size_t n = model->unknowns;
+    if (model->single) {
+        const struct step_fields_single fields = fields_single(c, relax);
+        const float *kept = c->fused->kept;
+        fused_settle_single(c, drive, dt, &fields, y, a);
+        for (size_t i = 2 * n; i < 2 * n + extra_of(c); i++)
+            y[i] = kept[i];
+    } else {
+        const struct step_fields_double fields = fields_double(c, y, relax);
         fused_settle_double(c, drive, dt, &fields, y, a);
-        if (fields.memory != NULL) from_effective(c, fields.u, y);
-        return;
     }
-    const struct step_fields_single fields = fields_single(c);
-    fused_settle_single(c, drive, dt, &fields, y, a);
-    for (size_t i = 2 * model->unknowns; i < model->state_size; i++)
-        y[i] = fields.u[i];
+    if (relaxing == NULL) return;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < n; i++) { /* e_0 stands there */
+        const double u = (y[i] - remembered(relaxing, 0, n, y, i)) / relaxing->part[0].given;
+        if (u != y[i]) y[i] = u;
+    }
 }
 
 /* Who asks may write. */
@@ -194,17 +230,29 @@ static void *kept(struct model *model, size_t *bytes)
     return fused->kept;
 }
 
-static bool relax(struct model *model, const struct relaxing *relaxing)
+static selas_status relax(struct model *model, const struct relaxing *relaxing)
 {
     struct fused *fused = consistent_of(model)->fused;
-    array_free(fused->kept);
-    fused->bytes += fused->kept_bytes + sizeof *relaxing;
-    fused->kept_bytes *= 2;
+    const size_t n = model->unknowns;
+    if (relaxing->parts > FUSED_PARTS) return SELAS_UNSUPPORTED;
+    for (size_t p = 0; p < relaxing->parts; p++)
+        if (relaxing->part[p].model->one_pass != &one_pass) return SELAS_UNSUPPORTED;
+    for (size_t p = 0; p < relaxing->parts; p++) {
+        struct model *part = relaxing->part[p].model;
+        struct fused *its = consistent_of(part)->fused;
+        array_free(its->kept);
+        its->kept = NULL;
+        part->bytes -= its->kept_bytes;
+        its->kept_bytes = 0;
+    }
+    fused->kept_bytes = model->single ? ((1 + relaxing->parts) * n + relaxing->extra) * sizeof(float)
+                                      : (1 + relaxing->parts) * n * sizeof(double);
+    model->bytes += fused->kept_bytes + sizeof *relaxing;
     fused->kept = array_new(1, fused->kept_bytes);
     fused->relaxing = array_new(1, sizeof *relaxing);
-    if (fused->kept == NULL || fused->relaxing == NULL) return false;
+    if (fused->kept == NULL || fused->relaxing == NULL) return SELAS_NO_MEMORY;
     *fused->relaxing = *relaxing;
-    return true;
+    return SELAS_OK;
 }
 
 static const struct model_one_pass one_pass = {begin, advance, settle, kept, relax};

@@ -24,11 +24,12 @@ INLINED const lanes *at(const REAL *place)
 #endif
 
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
- * for one row of n points. Without the last matrix, B, which is then the identity, its results are the input.
+ * for one row of n points, matrices m from `begin` to `end` - 1. Without the last matrix, B, which is then the
+ * identity, its results are the input.
  * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
  * does not foresee them. Floats, half as long, gain nothing from that. */
-INLINED void over_depth(const int taps, const int matrices, const REAL *const *in, const REAL *const *weight,
-                        size_t n, size_t ahead, REAL *const *result)
+INLINED void over_depth(const int taps, const int begin, const int end, const REAL *const *in,
+                        const REAL *const *weight, size_t n, size_t ahead, REAL *const *result)
 {
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
@@ -37,13 +38,13 @@ INLINED void over_depth(const int taps, const int matrices, const REAL *const *i
         {
             const lanes value = *at(in[t] + i);
             if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
-            if (matrices < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
+            if (end < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
                 *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
-            UNROLLED for (int m = 0; m < matrices; m++)
+            UNROLLED for (int m = begin; m < end; m++)
                 UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
                 weight[m][r * taps + t - r] * value;
         }
-        UNROLLED for (int m = 0; m < matrices; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
+        UNROLLED for (int m = begin; m < end; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
             (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
         if (i + LANES >= n) break;
     }
@@ -150,45 +151,56 @@ static REAL drift(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, RE
     return measured_rows(n, rows, step, u, column);
 }
 
-/* u and its memory go on (fused.h, fused_relax), n numbers. */
-INLINED void relaxed(const size_t mechanisms, size_t n, const struct fused_relax *r, const REAL *restrict w,
-                     REAL *restrict memory, REAL *restrict u)
+/* u, `other` if there are two parts, and their memory go on (fused.h, fused_relax), n numbers. */
+INLINED void relaxed(const size_t mechanisms, const size_t parts, size_t n, const struct fused_relax *r,
+                     const REAL *restrict w, REAL *restrict memory, REAL *restrict u, REAL *restrict other)
 {
-    const REAL given = (REAL)r->given;
+    const REAL given = (REAL)(r->given[0] * r->dt), given_other = (REAL)(r->given[1] * r->dt);
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        REAL change = given * w[i];
+        REAL change = given * w[i], change_other = given_other * w[i];
         for (size_t l = 0; l < mechanisms; l++) {
             const REAL before = memory[l * r->apart + i];
             const REAL after = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
             memory[l * r->apart + i] = after;
-            change += (REAL)r->weight[l] * (after - before);
+            change += (REAL)r->weight[0][l] * (after - before);
+            if (parts > 1) change_other += (REAL)r->weight[1][l] * (after - before);
         }
         u[i] += change;
+        if (parts > 1) other[i] += change_other;
+    }
+}
+
+INLINED void relaxed_by(const size_t parts, size_t n, const struct fused_relax *r, const REAL *w,
+                        REAL *memory, REAL *u, REAL *other)
+{
+    switch (r->mechanisms) {
+    case 1:
+        relaxed(1, parts, n, r, w, memory, u, other);
+        break;
+    case 2:
+        relaxed(2, parts, n, r, w, memory, u, other);
+        break;
+    case 3:
+        relaxed(3, parts, n, r, w, memory, u, other);
+        break;
+    case 4:
+        relaxed(4, parts, n, r, w, memory, u, other);
+        break;
+    default:
+        relaxed(r->mechanisms, parts, n, r, w, memory, u, other);
     }
 }
 
 static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
-                  REAL *memory, REAL *u, REAL *column)
+                  REAL *memory, REAL *u, REAL *other, REAL *column)
 {
     for (size_t row = 0; row < rows; row++) {
         const size_t at = row * step;
-        switch (r->mechanisms) {
-        case 1:
-            relaxed(1, n, r, w + at, memory + at, u + at);
-            break;
-        case 2:
-            relaxed(2, n, r, w + at, memory + at, u + at);
-            break;
-        case 3:
-            relaxed(3, n, r, w + at, memory + at, u + at);
-            break;
-        case 4:
-            relaxed(4, n, r, w + at, memory + at, u + at);
-            break;
-        default:
-            relaxed(r->mechanisms, n, r, w + at, memory + at, u + at);
-        }
+        if (other == NULL)
+            relaxed_by(1, n, r, w + at, memory + at, u + at, NULL);
+        else
+            relaxed_by(2, n, r, w + at, memory + at, u + at, other + at);
     }
     return measured_rows(n, rows, step, u, column);
 }
@@ -198,6 +210,13 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
 {
     moved(n, dt, a, w);
 }
+
+#define DEPTH(name, deep, begin, end)                                                                        \
+    static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
+                     REAL *const *result)                                                                    \
+    {                                                                                                        \
+        over_depth(deep, begin, end, in, weight, n, ahead, result);                                          \
+    }
 
 /* One function for each pass and number of taps. */
 #define PASSES(wide, deep)                                                                                   \
@@ -216,23 +235,23 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     {                                                                                                        \
         across_y(wide, weight, wide, in, init, width, stride, out);                                          \
     }                                                                                                        \
-    static void two_##deep(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,         \
-                           REAL *const *result)                                                              \
-    {                                                                                                        \
-        over_depth(deep, 2, in, weight, n, ahead, result);                                                   \
-    }                                                                                                        \
-    static void three_##deep(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,       \
-                             REAL *const *result)                                                            \
-    {                                                                                                        \
-        over_depth(deep, 3, in, weight, n, ahead, result);                                                   \
-    }
+    DEPTH(two_##deep, deep, 0, 2)                                                                            \
+    DEPTH(three_##deep, deep, 0, 3)                                                                          \
+    DEPTH(two_bulk_##deep, deep, 1, 2)                                                                       \
+    DEPTH(three_bulk_##deep, deep, 1, 3)
 PASSES(5, 9)
 PASSES(9, 13)
 PASSES(13, 17)
 
 #define OF(wide, deep)                                                                                       \
     {                                                                                                        \
-        wide, x_##wide, y_##wide, ends_##wide, two_##deep, three_##deep                                      \
+        wide, x_##wide, y_##wide, ends_##wide,                                                               \
+        {                                                                                                    \
+            {two_##deep, two_bulk_##deep},                                                                   \
+            {                                                                                                \
+                three_##deep, three_bulk_##deep                                                              \
+            }                                                                                                \
+        }                                                                                                    \
     }
 const struct NAME(fused_kernels)
     OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick};
