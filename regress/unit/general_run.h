@@ -77,4 +77,19 @@ static inline double energy_at(struct run *run, double dt)
     return energy;
 }
 
+/* Three steps of a run of some threads from noise; kept NULL: keeps the state, else it must be the same to the bit. */
+static inline void assert_same_steps(struct run *run, int threads, double **kept)
+{
+    assert_int_equal(consistent_of(run->model)->threads, threads);
+    noise(run->n, run->y);
+    for (int step = 0; step < 3; step++)
+        leap(run, &(struct drive){0}, .02);
+    if (*kept != NULL) {
+        assert_memory_equal(*kept, run->y, run->n * sizeof **kept);
+        return;
+    }
+    *kept = calloc(run->n, sizeof **kept);
+    memcpy(*kept, run->y, run->n * sizeof **kept);
+}
+
 #endif

@@ -354,15 +354,7 @@ static void test_threads(void **state)
         omp_set_num_threads(threads);
         bits = 5;
         struct run run = random_run(&plain, 3, (double[]){6, 5, 4});
-        assert_int_equal(consistent_of(run.model)->threads, threads);
-        noise(run.n, run.y);
-        for (int step = 0; step < 3; step++)
-            leap(&run, &(struct drive){0}, .02);
-        if (kept == NULL) {
-            kept = calloc(run.n, sizeof *kept);
-            memcpy(kept, run.y, run.n * sizeof *kept);
-        } else
-            assert_memory_equal(kept, run.y, run.n * sizeof *kept);
+        assert_same_steps(&run, threads, &kept);
         run_free(&run);
     }
     free(kept);

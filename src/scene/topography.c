@@ -26,11 +26,11 @@ static double bell(double distance, double width)
 double topography_drop(const struct topography *topography, const double place[2])
 {
     double x[2] = {0, 0};
-    for (int axis = 0; axis < topography->axis; axis++)
+    for (int axis = 0; axis < 2 && axis < topography->axis; axis++)
         x[axis] = drawn(topography->end[axis], place[axis]);
     if (topography->map != NULL) return -height_map_at(topography->map, x);
     double off[2] = {0, 0};
-    for (int axis = 0; axis < topography->axis; axis++)
+    for (int axis = 0; axis < 2 && axis < topography->axis; axis++)
         off[axis] = x[axis] - topography->centre[axis];
     const double width = topography->width;
     if (topography->shape == TOPOGRAPHY_GAUSSIAN)

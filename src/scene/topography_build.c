@@ -108,14 +108,15 @@ static struct range range_of(const struct scene *scene, const struct topography 
     for (int axis = 0; axis < topography->axis; axis++)
         count[axis] = (size_t)((body->high[axis] - body->low[axis]) / body->spacing + 1.5);
     for (size_t i = 0; i < count[0] * count[1]; i++) {
-        double place[2] = {body->low[0] + (double)(i % count[0]) * body->spacing,
-                           body->low[1] + (double)(i / count[0]) * body->spacing};
+        const size_t column = i % count[0], row = i / count[0];
+        const double place[2] = {body->low[0] + (double)column * body->spacing,
+                                 body->low[1] + (double)row * body->spacing};
         const double drop = topography_drop(topography, place);
         double square = 0;
         range.low = fmin(range.low, drop);
         range.high = fmax(range.high, drop);
         range.drawn = fmax(range.drawn, fabs(drop - topography_drop(plain, place)));
-        for (int axis = 0; axis < topography->axis; axis++) {
+        for (int axis = 0; axis < 2 && axis < topography->axis; axis++) {
             const double half = body->spacing / 4;
             double beside[2][2] = {{place[0], place[1]}, {place[0], place[1]}};
             beside[0][axis] -= half;
