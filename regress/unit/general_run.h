@@ -92,4 +92,67 @@ static inline void assert_same_steps(struct run *run, int threads, double **kept
     memcpy(*kept, run->y, run->n * sizeof **kept);
 }
 
+/* Steps with absorbing layers; v is that of the half step before. */
+static inline void march(struct run *run, double dt, int steps)
+{
+    double *v = run->y + run->n;
+    for (int step = 0; step < steps; step++) {
+        run->model->spatial->accelerate(run->model, &(struct drive){.extra = v + run->n}, dt / 2, run->y, v,
+                                        run->a);
+        for (size_t i = 0; i < run->n; i++) {
+            v[i] += dt * run->a[i];
+            run->y[i] += dt * v[i];
+        }
+        model_remember(run->model, dt, run->y);
+    }
+}
+
+static inline struct consistent_options quick(void) /* denormal numbers are slow */
+{
+    struct consistent_options options = general();
+    options.quiet = 1e-12;
+    return options;
+}
+
+/* With absorbing layers behind some faces. */
+static inline struct run layered_run(struct plain_scene *plain, unsigned faces, long points)
+{
+    for (int face = 0; face < BOX_FACES; face++) {
+        if ((faces >> face & 1U) == 0) continue;
+        plain->scene.boundary[face] = (struct boundary){
+            .kind = BOUNDARY_TRANSMITTING, .absorber = ABSORBER_PML, .layer_points = points, .always = true};
+    }
+    struct run run = run_new(plain, quick());
+    free(run.y);
+    run.y = calloc(run.model->state_size, sizeof *run.y);
+    return run;
+}
+
+static inline double size_of(size_t n, const double *x)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most += x[i] * x[i];
+    return sqrt(most);
+}
+
+/* Noise on random ground with absorbing layers at all faces but z-: the shortest waves stay, as they do not travel, but
+ * nothing grows. */
+static inline void assert_layers_are_quiet(struct plain_scene *plain)
+{
+    struct run run = layered_run(plain, 63 & ~(1U << FACE_Z_LOW), 6);
+    struct messages messages = {0};
+    double omega, error;
+    make_random(consistent_of(run.model));
+    assert_int_equal(largest_frequency(run.model, &omega, &error, &messages), SELAS_OK);
+    noise(run.n, run.y + run.n);
+    const double first = size_of(run.n, run.y + run.n);
+    march(&run, .9 * 2 / omega, 500);
+    const double early = size_of(run.n, run.y + run.n);
+    march(&run, .9 * 2 / omega, 500);
+    assert_true(early < first);
+    assert_true(size_of(run.n, run.y + run.n) < early);
+    run_free(&run);
+}
+
 #endif

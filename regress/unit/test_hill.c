@@ -289,6 +289,20 @@ static void test_moment(void **state)
     assert_true(coarse < .003 && fine < coarse / 8); /* .0023, .00027 */
 }
 
+static void test_layers_are_quiet(void **state)
+{
+    (void)state;
+    struct plain_scene plain;
+    plain_box(&plain, 3, (double[]){2, 1.75, 1.5}, .25);
+    struct topography hill = steep_hill(&plain.scene, .3);
+    for (int axis = 0; axis < 2; axis++) {
+        hill.end[axis][0] = (struct drawn_out){.5, .5};
+        hill.end[axis][1] = (struct drawn_out){plain.scene.body.high[axis] - .5, .5};
+    }
+    plain.scene.body.topography = &hill;
+    assert_layers_are_quiet(&plain);
+}
+
 static void test_threads(void **state)
 {
     (void)state;
@@ -312,7 +326,7 @@ int main(void)
         cmocka_unit_test(test_symmetric),   cmocka_unit_test(test_largest_step),
         cmocka_unit_test(test_energy),      cmocka_unit_test(test_quarter),
         cmocka_unit_test(test_even_strain), cmocka_unit_test(test_moment),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_threads),     cmocka_unit_test(test_layers_are_quiet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
