@@ -69,9 +69,11 @@ static bool is_surface(const struct scene *scene, enum face face)
     return (int)face == 2 * (scene->dimension - 1);
 }
 
+/* Along the normal of a level surface; no other has one. */
 static bool along_normal(const struct scene *scene, const double direction[3])
 {
     double own[3];
+    if (scene->body.topography != NULL) return false;
     body_direction_from_deck(&scene->body, direction, own);
     return fabs(own[scene->dimension - 1]) > 1 - 1e-9;
 }
