@@ -43,6 +43,7 @@ static void destroy(struct model *model)
         for (int component = 0; component < 3; component++)
             array_free(c->speed[face][component]);
     part_free(c);
+    array_free(c->surface);
     array_free(c->plane_class);
     array_free(c->class_plane);
     array_free(c->line_buffer);

@@ -16,7 +16,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
 extern const struct method method_consistent;
 
 /* shorter.c: the model on a body whose axes of more cells than `longest` are cut to so many (but
- * see cells_of()); free it with model_free(). */
+ * see cells_of()), on one rank; `longest` 0: not cut; free it with model_free(). */
 selas_status consistent_cut(const struct consistent *c, size_t longest, struct model **cut,
                             struct messages *messages);
 /* Bound on the part of the largest frequency that this one lacks. */

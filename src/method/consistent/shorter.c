@@ -72,7 +72,7 @@ selas_status consistent_cut(const struct consistent *c, size_t longest, struct m
     *cut = NULL;
     selas_status status = short_body_scene(c->model.scene, &scene, messages);
     if (status != SELAS_OK) return status;
-    cut_body(c, longest, scene);
+    if (longest > 0) cut_body(c, longest, scene);
     options.single = false;
     status = consistent_create_with(scene, &options, cut, messages);
     if (status == SELAS_OK)
@@ -87,23 +87,6 @@ double consistent_deficit(const struct consistent *c, size_t longest)
     return (c->options.sweeps > 0 ? sweeps_deficit : exact_deficit) / (double)(longest * longest);
 }
 
-/* The same body for one rank alone. */
-static selas_status consistent_alone(const struct consistent *c, struct model **alone,
-                                     struct messages *messages)
-{
-    struct consistent_options options = c->options;
-    struct scene *scene = NULL;
-    selas_status status = short_body_scene(c->model.scene, &scene, messages);
-    if (status != SELAS_OK) return status;
-    options.single = false;
-    status = consistent_create_with(scene, &options, alone, messages);
-    if (status == SELAS_OK)
-        consistent_of(*alone)->own_scene = scene;
-    else
-        array_free(scene);
-    return status;
-}
-
 selas_status consistent_shorten(const struct model *model, struct model **shorter, double *deficit,
                                 struct messages *messages)
 {
@@ -114,7 +97,7 @@ selas_status consistent_shorten(const struct model *model, struct model **shorte
     *deficit = consistent_deficit(c, longest);
     if (!short_body_pays(c->dimension, cells.all, cells.lost)) {
         *deficit = 0;
-        return c->part.ranks != NULL ? consistent_alone(c, shorter, messages) : SELAS_OK;
+        return c->part.ranks != NULL ? consistent_cut(c, 0, shorter, messages) : SELAS_OK;
     }
     return consistent_cut(c, longest, shorter, messages);
 }

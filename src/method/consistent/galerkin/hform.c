@@ -275,84 +275,6 @@ static bool lay_plan(struct consistent *c)
     return c->hform->acceleration != NULL;
 }
 
-/* Control values from[] up to to[], not included, by slot. */
-struct extent {
-    size_t from[3], to[3];
-};
-
-/* Where a component of a sparse vector is not 0; empty: all 0. */
-static struct extent extent_of(const struct consistent *c, const struct sparse *sparse, int component)
-{
-    struct extent extent = {.from = {c->n[0], c->n[1], c->n[2]}};
-    for (size_t k = 0; k < c->n[DEPTH]; k++) {
-        const size_t row = (size_t)component * c->n[DEPTH] + k;
-        for (size_t e = sparse->start[row]; e < sparse->start[row + 1]; e++) {
-            const size_t at[3] = {sparse->index[e] % c->n[0], sparse->index[e] / c->n[0], k};
-            for (int slot = 0; slot < 3; slot++) {
-                if (at[slot] < extent.from[slot]) extent.from[slot] = at[slot];
-                if (at[slot] >= extent.to[slot]) extent.to[slot] = at[slot] + 1;
-            }
-        }
-    }
-    return extent;
-}
-
-/* N along one axis of a component, over the density where that is the same everywhere and the axis the first;
- * the field is 0 out of the extent, which grows. False: no memory. */
-static bool divide_along(struct consistent *c, int component, int axis, struct extent *extent, double *field,
-                         double *line)
-{
-    const struct band *inverse = c->hform->inverse[component][axis];
-    if (c->slot[axis] == DEPTH) inverse = part_matrix(c, inverse);
-    if (inverse == NULL) return false;
-    const double density = c->weighted[WEIGHT_DENSITY] == NULL && axis == 0 ? c->property[WEIGHT_DENSITY] : 1;
-    const size_t stride[3] = {1, c->n[0], c->plane};
-    const int slot = c->slot[axis], one = slot == 0 ? 1 : 0, other = slot == 2 ? 1 : 2;
-    size_t *from = &extent->from[slot], *to = &extent->to[slot];
-    *from = *from < inverse->half ? 0 : *from - inverse->half;
-    *to = *to + inverse->half < c->n[slot] ? *to + inverse->half : c->n[slot];
-    for (size_t k = extent->from[other]; k < extent->to[other]; k++)
-        for (size_t j = extent->from[one]; j < extent->to[one]; j++) {
-            double *first = field + (size_t)component * c->volume + j * stride[one] + k * stride[other];
-            for (size_t i = *from; i < *to; i++)
-                line[i] = band_row(inverse, i, first, stride[slot]) / density;
-            for (size_t i = *from; i < *to; i++)
-                first[i * stride[slot]] = line[i];
-        }
-    return true;
-}
-
-/* wide := M^-1 sparse (N along each axis). */
-static bool widen(struct consistent *c, const struct sparse *sparse, double *field, double *line,
-                  struct sparse *wide)
-{
-    memset(field, 0, c->model.unknowns * sizeof *field);
-    for (int component = 0; component < c->dimension; component++) {
-        struct extent extent = extent_of(c, sparse, component);
-        if (extent.to[0] == 0) continue;
-        for (size_t k = 0; k < c->n[DEPTH]; k++)
-            sparse_add(c, sparse, component, k, 1, field + (size_t)component * c->volume + k * c->plane);
-        for (int axis = 0; axis < c->dimension; axis++)
-            if (!divide_along(c, component, axis, &extent, field, line)) return false;
-    }
-    return sparse_from(c, field, wide);
-}
-
-static bool lay_forces(struct consistent *c)
-{
-    struct hform *h = c->hform;
-    const size_t loads = c->model.scene->loads;
-    double *line = array_new(c->n[0] + c->n[1] + c->n[2], sizeof *line);
-    h->load = array_new(loads, sizeof *h->load);
-    bool good = line != NULL && h->load != NULL;
-    for (size_t l = 0; good && l < loads; l++)
-        good = widen(c, &c->load[l], h->work, line, &h->load[l]);
-    for (int face = 0; good && face < 2 * c->dimension; face++)
-        if (c->moving[face]) good = widen(c, &c->inertia[face], h->work, line, &h->pulled[face]);
-    array_free(line);
-    return good;
-}
-
 selas_status hform_create(struct consistent *c, struct messages *messages)
 {
     size_t largest = c->plane;
@@ -383,7 +305,7 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     h->face[0] = array_new(largest, sizeof(double));
     h->face[1] = array_new(largest, sizeof(double));
     if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) ||
-        (!c->options.general && (!lay_plan(c) || !lay_forces(c) || !hform_dissipation_create(c))))
+        (!c->options.general && (!lay_plan(c) || !hform_forces(c) || !hform_dissipation_create(c))))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     return SELAS_OK;
 }

@@ -45,6 +45,9 @@ size_t hform_bytes(const struct consistent *c); /* fields and buffers; 0 without
 struct band *hform_inverse(const struct consistent *c, int component, int axis, bool odd);
 double hform_damper_power(struct consistent *c, const double *v);
 
+/* hform_forces.c: h->load and h->pulled; false: no memory. */
+bool hform_forces(struct consistent *c);
+
 /* hform_edges.h: adds factor times what edges do in plane k. */
 void hform_edges_double(const struct consistent *c, size_t k, double factor, const double *u,
                         double *const *out);
