@@ -119,7 +119,7 @@ bool ground_varies(const struct scene *scene, int axis)
 
 bool ground_is_general(const struct scene *scene)
 {
-    bool general = ground_grades(scene) || scene->body.blocks > 0;
+    bool general = scene->body.topography != NULL || ground_grades(scene) || scene->body.blocks > 0;
     for (int axis = 0; axis < scene->dimension - 1; axis++)
         general = general || ground_varies(scene, axis);
     return general;

@@ -80,6 +80,8 @@ struct ground_model {
     char text[400];                    /* for the plan */
 };
 
+struct topography; /* topography.h */
+
 struct body {
     char name[NAME_SIZE];
     enum body_shape shape;
@@ -98,7 +100,8 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
-    struct ground_model *model; /* in the place of material and layers; NULL: none */
+    struct topography *topography; /* the surface, where it is not level; NULL: it is */
+    struct ground_model *model;    /* in the place of material and layers; NULL: none */
     size_t blocks;
     struct ground_block *block; /* later ones lie in earlier ones */
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */

@@ -202,7 +202,7 @@ selas_status consistent_lay(struct consistent *c, struct messages *messages)
     const selas_status status = lay_axes(c, messages);
     if (status != SELAS_OK) return status;
     lay_faces(c);
-    if (lay_material(c) && lay_planes(c)) return SELAS_OK;
+    if (lay_material(c) && lay_planes(c) && consistent_lay_surface(c)) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
 }
 
@@ -221,4 +221,19 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
         else if (k == at)
             memset(plane, 0, c->plane * sizeof *plane);
     }
+}
+
+struct band *consistent_collocation(const struct spline *spline, bool odd)
+{
+    struct band *band = band_new(spline->count, (size_t)spline->degree);
+    for (size_t i = 0; band != NULL && i < spline->count; i++) {
+        struct spline_point at;
+        spline_at(spline, odd, spline->greville[i], &at);
+        for (int j = 0; j <= spline->degree; j++)
+            if (at.value[j] != 0) band_add(band, i, at.index[j], at.value[j]);
+        if (band_get(band, i, i) == 0) band_add(band, i, i, 1); /* odd, on a symmetry plane */
+    }
+    if (band == NULL || band_lu(band)) return band;
+    band_free(band);
+    return NULL;
 }
