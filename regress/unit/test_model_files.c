@@ -141,6 +141,13 @@ static void test_sea(void **state)
                     form == 1 ? NULL : "q_p");
         from_deck_free(&made);
     }
+    write_rfile(stored, 0, 0, 0);
+#define HILL " /\n&topography shape = 'gaussian', height = 30, centre = 300, 150, width = 40"
+    assert_refused(DECK("600, 300, 900", HILL),
+                   "t.nml:", (const char *[]){"expected model%depth = 'sea'", NULL});
+    struct from_deck hill = right_scene(DECK("600, 300, 900", "depth = 'sea', origin = 0, 0, 20" HILL));
+    assert_field(hill.scene, (double[]){300, 150, -25}, 300, 150, -45, 1e-12);
+    from_deck_free(&hill);
     write_text(stored, 0, 0, "", 60);
     struct from_deck made = right_scene(DECK("700, 800, 300", "depth = 'sea', origin = 1000, 2000, -100"));
     assert_field(made.scene, (double[]){100, 50, 30}, 50, 100, 130, 1e-12);
