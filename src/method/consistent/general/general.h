@@ -102,6 +102,10 @@ void general_corners(const struct consistent *c, const double *u, double *force)
 
 /* material.c: lays moduli at the points, and the mass of each control value. SELAS_NO_MEMORY. */
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
+/* part.c: the same, or of a part of damped ground (scene->whole). SELAS_UNSUPPORTED: a part whose points cannot be
+ * told apart. */
+selas_status general_part_material(struct consistent *c, double *mass, struct messages *messages);
+void general_free_family(struct family *family);
 
 /* scaling.c: R from the mass of each control value (G5); false: no memory. */
 bool general_scale(struct consistent *c, const double *mass);
