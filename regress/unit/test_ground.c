@@ -2,6 +2,7 @@
  * medium at an interface (doc/general-ground.md, section 4). */
 #include "from_deck.h"
 
+#include "method/consistent/consistent.h"
 #include "method/methods.h"
 #include "scene/ground.h"
 
@@ -98,7 +99,7 @@ static void test_model(void **state)
     (void)state;
     write_model(6, 2, true);
     struct from_deck made = right_scene(MODEL);
-    assert_rock(made.scene, 0, 0, -.5, 2, 4, 2);
+    assert_rock(made.scene, 0, 0, -.5, 2.1, 4, 2); /* beyond the body as at its face */
     assert_rock(made.scene, 1.3, .5, .25, 2.15, 4, 1.95);
     assert_rock(made.scene, 9, 9, 9, 2.5, 4, 1.8); /* as at the grid's edge */
     assert_near(scene_fastest(made.scene), 4, 1e-12);
@@ -113,11 +114,12 @@ static void test_refused_models(void **state)
 {
     (void)state;
     write_model(6, 0, true);
-    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "(0, 0, 1.5)", "no s_speed", NULL});
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"the value at (0, 0, 1.5) of ", "no s_speed", NULL});
     write_model(6, 3.9, true);
-    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "bulk modulus is negative", NULL});
+    assert_refused(
+        MODEL, "t.nml:4:", (const char *[]){"the value at (0, 0, 1.5)", "bulk modulus is negative", NULL});
     write_model(6, NAN, true);
-    assert_refused(MODEL, "t.nml:4:", (const char *[]){"value [0, 0, 4]", "is not finite", NULL});
+    assert_refused(MODEL, "t.nml:4:", (const char *[]){"the value at (0, 0, 1.5)", "is not finite", NULL});
     write_model(5, 2, true);
     assert_refused(MODEL, "t.nml:4:", (const char *[]){"-0.5 to 1.5 along z", "the body from 0 to 2", NULL});
     write_model(6, 2, false);
@@ -143,13 +145,37 @@ static void test_who_takes_it(void **state)
     from_deck_free(&made);
 }
 
+/* Speeds of the damped faces: those of a block where it lies, of its part of the face on the way. */
+static void test_dampers(void **state)
+{
+    (void)state;
+    struct from_deck made =
+        right_scene(HEAD ROCK BODY "&boundary face = 'x+', 'z+', kind = 'transmitting', layer = 'lysmer' /\n"
+                                   "&block material = 'rock', centre = 2, 1, 1, size = 1, 8, 1 /\n"
+                                   "&block material = 'rock', centre = 1, 0, 2, size = 8, 2.2, .2 /\n");
+    struct messages messages = {0};
+    struct model *model = NULL;
+    assert_int_equal(model_create(made.scene, &model, &messages), SELAS_OK);
+    const struct consistent *c = consistent_of(model);
+    for (size_t k = 0; k < c->n[DEPTH]; k++) {
+        const double z = c->layout[DEPTH]->greville[k];
+        const bool rock = fabs(z - 1)<.5, part = z> 1.9;
+        const double most = 18. / 33; /* of 33 places, 0 < y < 1.1 */
+        assert_near(c->speed[1][0][k], rock ? 6 : part ? 2 + 4 * most : 2, 1e-12);
+        assert_near(c->speed[1][1][k], rock ? 3 : part ? 1 + 2 * most : 1, 1e-12);
+        assert_near(c->speed[5][2][k], 2 + 4 * most, 1e-12);
+        assert_near(c->speed[5][0][k], 1 + 2 * most, 1e-12);
+    }
+    model_free(&model);
+    from_deck_free(&made);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers_and_blocks),
-        cmocka_unit_test(test_model),
-        cmocka_unit_test(test_refused_models),
-        cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_layers_and_blocks), cmocka_unit_test(test_model),
+        cmocka_unit_test(test_refused_models),    cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_dampers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

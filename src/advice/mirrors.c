@@ -2,7 +2,10 @@
  * A vector across the plane points the other way in the image. */
 #include "advice/parts.h"
 
+#include "scene/topography.h"
+
 #include <math.h>
+#include <string.h>
 
 struct mirror_plane {
     enum face face;
@@ -102,6 +105,37 @@ static void look_at_start(struct adviser *adviser, const struct mirror_plane *pl
                face_name(plane->face));
 }
 
+/* Beyond the plane the surface is its mirror image: a fold along it unless it is level across. */
+static void look_at_surface(struct adviser *adviser, const struct mirror_plane *plane)
+{
+    const struct scene *scene = adviser->scene;
+    const struct topography *topography = scene->body.topography;
+    const double steep = .02, step = scene->body.spacing / 1000;
+    if (topography == NULL || plane->axis == topography->axis) return;
+    const int other = 1 - plane->axis;
+    const double inward = -face_sign(plane->face) * step;
+    double worst = 0, place[2] = {0, 0};
+    place[plane->axis] = plane->place;
+    const size_t count =
+        topography->axis == 2
+            ? (size_t)((scene->body.high[other] - scene->body.low[other]) / scene->body.spacing + 1.5)
+            : 1;
+    for (size_t i = 0; i < count; i++) {
+        double beside[2];
+        if (topography->axis == 2) place[other] = scene->body.low[other] + (double)i * scene->body.spacing;
+        memcpy(beside, place, sizeof beside);
+        beside[plane->axis] += inward;
+        const double near = topography_drop(topography, place), far = topography_drop(topography, beside);
+        worst = fmax(worst, fabs(far - near) / step);
+    }
+    if (worst > steep)
+        advise(adviser,
+               "the surface is as steep as %.2g across the symmetry plane %s, beyond which its mirror image "
+               "folds it; a "
+               "plane through the middle of the hill, or the whole body, would be right",
+               worst, face_name(plane->face));
+}
+
 void look_at_mirrors(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
@@ -112,6 +146,7 @@ void look_at_mirrors(struct adviser *adviser)
         for (size_t k = 0; k < scene->loads; k++)
             look_at_load(adviser, &plane, k);
         look_at_motions(adviser, &plane);
+        look_at_surface(adviser, &plane);
         look_at_start(adviser, &plane);
         if (scene->body.shape != BODY_PLATE_WITH_HOLE) continue;
         const double off = fabs(scene->body.hole_centre[plane.axis] - plane.place);

@@ -80,6 +80,11 @@
     X(BLOCK_BOX, "box")                                                                                      \
     X(BLOCK_ELLIPSOID, "ellipsoid")
 
+#define TOPOGRAPHY_SHAPES(X)                                                                                 \
+    X(TOPOGRAPHY_GAUSSIAN, "gaussian")                                                                       \
+    X(TOPOGRAPHY_RIDGE, "ridge")                                                                             \
+    X(TOPOGRAPHY_CANYON, "canyon")
+
 #define ARRANGEMENTS(X)                                                                                      \
     X(ARRANGEMENT_LATTICE, "lattice")                                                                        \
     X(ARRANGEMENT_RADIAL, "radial")                                                                          \

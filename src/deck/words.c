@@ -213,7 +213,34 @@ static const struct word layer_words[] = {
 
 static const struct word model_words[] = {
     {"file", WORD_FILE, 1, NULL, NULL, OBLIGATORY,
-     "HDF5 file: density, p_speed, s_speed on an even grid, attributes origin and spacing"},
+     "plain grid or GeoModelGrids (HDF5), SW4's rfile or sfile, SPECFEM's tomography_model.xyz"},
+    {"origin", WORD_REAL, 3, NULL, NULL, OPTIONAL,
+     "where x = y = 0 of the body lies, in the file's coordinates [length]; the third one, of plain grids "
+     "and "
+     "tomography_model.xyz: where z = 0, or the surface, lies; else the file's corner, of plain grids 0, 0, "
+     "0"},
+    {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
+     "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
+     "that is nearest to north"},
+};
+
+static const struct word topography_words[] = {
+    {"shape", WORD_CHOICE, 1, NULL, CHOICES(TOPOGRAPHY_SHAPES), OPTIONAL,
+     "shape of the surface: a hill, a ridge or a valley with the profile of a Gaussian"},
+    {"height", WORD_REAL, 1, NULL, NULL, OPTIONAL,
+     "height of the hill or ridge, depth of the canyon, from face z- on [length]"},
+    {"centre", WORD_REAL, 2, NULL, NULL, OPTIONAL, "centre of the shape: x, y; in 2D x [length]"},
+    {"width", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
+     "standard deviation of the profile [length]; it is .61 height / width steep at most"},
+    {"azimuth", WORD_REAL, 1, "0", NULL, OPTIONAL,
+     "direction of ridge or canyon, from x towards y [degrees]"},
+    {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
+     "heights above face z-, in place of a shape: text, x y height a line (2D: x height), each x with each "
+     "y"},
+    {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at face z- [length]"},
+    {"depth", WORD_REAL, 1, NULL, POSITIVE, EXPERT,
+     "depth below face z- at which the lattice is level again [length]; else at the body's lower end, or 6 "
+     "heights"},
 };
 
 static const struct word block_words[] = {
@@ -244,6 +271,8 @@ static const struct word load_words[] = {
     {"face", WORD_CHOICE, 1, NULL, CHOICES(FACE_NAMES), OPTIONAL, "face on which a traction acts"},
     {"shape", WORD_CHOICE, 1, NULL, CHOICES(LOAD_SHAPES), OPTIONAL, "where it acts"},
     {"centre", WORD_REAL, 3, NULL, NULL, OPTIONAL, "centre of the patch, or the point [length]"},
+    {"depth", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL,
+     "depth of the centre below the surface, in place of its last value [length]"},
     {"size", WORD_REAL, 2, NULL, POSITIVE, OPTIONAL, "edges of the square, or diameter of the disc [length]"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, OPTIONAL, "moment tensor: xx yy zz xy yz zx [force length]"},
@@ -257,6 +286,8 @@ static const struct word load_words[] = {
 static const struct word receiver_words[] = {
     {"name", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of the history's files"},
     {"position", WORD_REAL, 3, NULL, NULL, OBLIGATORY, "position [length]"},
+    {"depth", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL,
+     "depth below the surface, in place of the position's last value [length]"},
 };
 
 static const struct word profile_words[] = {
@@ -273,7 +304,9 @@ static const struct word snapshot_words[] = {
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
     {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
     {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
-     "lowest, then highest corner of the part that is written [length]; else the whole body"},
+     "lowest, then highest corner of the part that is written [length]; else the whole body; with "
+     "&topography on the "
+     "lattice, whose surface is the plane of face z-"},
 };
 
 static const struct word output_words[] = {
@@ -321,6 +354,8 @@ static const struct word_group groups[] = {
     GROUP(block, GROUP_MANY,
           "a part of the ground of another material, also in layers and earlier blocks (consistent, operator "
           "'general')"),
+    GROUP(topography, GROUP_ONCE,
+          "the surface of the ground, where it is not level (consistent, operator 'general')"),
     GROUP(initial, GROUP_ONCE, "state at t = 0"),
     GROUP(load, GROUP_MANY, "traction or other source"),
     GROUP(receiver, GROUP_MANY, "a place where histories are taken"),

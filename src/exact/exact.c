@@ -31,10 +31,10 @@ selas_status exact_create(const struct scene *scene, struct exact **exact, struc
                         "'layered' or 'file'",
                         class->kind, scene->material[i].name);
     if (ground_is_general(scene) && !class->any_ground)
-        return fail(
-            messages, SELAS_BAD_SCENE,
-            "reference '%s' takes no &model, no &block and no tilted or graded &layer; expected 'file'",
-            class->kind);
+        return fail(messages, SELAS_BAD_SCENE,
+                    "reference '%s' takes no &model, no &block, no &topography and no tilted or graded "
+                    "&layer; expected 'file'",
+                    class->kind);
     return class->create(scene, exact, messages);
 }
 

@@ -74,7 +74,7 @@ struct method {
                        method/mirror.h */
     unsigned faces;       /* what it can do at faces: CAN_... (scene/boundary.h) */
     bool single;          /* some scenes may keep the state in single precision */
-    bool any_ground;      /* takes blocks, tilted and graded layers */
+    bool any_ground;      /* takes blocks, tilted and graded layers, topography */
     bool damping;         /* materials may have q_p and q_s: see method/damped/damped.h */
     bool point_materials; /* each point that a host gives may have a material of its own */
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */

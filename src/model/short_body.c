@@ -8,6 +8,7 @@ enum { WORTH = 2 }; /* times as many points as the short body has are in the who
 size_t short_body_lost(const struct scene *scene, int axis, size_t cells, size_t longest)
 {
     if (axis == scene->dimension - 1 && scene->body.layers > 0) return 0;
+    if (scene->body.topography != NULL) return 0;
     return cells > longest ? cells - longest : 0;
 }
 

@@ -55,13 +55,14 @@ struct arguments {
     const char *deck;
     size_t overrides;
     const char **override;
-    bool quiet, strict, echo;
+    bool quiet, strict, echo, plot;
 };
 
 static const struct argp_option options[] = {
     {"quiet", 'q', NULL, 0, "No progress, no summary; only what is wrong", 0},
     {"strict", 's', NULL, 0, "Warnings of the deck and the scene are errors", 0},
     {"echo", 'e', NULL, 0, "With check: measure what the faces of the box send back", 0},
+    {"plot", 'p', NULL, 0, "With check: draw the ground, sources and receivers: ground.png", 0},
     {0},
 };
 
@@ -78,6 +79,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         return 0;
     case 'e':
         arguments->echo = true;
+        return 0;
+    case 'p':
+        arguments->plot = true;
         return 0;
     case ARGP_KEY_ARG:
         if (arguments->deck == NULL && strcmp(arguments->command, "") == 0) {
@@ -97,6 +101,8 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         if (arguments->deck == NULL) argp_error(state, "no deck was named; try: selas input/halfspace.nml");
         if (arguments->echo && strcmp(arguments->command, "check") != 0)
             argp_error(state, "--echo goes with check: selas check --echo DECK");
+        if (arguments->plot && strcmp(arguments->command, "check") != 0)
+            argp_error(state, "--plot goes with check: selas check --plot DECK");
         if (arguments->overrides > 0 && strcmp(arguments->command, "restart") == 0)
             argp_error(state, "a restart takes no overrides: it ends as the run that was begun");
         return 0;
@@ -151,11 +157,21 @@ static selas_status be_strict(selas_simulation *simulation)
     return wrong + simulation->messages.warnings > 0 ? SELAS_BAD_SCENE : SELAS_OK;
 }
 
+/* --plot: before anything is computed. */
+static selas_status plot_ground(selas_simulation *simulation)
+{
+    selas_status status = simulation_scene(simulation);
+    if (status == SELAS_OK) status = record_ground(simulation->scene, &simulation->messages);
+    if (status == SELAS_OK) printf("plot: %s/ground.png\n", selas_output_directory(simulation));
+    return status;
+}
+
 static selas_status carry_out(selas_simulation *simulation, const struct arguments *arguments, size_t *told)
 {
     if (strcmp(arguments->command, "check") == 0) {
         const struct echo_deck deck = {arguments->deck, arguments->overrides, arguments->override};
-        const selas_status status = selas_plan(simulation, print_line, stdout);
+        selas_status status = arguments->plot ? plot_ground(simulation) : SELAS_OK;
+        if (status == SELAS_OK) status = selas_plan(simulation, print_line, stdout);
         return status == SELAS_OK && arguments->echo ? check_echo(&deck) : status;
     }
     if (strcmp(arguments->command, "exact") == 0) {

@@ -60,7 +60,7 @@ struct watch {
     double turn, strain;               /* largest rotation [rad] and strain at recorder->place */
     double due, arrived; /* energy that was given, about when it was most, and what the body had of it */
     struct energy last;
-    double taken, lost; /* at that time: of `damped`; of what was given and is not there */
+    double taken, lost;    /* at that time: of `damped`; of what was given and is not there */
     double largest_defect; /* largest |E - E0 - work + absorbed + damped| */
     double last_time;
     double sampled; /* sum of squares of a sample of the velocities when they were last energetic */
@@ -182,6 +182,9 @@ void plot_histories(struct recorder *recorder, struct messages *messages);
 void plot_snapshots(struct recorder *recorder, struct messages *messages);
 /* Nothing where no material is damped. */
 void plot_damping(struct recorder *recorder, struct messages *messages);
+/* plots/ground.c: does a run draw its ground, ground.png? Where it is not even. */
+bool plots_ground(const struct scene *scene);
+void plot_ground(const struct scene *scene, struct messages *messages);
 
 /* provenance.c: compiler that built the library, its flags, and the commit of the source ("unknown") */
 const char *compiler_name(void);

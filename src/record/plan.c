@@ -5,6 +5,7 @@
 #include "base/processor.h"
 #include "scene/absorbing_layers.h"
 #include "scene/resolution.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -72,10 +73,20 @@ static double memory_of(const struct recorder *recorder)
     return bytes;
 }
 
+static void say_surface(const struct teller *teller, const struct topography *topography)
+{
+    static const char *const keys[TOPOGRAPHY_LINES] = {"surface", "lattice below the surface",
+                                                       "surface smoothed", "surface at the sides"};
+    for (int line = 0; topography != NULL && line < TOPOGRAPHY_LINES; line++)
+        if (topography->text[line][0] != '\0') say(teller, keys[line], "%s", topography->text[line]);
+}
+
 static void say_parts(const struct teller *teller, const struct scene *scene)
 {
     if (scene->body.accuracy[0] != '\0') say(teller, "accuracy", "%s", scene->body.accuracy);
     if (scene->body.chosen) say(teller, "box chosen", "%s", scene->body.choice);
+    if (scene->body.model != NULL) say(teller, "ground", "%s", scene->body.model->text);
+    say_surface(teller, scene->body.topography);
     say(teller, "loads", "%zu", scene->loads);
     say(teller, "receivers", "%zu", scene->receivers);
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);

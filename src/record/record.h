@@ -64,6 +64,9 @@ void recorder_plan(struct recorder *recorder, struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context);
 /* Writes RECEIVER.exact.dat of every receiver without any run: rows at history_step, or 600 to end_time. */
 selas_status record_exact(const struct scene *scene, struct exact *exact, struct messages *messages);
+/* plots/ground.c: ground.png in the folder of the results, the ground as a run will see it. SELAS_UNSUPPORTED
+ * unless the body is a box in two or three dimensions. */
+selas_status record_ground(const struct scene *scene, struct messages *messages);
 /* checkpoint.c: state and recorder to a file and back, bit for bit. Writing checks the file by reading it
  * back before it gets its name; the one before stays as NAME_before.h5 if `keep` says so. Reading wants the
  * same scene, and with result files (recorder_open) the snapshots beside the checkpoint; SELAS_FILE_ERROR

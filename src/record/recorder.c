@@ -154,6 +154,7 @@ selas_status recorder_write(struct recorder *recorder, struct exact *exact, cons
         plot_histories(recorder, messages);
         plot_snapshots(recorder, messages);
         plot_damping(recorder, messages);
+        if (plots_ground(recorder->scene)) plot_ground(recorder->scene, messages);
     }
     run_file_close(recorder, true);
     recorder->written = true;

@@ -48,6 +48,7 @@ static void put_pictures(FILE *list, const struct recorder *recorder, bool done)
     for (size_t s = 0; s < scene->snapshots; s++)
         fprintf(list, s == 0 ? "surface.gif\n" : "surface_%zu.gif\n", s + 1);
     if (ground_is_damped(scene)) fprintf(list, "damping.png\n");
+    if (plots_ground(scene)) fprintf(list, "ground.png\n");
 }
 
 static void put_run(FILE *list, const struct recorder *recorder, bool done)

@@ -3,6 +3,7 @@
 #include "record/parts.h"
 
 #include "base/memory.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -97,6 +98,8 @@ static selas_status create_one(const struct model *model, size_t number, struct 
         for (size_t i = 0; i < model->points; i++) {
             double x[3];
             model_position(model, i, x);
+            if (model->scene->body.topography != NULL)
+                topography_to_lattice(model->scene->body.topography, x);
             if (in_region(snapshot, x)) record->index[record->points++] = i;
         }
         if (record->points == 0)

@@ -34,6 +34,9 @@ bool take_name(struct builder *builder, const struct deck_group *group, const ch
 bool take_vector(struct builder *builder, const struct deck_group *group, const char *name, double vector[3]);
 bool need_vector(struct builder *builder, const struct deck_group *group, const char *name,
                  const char *purpose, double vector[3]);
+/* topography_build.c: a place, by its vector or by all of it but the last and the depth below the surface. */
+bool need_place(struct builder *builder, const struct deck_group *group, const char *name,
+                const char *purpose, double place[3]);
 /* A direction of any length but zero, made a unit vector. */
 bool need_direction(struct builder *builder, const struct deck_group *group, const char *name,
                     const char *purpose, double unit[3]);
@@ -64,6 +67,7 @@ void build_materials(struct builder *builder);
 void build_body(struct builder *builder);
 void build_layers(struct builder *builder);
 void build_boundaries(struct builder *builder);
+void build_topography(struct builder *builder); /* topography_build.c */
 void build_loads(struct builder *builder);
 void build_initial(struct builder *builder);
 void build_receivers(struct builder *builder);

@@ -2,11 +2,15 @@
  * compile (-Wswitch, an error in CI); a group that is missing in the table below fails test_extent. */
 #include "scene/extent.h"
 
+#include "scene/topography.h"
+
 #include <math.h>
 #include <string.h>
 
 /* A Gaussian of width w ends here: exp(-5^2 / 2) = 4e-6. */
 static const double gaussian_end = 5;
+/* A hill's profile ends here: exp(-3.5^2 / 2) = .002. */
+static const double shape_end = 3.5;
 /* Root mean square frequency of a Gaussian's slope over that of the Gaussian itself. */
 static const double slope_over_value = 1.7320508075688772;
 
@@ -65,9 +69,11 @@ static bool is_surface(const struct scene *scene, enum face face)
     return (int)face == 2 * (scene->dimension - 1);
 }
 
+/* Along the normal of a level surface; no other has one. */
 static bool along_normal(const struct scene *scene, const double direction[3])
 {
     double own[3];
+    if (scene->body.topography != NULL) return false;
     body_direction_from_deck(&scene->body, direction, own);
     return fabs(own[scene->dimension - 1]) > 1 - 1e-9;
 }
@@ -224,6 +230,7 @@ static void state_snapshot(const struct scene *scene, size_t index, struct exten
         double place[3];
         for (int c = 0; c < 3; c++)
             place[c] = corner >> c & 1 ? snapshot->region_high[c] : snapshot->region_low[c];
+        if (scene->body.topography != NULL) topography_to_deck(scene->body.topography, place);
         widen(scene, place, nothing, extent);
     }
 }
@@ -243,6 +250,26 @@ static void state_block(const struct scene *scene, size_t index, struct extent *
     extent->role = EXTENT_SEEN;
     begin_place(extent);
     widen(scene, block->centre, half, extent);
+}
+
+/* A hill, ridge or canyon is in the box as far as 3.5 times its width; a file's heights only need to reach as far
+ * as the box. */
+static size_t count_topography(const struct scene *scene)
+{
+    return scene->body.topography != NULL && scene->body.topography->map == NULL ? 1 : 0;
+}
+
+static void state_topography(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct topography *topography = scene->body.topography;
+    (void)index;
+    extent->role = EXTENT_SEEN;
+    begin_place(extent);
+    for (int axis = 0; axis < topography->axis; axis++) {
+        extent->low[axis] = topography->centre[axis] - shape_end * topography->width;
+        extent->high[axis] = topography->centre[axis] + shape_end * topography->width;
+    }
+    extent->low[topography->axis] = extent->high[topography->axis] = topography->plane;
 }
 
 /* --- All of them ---------------------------------------------------------------------------------------- */
@@ -266,6 +293,7 @@ static const struct kind {
     {"layer", NULL, NULL},
     {"block", count_blocks, state_block},
     {"model", NULL, NULL}, /* in boxes that the deck gives */
+    {"topography", count_topography, state_topography},
     {"output", NULL, NULL},
     {"reference", NULL, NULL}, /* its histories are those of receivers */
 };

@@ -6,6 +6,7 @@
 #include "scene/build.h"
 #include "scene/echo.h"
 #include "scene/extent.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,6 +44,12 @@ static double deepest_layer(const struct builder *builder)
 }
 
 /* --- What has a box ------------------------------------------------------------------------------------- */
+
+/* Below it the lattice is level. */
+static double level_depth(const struct scene *sketch)
+{
+    return sketch->body.topography != NULL ? sketch->body.topography->depth : 0;
+}
 
 static bool refuse_box(struct builder *builder, const char *group, size_t index, const char *name,
                        const char *why)
@@ -174,7 +181,7 @@ static void fit_large(const struct builder *builder, const struct held *held, st
     struct extent seen, acts;
     for (int c = 0; c < sketch->dimension; c++)
         want[c] = (struct span){held->all[c].low - dx, held->all[c].high + dx};
-    want[down].high = fmax(want[down].high, deepest_layer(builder) + MARGIN * dx);
+    want[down].high = fmax(want[down].high, fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
     for (size_t k = 0; scene_extent(sketch, k, &acts); k++)
         for (size_t i = 0; acts.role == EXTENT_ACTS && scene_extent(sketch, i, &seen); i++)
             for (int c = 0; seen.role == EXTENT_SEEN && c < sketch->dimension; c++) {
@@ -209,8 +216,8 @@ static double fit_small(const struct builder *builder, const struct held *held, 
             const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * dx;
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
         }
-        want[down].high =
-            fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx), deepest_layer(builder) + MARGIN * dx);
+        want[down].high = fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx),
+                               fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
         put(sketch, held, want, &sketch->body);
         const double here = cost(sketch);
         if (here < least) best = sketch->body;
@@ -293,6 +300,7 @@ static bool sketch_scene(const struct builder *builder, struct scene *sketch)
     for (int face = 0; face < FACES; face++) /* those that nobody named are opened when the box is known */
         if (!sketch->boundary[face].given) sketch->boundary[face].kind = BOUNDARY_FREE;
     build_blocks(&drawing);
+    build_topography(&drawing);
     build_loads(&drawing);
     build_initial(&drawing);
     build_receivers(&drawing);

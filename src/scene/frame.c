@@ -3,6 +3,7 @@
  * R = Rz Ry Rx turns about x, then y, then z, about fixed axes; positions x = p + R (b - p), p the centre of
  * the box, b in the body's own frame. R is orthonormal, so its inverse is its transpose. */
 #include "scene/build.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -65,12 +66,14 @@ void body_direction_to_deck(const struct body *body, const double body_direction
     memcpy(direction, result, sizeof result);
 }
 
-/* An unrotated body's positions pass unchanged, to the last bit. */
+/* Places of a body that is not turned pass unchanged, to the last bit, but for those below a surface that is not
+ * level, which never is that of a turned body. */
 void body_from_deck(const struct body *body, const double position[3], double body_position[3])
 {
     double offset[3];
     if (!body->rotated) {
         memmove(body_position, position, sizeof offset);
+        if (body->topography != NULL) topography_to_lattice(body->topography, body_position);
         return;
     }
     for (int c = 0; c < 3; c++)
@@ -85,6 +88,7 @@ void body_to_deck(const struct body *body, const double body_position[3], double
     double offset[3];
     if (!body->rotated) {
         memmove(position, body_position, sizeof offset);
+        if (body->topography != NULL) topography_to_deck(body->topography, position);
         return;
     }
     for (int c = 0; c < 3; c++)

@@ -105,7 +105,7 @@ bool ground_grades(const struct scene *scene)
 double ground_detail(const struct scene *scene, int axis)
 {
     const struct body *body = &scene->body;
-    return body->model == NULL || body->blocks > 0 ? 0 : body->model->spacing[axis];
+    return body->model == NULL || body->blocks > 0 ? 0 : body->model->detail[axis];
 }
 
 bool ground_varies(const struct scene *scene, int axis)
@@ -119,7 +119,7 @@ bool ground_varies(const struct scene *scene, int axis)
 
 bool ground_is_general(const struct scene *scene)
 {
-    bool general = ground_grades(scene) || scene->body.blocks > 0;
+    bool general = scene->body.topography != NULL || ground_grades(scene) || scene->body.blocks > 0;
     for (int axis = 0; axis < scene->dimension - 1; axis++)
         general = general || ground_varies(scene, axis);
     return general;

@@ -10,7 +10,7 @@ struct rock {
 
 /* Rock at a place in the body's frame; outside the body that of its nearest face or beyond. */
 struct rock ground_at(const struct scene *scene, const double place[3]);
-/* model_file.c: even between the values of the grid, beyond it as at its edge. */
+/* model_grid.c: even between the values of the grids, beyond the body as at its nearest face. */
 struct rock ground_model_at(const struct ground_model *model, const double place[3]);
 void ground_model_free(struct ground_model *model); /* takes NULL */
 /* Places from < x < to along a line through `place` at which the rock may jump, in no order; at most

@@ -130,7 +130,7 @@ static void warn_of_held_face(struct builder *builder, const struct deck_group *
 
 static void read_traction(struct builder *builder, const struct deck_group *group, struct load *load)
 {
-    static const char *const patch_words[] = {"centre", "size", NULL};
+    static const char *const patch_words[] = {"centre", "depth", "size", NULL};
     static const char *const size_words[] = {"size", NULL};
     const int dimension = builder->scene->dimension;
     bool known = builder->body_known;
@@ -165,7 +165,7 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
             body_to_deck(body, middle, load->centre);
         }
     } else {
-        known = need_vector(builder, group, "centre", "a traction on a patch", load->centre) && known;
+        known = need_place(builder, group, "centre", "a traction on a patch", load->centre) && known;
         if (load->shape == LOAD_POINT)
             refuse(builder, group, size_words, "shape 'point'");
         else
@@ -181,7 +181,7 @@ static bool place_inside(struct builder *builder, const struct deck_group *group
 {
     char text[VECTOR_TEXT_SIZE];
     double nearest[3];
-    if (!need_vector(builder, group, "centre", kinds[load->kind], load->centre) || !builder->body_known)
+    if (!need_place(builder, group, "centre", kinds[load->kind], load->centre) || !builder->body_known)
         return false;
     if (body_holds(&builder->scene->body, builder->scene->dimension, load->centre, nearest)) return true;
     complain(builder, group, "centre", "the centre lies outside the body; the nearest place of its box is %s",
@@ -192,7 +192,7 @@ static bool place_inside(struct builder *builder, const struct deck_group *group
 static void read_body_force(struct builder *builder, const struct deck_group *group, struct load *load)
 {
     static const char *const other_words[] = {"face", "size", "moment", "velocity", NULL};
-    static const char *const place_words[] = {"centre", NULL};
+    static const char *const place_words[] = {"centre", "depth", NULL};
     refuse(builder, group, other_words, kinds[load->kind]);
     load->shape = LOAD_FACE; /* over the whole body */
     if (deck_values(group, "shape") > 0) {

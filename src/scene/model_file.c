@@ -1,89 +1,124 @@
-/* The ground from a file: density and speeds on an even grid (doc/general-ground.md, section 4).
- *
- * HDF5: data sets density, p_speed, s_speed [nx, ny, nz], z fastest, and attributes origin and spacing, three
- * numbers each, of the file itself: the place of the first value in the body's frame and the steps. */
+/* The ground from a file (doc/general-ground.md, section 4): which format it has, where the body lies in it,
+ * whether its values are rock. */
+#include "scene/model_file.h"
+
 #include "base/hdf_quiet.h"
 #include "base/memory.h"
 #include "base/stored.h"
-#include "scene/build.h"
-#include "scene/ground.h"
 
+#include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
-static const char *const sets[MODEL_VALUES] = {"density", "p_speed", "s_speed"};
-
-static size_t points_of(const struct ground_model *model)
+bool model_fault(const struct model_source *source, const char *format, ...)
 {
-    return model->n[0] * model->n[1] * model->n[2];
+    char text[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    complain(source->builder, source->group, "file", "'%s': %s", source->path, text);
+    return false;
 }
 
-static bool read_attribute(hid_t file, const char *name, double value[3])
+/* What rounding leaves of 0 is 0. */
+static double rounded(double x)
 {
-    if (H5Aexists(file, name) <= 0) return false;
-    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT), space = H5Aget_space(attribute);
-    const bool right =
-        H5Sget_simple_extent_npoints(space) == 3 && H5Aread(attribute, H5T_NATIVE_DOUBLE, value) >= 0;
-    H5Sclose(space);
-    H5Aclose(attribute);
-    return right && isfinite(value[0] + value[1] + value[2]);
+    return fabs(x) < 1e-12 ? 0 : x;
 }
 
-/* Reads a data set; the first one says how many values there are along each axis. */
-static bool read_set(hid_t file, int which, struct ground_model *model)
+/* The place that model%origin names, or the corner, along the file's axes. */
+static bool take_origin(struct model_source *source, const struct model_axes *axes)
 {
-    const hid_t set = stored_set(file, sets[which]);
-    if (set < 0) return false;
-    const hid_t space = H5Dget_space(set);
-    hsize_t extent[3] = {0};
-    bool right =
-        H5Sget_simple_extent_ndims(space) == 3 && H5Sget_simple_extent_dims(space, extent, NULL) == 3;
-    for (int axis = 0; axis < 3 && right; axis++) {
-        if (which == 0) model->n[axis] = (size_t)extent[axis];
-        right = extent[axis] >= 2 && extent[axis] == model->n[axis];
+    struct ground_model *model = source->model;
+    const size_t given = deck_values(source->group, "origin");
+    model->origin[0] = axes->corner[0];
+    model->origin[1] = axes->corner[1];
+    if (given == 0) return true;
+    if (given < 2 || given > axes->coordinates) {
+        complain(source->builder, source->group, "origin", "%zu values; expected %s of this format", given,
+                 axes->coordinates == 2 ? "2, as depths are those below the model's own surface," : "2 or 3");
+        return false;
     }
-    if (right) model->value[which] = array_new(points_of(model), sizeof *model->value[which]);
-    right = right && model->value[which] != NULL &&
-            H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, model->value[which]) >= 0;
-    H5Sclose(space);
-    H5Dclose(set);
-    return right;
+    double away[2];
+    for (int i = 0; i < 2; i++)
+        away[i] = deck_real(source->group, "origin", (size_t)i) - axes->from[i];
+    const double angle = axes->turned ? axes->bearing * atan(1) / 45 : 0;
+    const double c = rounded(cos(angle)), s = rounded(sin(angle));
+    model->origin[0] = c * away[0] - s * away[1];
+    model->origin[1] = s * away[0] + c * away[1];
+    if (given == 3) model->shift += deck_real(source->group, "origin", 2);
+    return true;
 }
 
-static bool read_file(const char *path, struct ground_model *model)
+bool model_place(struct model_source *source, const struct model_axes *axes)
 {
-    bool right = false;
-#pragma omp critical(selas_hdf5)
-    {
-        const struct quiet quiet = quiet_begin();
-        const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-        right = file >= 0 && read_attribute(file, "origin", model->origin) &&
-                read_attribute(file, "spacing", model->spacing);
-        for (int which = 0; which < MODEL_VALUES && right; which++)
-            right = read_set(file, which, model);
-        if (file >= 0) H5Fclose(file);
-        quiet_end(quiet);
+    struct ground_model *model = source->model;
+    const int north = axes->north, east = 1 - north;
+    double angle = 0;
+    if (deck_given(source->group, "azimuth"))
+        angle = (deck_real(source->group, "azimuth", 0) - axes->bearing) * atan(1) / 45;
+    const double c = rounded(cos(angle)), s = rounded(sin(angle));
+    model->turn[north][0] = c;
+    model->turn[east][0] = s;
+    model->turn[north][1] = -s;
+    model->turn[east][1] = c;
+    if (!take_origin(source, axes)) return false;
+    for (int axis = 0; axis < 2; axis++) {
+        double *range = source->range[axis];
+        range[0] = INFINITY;
+        range[1] = -INFINITY;
+        for (unsigned corner = 0; corner < 4; corner++) {
+            const double at = model->origin[axis] +
+                              model->turn[axis][0] * (corner & 1U ? model->high[0] : model->low[0]) +
+                              model->turn[axis][1] * (corner & 2U ? model->high[1] : model->low[1]);
+            range[0] = fmin(range[0], at);
+            range[1] = fmax(range[1], at);
+        }
     }
-    for (int axis = 0; axis < 3; axis++)
-        right = right && model->spacing[axis] > 0;
-    return right;
+    return true;
 }
 
-/* What is wrong with a value of the grid; NULL: nothing. */
-static const char *fault_of(double density, double p, double s)
+bool model_covers(const struct model_source *source, int axis, double low, double high)
+{
+    const double *range = source->range[axis], small = 1e-6 * source->builder->scene->body.spacing;
+    if (low <= range[0] + small && high >= range[1] - small) return true;
+    return model_fault(
+        source,
+        "the model reaches from %.9g to %.9g along %c, the body from %.9g to %.9g, in the model's own %s",
+        low, high, "xyz"[axis], range[0], range[1], axis == 2 ? "depths" : "coordinates");
+}
+
+bool model_meets(struct model_source *source, size_t i)
+{
+    const double *whole = source->whole[2], before = source->end;
+    source->end = whole[1];
+    if (i == 0 || fabs(whole[0] - before) <= 1e-4 * (whole[1] - whole[0])) return true;
+    return model_fault(source, "a block that begins at depth %.9g follows one that ends at %.9g", whole[0],
+                       before);
+}
+
+/* --- Checks --- */
+
+/* What is wrong with a value; NULL: nothing. */
+static const char *fault_of(const struct model_source *source, double density, double p, double s)
 {
     if (!isfinite(density) || !isfinite(p) || !isfinite(s)) return "is not finite";
+    if (s == -999 || fmin(fmin(density, p), s) < -1e19) return "is air, water or no data";
     if (!(density > 0) || !(p > 0)) return "has a density or p_speed that is not above 0";
     if (!(s > 0)) return "has no s_speed: water and air are not offered";
     if (!(p * p > s * s * 4 / 3))
         return "has an s_speed of sqrt(3)/2 p_speed or more: its bulk modulus is negative";
+    if (source->si && p < 30) return "is no rock in m/s; files of this format hold m/s, not km/s";
+    if (source->si && density < 30)
+        return "is no rock in kg/m^3; files of this format hold kg/m^3, not g/cm^3";
     return NULL;
 }
 
-static struct material material_of(const struct ground_model *model, size_t i)
+static struct material material_of(const double value[MODEL_VALUES])
 {
-    struct material material = {
-        .density = model->value[0][i], .p_speed = model->value[1][i], .s_speed = model->value[2][i]};
+    struct material material = {.density = value[0], .p_speed = value[1], .s_speed = value[2]};
     material.mu = material.density * material.s_speed * material.s_speed;
     material.lambda = material.plane_lambda =
         material.density * material.p_speed * material.p_speed - 2 * material.mu;
@@ -92,44 +127,108 @@ static struct material material_of(const struct ground_model *model, size_t i)
     return material;
 }
 
-/* Values that are rock; materials of the fastest and the slowest one for what asks the scene for its speeds. */
-static bool check_values(struct builder *builder, const struct deck_group *group,
-                         const struct ground_model *model)
+static bool check_grid(const struct model_source *source, size_t number, double fastest[MODEL_VALUES],
+                       double slowest[MODEL_VALUES])
 {
-    size_t fastest = 0, slowest = 0;
-    for (size_t i = 0; i < points_of(model); i++) {
-        const char *fault = fault_of(model->value[0][i], model->value[1][i], model->value[2][i]);
-        const size_t at[3] = {i / model->n[2] / model->n[1], i / model->n[2] % model->n[1], i % model->n[2]};
-        if (fault != NULL) {
-            complain(builder, group, "file",
-                     "value [%zu, %zu, %zu], at (%g, %g, %g), density %g, p_speed %g, s_speed %g, %s", at[0],
-                     at[1], at[2], model->origin[0] + (double)at[0] * model->spacing[0],
-                     model->origin[1] + (double)at[1] * model->spacing[1],
-                     model->origin[2] + (double)at[2] * model->spacing[2], model->value[0][i],
-                     model->value[1][i], model->value[2][i], fault);
-            return false;
-        }
-        if (model->value[1][i] > model->value[1][fastest]) fastest = i;
-        if (model->value[2][i] < model->value[2][slowest]) slowest = i;
+    const struct model_grid *grid = &source->model->grid[number];
+    for (size_t i = 0; i < grid->n[0] * grid->n[1] * grid->n[2]; i++) {
+        const double value[] = {grid->value[0][i], grid->value[1][i], grid->value[2][i]};
+        const char *fault = fault_of(source, value[0], value[1], value[2]);
+        const size_t at[3] = {i / grid->n[2] / grid->n[1], i / grid->n[2] % grid->n[1], i % grid->n[2]};
+        if (fault != NULL)
+            return model_fault(
+                source,
+                "the value at (%.9g, %.9g, %.9g) of the model's own axes%s, density %g, p_speed %g, "
+                "s_speed %g, %s",
+                grid->at[0][at[0]], grid->at[1][at[1]], grid->at[2][at[2]],
+                source->model->depth == MODEL_STRETCHED ? " (depth in parts of its grid)" : "", value[0],
+                value[1], value[2], fault);
+        if (value[1] > fastest[1]) memcpy(fastest, value, sizeof value);
+        if (value[2] < slowest[2]) memcpy(slowest, value, sizeof value);
     }
-    struct scene *scene = builder->scene;
-    scene->body.material = scene->materials;
-    scene->material[scene->materials++] = material_of(model, fastest);
-    scene->material[scene->materials++] = material_of(model, slowest);
     return true;
 }
 
-static void check_cover(struct builder *builder, const struct deck_group *group,
-                        const struct ground_model *model)
+/* Values that are rock; materials of the fastest and the slowest one for what asks the scene for its speeds. */
+static bool check_values(struct model_source *source)
 {
-    const struct body *body = &builder->scene->body;
-    for (int axis = 0; axis < 3 && builder->body_known; axis++) {
-        const double end = model->origin[axis] + (double)(model->n[axis] - 1) * model->spacing[axis];
-        const double small = 1e-6 * body->spacing;
-        if (model->origin[axis] <= body->low[axis] + small && end >= body->high[axis] - small) continue;
-        complain(builder, group, "file", "the model reaches from %g to %g along %c, the body from %g to %g",
-                 model->origin[axis], end, "xyz"[axis], body -> low[axis], body -> high[axis]);
+    struct scene *scene = source->builder->scene;
+    double fastest[MODEL_VALUES] = {0}, slowest[MODEL_VALUES] = {0, 0, INFINITY};
+    for (size_t i = 0; i < source->model->grids; i++)
+        if (!check_grid(source, i, fastest, slowest)) return false;
+    scene->body.material = scene->materials;
+    scene->material[scene->materials++] = material_of(fastest);
+    scene->material[scene->materials++] = material_of(slowest);
+    if (fastest[1] * scene->end_time < scene->body.spacing)
+        warn(source->builder->messages,
+             "'%s': its fastest wave, %g, does not come as far as one spacing by end_time; are its speeds in "
+             "the deck's units?",
+             source->path, fastest[1]);
+    if (source->damped)
+        warn(source->builder->messages,
+             "'%s': its q_p and q_s are not used, ground from a model is not damped", source->path);
+    return true;
+}
+
+/* --- The formats --- */
+
+static bool read_hdf5(struct model_source *source)
+{
+    static const struct {
+        const char *group; /* that files of this format have, and no other ones */
+        bool (*read)(struct model_source *source, hid_t file);
+    } format[] = {
+        {"blocks", model_read_blocks}, {"Material_model", model_read_sfile}, {NULL, model_read_plain}};
+    bool good = false;
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        const hid_t file = H5Fopen(source->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        size_t i = 0;
+        while (file >= 0 && format[i].group != NULL && !stored_here(file, format[i].group))
+            i++;
+        good = file >= 0 ? format[i].read(source, file)
+                         : model_fault(source, "cannot read this HDF5 file; is it cut short?");
+        if (file >= 0) H5Fclose(file);
+        quiet_end(quiet);
     }
+    return good;
+}
+
+static bool read_other(struct model_source *source)
+{
+    FILE *file = fopen(source->path, "rb");
+    if (file == NULL) return model_fault(source, "cannot read it: %s", strerror(errno));
+    unsigned char start[4] = {0};
+    const size_t count = fread(start, 1, sizeof start, file);
+    const bool binary = count == sizeof start && start[1] == 0 && start[2] == 0 && start[0] + start[3] == 1;
+    rewind(file);
+    const bool good = binary ? model_read_rfile(source, file) : model_read_text(source, file);
+    fclose(file);
+    return good;
+}
+
+/* Least distance of values along the axes of the body. */
+static void find_detail(struct ground_model *model)
+{
+    for (int own = 0; own < 2; own++) {
+        model->detail[own] = INFINITY;
+        for (size_t i = 0; i < model->grids; i++)
+            for (int axis = 0; axis < 2; axis++)
+                for (size_t k = 0; k + 1 < model->grid[i].n[axis] && model->turn[axis][own] != 0; k++)
+                    model->detail[own] = fmin(model->detail[own],
+                                              (model->grid[i].at[axis][k + 1] - model->grid[i].at[axis][k]) /
+                                                  fabs(model->turn[axis][own]));
+    }
+}
+
+static void tell_filled(struct model_source *source)
+{
+    char *text = source->model->text;
+    const size_t length = strlen(text);
+    if (source->filled > 0)
+        snprintf(text + length, sizeof source->model->text - length,
+                 "; %zu values of air or water are those of the rock below", source->filled);
 }
 
 void build_model(struct builder *builder)
@@ -145,46 +244,15 @@ void build_model(struct builder *builder)
     struct ground_model *model = scene_array(builder, 1, sizeof *model);
     char *path = deck_path(builder, deck_text(group, "file", 0));
     scene->body.model = model;
-    if (model == NULL || path == NULL) return;
-    if (!read_file(path, model))
-        complain(builder, group, "file",
-                 "cannot read '%s': expected an HDF5 file with data sets density, p_speed, s_speed [nx, ny, "
-                 "nz], at "
-                 "least two values along each axis, and attributes origin and spacing of three numbers each",
-                 path);
-    else if (check_values(builder, group, model))
-        check_cover(builder, group, model);
-    array_free(path);
-}
-
-void ground_model_free(struct ground_model *model)
-{
-    for (int which = 0; model != NULL && which < MODEL_VALUES; which++)
-        array_free(model->value[which]);
-    array_free(model);
-}
-
-struct rock ground_model_at(const struct ground_model *model, const double place[3])
-{
-    size_t at[3];
-    double part[3], value[MODEL_VALUES] = {0};
-    for (int axis = 0; axis < 3; axis++) {
-        const double last = (double)(model->n[axis] - 1);
-        const double x = fmin(fmax((place[axis] - model->origin[axis]) / model->spacing[axis], 0), last);
-        at[axis] = (size_t)fmin(floor(x), last - 1);
-        part[axis] = x - (double)at[axis];
-    }
-    for (unsigned corner = 0; corner < 8; corner++) {
-        size_t index = 0;
-        double weight = 1;
-        for (int axis = 0; axis < 3; axis++) {
-            const unsigned up = corner >> axis & 1U;
-            index = index * model->n[axis] + at[axis] + up;
-            weight *= up ? part[axis] : 1 - part[axis];
+    struct model_source source = {.builder = builder, .group = group, .path = path, .model = model};
+    if (model != NULL && path != NULL && builder->body_known) {
+        memcpy(model->low, scene->body.low, sizeof model->low);
+        memcpy(model->high, scene->body.high, sizeof model->high);
+        source.range[2][1] = model->high[2] - model->low[2];
+        if ((stored_is_hdf5(path) ? read_hdf5(&source) : read_other(&source)) && check_values(&source)) {
+            find_detail(model);
+            tell_filled(&source);
         }
-        for (int which = 0; which < MODEL_VALUES; which++)
-            value[which] += weight * model->value[which][index];
     }
-    const double mu = value[0] * value[2] * value[2];
-    return (struct rock){value[0], value[0] * value[1] * value[1] - 2 * mu, mu};
+    array_free(path);
 }

@@ -50,7 +50,9 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
     const struct body *body = &builder->scene->body;
     const int dimension = builder->scene->dimension;
     double nearest[3];
-    if (!need_vector(builder, group, name, what, position) || !builder->body_known) return;
+    const bool placed = strcmp(name, "position") == 0 ? need_place(builder, group, name, what, position)
+                                                      : need_vector(builder, group, name, what, position);
+    if (!placed || !builder->body_known) return;
     if (body_holds(body, dimension, position, nearest)) return;
     double off = 0; /* the box is missed by this much */
     for (int c = 0; c < 3; c++)
@@ -61,6 +63,23 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
     else
         complain(builder, group, name, "%s at %s lies outside the body; the nearest place in it is %s", what,
                  vector_text(given, position, dimension), vector_text(near, nearest, dimension));
+}
+
+/* Below a surface that is not level a line between two places of the body may leave it. */
+static void check_line(struct builder *builder, const struct deck_group *group, const struct profile *profile)
+{
+    const struct body *body = &builder->scene->body;
+    char text[VECTOR_TEXT_SIZE];
+    for (size_t i = 1; body->topography != NULL && i + 1 < profile->points; i++) {
+        const double part = (double)i / (double)(profile->points - 1);
+        double place[3];
+        for (int c = 0; c < 3; c++)
+            place[c] = (1 - part) * profile->from[c] + part * profile->to[c];
+        if (body_holds(body, builder->scene->dimension, place, NULL)) continue;
+        complain(builder, group, "to", "the profile leaves the ground at %s",
+                 vector_text(text, place, builder->scene->dimension));
+        return;
+    }
 }
 
 void build_receivers(struct builder *builder)
@@ -133,6 +152,7 @@ void build_profiles(struct builder *builder)
         read_place(builder, group, "to", "the profile's last point", profile->to);
         profile->points = (size_t)deck_integer(group, "points", 0);
         profile->fields = read_fields(group);
+        if (builder->body_known) check_line(builder, group, profile);
         if (deck_values(group, "times") > 0) {
             profile->time = read_times(builder, group, &profile->times);
         } else {

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "scene/build.h"
 #include "scene/ground.h"
+#include "scene/topography.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -183,6 +184,7 @@ selas_status scene_build(const struct deck *deck, const struct scene_choice *cho
     build_body(&builder);
     build_layers(&builder);
     build_boundaries(&builder);
+    build_topography(&builder);
     build_loads(&builder);
     build_initial(&builder);
     build_receivers(&builder);
@@ -220,6 +222,7 @@ void scene_free(struct scene **scene)
     array_free(old->body.layer);
     array_free(old->body.block);
     ground_model_free(old->body.model);
+    topography_free(old->body.topography);
     array_free(old->body.file);
     array_free(old->output.directory);
     array_free(old->reference.file);

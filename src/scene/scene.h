@@ -49,13 +49,37 @@ struct ground_block {
     double centre[3], half[3]; /* half edges or axes */
 };
 
-/* Density, speeds of P and S waves on an even grid in the body's frame, z fastest (model_file.c). */
+/* Density, speeds of P and S waves between places along the axes of a model's file, z fastest; a surface has the
+ * first alone, and one place along z. */
 enum { MODEL_VALUES = 3 };
-struct ground_model {
+struct model_grid {
     size_t n[3];
-    double origin[3], spacing[3];
+    double *at[3]; /* [n] rising */
     double *value[MODEL_VALUES];
 };
+
+/* How the third coordinate of a place in a model, downward, comes from the depth below the body's z- face and
+ * the model's surfaces (model_grid.c). */
+enum model_depth {
+    MODEL_LEVEL,     /* depth + shift */
+    MODEL_BELOW,     /* depth below the one surface */
+    MODEL_STRETCHED, /* grid i between surfaces i and i + 1, in parts; the last one stays where it is */
+    MODEL_SEA_FLOOR  /* depth below surface 1 in a model that is stretched between surface 0 and its bottom */
+};
+
+/* The ground from a file: the part that the body needs (model_file.c). */
+struct ground_model {
+    double low[3], high[3];       /* the body's: beyond it the ground is that of its nearest face */
+    double origin[2], turn[2][2]; /* place along the model's axes = origin + turn (x, y) */
+    enum model_depth depth;
+    double shift, bottom; /* bottom: of MODEL_SEA_FLOOR, below elevation 0 */
+    double detail[2];     /* least distance of values along x and y of the body */
+    size_t grids, surfaces;
+    struct model_grid *grid, *surface; /* from the top down */
+    char text[400];                    /* for the plan */
+};
+
+struct topography; /* topography.h */
 
 struct body {
     char name[NAME_SIZE];
@@ -75,7 +99,8 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
-    struct ground_model *model; /* in the place of material and layers; NULL: none */
+    struct topography *topography; /* the surface, where it is not level; NULL: it is */
+    struct ground_model *model;    /* in the place of material and layers; NULL: none */
     size_t blocks;
     struct ground_block *block; /* later ones lie in earlier ones */
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */

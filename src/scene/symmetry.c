@@ -5,6 +5,7 @@
  * themselves; the solution then has it too. */
 #include "scene/symmetry.h"
 #include "scene/ground.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <string.h>
@@ -154,7 +155,7 @@ unsigned scene_mirror_axes(const struct scene *scene)
     if (scene->initial.kind != INITIAL_REST || body->jitter != 0.0) return 0;
     unsigned axes = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
-        if (ground_varies(scene, axis)) continue;
+        if (ground_varies(scene, axis) || !topography_mirrors(body, scene->dimension, axis)) continue;
         const double middle = 0.5 * (body->low[axis] + body->high[axis]);
         const double length = body->high[axis] - body->low[axis];
         if (has_middle_points(scene, axis) && faces_are_symmetric(scene, axis) &&

@@ -42,6 +42,7 @@ static void destroy(struct model *model)
     for (int face = 0; face < BOX_FACES; face++)
         for (int component = 0; component < 3; component++)
             array_free(c->speed[face][component]);
+    array_free(c->surface);
     array_free(c->plane_class);
     array_free(c->class_plane);
     array_free(c->line_buffer);

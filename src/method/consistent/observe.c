@@ -3,10 +3,12 @@
  * at the Greville points of the control values (manual, section 6). */
 #include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
+#include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"
 #include "scene/ground.h"
 #include "scene/initial.h"
+#include "scene/topography.h"
 
 #include <string.h>
 
@@ -45,9 +47,26 @@ static void evaluate(const struct consistent *c, const struct place *place, int 
         gradient[axis] = slope[c->slot[axis]];
 }
 
-/* A field in deck coordinates at one place. */
-static void field_at(const struct consistent *c, const struct place *place, const struct material *material,
-                     selas_field field, const double *y, const double *a, double *value)
+static bool tilted(const struct consistent *c)
+{
+    return c->surface != NULL;
+}
+
+/* Slopes of a component along the lattice become those along the axes. */
+static void tilt(const struct consistent *c, const struct metric *metric, double *gradient)
+{
+    double slope[3] = {0};
+    for (int axis = 0; axis < c->dimension; axis++)
+        slope[c->slot[axis]] = gradient[axis];
+    metric_tilt(metric, slope);
+    for (int axis = 0; axis < c->dimension; axis++)
+        gradient[axis] = slope[c->slot[axis]];
+}
+
+/* A field in deck coordinates at one place; metric NULL: below a level surface. */
+static void field_at(const struct consistent *c, const struct place *place, const struct metric *metric,
+                     const struct material *material, selas_field field, const double *y, const double *a,
+                     double *value)
 {
     struct point_values values = {0};
     const double *v = y + c->model.unknowns;
@@ -57,9 +76,10 @@ static void field_at(const struct consistent *c, const struct place *place, cons
             evaluate(c, place, component, v + from, &values.velocity[component], NULL);
         if (field == SELAS_ACCELERATION)
             evaluate(c, place, component, a + from, &values.acceleration[component], NULL);
-        if (field != SELAS_VELOCITY && field != SELAS_ACCELERATION)
-            evaluate(c, place, component, y + from, &values.displacement[component],
-                     &values.gradient[3 * component]);
+        if (field == SELAS_VELOCITY || field == SELAS_ACCELERATION) continue;
+        double *gradient = &values.gradient[3 * component];
+        evaluate(c, place, component, y + from, &values.displacement[component], gradient);
+        if (metric != NULL) tilt(c, metric, gradient);
     }
     field_from_values(&c->model, material, &values, field, value);
 }
@@ -71,20 +91,20 @@ static const struct material *material_at(const struct consistent *c, double dep
     return scene_material_at(scene, depth_position - scene->body.low[c->dimension - 1]);
 }
 
-/* The same on any ground; what Hooke's law and energies need of it. */
+/* The same on any ground, at a place of the lattice; what Hooke's law and energies need of it. */
 static const struct material *general_material_at(const struct consistent *c, const double place[3],
                                                   struct material *material)
 {
-    const struct rock rock = ground_at(c->model.scene, place);
+    const struct topography *topography = c->model.scene->body.topography;
+    double real[3];
+    memcpy(real, place, sizeof real);
+    if (topography != NULL)
+        real[topography->axis] =
+            topography_real(topography, consistent_drop(c, place, NULL), place[topography->axis]);
+    const struct rock rock = ground_at(c->model.scene, real);
     *material = (struct material){
         .density = rock.density, .lambda = rock.lambda, .plane_lambda = rock.lambda, .mu = rock.mu};
     return material;
-}
-
-static void to_body(const struct consistent *c, const double position[3], double place[3])
-{
-    memcpy(place, position, 3 * sizeof *place);
-    if (c->model.frame != NULL) body_from_deck(&c->model.scene->body, position, place);
 }
 
 void consistent_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
@@ -94,15 +114,17 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
     struct tuned_point at[3][2];
     struct place place = {0};
     double position[3];
-    to_body(c, probe->position, position);
+    body_from_deck(&c->model.scene->body, probe->position, position);
     for (int axis = 0; axis < c->dimension; axis++)
         for (int odd = 0; odd < 2; odd++) {
             tuned_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
             place.at[axis][odd] = &at[axis][odd];
         }
     struct material here;
-    field_at(c, &place, c->general == NULL ? probe->material : general_material_at(c, position, &here), field,
-             y, a, value);
+    const struct metric metric = consistent_metric(c, position);
+    field_at(c, &place, tilted(c) ? &metric : NULL,
+             c->general == NULL ? probe->material : general_material_at(c, position, &here), field, y, a,
+             value);
 }
 
 /* What consistent_observe() reads there. */
@@ -131,13 +153,14 @@ selas_status consistent_probe(struct model *model, const double position[3], str
     struct tuned_point at[3] = {{.value = {1}}, {.value = {1}}, {.value = {1}}};
     size_t count[3] = {1, 1, 1};
     double place[3];
-    to_body(c, position, place);
+    body_from_deck(&c->model.scene->body, position, place);
     for (int axis = 0; axis < c->dimension; axis++) {
         tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
         count[c->slot[axis]] = at[c->slot[axis]].count;
     }
     const selas_status status = probe_allocate(probe, count[0] * count[1] * count[2], messages);
     if (status != SELAS_OK) return status;
+    const struct metric metric = consistent_metric(c, place);
     memcpy(probe->position, position, sizeof probe->position);
     probe->material = material_at(c, place[c->dimension - 1]);
     for (size_t w = 0; w < probe->count; w++) {
@@ -149,6 +172,7 @@ selas_status consistent_probe(struct model *model, const double position[3], str
         probe->weight[w] = value[0] * value[1] * value[2];
         for (int axis = 0; axis < c->dimension; axis++)
             probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
+        if (tilted(c)) tilt(c, &metric, &probe->gradient[3 * w]);
     }
     if (!watch_place(c, place)) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
     return SELAS_OK;
@@ -199,9 +223,10 @@ void consistent_field(struct model *model, selas_field field, const double *y, c
         for (int axis = 0; axis < c->dimension; axis++)
             position[axis] = lattice_position(c, axis, at[axis]);
         struct material here;
+        const struct metric metric = consistent_metric(c, position);
         const struct material *material = c->general != NULL ? general_material_at(c, position, &here)
                                                              : material_at(c, position[c->dimension - 1]);
-        field_at(c, &place, material, field, y, a, value + components * p);
+        field_at(c, &place, tilted(c) ? &metric : NULL, material, field, y, a, value + components * p);
     }
 }
 
@@ -229,7 +254,7 @@ void consistent_initialise(struct model *model, double *y)
         double position[3] = {0}, state[2][3];
         for (int axis = 0; axis < c->dimension; axis++)
             position[axis] = c->spline[axis]->greville[at[c->slot[axis]]];
-        if (scene->body.rotated) body_to_deck(&scene->body, position, position);
+        body_to_deck(&scene->body, position, position);
         initial_at(scene, position, state[0], state[1]);
         for (int kind = 0; kind < 2; kind++) {
             if (scene->body.rotated) body_direction_from_deck(&scene->body, state[kind], state[kind]);
@@ -247,18 +272,8 @@ bool collocation_create(struct consistent *c)
     if (c->model.scene->initial.kind == INITIAL_REST) return true;
     for (int axis = 0; axis < c->dimension; axis++)
         for (int odd = 0; odd < 2; odd++) {
-            const struct spline *spline = c->spline[axis];
-            struct band *band = band_new(spline->count, (size_t)spline->degree);
-            if (band == NULL) return false;
-            c->collocation[axis][odd] = band;
-            for (size_t i = 0; i < spline->count; i++) {
-                struct spline_point at;
-                spline_at(spline, odd, spline->greville[i], &at);
-                for (int j = 0; j <= spline->degree; j++)
-                    if (at.value[j] != 0) band_add(band, i, at.index[j], at.value[j]);
-                if (band_get(band, i, i) == 0) band_add(band, i, i, 1); /* odd, on a symmetry plane */
-            }
-            if (!band_lu(band)) return false;
+            c->collocation[axis][odd] = consistent_collocation(c->spline[axis], odd);
+            if (c->collocation[axis][odd] == NULL) return false;
         }
     return true;
 }

@@ -13,6 +13,24 @@ static bool tunable(const struct scene *scene, const struct consistent_options *
            scene->initial.kind == INITIAL_REST;
 }
 
+/* Loads whose integrals know nothing of the map (doc/general-ground.md, section 8). */
+static selas_status check_surface(const struct scene *scene, struct messages *messages)
+{
+    for (size_t k = 0; scene->body.topography != NULL && k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        if (load->kind == LOAD_BODY_FORCE && load->shape == LOAD_FACE)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "load %zu: with &topography a body force acts at a point, not over the whole body",
+                        load->group + 1);
+        if (load->kind == LOAD_TRACTION && face_axis(load->face) != scene->dimension - 1)
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "load %zu: with &topography tractions act on the surface or the lower face, not on face %s",
+                load->group + 1, face_name(load->face));
+    }
+    return SELAS_OK;
+}
+
 /* What the general operator has and has not. */
 static selas_status check_general(const struct scene *scene, const struct consistent_options *options,
                                   struct messages *messages)
@@ -35,7 +53,7 @@ static selas_status check_general(const struct scene *scene, const struct consis
                         "face %s: method%%operator = 'general' has no faces with a prescribed motion",
                         face_name((enum face)face));
     }
-    return SELAS_OK;
+    return check_surface(scene, messages);
 }
 
 /* The operator that the deck names, else the one that the ground needs. */
@@ -77,8 +95,9 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
                         face_name((enum face)face));
     }
     if (!options->general && ground_is_general(scene))
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "&model, &block and tilted or graded &layer need method%%operator = 'general'");
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "&model, &block, &topography and tilted or graded &layer need method%%operator = 'general'");
     if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }

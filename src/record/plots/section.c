@@ -122,7 +122,10 @@ static bool surface_section(const struct recorder *recorder, const struct snapsh
                             const double low[3], const double high[3], struct section *section)
 {
     *section = (struct section){.axis = {0, 1}};
-    snprintf(section->title, sizeof section->title, "surface z = %.4g", low[2]);
+    if (recorder->scene->body.topography != NULL)
+        snprintf(section->title, sizeof section->title, "surface, seen from above");
+    else
+        snprintf(section->title, sizeof section->title, "surface z = %.4g", low[2]);
     const size_t *grid = record->grid;
     if (grid[0] == 0)
         return pick_near(recorder, record, section, 2, low[2], 0.55 * spacing_of(recorder, low, high)) &&

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
+#include "scene/ground.h"
 
 #include <math.h>
 #include <omp.h>
@@ -121,6 +122,30 @@ static bool lay_material(struct consistent *c)
     return true;
 }
 
+/* Speeds of P and S waves on a face of general ground at the depth of plane k (on those across depth: in all),
+ * the mean over places along it: the dampers of a plane are one. */
+static void mean_speeds(const struct consistent *c, int face, size_t k, double speed[2])
+{
+    enum { SAMPLES = 33 };
+    const struct scene *scene = c->model.scene;
+    const int across = face / 2, depth = c->dimension - 1;
+    double place[3] = {0};
+    const int n[3] = {across == 0 || depth == 0 ? 1 : SAMPLES, across == 1 || depth < 2 ? 1 : SAMPLES, 1};
+    place[across] = face_plane(&scene->body, (enum face)face);
+    if (across != depth) place[depth] = c->layout[DEPTH]->greville[k];
+    speed[0] = speed[1] = 0;
+    for (int i = 0; i < n[0] * n[1]; i++) {
+        const int at[2] = {i % n[0], i / n[0]};
+        for (int axis = 0; axis < 2; axis++)
+            if (n[axis] > 1)
+                place[axis] = scene->body.low[axis] +
+                              (at[axis] + .5) / SAMPLES * (scene->body.high[axis] - scene->body.low[axis]);
+        const struct rock rock = ground_at(scene, place);
+        speed[0] += sqrt((rock.lambda + 2 * rock.mu) / rock.density) / (n[0] * n[1]);
+        speed[1] += sqrt(rock.mu / rock.density) / (n[0] * n[1]);
+    }
+}
+
 /* Planes of control values by their material, and the damped faces' speeds there. */
 static bool lay_planes(struct consistent *c)
 {
@@ -145,13 +170,14 @@ static bool lay_planes(struct consistent *c)
         if (material != before) c->class_plane[c->classes++] = k;
         before = material;
         c->plane_class[k] = c->classes - 1;
-        for (int face = 0; face < 2 * c->dimension; face++)
-            for (int component = 0; component < c->dimension; component++) {
-                const struct boundary *boundary = &scene->boundary[face];
-                c->speed[face][component][k] = component == face / 2
-                                                   ? boundary->normal_factor * material->p_speed
-                                                   : boundary->shear_factor * material->s_speed;
-            }
+        for (int face = 0; face < 2 * c->dimension; face++) {
+            const struct boundary *boundary = &scene->boundary[face];
+            double speed[2] = {material->p_speed, material->s_speed};
+            if (c->damped[face] && ground_is_general(scene)) mean_speeds(c, face, k, speed);
+            for (int component = 0; component < c->dimension; component++)
+                c->speed[face][component][k] = component == face / 2 ? boundary->normal_factor * speed[0]
+                                                                     : boundary->shear_factor * speed[1];
+        }
     }
     return true;
 }
@@ -176,7 +202,7 @@ selas_status consistent_lay(struct consistent *c, struct messages *messages)
     const selas_status status = lay_axes(c, messages);
     if (status != SELAS_OK) return status;
     lay_faces(c);
-    if (lay_material(c) && lay_planes(c)) return SELAS_OK;
+    if (lay_material(c) && lay_planes(c) && consistent_lay_surface(c)) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
 }
 
@@ -195,4 +221,19 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
         else if (k == at)
             memset(plane, 0, c->plane * sizeof *plane);
     }
+}
+
+struct band *consistent_collocation(const struct spline *spline, bool odd)
+{
+    struct band *band = band_new(spline->count, (size_t)spline->degree);
+    for (size_t i = 0; band != NULL && i < spline->count; i++) {
+        struct spline_point at;
+        spline_at(spline, odd, spline->greville[i], &at);
+        for (int j = 0; j <= spline->degree; j++)
+            if (at.value[j] != 0) band_add(band, i, at.index[j], at.value[j]);
+        if (band_get(band, i, i) == 0) band_add(band, i, i, 1); /* odd, on a symmetry plane */
+    }
+    if (band == NULL || band_lu(band)) return band;
+    band_free(band);
+    return NULL;
 }

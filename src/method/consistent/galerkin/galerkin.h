@@ -78,6 +78,7 @@ struct consistent {
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
     struct mass_factors factors[FACTOR_SETS];
     struct band *scratch[3]; /* [axis]: matrix to be factorised */
+    double *surface;         /* [n[0] * n[1]] control values of s (surface.c); NULL: the surface is level */
     size_t layer[BOX_FACES]; /* points of the absorbing layer behind the face; 0: none */
     struct pml *pml;         /* NULL: no layers */
     struct scene *own_scene; /* of a body that was cut (shorter.c); NULL: the scene is borrowed */
@@ -151,6 +152,10 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
 /* axes.c: axes, what faces do to control values, materials over depth. SELAS_NO_MEMORY,
  * SELAS_BAD_SCENE. */
 selas_status consistent_lay(struct consistent *c, struct messages *messages);
+/* surface.c: false: no memory. */
+bool consistent_lay_surface(struct consistent *c);
+/* Values at the Greville points from control values, as LU factors; free it with band_free(). NULL: no memory. */
+struct band *consistent_collocation(const struct spline *spline, bool odd);
 /* Fastest wave of the ground that a face touches. */
 double consistent_fastest(const struct consistent *c, int face);
 

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "method/consistent/galerkin/moving_load.h"
+#include "method/consistent/galerkin/surface.h"
 #include "method/spline/disc.h"
 #include "method/spline/source.h"
 
@@ -217,22 +218,38 @@ static void body_force(struct consistent *c, const struct load *load, const doub
     }
 }
 
-/* The density -M_ij d/dx_j delta gives M_ij dN/dx_j at the source. */
-static void moment_tensor(struct consistent *c, const struct load *load, const double centre[3],
-                          struct workspace *w)
+/* M in the body's frame; below a surface that is not level what it pulls at along the lattice (G15). */
+static void own_moment(const struct consistent *c, const struct load *load, const double centre[3],
+                       double moment[3][3])
 {
     static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     const double(*frame)[3] = c->model.scene->body.frame;
     const bool rotated = c->model.scene->body.rotated;
-    for (int i = 0; i < c->dimension; i++)
+    const struct metric metric = consistent_metric(c, centre);
+    for (int i = 0; i < c->dimension; i++) {
+        double row[3] = {0};
         for (int j = 0; j < c->dimension; j++) {
-            double moment = rotated ? 0 : load->moment[place[i][j]];
+            moment[i][j] = rotated ? 0 : load->moment[place[i][j]];
             for (int k = 0; rotated && k < 3; k++)
                 for (int l = 0; l < 3; l++)
-                    moment += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
+                    moment[i][j] += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
+            row[c->slot[j]] = moment[i][j];
+        }
+        if (c->surface != NULL) moment[i][c->dimension - 1] = metric_pull(&metric, row);
+    }
+}
+
+/* The density -M_ij d/dx_j delta gives M_ij dN/dx_j at the source. */
+static void moment_tensor(struct consistent *c, const struct load *load, const double centre[3],
+                          struct workspace *w)
+{
+    double moment[3][3];
+    own_moment(c, load, centre, moment);
+    for (int i = 0; i < c->dimension; i++)
+        for (int j = 0; j < c->dimension; j++) {
             for (int axis = 0; axis < c->dimension; axis++)
                 moment_line(c, axis, axis == i, axis == j, centre[axis], w->line[axis]);
-            if (moment != 0) add_product(c, w, i, moment);
+            if (moment[i][j] != 0) add_product(c, w, i, moment[i][j]);
         }
 }
 
@@ -241,12 +258,9 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
 {
     const struct body *body = &c->model.scene->body;
     double centre[3], direction[3];
-    memcpy(centre, load->centre, sizeof centre);
+    body_from_deck(body, load->centre, centre);
     memcpy(direction, load->direction, sizeof direction);
-    if (body->rotated) {
-        body_from_deck(body, load->centre, centre);
-        body_direction_from_deck(body, load->direction, direction);
-    }
+    if (body->rotated) body_direction_from_deck(body, load->direction, direction);
     memset(w->field, 0, (size_t)c->dimension * c->volume * sizeof *w->field);
     if (load->kind == LOAD_TRACTION && face_axis(load->face) >= c->dimension)
         return fail(messages, SELAS_BAD_SCENE, "a load acts on face %s, which this body has not",

@@ -33,12 +33,15 @@ void general_lay_corners(struct consistent *c)
     for (unsigned number = 0; c->dimension == 3 && number < 8; number++) {
         struct corner corner;
         if (!free_corner(c, number, &corner)) continue;
-        double weight = simpson;
+        double weight = simpson, place[3] = {0};
         for (int slot = 0; slot < 3; slot++) {
             const double spacing = (c->layout[slot]->high - c->layout[slot]->low) / (double)g->cells[slot];
             weight *= spacing;
             corner.slope[slot] = (corner.high[slot] ? -2 : 2) / spacing;
+            place[slot] = corner.high[slot] ? c->layout[slot]->high : c->layout[slot]->low;
         }
+        corner.metric = consistent_metric(c, place); /* slots are axes in three dimensions */
+        weight *= corner.metric.jacobian;
         corner.lambda = weight * material->plane_lambda;
         corner.mu = weight * material->mu;
         g->corner[g->corners++] = corner;
@@ -49,6 +52,7 @@ void general_corners(const struct consistent *c, const double *u, double *force)
 {
     for (size_t n = 0; n < c->general->corners; n++) {
         const struct corner *corner = &c->general->corner[n];
+        const struct metric *metric = &corner->metric;
         double slope[3][3], pressure = 0;
         for (int component = 0; component < 3; component++)
             for (int slot = 0; slot < 3; slot++) {
@@ -56,15 +60,20 @@ void general_corners(const struct consistent *c, const double *u, double *force)
                 slope[component][slot] =
                     corner->slope[slot] * (field[seen(c, corner, slot, 1)] - field[seen(c, corner, slot, 0)]);
             }
+        for (int component = 0; component < 3; component++)
+            metric_tilt(metric, slope[component]);
         for (int i = 0; i < 3; i++)
             pressure += corner->lambda * slope[i][i];
-        for (int component = 0; component < 3; component++)
+        for (int component = 0; component < 3; component++) {
+            double *field = force + (size_t)component * c->volume, stress[3];
+            for (int slot = 0; slot < 3; slot++)
+                stress[slot] = corner->mu * (slope[component][slot] + slope[slot][component]) +
+                               (component == slot ? pressure : 0);
+            stress[DEPTH] = metric_pull(metric, stress);
             for (int slot = 0; slot < 3; slot++) {
-                double *field = force + (size_t)component * c->volume;
-                const double stress = corner->mu * (slope[component][slot] + slope[slot][component]) +
-                                      (component == slot ? pressure : 0);
-                field[seen(c, corner, slot, 1)] -= corner->slope[slot] * stress;
-                field[seen(c, corner, slot, 0)] += corner->slope[slot] * stress;
+                field[seen(c, corner, slot, 1)] -= corner->slope[slot] * stress[slot];
+                field[seen(c, corner, slot, 0)] += corner->slope[slot] * stress[slot];
             }
+        }
     }
 }

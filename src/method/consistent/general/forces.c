@@ -136,15 +136,18 @@ static void rows_of(const struct consistent *c, const struct family *family, siz
         const size_t row = m * family->n[1] + j, from = row * family->n[0];
         const size_t run = family->runs > 0 ? family->first_run[row] : 0;
         const size_t runs = family->runs > 0 ? family->first_run[row + 1] - run : 0;
-        if (extra == NULL) {
+        struct hill_row hill;
+        const bool tilted = general_hill_row(c, family, j, m, &hill);
+        if (extra == NULL && !tilted) {
             kernels->row(&plane, j, family->lambda + from, family->mu + from, family->run + run, runs,
                          family->stiffness);
             continue;
         }
         kernels->slopes(&plane, j, 0, family->n[0]);
-        general_layers_add(c, &plane, family, j, m, 0, family->n[0], extra);
+        if (extra != NULL) general_layers_add(c, &plane, family, j, m, 0, family->n[0], extra);
+        if (tilted) kernels->tilt(&plane, &hill, 0, family->n[0]);
         kernels->pulls(&plane, j, 0, family->n[0], family->lambda + from, family->mu + from,
-                       family->run + run, runs, family->stiffness, 7);
+                       family->run + run, runs, family->stiffness, 7, tilted);
     }
 }
 

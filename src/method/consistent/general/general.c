@@ -120,7 +120,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     for (int slot = 0; good && slot < 3; slot++)
         good = lay_axis(c, slot);
     double *mass = array_new(c->volume, sizeof *mass);
-    good = good && mass != NULL && lay_families(c) && lay_inverse(c) && lay_buffers(c);
+    good = good && mass != NULL && lay_families(c) && general_lay_hill(c) && lay_inverse(c) && lay_buffers(c);
     selas_status status =
         good ? SELAS_OK
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
@@ -147,6 +147,7 @@ void general_free(struct consistent *c)
     struct general *g = c->general;
     if (g == NULL) return;
     general_layers_free(c);
+    general_free_hill(c);
     for (int slot = 0; slot < 3; slot++)
         for (int odd = 0; odd < 2; odd++)
             for (int at = 0; at < 2; at++)

@@ -8,6 +8,7 @@
 #define SELAS_METHOD_CONSISTENT_GENERAL_GENERAL_H
 
 #include "method/consistent/galerkin/hform.h"
+#include "method/consistent/galerkin/surface.h"
 #include "method/consistent/general/points.h"
 
 /* Points of one family: n[slot] of them, x fastest. Moduli are times the weight of the point (G2). */
@@ -24,7 +25,15 @@ struct family {
 struct corner {
     bool high[3];
     double slope[3]; /* of the control value next to the corner's */
+    struct metric metric;
     double lambda, mu;
+};
+
+/* The map of a surface that is not level, by the splines of the displacements (hill.c). */
+struct hill {
+    double *drop[3], *slope[3][2]; /* [family][n[0] * n[1] of its points]: s and its slopes */
+    double *share[2], *fall[2];    /* [at][points over depth]: f and its slope */
+    size_t level[2];               /* [at]: planes from here on are level */
 };
 
 struct general {
@@ -33,6 +42,7 @@ struct general {
     struct family family[3];
     size_t corners;
     struct corner corner[8];
+    struct hill *hill;           /* NULL: the surface is level */
     struct general_layer *layer; /* [layers] */
     size_t layers;
     double *middle;              /* memory of slopes at the middle of a step, as in extra */
@@ -106,6 +116,16 @@ selas_status general_material(struct consistent *c, double *mass, struct message
  * told apart. */
 selas_status general_part_material(struct consistent *c, double *mass, struct messages *messages);
 void general_free_family(struct family *family);
+
+/* hill.c: false: no memory. */
+bool general_lay_hill(struct consistent *c);
+void general_free_hill(struct consistent *c);
+/* Metric at points of a family. */
+struct metric general_metric_at(const struct consistent *c, const struct family *family, size_t i, size_t j,
+                                size_t k);
+/* Row j of points in plane k as the kernels take it; false: it is level. */
+bool general_hill_row(const struct consistent *c, const struct family *family, size_t j, size_t k,
+                      struct hill_row *row);
 
 /* scaling.c: R from the mass of each control value (G5); false: no memory. */
 bool general_scale(struct consistent *c, const double *mass);

@@ -242,14 +242,63 @@ INLINED void stresses(const struct point_plane *plane, size_t first, size_t end,
     }
 }
 
+/* Rows of the scratch that slopes() is done with. */
+static double *free_row(const struct point_plane *plane, int row)
+{
+    return plane->scratch + ROW_ROOM + (size_t)row * plane->pitch;
+}
+enum { NO_ROW, DEPTH_ROWS = 3, METRIC_ROWS = 6 };
+
+static void tilt(const struct point_plane *plane, const struct hill_row *hill, size_t first, size_t end)
+{
+    const double *restrict drop = hill->drop, *restrict along_x = hill->slope[0],
+                           *restrict along_y = hill->slope[1];
+    double *restrict one = free_row(plane, METRIC_ROWS), *restrict two = free_row(plane, METRIC_ROWS + 1),
+                     *restrict three = free_row(plane, METRIC_ROWS + 2);
+    const double share = hill->share, fall = hill->fall;
+#pragma omp simd
+    for (size_t i = first; i < end; i++) {
+        three[i] = 1 / (1 + drop[i] * fall);
+        one[i] = along_x[i] * share * three[i];
+        two[i] = along_y[i] * share * three[i];
+    }
+    for (int s = 0; s < 3; s += plane->flat ? 2 : 1) {
+        double *restrict x = slope_row(plane, s, 0), *restrict y = slope_row(plane, s, 1),
+                         *restrict z = slope_row(plane, s, 2);
+#pragma omp simd
+        for (size_t i = first; i < end; i++) {
+            x[i] -= one[i] * z[i];
+            y[i] -= two[i] * z[i];
+            z[i] *= three[i];
+        }
+    }
+}
+
+/* What the stresses of component s pull at along the depth of the lattice: the transpose of tilt(). */
+static void tilted_back(const struct point_plane *plane, int s, const double *restrict x,
+                        const double *restrict y, const double *restrict z, size_t first, size_t end)
+{
+    const double *restrict one = free_row(plane, METRIC_ROWS),
+                           *restrict two = free_row(plane, METRIC_ROWS + 1),
+                           *restrict three = free_row(plane, METRIC_ROWS + 2);
+    double *restrict depth = free_row(plane, DEPTH_ROWS + s);
+#pragma omp simd
+    for (size_t i = first; i < end; i++)
+        depth[i] = three[i] * z[i] - one[i] * x[i] - two[i] * y[i];
+    for (int i = 0; i < 2; i++) {
+        depth[end + (size_t)i] = 0;
+        *(depth + first - 1 - i) = 0;
+    }
+}
+
 INLINED void pulls_of(const bool flat, const bool knots, const struct point_plane *plane, size_t j,
                       size_t first, size_t end, const double *lambda, const double *mu,
                       const struct run_of_points *run, size_t runs, const double *stiffness,
-                      unsigned directions)
+                      unsigned directions, bool tilted)
 {
     static const int place[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
     const size_t pitch = plane->pitch;
-    double *out = plane->scratch + ROW_ROOM + 9 * pitch, *none = plane->scratch + ROW_ROOM;
+    double *out = plane->scratch + ROW_ROOM + 9 * pitch, *none = free_row(plane, NO_ROW);
     SLOPE_ROWS
     stresses(plane, first, end, lambda, mu, out);
     for (size_t r = 0; r < runs; r++)
@@ -269,9 +318,15 @@ INLINED void pulls_of(const bool flat, const bool knots, const struct point_plan
     for (int s = 0; s < 3; s += flat ? 2 : 1) {
         const struct taps *t = &plane->y[s == 1][j];
         const size_t from = t->first * pitch + ROW_ROOM + first;
-        const double *along[3];
+        const double *row[3], *along[3];
         for (int slot = 0; slot < 3; slot++)
-            along[slot] = (directions >> slot & 1U ? out + (size_t)place[s][slot] * pitch : none) + first;
+            row[slot] = out + (size_t)place[s][slot] * pitch;
+        if (tilted) {
+            tilted_back(plane, s, row[0], row[1], row[2], first, end);
+            row[2] = free_row(plane, DEPTH_ROWS + s);
+        }
+        for (int slot = 0; slot < 3; slot++)
+            along[slot] = (directions >> slot & 1U ? row[slot] : none) + first;
 #define PULL_ALONG(count)                                                                                    \
     pull(count, knots, t, plane->scale, end - first + 2, pitch, along[0], along[1], along[2],                \
          plane->pull_value[s] + from, plane->pull_slope[s] + from)
@@ -281,16 +336,16 @@ INLINED void pulls_of(const bool flat, const bool knots, const struct point_plan
 
 static void pulls(const struct point_plane *plane, size_t j, size_t from, size_t end, const double *lambda,
                   const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
-                  unsigned directions)
+                  unsigned directions, bool tilted)
 {
     if (plane->flat && plane->knots)
-        pulls_of(true, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+        pulls_of(true, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
     else if (plane->flat)
-        pulls_of(true, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+        pulls_of(true, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
     else if (plane->knots)
-        pulls_of(false, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+        pulls_of(false, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
     else
-        pulls_of(false, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions);
+        pulls_of(false, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
 }
 
 static void row(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
@@ -336,4 +391,4 @@ static void depth(const struct taps *t, const double *u, size_t stride, size_t n
     BY_COUNT(DEPTH_OF)
 }
 
-const struct point_kernels OF_PROCESSOR(point_kernels) = {row, slopes, pulls, add, depth};
+const struct point_kernels OF_PROCESSOR(point_kernels) = {row, slopes, pulls, tilt, add, depth};

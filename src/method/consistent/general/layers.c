@@ -231,8 +231,11 @@ static void pull_rows(const struct consistent *c, const struct general_layer *la
         const size_t runs = family->runs > 0 ? family->first_run[row + 1] - run : 0;
         kernels->slopes(&plane, j, first[0], end[0]);
         general_layers_add(c, &plane, family, j, m, first[0], end[0], g->middle);
+        struct hill_row hill;
+        const bool tilted = general_hill_row(c, family, j, m, &hill);
+        if (tilted) kernels->tilt(&plane, &hill, first[0], end[0]);
         kernels->pulls(&plane, j, first[0], end[0], family->lambda + from, family->mu + from,
-                       family->run + run, runs, family->stiffness, 1U << layer->slot);
+                       family->run + run, runs, family->stiffness, 1U << layer->slot, tilted);
     }
 }
 

@@ -20,7 +20,7 @@ struct sums {
 };
 
 static void add_mass(const struct consistent *c, const struct taps *const at[3], double weight,
-                     double density, const struct sums *sums)
+                     double density, const struct sums *sums) /* density: times the map's Jacobian */
 {
     for (size_t k = 0; k < at[2]->count; k++)
         for (size_t j = 0; j < at[1]->count; j++)
@@ -102,18 +102,20 @@ static bool lay_row(struct consistent *c, struct family *family, const struct me
         const size_t place[3] = {i, j, k}, point = row * family->n[0] + i;
         const struct taps *at[3];
         struct averaged averaged;
-        double weight = 1. / 3, lambda, mu, stiffness[STIFFNESSES];
+        double even = 1. / 3, lambda, mu, stiffness[STIFFNESSES];
         for (int slot = 0; slot < 3; slot++) {
             at[slot] = &c->general->taps[slot][0][family->at[slot]][place[slot]];
-            weight *= weight_of(c, slot, family->at[slot], place[slot]);
+            even *= weight_of(c, slot, family->at[slot], place[slot]);
         }
-        medium_point(medium, i, j, &averaged);
+        const struct metric metric = general_metric_at(c, family, i, j, k);
+        const double weight = even * metric.jacobian;
+        medium_point(medium, i, j, &metric, &averaged);
         if (medium_stiffness(&averaged, stiffness, &lambda, &mu) &&
             !add_point(family, found, row, i, stiffness, weight))
             return false;
         family->lambda[point] = weight * lambda;
         family->mu[point] = weight * mu;
-        add_mass(c, at, weight, averaged.mean[MEAN_DENSITY], sums);
+        add_mass(c, at, even, metric.jacobian * averaged.mean[MEAN_DENSITY], sums);
     }
     return true;
 }

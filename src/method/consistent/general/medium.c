@@ -5,6 +5,7 @@
 #include "method/consistent/general/medium.h"
 
 #include "base/memory.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <omp.h>
@@ -29,6 +30,7 @@ struct medium {
     const struct consistent *c;
     struct columns along[2]; /* by slot */
     enum at at[3];
+    double *drop; /* [columns] of the surface above them, where it is not level; NULL: it is */
     struct averaged *column, *row, *point;
     double *jump; /* [threads * room] */
     size_t room;
@@ -81,21 +83,40 @@ static int ascending(const void *one, const void *other)
     return (a > b) - (a < b);
 }
 
+/* Vertical coordinate of a place of the lattice in a column below a surface so far below the plane, and the other
+ * way. */
+static double real(const struct medium *medium, double drop, double lattice)
+{
+    return medium->drop == NULL ? lattice
+                                : topography_real(medium->c->model.scene->body.topography, drop, lattice);
+}
+
+static size_t find_jumps(const struct medium *medium, const double place[3], double drop, double from,
+                         double to, double *jump)
+{
+    const struct scene *scene = medium->c->model.scene;
+    const size_t count = ground_jumps(scene, place, scene->dimension - 1, real(medium, drop, from),
+                                      real(medium, drop, to), jump);
+    for (size_t i = 0; i < count && medium->drop != NULL; i++)
+        jump[i] = topography_lattice(scene->body.topography, drop, jump[i]);
+    return count;
+}
+
 /* Averages over depth of one column about a point. place: of the column, by axis; middle: of the point. */
-static void average_column(const struct medium *medium, double place[3], double middle, double *jump,
-                           struct averaged *sum)
+static void average_column(const struct medium *medium, double place[3], double drop, double middle,
+                           double *jump, struct averaged *sum)
 {
     const struct scene *scene = medium->c->model.scene;
     const struct spline *spline = medium->c->layout[DEPTH];
     const int axis = medium->c->dimension - 1;
     const double h = (spline->high - spline->low) / (double)spline->cells, reach = reach_of_kernel * h;
     const enum at at = medium->at[DEPTH];
-    size_t count = ground_jumps(scene, place, axis, middle - reach, middle + reach, jump);
+    size_t count = find_jumps(medium, place, drop, middle - reach, middle + reach, jump);
     *sum = (struct averaged){.even = count == 0 && !ground_grades(scene)};
     for (int n = 0; n < POSITIVE; n++)
         sum->least[n] = INFINITY;
     if (sum->even) {
-        place[axis] = middle;
+        place[axis] = real(medium, drop, middle);
         const struct rock rock = ground_at(scene, place);
         quantities(&rock, sum->mean);
         memcpy(sum->least, sum->mean, sizeof sum->least);
@@ -108,9 +129,10 @@ static void average_column(const struct medium *medium, double place[3], double 
     for (size_t piece = 0; piece + 1 < count; piece++) {
         const double length = jump[piece + 1] - jump[piece];
         for (int side = -1; side <= 1 && length > 0; side += 2) { /* Gauss, two points */
-            place[axis] = (jump[piece] + jump[piece + 1]) / 2 + side * length / (2 * sqrt(3));
+            const double sample = (jump[piece] + jump[piece + 1]) / 2 + side * length / (2 * sqrt(3));
+            place[axis] = real(medium, drop, sample);
             const struct rock rock = ground_at(scene, place);
-            add_sample(&rock, at, (place[axis] - middle) / h, length / (2 * h), sum);
+            add_sample(&rock, at, (sample - middle) / h, length / (2 * h), sum);
         }
     }
 }
@@ -159,25 +181,56 @@ static void average_along(const struct medium *medium, int slot, size_t i, const
     }
 }
 
+/* Does ground that varies over depth vary along the lattice too? */
+static bool bent(const struct scene *scene)
+{
+    return scene->body.topography != NULL && ground_varies(scene, scene->dimension - 1);
+}
+
 static void lay_columns(struct medium *medium, int slot)
 {
     const struct consistent *c = medium->c;
     struct columns *columns = &medium->along[slot];
     const struct spline *spline = c->layout[slot];
     columns->points = spline == NULL ? 1 : spline->cells + 1;
-    columns->varies = spline != NULL && ground_varies(c->model.scene, slot);
+    columns->varies = spline != NULL && (ground_varies(c->model.scene, slot) || bent(c->model.scene));
     columns->count = 1;
     if (spline == NULL) return;
     columns->spacing = (spline->high - spline->low) / (double)spline->cells;
     columns->from = spline->low;
     if (!columns->varies) return;
-    const double detail = ground_detail(c->model.scene, slot);
+    const double detail = bent(c->model.scene) ? 0 : ground_detail(c->model.scene, slot);
     columns->a_cell = MOST_COLUMNS;
     if (detail * MOST_COLUMNS / 2 > columns->spacing)
         columns->a_cell = 2 * (size_t)ceil(columns->spacing / detail);
     columns->count = (spline->cells + 2 * BEYOND) * columns->a_cell;
     columns->step = columns->spacing / (double)columns->a_cell;
     columns->from += columns->step / 2 - BEYOND * columns->spacing;
+}
+
+/* Place of column n; beyond a symmetry plane its mirror image. */
+static double column_place(const struct medium *medium, int slot, size_t n)
+{
+    const struct columns *columns = &medium->along[slot];
+    const struct spline *spline = medium->c->layout[slot];
+    const double place = columns->from + (double)n * columns->step;
+    if (place < spline->low && spline->mirror[0]) return 2 * spline->low - place;
+    if (place > spline->high && spline->mirror[1]) return 2 * spline->high - place;
+    return place;
+}
+
+static bool lay_drops(struct medium *medium)
+{
+    const struct consistent *c = medium->c;
+    const struct columns *x = &medium->along[0], *y = &medium->along[1];
+    if (c->surface == NULL) return true;
+    medium->drop = array_new(x->count * y->count, sizeof *medium->drop);
+    for (size_t n = 0; medium->drop != NULL && n < x->count * y->count; n++) {
+        const double place[3] = {column_place(medium, 0, n % x->count),
+                                 c->dimension == 3 ? column_place(medium, 1, n / x->count) : 0, 0};
+        medium->drop[n] = consistent_drop(c, place, NULL);
+    }
+    return medium->drop != NULL;
 }
 
 struct medium *medium_new(const struct consistent *c)
@@ -193,6 +246,10 @@ struct medium *medium_new(const struct consistent *c)
     medium->row = array_new(along[0].points * along[1].count, sizeof *medium->row);
     medium->point = array_new(along[0].points * along[1].points, sizeof *medium->point);
     medium->jump = array_new((size_t)c->threads * medium->room, sizeof *medium->jump);
+    if (!lay_drops(medium)) {
+        medium_free(medium);
+        return NULL;
+    }
     if (medium->column != NULL && medium->row != NULL && medium->point != NULL && medium->jump != NULL)
         return medium;
     medium_free(medium);
@@ -202,22 +259,12 @@ struct medium *medium_new(const struct consistent *c)
 void medium_free(struct medium *medium)
 {
     if (medium == NULL) return;
+    array_free(medium->drop);
     array_free(medium->column);
     array_free(medium->row);
     array_free(medium->point);
     array_free(medium->jump);
     array_free(medium);
-}
-
-/* Place of column n; beyond a symmetry plane its mirror image. */
-static double column_place(const struct medium *medium, int slot, size_t n)
-{
-    const struct columns *columns = &medium->along[slot];
-    const struct spline *spline = medium->c->layout[slot];
-    const double place = columns->from + (double)n * columns->step;
-    if (place < spline->low && spline->mirror[0]) return 2 * spline->low - place;
-    if (place > spline->high && spline->mirror[1]) return 2 * spline->high - place;
-    return place;
 }
 
 void medium_plane(struct medium *medium, const enum at at[3], size_t k)
@@ -232,7 +279,9 @@ void medium_plane(struct medium *medium, const enum at at[3], size_t k)
         for (size_t i = 0; i < x->count; i++) {
             place[0] = column_place(medium, 0, i);
             if (c->dimension == 3) place[1] = column_place(medium, 1, j);
-            average_column(medium, place, middle, medium->jump + (size_t)omp_get_thread_num() * medium->room,
+            const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
+            average_column(medium, place, drop, middle,
+                           medium->jump + (size_t)omp_get_thread_num() * medium->room,
                            &medium->column[j * x->count + i]);
         }
         for (size_t i = 0; i < x->points - (at[0] == AT_MIDDLES ? 1 : 0); i++)
@@ -245,9 +294,11 @@ void medium_plane(struct medium *medium, const enum at at[3], size_t k)
             average_along(medium, 1, j, &medium->row[i], x->points, &medium->point[j * x->points + i]);
 }
 
-void medium_point(const struct medium *medium, size_t i, size_t j, struct averaged *averaged)
+void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,
+                  struct averaged *averaged)
 {
     *averaged = medium->point[j * medium->along[0].points + i];
+    metric_tilt(metric, averaged->rise);
     for (int n = 0; n < POSITIVE; n++)
         averaged->mean[n] = fmax(averaged->mean[n], least_part * averaged->least[n]);
 }

@@ -33,7 +33,8 @@ struct medium;
 struct medium *medium_new(const struct consistent *c); /* NULL: no memory */
 void medium_free(struct medium *medium);
 void medium_plane(struct medium *medium, const enum at at[3], size_t k);
-/* Of point i, j of that plane. */
-void medium_point(const struct medium *medium, size_t i, size_t j, struct averaged *averaged);
+/* Of point i, j of that plane, with the metric there. */
+void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,
+                  struct averaged *averaged);
 
 #endif

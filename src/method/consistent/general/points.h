@@ -45,6 +45,13 @@ static inline double *slope_row(const struct point_plane *plane, int component, 
     return plane->scratch + ROW_ROOM + (size_t)(9 + STRESSES + 3 * component + slot) * plane->pitch;
 }
 
+/* A row of points below a surface that is not level: s and its slopes along x and y at each of them, f and its slope
+ * over depth (G16). */
+struct hill_row {
+    const double *drop, *slope[2];
+    double share, fall;
+};
+
 struct point_kernels {
     /* Row j of points: adds B^T of the stresses to the pulls. lambda, mu: of the row; runs may be none. */
     void (*row)(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
@@ -54,7 +61,10 @@ struct point_kernels {
     void (*slopes)(const struct point_plane *plane, size_t j, size_t from, size_t end);
     void (*pulls)(const struct point_plane *plane, size_t j, size_t from, size_t end, const double *lambda,
                   const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
-                  unsigned directions);
+                  unsigned directions, bool tilted);
+    /* Between the two, slopes along the lattice become those along the axes (G17); pulls() with `tilted` then takes the
+     * transpose. */
+    void (*tilt)(const struct point_plane *plane, const struct hill_row *hill, size_t from, size_t end);
     /* out[i] += v * in[i] + s * slope[i], i < n */
     void (*add)(size_t n, double v, const double *value, double s, const double *slope, double *out);
     /* value := sum of weight[d] rows of u, slope alike with weight slope; d < count, n numbers each. */

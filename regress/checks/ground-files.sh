@@ -1,0 +1,101 @@
+#!/bin/sh
+# The ground from a file and its plot, through the program: an even tomography_model.xyz gives the histories of an even body,
+# wrong files are refused with their place and exit status 2, `selas check --plot` leaves a picture before anything is
+# computed and overwrites no foreign file. Argument: the build folder. Prints TAP.
+build=${1:-build}
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
+export OMP_NUM_THREADS=1
+ok() { # ok TITLE CONDITION...
+    title=$1
+    shift
+    if "$@"; then echo "ok - $title"; else echo "not ok - $title"; fi
+}
+says() { # says LOG TEXT...
+    log=$1
+    shift
+    for text in "$@"; do grep -qF -- "$text" "$log" || return 1; done
+}
+# 3 x 3 x 3 values over 2000 x 2000 x 1000; $1: awk that may change line n, x y z vp vs rho
+model() {
+    awk "BEGIN {
+        print \"0 0 -1000 2000 2000 0\"; print \"1000 1000 500\"; print \"3 3 3\"; print \"100 9000 100 9000 100 9000\"
+        for (k = 0; k < 3; k++) for (j = 0; j < 3; j++) for (i = 0; i < 3; i++) {
+            n++; x = 1000 * i; y = 1000 * j; z = 500 * k - 1000; vp = 3000; vs = 1700; rho = 2500
+            $1
+            print x, y, z, vp, vs, rho
+        }
+    }" >"$out/m.xyz"
+}
+cat >"$out/d.nml" <<D
+&scene title = 'ground', dimension = 3, end_time = 0.4 /
+&method operator = 'general' /
+&body low = 0, 0, 0, high = 2000, 2000, 1000, spacing = 100 /
+&load face = 'z-', shape = 'square', centre = 1000, 1000, 0, size = 400, 400, direction = 0, 0, 1, history = 'gaussian', width = .05, delay = .2, amplitude = 1e6 /
+&receiver name = 'r', position = 1400, 1200, 0 /
+D
+cp "$out/d.nml" "$out/even.nml"
+echo "&material name = 'rock', density = 2500, p_speed = 3000, s_speed = 1700 /" >>"$out/even.nml"
+echo "&model file = 'm.xyz' /" >>"$out/d.nml"
+selas() { "$build/selas" "$@" >"$out/log" 2>&1; }
+
+model ""
+"$build/selas" -q "$out/d.nml" output%directory="$out/model" && "$build/selas" -q "$out/even.nml" body%material=rock output%directory="$out/even" output%plots=F
+"$build/selas" diff "$out/model/r.dat" "$out/even/r.dat" --rtol=1e-9 >"$out/log" 2>&1
+ok "an even model: the histories of an even body" test $? = 0
+ok "a run on ground from a file draws it" test -s "$out/model/ground.png"
+ok "the plan says how depth is taken" says "$out/model/report.txt" "depth 0 is its elevation 0"
+
+refused() { # refused TITLE TEXT...
+    selas check "$out/d.nml"
+    status=$?
+    wrong=$1
+    shift
+    ok "refused: $wrong" test "$status" = 2
+    ok "with its place: $wrong" says "$out/log" "$@"
+}
+model "if (n == 5) vs = -1700"
+refused "a negative speed" "line 9" "s_speed -1700"
+model "if (n == 5) x = 900"
+refused "uneven rows" "line 9" "x = 900; expected 1000"
+model "vp /= 1000; vs /= 1000"
+sed 's/^100 9000 100 9000/1 9 1 9/' "$out/m.xyz" >"$out/km.xyz" && mv "$out/km.xyz" "$out/m.xyz"
+refused "km/s" "p_speed 3," "m/s, not km/s"
+model "if (n == 20) exit"
+refused "cut short" "ends after 19 of 3 x 3 x 3"
+model ""
+sed 's/high = 2000, 2000, 1000/high = 2000, 2000, 1100/' "$out/d.nml" >"$out/deep.nml"
+mv "$out/deep.nml" "$out/d.nml"
+refused "a body below the model" "from 0 to 1000 along z" "from 0 to 1100"
+
+# plots
+plot() { # plot NAME DECK WORDS...
+    name=$1 deck=$2
+    shift 2
+    timeout 100 "$build/selas" check --plot "$deck" output%directory="$out/$name" "$@" >"$out/log" 2>&1
+    ok "a picture of $name" test -s "$out/$name/ground.png"
+}
+plot "even ground" "$out/even.nml" body%material=rock
+cat >"$out/two.nml" <<D
+&scene dimension = 2, end_time = 1 /
+&material name = 'rock', density = 2.5, p_speed = 4, s_speed = 2.3 /
+&material name = 'soil', density = 2.0, p_speed = 2, s_speed = 1 /
+&body material = 'rock', low = 0, 0, high = 12, 5, spacing = .25 /
+&block material = 'soil', shape = 'ellipsoid', centre = 6, 5, size = 6, 3 /
+&boundary face = 'x-', 'x+', 'y-', kind = 'transmitting', layer = 'pml' /
+&load face = 'y+', shape = 'square', centre = 3, 5, size = .5, direction = 0, -1, history = 'gaussian', width = 0.3, delay = 1.5 /
+D
+plot "two dimensions" "$out/two.nml"
+mkdir "$out/foreign" && echo mine >"$out/foreign/ground.png"
+selas check --plot "$out/two.nml" output%directory="$out/foreign"
+ok "a foreign picture is not overwritten" test "$(cat "$out/foreign/ground.png")" = mine
+cat >"$out/bar.nml" <<D
+&scene dimension = 1, end_time = 1 /
+&material name = 'rock', density = 1, young = 1, poisson = 0 /
+&body material = 'rock', low = 0, high = 1, spacing = .1 /
+&initial kind = 'uniform-velocity', velocity = 1 /
+D
+selas check --plot "$out/bar.nml" output%directory="$out/bar"
+ok "one dimension has none" says "$out/log" "no plot of the ground"
+selas --plot "$out/two.nml"
+ok "--plot goes with check" says "$out/log" "--plot goes with check"

@@ -1,0 +1,215 @@
+/* Models of the ground in each format that is read, and wrong files (doc/general-ground.md, section 4). */
+#include "from_deck.h"
+#include "model_writers.h"
+
+#include "scene/ground.h"
+
+#include <unistd.h>
+
+static const char stored[] = "build/test/model";
+
+#define DECK(body, words)                                                                                    \
+    "&scene dimension = 3, end_time = 1 /\n"                                                                 \
+    "&body low = 0, 0, 0, high = " body ", spacing = 10 /\n"                                                 \
+    "&load face = 'z-', shape = 'square', centre = 10, 10, 0, size = 20, 20, direction = 0, 0, 1, "          \
+    "history = 'triangle', duration = 1 /\n"                                                                 \
+    "&model file = 'build/test/model' " words " /\n"
+
+/* The rock at a place of the body is that of a place in the model. */
+static void assert_field(const struct scene *scene, const double body[3], double x, double y, double z,
+                         double tolerance)
+{
+    double value[3];
+    field(x, y, z, value);
+    const struct rock rock = ground_at(scene, body);
+    assert_near(rock.density / value[0], 1, tolerance);
+    assert_near(sqrt(rock.mu / rock.density) / value[2], 1, tolerance);
+    assert_near(sqrt((rock.lambda + 2 * rock.mu) / rock.density) / value[1], 1, tolerance);
+}
+
+static void assert_text(const struct from_deck *made, const char *plan, const char *warning)
+{
+    if (plan != NULL && strstr(made->scene->body.model->text, plan) == NULL)
+        fail_msg("'%s' is not in: %s", plan, made->scene->body.model->text);
+    const char *text = made->messages.text != NULL ? made->messages.text : "";
+    if (warning != NULL && strstr(text, warning) == NULL) fail_msg("'%s' is not in: %s", warning, text);
+    if (warning == NULL) assert_int_equal(made->messages.warnings, 0);
+}
+
+/* Depths below the ground; x of the body towards 120 degrees, 90 from the model's. */
+static void test_rfile(void **state)
+{
+    (void)state;
+    for (int form = 0; form < 4; form++) {
+        write_rfile(stored, form % 2, form / 2, 0);
+        struct from_deck made = right_scene(DECK("800, 700, 900", "origin = 900, 50, azimuth = 120"));
+        const double tolerance = form / 2 ? 1e-6 : 1e-12;
+        static const double place[][3] = {{0, 0, 0}, {800, 700, 900}, {123, 456, 78}, {600, 100, 640}};
+        for (int i = 0; i < 4; i++) {
+            const double x = 900 - place[i][1], y = 50 + place[i][0];
+            assert_field(made.scene, place[i], x, y, place[i][2] - ground_of(x, y), tolerance);
+        }
+        assert_field(made.scene, (double[]){-100, 3000, 100}, 200, 50, 100 - ground_of(200, 50), tolerance);
+        assert_text(&made, "depth 0 is its ground", "q_p and q_s are not used");
+        from_deck_free(&made);
+    }
+    write_rfile(stored, 0, 0, 1);
+    struct from_deck made = right_scene(DECK("800, 700, 900", ""));
+    assert_text(&made, "values of air or water are those of the rock below", "q_p");
+    assert_field(made.scene, (double[]){100, 200, 300}, 100, 200, 300 - ground_of(100, 200), 1e-12);
+    assert_field(made.scene, (double[]){0, 0, 0}, 0, 0, -100, 1e-12);      /* a value at the ground itself */
+    assert_field(made.scene, (double[]){500, 0, 10}, 500, 0, -100, 1e-12); /* the first rock is at -100 */
+    from_deck_free(&made);
+}
+
+static void test_sfile(void **state)
+{
+    (void)state;
+    write_sfile(stored, 0);
+    struct from_deck made = right_scene(DECK("800, 700, 900", "origin = 100, 200"));
+    static const double place[][3] = {
+        {0, 0, 0}, {800, 700, 900}, {123, 456, 78}, {600, 100, 640}, {0, 0, 300}};
+    for (int i = 0; i < 5; i++) {
+        const double x = 100 + place[i][0], y = 200 + place[i][1], top = -ground_of(x, y);
+        assert_field(made.scene, place[i], x, y, top + place[i][2] * (1200 - top) / 1200, 1e-12);
+    }
+    assert_text(&made, "depths are stretched above its bottom, 1200 below the sea", NULL);
+    assert_true(made.scene->body.model->grid[0].n[0] == 5);
+    from_deck_free(&made);
+    made = right_scene(DECK("200, 200, 100", "origin = 510, 10"));
+    assert_true(made.scene->body.model->grid[0].n[0] == 2 && made.scene->body.model->grid[0].n[1] == 2);
+    from_deck_free(&made);
+    write_sfile(stored, 800);
+    assert_refused(DECK("800, 700, 900", ""),
+                   "t.nml:4:", (const char *[]){"surface 1, at depth", "lies above surface 0", NULL});
+}
+
+/* With and without a sea floor; the body in the model's map, its x towards 90 degrees, 30 right of y. */
+static void test_blocks(void **state)
+{
+    (void)state;
+    static const double place[][3] = {
+        {0, 0, 0}, {800, 300, 900}, {523, 56, 78}, {600, 100, 640}, {10, 10, 500}};
+    for (int floor = 0; floor < 2; floor++) {
+        write_blocks(stored, floor, "m/s", 0);
+        struct from_deck made = right_scene(DECK("800, 300, 900", "origin = 500700, 4000250, azimuth = 90"));
+        for (int i = 0; i < 5; i++) {
+            const double east = 700 + place[i][0], north = 250 - place[i][1];
+            const double x = east / 2 - north * sqrt(3) / 2, y = east * sqrt(3) / 2 + north / 2;
+            const double ground = ground_of(x, y), top = water_of(x, y), depth = place[i][2];
+            const double elevation = ground - depth * (1500 + ground) / 1500; /* squashed, min = -dim_z */
+            assert_field(made.scene, place[i], x, y, floor ? 1500 * (top - elevation) / (top + 1500) : depth,
+                         1e-12);
+        }
+        assert_text(&made, floor ? "solid ground" : "its top", "q_p and q_s are not used");
+        from_deck_free(&made);
+    }
+    write_blocks(stored, 0, "m/s", -1e20);
+    struct from_deck made = right_scene(DECK("800, 300, 900", ""));
+    const struct rock top = ground_at(made.scene, (double[]){400, 200, 10}),
+                      rock = ground_at(made.scene, (double[]){400, 200, 50});
+    assert_near(top.mu / top.density, rock.mu / rock.density, 1e-9 * top.mu / top.density);
+    assert_text(&made, "6 values of air or water", "q_p"); /* the top of 3 x 2 columns */
+    from_deck_free(&made);
+    write_blocks(stored, 0, "ft/s", 0);
+    assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"Vp is in 'ft/s'", NULL});
+    write_blocks(stored, 0, "km/s", 0);
+    made = right_scene(DECK("800, 300, 900", ""));
+    assert_near(scene_fastest(made.scene), 1000 * (4000 + 300 + 120 + 200), 3e5);
+    from_deck_free(&made);
+}
+
+static void test_text(void **state)
+{
+    (void)state;
+    write_text(stored, 0, 0, "", 60);
+    struct from_deck made = right_scene(DECK("700, 800, 300", "origin = 1100, 2850, -100, azimuth = 90"));
+    static const double place[][3] = {{0, 0, 0}, {700, 800, 300}, {333, 222, 111}};
+    for (int i = 0; i < 3; i++)
+        assert_field(made.scene, place[i], 100 + place[i][0], 850 - place[i][1], 100 + place[i][2], 1e-12);
+    assert_text(&made, "depth 0 is its elevation -100", NULL);
+    assert_int_equal(made.scene->body.model->grid[0].n[2], 3); /* of 5 */
+    from_deck_free(&made);
+    write_text(stored, 1, 0, "", 60);
+    made = right_scene(DECK("700, 800, 600", "")); /* x towards north: the file's y */
+    assert_field(made.scene, (double[]){600, 700, 500}, 700, 600, 500, 1e-12);
+    from_deck_free(&made);
+    write_text(stored, 0, 12, "2000 2900 -700 99000 2000 2000 # too fast\n", 60);
+    made = right_scene(DECK("700, 800, 600", ""));
+    assert_text(&made, NULL, "1 numbers lie beyond the bounds");
+    from_deck_free(&made);
+}
+
+#define TEXT DECK("700, 800, 600", "")
+
+static void test_wrong_text(void **state)
+{
+    (void)state;
+    static const struct {
+        int line;
+        const char *text;
+        int lines;
+        const char *words[4];
+    } wrong[] = {
+        {0, "", 59, {"ends after 59 of 3 x 4 x 5 values", "line 66", NULL}},
+        {5, "1500 2300 -700 nan 2000 2000\n", 60, {"line 11", "'nan", "numbers", NULL}},
+        {5, "1500 2300 -700 -4000 2000 2000\n", 60, {"line 11", "p_speed -4000", NULL}},
+        {5,
+         "1500 2310 -700 4000 2000 2000\n",
+         60,
+         {"line 11", "value 5 lies at y = 2310; expected 2300", NULL}},
+        {5, "1500 2300 -700 4000 2000\n", 60, {"line 11", "5 numbers", NULL}},
+        {5, "1500 2300 -700 4000 0 2000\n", 60, {"line 11", "s_speed 0", NULL}},
+        {5, "1500 2300 -700 2200 2100 2000\n", 60, {"(1500, 2300, 700)", "bulk modulus is negative", NULL}},
+        {60, "2000 2900 100 4000 2000 2000\n1 1 1 4000 2000 2000\n", 60, {"more than 3 x 4 x 5", NULL}},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        write_text(stored, 0, wrong[i].line, wrong[i].text, wrong[i].lines);
+        assert_refused(TEXT, "t.nml:4:", wrong[i].words);
+    }
+    write_text(stored, 0, 0, "", 60);
+    assert_refused(DECK("700, 1010, 600", ""),
+                   "t.nml:4:", (const char *[]){"1000 to 2000 along x", "1000 to 2010", NULL});
+    assert_refused(DECK("700, 800, 800", ""),
+                   "t.nml:4:", (const char *[]){"-100 to 700 along z", "0 to 800", NULL});
+    FILE *file = fopen(stored, "w");
+    fputs("0 0 0 10 10 10\n10 10 10\n2 2 2\n1 9 1 9 1 9\n0 0 0 6 3 2.7\n10 0 0 6 3 2.7\n0 10 0 6 3 2.7\n"
+          "10 10 0 6 3 2.7\n0 0 10 6 3 2.7\n10 0 10 6 3 2.7\n0 10 10 6 3 2.7\n10 10 10 6 3 2.7\n",
+          file);
+    fclose(file);
+    assert_refused(DECK("10, 10, 10", "origin = 0, 0, 10"),
+                   "t.nml:4:", (const char *[]){"p_speed 6", "m/s, not km/s", NULL});
+}
+
+static void test_cut_short(void **state)
+{
+    (void)state;
+    write_rfile(stored, 0, 1, 0);
+    assert_int_equal(truncate(stored, 600), 0);
+    assert_refused(DECK("800, 700, 900", ""),
+                   "t.nml:4:", (const char *[]){"it has 600 bytes", "cut short", NULL});
+    assert_int_equal(truncate(stored, 50), 0);
+    assert_refused(DECK("800, 700, 900", ""), "t.nml:4:", (const char *[]){"its head is cut short", NULL});
+    write_rfile(stored, 0, 1, 0);
+    assert_refused(DECK("800, 700, 900", "origin = 0, 0, 0"),
+                   "t.nml:4:", (const char *[]){"3 values; expected 2", NULL});
+    assert_refused(DECK("800, 700, 1400", ""), "t.nml:4:", (const char *[]){"-200 to 1200 along z", NULL});
+    write_sfile(stored, 0);
+    assert_int_equal(truncate(stored, 5000), 0);
+    assert_refused(DECK("800, 700, 900", ""),
+                   "t.nml:4:", (const char *[]){"build/test/model", "cut short", NULL});
+    write_blocks(stored, 0, "m/s", NAN);
+    assert_refused(DECK("800, 300, 900", ""),
+                   "t.nml:4:", (const char *[]){"(0, 0, 0)", "is not finite", NULL});
+    unlink(stored);
+    assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"No such file", NULL});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rfile), cmocka_unit_test(test_sfile),      cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_text),  cmocka_unit_test(test_wrong_text), cmocka_unit_test(test_cut_short),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

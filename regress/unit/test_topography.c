@@ -1,0 +1,170 @@
+/* The surface of the ground from the deck: shapes, heights from files, what is refused, places by their depth, boxes and
+ * mirror planes, who takes it (doc/general-ground.md, section 8). */
+#include "from_deck.h"
+
+#include "method/methods.h"
+#include "scene/symmetry.h"
+#include "scene/topography.h"
+
+#include <math.h>
+
+static const char stored[] = "build/test/heights.txt";
+
+#define HEAD                                                                                                 \
+    "&scene dimension = 3, end_time = 1 /\n"                                                                 \
+    "&material name = 'soil', density = 2.0, p_speed = 2.0, s_speed = 1.0 /\n"
+#define BOX                                                                                                  \
+    "&body material = 'soil', low = 0.0, 0.0, 0.0, high = 4.0, 4.0, 2.0, spacing = 0.25 /\n"                 \
+    "&load face = 'z-', shape = 'square', centre = 2.0, 2.0, depth = 0.0, size = 1.0, 1.0, "                 \
+    "direction = 0, 0, 1, history = 'triangle', duration = 1 /\n"
+#define HILL "&topography shape = 'gaussian', height = 0.5, centre = 2.0, 2.0, width = 0.7 /\n"
+#define HEIGHTS "&topography file = 'build/test/heights.txt', datum = 100.0 /\n"
+
+static void test_shapes(void **state)
+{
+    (void)state;
+    struct from_deck made =
+        right_scene(HEAD BOX HILL "&receiver name = 'top', position = 2.0, 2.0, -0.5 /\n"
+                                  "&receiver name = 'deep', position = 2.7, 2.0, depth = 0.3 /\n");
+    const struct scene *scene = made.scene;
+    const double side = -.5 * exp(-.5);
+    assert_near(scene->load[0].centre[2], -.5, 1e-15);
+    assert_near(scene->receiver[1].position[2], side + .3, 1e-15);
+    assert_int_equal(scene_mirror_axes(scene), 3);
+    from_deck_free(&made);
+    made =
+        right_scene(HEAD BOX "&topography shape = 'ridge', height = 0.4, centre = 2, 2.2, width = 0.7 /\n");
+    assert_near(made.scene->load[0].centre[2], -.4 * exp(-.04 / .98), 1e-15);
+    assert_int_equal(scene_mirror_axes(made.scene), 1); /* along x, beside the middle of y */
+    from_deck_free(&made);
+    made = right_scene(
+        HEAD BOX "&topography shape = 'canyon', height = 0.4, centre = 2, 2, width = 0.7, azimuth = 30 /\n");
+    assert_near(made.scene->load[0].centre[2], .4, 1e-15);
+    assert_int_equal(scene_mirror_axes(made.scene), 0);
+    assert_non_null(strstr(made.scene->body.topography->text[0], "heights -0.4 to"));
+    from_deck_free(&made);
+}
+
+static void write_heights(double step, double end, double fault, bool whole)
+{
+    FILE *file = fopen(stored, "w");
+    fprintf(file, "# x y height\n");
+    for (double x = 0; x < end + step / 2; x += step)
+        for (double y = 0; y < 4 + step / 2; y += step) {
+            if (!whole && x == 2 && y == 1) continue;
+            fprintf(file, "%.17g, %.17g %.17g\n", x, y,
+                    x == 1 && y == 1 ? fault : 100 + .1 * x + .2 * sin(y));
+        }
+    fclose(file);
+}
+
+/* Splines through heights: between the values too; coarse and fine grids; ends of a plane exact. */
+static void test_heights(void **state)
+{
+    (void)state;
+    for (int fine = 0; fine < 2; fine++) {
+        write_heights(fine ? .125 : .5, 4, 100.1 + .2 * sin(1), true);
+        struct from_deck made = right_scene(HEAD BOX HEIGHTS);
+        const struct topography *topography = made.scene->body.topography;
+        double worst = 0;
+        for (double x = 0; x <= 4; x += .3)
+            for (double y = 0; y <= 4; y += .3)
+                worst =
+                    fmax(worst, fabs(topography_drop(topography, (double[]){x, y}) + .1 * x + .2 * sin(y)));
+        assert_true(worst < .0015); /* pieces of .8 and .5: .0012, .0002 */
+        assert_near(topography_drop(topography, (double[]){0, 0}), 0, 1e-3);
+        from_deck_free(&made);
+    }
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    write_heights(.5, 3, 100.3, true);
+    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:",
+                   (const char *[]){"the heights reach from 0 to 3 along x", "the body from 0 to 4", NULL});
+    write_heights(.5, 4, NAN, true);
+    assert_refused(HEAD BOX HEIGHTS,
+                   "t.nml:5:", (const char *[]){"heights.txt:22: expected three numbers, x y height", NULL});
+    write_heights(.5, 4, 100, false);
+    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:", (const char *[]){"no height at (2, 1)", "9 x 9", NULL});
+    FILE *file = fopen(stored, "w");
+    for (int i = 0; i < 40; i++)
+        fprintf(file, "%g %g 100\n", i * .1, fmod(i * .77, 4));
+    fclose(file);
+    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:", (const char *[]){"which is no grid", NULL});
+    write_heights(.5, 4, 100, true);
+    assert_refused(HEAD BOX "&topography file = 'build/test/heights.txt' /\n",
+                   "t.nml:5:", (const char *[]){"pressed to", "datum", NULL});
+    assert_refused(HEAD BOX "&topography file = 'build/test/no.txt' /\n",
+                   "t.nml:5:", (const char *[]){"cannot open", NULL});
+    assert_refused(HEAD BOX "&topography shape = 'gaussian', height = .5, centre = 2, width = .7 /\n",
+                   "t.nml:5:", (const char *[]){"1 value", "expected 2: x, y", NULL});
+    assert_refused(HEAD BOX "&topography shape = 'gaussian', height = 1.0, centre = 2, 2, width = .3 /\n",
+                   "t.nml:5:", (const char *[]){"as steep as 6", "60 at most", NULL});
+    assert_refused(HEAD BOX HILL "&boundary face = 'z-', kind = 'fixed' /\n",
+                   "t.nml:5:", (const char *[]){"free surface", NULL});
+    assert_refused(HEAD BOX HILL "&receiver name = 'air', position = 2, 2, -.6 /\n",
+                   "t.nml:6:", (const char *[]){"outside the body", "2, 2, -0.5", NULL});
+    assert_refused(HEAD BOX HILL "&profile name = 'line', from = 2, 2, -.5, to = 4, 2, 0, points = 5 /\n",
+                   "t.nml:6:", (const char *[]){"leaves the ground at", NULL});
+    assert_refused(HEAD BOX HILL "&receiver name = 'three', position = 2, 2, 1, depth = 0 /\n",
+                   "t.nml:6:", (const char *[]){"in place of the last of the 3 values", NULL});
+}
+
+/* The box of a half-space holds the hill, and the depth below which its lattice is level. */
+static void test_fitted(void **state)
+{
+    (void)state;
+    struct from_deck made =
+        right_scene(HEAD "&body material = 'soil', shape = 'half-space', spacing = 0.125 /\n"
+                         "&load face = 'z-', shape = 'square', centre = 0, 0, depth = 0.0, size = .5, .5, "
+                         "direction = 0, 0, 1, history = 'gaussian', width = .2, delay = .5 /\n"
+                         "&topography shape = 'gaussian', height = 0.3, centre = 1, 0, width = 0.5 /\n");
+    const struct body *body = &made.scene->body;
+    assert_true(body->low[0] < -.7 && body->high[0] > 2.7 && body->low[1] < -1.7);
+    assert_near(body->topography->depth, 2, 1e-12); /* of 1.8 even numbers of spacings */
+    assert_true(body->high[2] > 2);
+    from_deck_free(&made);
+}
+
+static void assert_no_model(const char *text, const char *word)
+{
+    struct from_deck made = right_scene(text);
+    struct messages messages = {0};
+    struct model *model = NULL;
+    assert_int_equal(model_create(made.scene, &model, &messages), SELAS_UNSUPPORTED);
+    if (strstr(messages.text, word) == NULL) fail_msg("%s", messages.text);
+    messages_free(&messages);
+    from_deck_free(&made);
+}
+
+static void test_who_takes_it(void **state)
+{
+    (void)state;
+    assert_no_model(HEAD BOX HILL "&method name = 'sph' /\n", "no &topography");
+    assert_no_model(HEAD BOX HILL "&method operator = 'layered' /\n", "&topography");
+    assert_no_model(HEAD BOX HILL "&load kind = 'body-force', direction = 0, 0, 1, history = 'triangle', "
+                                  "duration = 1 /\n",
+                    "acts at a point");
+    assert_no_model(HEAD BOX HILL "&load face = 'x-', shape = 'face', direction = 1, 0, 0, "
+                                  "history = 'triangle', duration = 1 /\n",
+                    "not on face x-");
+    assert_refused("&scene dimension = 3, end_time = 4, accuracy = .01 /\n"
+                   "&material name = 'soil', density = 2.0, p_speed = 2.0, s_speed = 1.0 /\n"
+                   "&body material = 'soil', shape = 'half-space' /\n"
+                   "&load face = 'z-', shape = 'square', centre = 0, 0, depth = 0.0, size = .5, .5, "
+                   "direction = 0, 0, 1, history = 'gaussian', width = .2, delay = .5 /\n"
+                   "&topography shape = 'gaussian', height = 0.3, centre = 1, 0, width = 0.5 /\n"
+                   "&receiver name = 'r', position = 1, 0, depth = 0 /\n",
+                   "t.nml:1:", (const char *[]){"level ground", NULL});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shapes), cmocka_unit_test(test_heights),      cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_fitted), cmocka_unit_test(test_who_takes_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,31 @@
+/* The map of a lattice below a surface that is not level, and its metric (doc/general-ground.md, section 8). */
+#ifndef SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
+#define SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
+
+#include "method/consistent/galerkin/galerkin.h"
+
+/* The metric of the map at a place (G15): slopes along the axes are g_s - tilt_s g_z for the slots of the surface and
+ * `inverse` g_z along depth, g along the lattice; a cell has `jacobian` times its volume. */
+struct metric {
+    double tilt[2], inverse, jacobian;
+};
+
+/* Metric of a place of the lattice, by axis; 0, 1, 1 below a level surface. */
+struct metric consistent_metric(const struct consistent *c, const double place[3]);
+struct metric metric_of(double drop, const double slope[2], double share, double fall);
+/* s at a place of the lattice, by axis; its slopes by slot, unless slope is NULL. */
+double consistent_drop(const struct consistent *c, const double place[3], double slope[2]);
+
+/* Slopes along the lattice become those along the axes; stresses the pulls along the lattice. By slot. */
+static inline void metric_tilt(const struct metric *metric, double slope[3])
+{
+    slope[0] -= metric->tilt[0] * slope[2];
+    slope[1] -= metric->tilt[1] * slope[2];
+    slope[2] *= metric->inverse;
+}
+static inline double metric_pull(const struct metric *metric, const double stress[3])
+{
+    return metric->inverse * stress[2] - metric->tilt[0] * stress[0] - metric->tilt[1] * stress[1];
+}
+
+#endif

@@ -1,0 +1,118 @@
+/* The map of the general operator below a surface that is not level (doc/general-ground.md, section 8): s and f as
+ * splines of the displacements, so that rotations are among these and move nothing. */
+#include "method/consistent/general/general.h"
+
+#include "base/memory.h"
+#include "scene/topography.h"
+
+#include <math.h>
+
+/* Number of points of an axis. */
+static size_t points_of(const struct consistent *c, int slot, enum at at)
+{
+    return c->layout[slot] == NULL ? 1 : c->general->cells[slot] + (at == AT_KNOTS ? 1 : 0);
+}
+
+/* f and its slope at the points over depth. */
+static bool lay_depth(struct consistent *c, struct hill *hill)
+{
+    const struct topography *topography = c->model.scene->body.topography;
+    const double end = topography->plane + topography->depth;
+    double *control = array_new(c->n[DEPTH], sizeof *control), slope;
+    struct band *lu = consistent_collocation(c->layout[DEPTH], false);
+    bool good = control != NULL && lu != NULL;
+    for (size_t k = 0; good && k < c->n[DEPTH]; k++)
+        control[k] = topography_share(topography, c->layout[DEPTH]->greville[k] - topography->plane, &slope);
+    if (good) band_lu_solve(lu, control, 1);
+    band_free(lu);
+    for (int at = 0; good && at < 2; at++) {
+        const size_t points = points_of(c, DEPTH, (enum at)at);
+        hill->share[at] = array_new(points, sizeof(double));
+        hill->fall[at] = array_new(points, sizeof(double));
+        good = hill->share[at] != NULL && hill->fall[at] != NULL;
+        for (size_t m = 0; good && m < points; m++) {
+            const struct taps *taps = &c->general->taps[DEPTH][0][at][m];
+            if (general_place(c, DEPTH, (enum at)at, m) > end - 1e-6 * topography->depth) break;
+            hill->level[at] = m + 1;
+            for (size_t d = 0; d < taps->count; d++) {
+                hill->share[at][m] += taps->value[d] * control[taps->first + d];
+                hill->fall[at][m] += taps->slope[d] * control[taps->first + d];
+            }
+        }
+    }
+    array_free(control);
+    return good;
+}
+
+/* s and its slopes at the points of a family. */
+static bool lay_points(struct consistent *c, int f, struct hill *hill)
+{
+    const struct family *family = &c->general->family[f];
+    const size_t count = family->n[0] * family->n[1];
+    hill->drop[f] = array_new(count, sizeof(double));
+    for (int s = 0; s < 2; s++)
+        hill->slope[f][s] = array_new(count, sizeof(double));
+    if (hill->drop[f] == NULL || hill->slope[f][0] == NULL || hill->slope[f][1] == NULL) return false;
+    c->general->bytes += 3 * count * sizeof(double);
+    for (size_t p = 0; p < count; p++) {
+        const struct taps *x = &c->general->taps[0][0][family->at[0]][p % family->n[0]];
+        const struct taps *y = &c->general->taps[1][0][family->at[1]][p / family->n[0]];
+        for (size_t j = 0; j < y->count; j++)
+            for (size_t i = 0; i < x->count; i++) {
+                const double control = c->surface[(y->first + j) * c->n[0] + x->first + i];
+                hill->drop[f][p] += x->value[i] * y->value[j] * control;
+                hill->slope[f][0][p] += x->slope[i] * y->value[j] * control;
+                hill->slope[f][1][p] += x->value[i] * y->slope[j] * control;
+            }
+    }
+    return true;
+}
+
+bool general_lay_hill(struct consistent *c)
+{
+    if (c->model.scene->body.topography == NULL) return true;
+    struct hill *hill = c->general->hill = array_new(1, sizeof *hill);
+    if (hill == NULL) return false;
+    bool good = lay_depth(c, hill);
+    for (int f = 0; f < 3; f++)
+        good = good && lay_points(c, f, hill);
+    return good;
+}
+
+void general_free_hill(struct consistent *c)
+{
+    struct hill *hill = c->general->hill;
+    if (hill == NULL) return;
+    for (int at = 0; at < 2; at++) {
+        array_free(hill->share[at]);
+        array_free(hill->fall[at]);
+    }
+    for (int f = 0; f < 3; f++) {
+        array_free(hill->drop[f]);
+        for (int s = 0; s < 2; s++)
+            array_free(hill->slope[f][s]);
+    }
+    array_free(hill);
+}
+
+struct metric general_metric_at(const struct consistent *c, const struct family *family, size_t i, size_t j,
+                                size_t k)
+{
+    struct hill_row row;
+    if (!general_hill_row(c, family, j, k, &row)) return (struct metric){.inverse = 1, .jacobian = 1};
+    return metric_of(row.drop[i], (double[]){row.slope[0][i], row.slope[1][i]}, row.share, row.fall);
+}
+
+bool general_hill_row(const struct consistent *c, const struct family *family, size_t j, size_t k,
+                      struct hill_row *row)
+{
+    const struct hill *hill = c->general->hill;
+    const enum at at = family->at[DEPTH];
+    if (hill == NULL || k >= hill->level[at]) return false;
+    const size_t f = (size_t)(family - c->general->family), from = j * family->n[0];
+    *row = (struct hill_row){hill->drop[f] + from,
+                             {hill->slope[f][0] + from, hill->slope[f][1] + from},
+                             hill->share[at][k],
+                             hill->fall[at][k]};
+    return true;
+}

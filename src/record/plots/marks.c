@@ -1,0 +1,144 @@
+/* What a plot of the ground shows beside the ground (see the header). */
+#include "record/plots/marks.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SHOWN = 3000 /* sources, at most, that are drawn */ };
+
+static void own_place(const struct scene *scene, const double place[3], double own[3])
+{
+    if (scene->body.rotated)
+        body_from_deck(&scene->body, place, own);
+    else
+        memcpy(own, place, 3 * sizeof *own);
+}
+
+void marks_line(const struct scene *scene, double from[3], double to[3])
+{
+    const struct body *body = &scene->body;
+    size_t k = 0;
+    while (k < scene->loads && scene->load[k].shape == LOAD_FACE)
+        k++;
+    for (int axis = 0; axis < 3; axis++)
+        from[axis] = (body->low[axis] + body->high[axis]) / 2;
+    if (k < scene->loads)
+        own_place(scene, scene->load[k].centre, from);
+    else if (scene->receivers > 0)
+        own_place(scene, scene->receiver[0].position, from);
+    memcpy(to, from, 3 * sizeof *to);
+    double farthest = 0;
+    for (size_t r = 0; r < scene->receivers; r++) {
+        double place[3];
+        own_place(scene, scene->receiver[r].position, place);
+        const double away = hypot(place[0] - from[0], place[1] - from[1]);
+        if (away > farthest * (1 + 1e-9)) memcpy(to, place, sizeof place);
+        farthest = fmax(farthest, away);
+    }
+    if (farthest == 0) to[0] += body->high[0] - body->low[0];
+}
+
+static void write_places(struct page *page, size_t c)
+{
+    const struct scene *scene = page->scene;
+    const size_t stride = 1 + scene->loads / SHOWN;
+    double own[3], at[2];
+    fprintf(page->script, "$sources%zu << END\n", c);
+    for (size_t k = 0; k < scene->loads; k += stride) {
+        if (scene->load[k].shape == LOAD_FACE) continue;
+        own_place(scene, scene->load[k].centre, own);
+        cut_project(&page->cut[c], own, at);
+        fprintf(page->script, "%.9g %.9g\n", at[0], at[1]);
+    }
+    fprintf(page->script, "END\n$receivers%zu << END\n", c);
+    for (size_t r = 0; r < scene->receivers; r++) {
+        own_place(scene, scene->receiver[r].position, own);
+        cut_project(&page->cut[c], own, at);
+        fprintf(page->script, "%.9g %.9g \"%s\"\n", at[0], at[1],
+                scene->receivers <= NAMED ? scene->receiver[r].name : "");
+    }
+    fprintf(page->script, "END\n$jumps%zu << END\n", c);
+    page->jumps = cut_write_jumps(scene, &page->cut[c], page->script) || page->jumps;
+    fprintf(page->script, "END\n");
+}
+
+/* Rim of a patch on a face that a cut shows whole (map) or from the side (section). */
+static void write_patch(const struct page *page, size_t c, const struct load *load)
+{
+    enum { CORNERS = 48 };
+    const int axis = face_axis(load->face);
+    double own[3], at[2];
+    own_place(page->scene, load->centre, own);
+    for (int k = 0; k <= CORNERS; k++) {
+        const double angle = 2 * M_PI * k / CORNERS, round[2] = {cos(angle), sin(angle)};
+        const double most = fmax(fabs(round[0]), fabs(round[1]));
+        double place[3];
+        memcpy(place, own, sizeof place);
+        for (int a = 0, side = 0; a < page->scene->dimension && side < 2; a++)
+            if (a != axis) {
+                const bool disc = load->shape == LOAD_DISC;
+                place[a] += load->size[disc ? 0 : side] / 2 * round[side] / (disc ? 1 : most);
+                side++;
+            }
+        cut_project(&page->cut[c], place, at);
+        fprintf(page->script, "%.9g %.9g\n", at[0], at[1]);
+    }
+    fprintf(page->script, "\n");
+}
+
+static bool is_patch(const struct load *load)
+{
+    return load->kind == LOAD_TRACTION && (load->shape == LOAD_SQUARE || load->shape == LOAD_DISC);
+}
+
+static void write_patches(const struct page *page, size_t c)
+{
+    fprintf(page->script, "$patches%zu << END\n", c);
+    for (size_t k = 0; k < page->scene->loads && k < SHOWN; k++)
+        if (is_patch(&page->scene->load[k])) write_patch(page, c, &page->scene->load[k]);
+    fprintf(page->script, "END\n");
+}
+
+static bool looks(const struct scene *scene, int face, enum face_look look)
+{
+    const struct boundary *boundary = &scene->boundary[face];
+    const bool damped = boundary_damps(boundary);
+    return look == LOOK_DAMPED ? damped
+                               : !damped && !boundary_has_layer(boundary) && !boundary_is_free(boundary);
+}
+
+bool marks_any_face(const struct page *page, enum face_look look)
+{
+    for (int face = 0; face < 2 * page->scene->dimension; face++)
+        if (looks(page->scene, face, look)) return true;
+    return false;
+}
+
+static void write_faces(const struct page *page, size_t c, enum face_look look)
+{
+    const struct cut *cut = &page->cut[c];
+    fprintf(page->script, "$faces%zu_%d << END\n", c, look);
+    for (int side = 0; side < 2; side++)
+        for (int end = 0; end < 2; end++) {
+            const int face = cut->face[side][end];
+            if (face < 0 || !looks(page->scene, face, look)) continue;
+            const double at = end == 0 ? cut->body_low[side] : cut->body_high[side];
+            const double from = cut->body_low[1 - side], to = cut->body_high[1 - side];
+            for (int n = 0; n < 2; n++) {
+                double place[2];
+                place[side] = at;
+                place[1 - side] = n == 0 ? from : to;
+                fprintf(page->script, "%.9g %.9g\n", place[0], place[1]);
+            }
+            fprintf(page->script, "\n");
+        }
+    fprintf(page->script, "END\n");
+}
+
+void marks_write(struct page *page, size_t c)
+{
+    write_places(page, c);
+    write_patches(page, c);
+    for (int look = 0; look < LOOKS; look++)
+        write_faces(page, c, (enum face_look)look);
+}

@@ -1,0 +1,85 @@
+/* Inside of reading a model of the ground from a file (doc/general-ground.md, section 4): model_file.c (which
+ * format, where the deck's place is, what is checked), model_grid.c (values between those of a grid),
+ * model_plain.c, model_text.c, model_rfile.c, model_sfile.c, model_blocks.c (the formats), model_set.c (what
+ * those in HDF5 share). */
+#ifndef SELAS_SCENE_MODEL_FILE_H
+#define SELAS_SCENE_MODEL_FILE_H
+
+#include "scene/build.h"
+#include "scene/ground.h"
+
+#include <hdf5.h>
+#include <stdio.h>
+
+/* A file while it is read. */
+struct model_source {
+    struct builder *builder;
+    const struct deck_group *group;
+    const char *path;
+    struct ground_model *model;
+    double range[3][2]; /* what the body needs along the model's own axes (model_place(), the reader) */
+    bool si;            /* speeds in m/s and densities in kg/m^3, by the format */
+    bool damped;        /* the file has q_p, q_s */
+    size_t filled;      /* values of air or water that took those of the rock below */
+    double whole[3][2]; /* first and last place in the file along each axis of the last grid */
+    double end;         /* model_meets() */
+};
+
+/* Complains of the file; false. */
+bool model_fault(const struct model_source *source, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* How the axes of a file lie. */
+struct model_axes {
+    int north;          /* 0 or 1: the axis nearest to north; the other one points to the right of it */
+    double bearing;     /* of that axis [degrees, clockwise from north] */
+    double from[2];     /* place of the axes' origin in the coordinates that model%origin is in, which ... */
+    bool turned;        /* ... lie north (else as the axes do) */
+    double corner[2];   /* where x = y = 0 of the deck lies without model%origin, along the axes */
+    size_t coordinates; /* of model%origin: 2, or 3 where the depth may be shifted */
+};
+/* Where the body lies: fills origin and turn of the model and range[0], range[1]. False after complaining. */
+bool model_place(struct model_source *source, const struct model_axes *axes);
+/* Complains if the model, which reaches from `low` to `high` along an axis, does not cover the range. */
+bool model_covers(const struct model_source *source, int axis, double low, double high);
+
+/* Complains unless grid i, the last one of which the places are known, begins at the end of grid i - 1. */
+bool model_meets(struct model_source *source, size_t i);
+
+/* Adds `count` grids or surfaces; false after complaining. */
+bool model_grids(struct model_source *source, size_t grids, size_t surfaces);
+/* Places of a grid along an axis: those of `count` in the file that the range needs (rising; the first one's
+ * index to *first). */
+bool model_part(struct model_source *source, struct model_grid *grid, int axis, const double *place,
+                size_t count, size_t *first);
+bool model_even_part(struct model_source *source, struct model_grid *grid, int axis, double from, double step,
+                     size_t count, size_t *first);
+/* Room for the values when the places are known: the first `sets` of them. */
+bool model_room(struct model_source *source, struct model_grid *grid, int sets);
+/* In every column from the top values of air and water, whose s_speed is at most `none`, become those of the
+ * first rock below, also in the grid below. */
+void model_fill(struct model_source *source, double none);
+/* Least and greatest value of a surface. */
+void model_extremes(const struct model_grid *surface, double *least, double *greatest);
+/* model_grid.c: the first `sets` values at a place along the grid's axes. */
+void model_grid_at(const struct model_grid *grid, const double place[3], int sets, double *value);
+
+/* model_set.c: attributes of a file, group or data set. */
+bool model_numbers(hid_t place, const char *name, size_t count, double *value);
+/* A text, or the i-th of several, without blanks at its end, cut to `size`. */
+bool model_word(hid_t place, const char *name, size_t i, char *text, size_t size);
+/* Extent of a data set of at most 4 axes; 0 if it has more. */
+int model_extent(hid_t set, size_t extent[4]);
+/* Reads part of a data set: n values from `first` on along each of the first three axes (of surfaces two),
+ * `component` along the next one. */
+bool model_read_part(hid_t set, const struct model_grid *grid, const size_t first[3], size_t component,
+                     double *value);
+
+/* The formats: each reads all that the model is but its frame. False after complaining. */
+bool model_read_plain(struct model_source *source, hid_t file);
+bool model_read_sfile(struct model_source *source, hid_t file);
+bool model_read_blocks(struct model_source *source, hid_t file);
+bool model_read_rfile(struct model_source *source, FILE *file);
+bool model_read_text(struct model_source *source, FILE *file);
+
+#endif

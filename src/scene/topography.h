@@ -1,0 +1,66 @@
+/* The surface of the ground (doc/general-ground.md, section 8): how far it lies below the plane of face z-, and the
+ * map of a lattice that follows it,
+ *
+ *   z = zeta + s(x, y) f(zeta),   f from 1 at the plane to 0 at a depth,                                 (G16)
+ *
+ * all else along the axes. With topography the "body's own frame" is that of the lattice: body_from_deck() and
+ * body_to_deck() go through the map. */
+#ifndef SELAS_SCENE_TOPOGRAPHY_H
+#define SELAS_SCENE_TOPOGRAPHY_H
+
+#include "scene/scene.h"
+
+enum topography_shape { TOPOGRAPHY_SHAPES(CHOICE_SYMBOL) };
+
+/* Coordinates beyond `from` are drawn out over `width`, to the surface's being level across the face; 0: not. */
+struct drawn_out {
+    double from, width;
+};
+
+struct height_map; /* topography_file.c: splines through the values of a file */
+
+struct topography {
+    enum topography_shape shape;
+    double height, centre[2], width; /* of the shapes: centre and standard deviation */
+    double across[2];                /* unit vector across a ridge or canyon */
+    struct height_map *map;          /* of a file, in place of a shape; NULL: none */
+    int axis;                        /* the vertical one */
+    double plane;                    /* where the vertical axis cuts face z- */
+    double depth;                    /* below the plane the lattice is level */
+    struct drawn_out end[2][2];      /* [horizontal axis][low, high] */
+    char text
+        [4]
+        [200]; /* for the plan: heights and slope, lattice, what splines and what absorbing layers changed */
+};
+enum { TOPOGRAPHY_LINES = 4 };
+
+/* s at a place (x, y): how far the surface lies below the plane of face z-; a hill's is negative. Not for several
+ * threads at once. */
+double topography_drop(const struct topography *topography, const double place[2]);
+/* f at a depth below the plane of face z-, its slope over depth in *slope. */
+double topography_share(const struct topography *topography, double depth, double *slope);
+/* Vertical coordinate of a place of the lattice whose column has a surface `drop` below the plane, and the other way.
+ */
+double topography_real(const struct topography *topography, double drop, double lattice);
+double topography_lattice(const struct topography *topography, double drop, double real);
+/* A place of the deck becomes one of the lattice, and the other way. */
+void topography_to_lattice(const struct topography *topography, double place[3]);
+void topography_to_deck(const struct topography *topography, double place[3]);
+/* Is the surface its own image across the middle of the body along an axis? */
+bool topography_mirrors(const struct body *body, int dimension, int axis);
+void topography_free(struct topography *topography); /* takes NULL */
+
+/* topography_file.c: reads x, height (two dimensions) or x, y, height, on a grid of rows and columns whatever their
+ * distances; splines of pieces no shorter than `piece` by least squares. NULL: SELAS_FILE_ERROR or SELAS_NO_MEMORY
+ * in messages. */
+struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
+                                   struct messages *messages);
+void height_map_free(struct height_map *map); /* takes NULL */
+double height_map_at(const struct height_map *map,
+                     const double place[2]); /* beyond the grid as at its edge */
+/* Where the grid reaches, the largest height either way, the largest difference that the splines leave. */
+void height_map_extent(const struct height_map *map, int axis, double *low, double *high);
+double height_map_most(const struct height_map *map);
+double height_map_smoothed(const struct height_map *map);
+
+#endif

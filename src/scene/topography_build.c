@@ -1,0 +1,268 @@
+/* The surface of the ground from the deck (&topography), and places that are told by their depth below it. */
+#include "base/memory.h"
+#include "scene/build.h"
+#include "scene/topography.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Pieces of the splines through a file's heights, and the strip before absorbing layers over which the surface is
+ * made level, in spacings. */
+static const double piece = 2, strip = 8;
+/* The lattice of a half-space whose box the program chooses is level below so many times the largest height. */
+static const double chosen_depth = 6;
+/* Vertical spacings over the body's; slopes in degrees. */
+static const double least_stretch = .4, most_stretch = 1.8, steep = 45, steepest = 60;
+
+static void read_shape(struct builder *builder, const struct deck_group *group, struct topography *topography)
+{
+    static const char *const file_words[] = {"datum", NULL};
+    static const char *const ridge_words[] = {"azimuth", NULL};
+    const double degree = atan(1) / 45;
+    refuse(builder, group, file_words, "a shape of topography");
+    if (!deck_given(group, "shape")) {
+        complain(builder, group, NULL, "topography needs shape or file");
+        return;
+    }
+    topography->shape = (enum topography_shape)deck_choice(group, "shape", 0);
+    if (topography->shape == TOPOGRAPHY_GAUSSIAN || builder->scene->dimension == 2)
+        refuse(builder, group, ridge_words, "what is round, or to two dimensions");
+    const double azimuth = deck_real(group, "azimuth", 0) * degree;
+    topography->across[0] = builder->scene->dimension == 2 ? 1 : -sin(azimuth);
+    topography->across[1] = builder->scene->dimension == 2 ? 0 : cos(azimuth);
+    need_real(builder, group, "height", "a shape of topography", &topography->height);
+    need_real(builder, group, "width", "a shape of topography", &topography->width);
+    const size_t count = deck_values(group, "centre"), wanted = (size_t)topography->axis;
+    if (count != wanted)
+        complain(builder, group, count == 0 ? NULL : "centre",
+                 "the centre of a topography has %zu value%s; expected %zu: %s", count, count == 1 ? "" : "s",
+                 wanted, wanted == 1 ? "x" : "x, y");
+    for (size_t i = 0; i < count && i < wanted; i++)
+        topography->centre[i] = deck_real(group, "centre", i);
+}
+
+static void read_file(struct builder *builder, const struct deck_group *group, struct topography *topography)
+{
+    static const char *const shape_words[] = {"shape", "height", "centre", "width", "azimuth", NULL};
+    struct messages said = {0};
+    refuse(builder, group, shape_words, "topography from a file");
+    char *path = deck_path(builder, deck_text(group, "file", 0));
+    if (path == NULL) return;
+    topography->map = height_map_read(path, topography->axis, deck_real(group, "datum", 0),
+                                      piece * builder->scene->body.spacing, &said);
+    if (topography->map == NULL) {
+        const char *text = said.text != NULL ? said.text : "";
+        if (strncmp(text, "error: ", 7) == 0) text += 7;
+        complain(builder, group, "file", "the heights cannot be used: %.*s", (int)strcspn(text, "\n"), text);
+    }
+    messages_free(&said);
+    array_free(path);
+}
+
+static double largest_height(const struct topography *topography)
+{
+    return topography->map != NULL ? height_map_most(topography->map) : fabs(topography->height);
+}
+
+/* The depth below which the lattice is level: the deck's, else the body's own, else some heights; two cells or a
+ * multiple of it, so that the map is a spline of the lattice. */
+static double take_depth(struct builder *builder, const struct deck_group *group,
+                         const struct topography *topography)
+{
+    const struct body *body = &builder->scene->body;
+    const double pair = 2 * body->spacing, deep = body->high[topography->axis] - body->low[topography->axis];
+    const bool known = builder->body_known && !body->chosen;
+    double depth = known ? floor(deep / pair + 1e-6) * pair
+                         : ceil(chosen_depth * largest_height(topography) / pair - 1e-6) * pair;
+    if (deck_given(group, "depth")) depth = fmax(1, round(deck_real(group, "depth", 0) / pair)) * pair;
+    if (builder->body_known && depth > deep * (1 + 1e-9))
+        complain(builder, group, deck_given(group, "depth") ? "depth" : NULL,
+                 "the lattice would be level below a depth of %g, the body ends at %g", depth, deep);
+    return fmax(depth, pair);
+}
+
+/* Absorbing layers go on as the surface is at the face, level across it. */
+static void draw_out(const struct scene *scene, struct topography *topography)
+{
+    for (int face = 0; face < 2 * topography->axis; face++) {
+        if (!boundary_has_layer(&scene->boundary[face])) continue;
+        struct drawn_out *end = &topography->end[face / 2][face % 2];
+        const double length = scene->body.high[face / 2] - scene->body.low[face / 2];
+        end->width = fmin(strip * scene->body.spacing, length / 4);
+        end->from = face_plane(&scene->body, (enum face)face) - face_sign((enum face)face) * end->width;
+    }
+}
+
+struct range {
+    double low, high, slope, drawn;
+};
+
+/* Over the points of the surface; `plain`: as it was before it was drawn out. */
+static struct range range_of(const struct scene *scene, const struct topography *topography,
+                             const struct topography *plain)
+{
+    const struct body *body = &scene->body;
+    struct range range = {INFINITY, -INFINITY, 0, 0};
+    size_t count[2] = {1, 1};
+    for (int axis = 0; axis < topography->axis; axis++)
+        count[axis] = (size_t)((body->high[axis] - body->low[axis]) / body->spacing + 1.5);
+    for (size_t i = 0; i < count[0] * count[1]; i++) {
+        const size_t column = i % count[0], row = i / count[0];
+        const double place[2] = {body->low[0] + (double)column * body->spacing,
+                                 body->low[1] + (double)row * body->spacing};
+        const double drop = topography_drop(topography, place);
+        double square = 0;
+        range.low = fmin(range.low, drop);
+        range.high = fmax(range.high, drop);
+        range.drawn = fmax(range.drawn, fabs(drop - topography_drop(plain, place)));
+        for (int axis = 0; axis < 2 && axis < topography->axis; axis++) {
+            const double half = body->spacing / 4;
+            double beside[2][2] = {{place[0], place[1]}, {place[0], place[1]}};
+            beside[0][axis] -= half;
+            beside[1][axis] += half;
+            const double rise =
+                (topography_drop(topography, beside[1]) - topography_drop(topography, beside[0])) /
+                (2 * half);
+            square += rise * rise;
+        }
+        range.slope = fmax(range.slope, sqrt(square));
+    }
+    return range;
+}
+
+static void tell(const struct builder *builder, struct topography *topography, const struct range *range)
+{
+    const double h = builder->scene->body.spacing, stretch = 4 / 3. / topography->depth;
+    const size_t size = sizeof topography->text[0];
+    snprintf(topography->text[0], size, "heights %.4g to %.4g above face %s, steepest slope %.3g degrees",
+             -range->high + 0., -range->low + 0., topography->axis == 2 ? "z-" : "y-",
+             atan(range->slope) * 45 / atan(1));
+    snprintf(topography->text[1], size,
+             "vertical spacing %.4g to %.4g, level below a depth of %.4g; along the steepest slope %.4g",
+             h * fmin(1, 1 - stretch * range->high), h * fmax(1, 1 - stretch * range->low), topography->depth,
+             h * hypot(1, range->slope));
+    if (topography->map != NULL)
+        snprintf(topography->text[2], size, "splines differ from the file's heights by up to %.3g",
+                 height_map_smoothed(topography->map));
+    if (topography->end[0][0].width + topography->end[0][1].width + topography->end[1][0].width +
+            topography->end[1][1].width >
+        0)
+        snprintf(
+            topography->text[3], size,
+            "level across faces with absorbing layers: drawn out over %g points before them, heights changed "
+            "by up to %.3g",
+            strip, range->drawn);
+}
+
+static void check_range(struct builder *builder, const struct deck_group *group,
+                        const struct topography *topography, const struct range *range)
+{
+    const double degrees = atan(range->slope) * 45 / atan(1), stretch = 4 / 3. / topography->depth;
+    if (1 - stretch * range->high < least_stretch || 1 - stretch * range->low > most_stretch)
+        complain(builder, group, deck_given(group, "depth") ? "depth" : NULL,
+                 "the lattice below the surface would be pressed to %.3g or stretched to %.3g of its "
+                 "spacing, between "
+                 "heights of %g and %g and a level depth of %g; expected %g to %g: a deeper body, or heights "
+                 "nearer "
+                 "to face z- (datum)",
+                 1 - stretch * range->high, 1 - stretch * range->low, -range->high, -range->low,
+                 topography->depth, least_stretch, most_stretch);
+    if (degrees > steepest)
+        complain(builder, group, NULL, "the surface is as steep as %.3g degrees; expected %g at most",
+                 degrees, steepest);
+    else if (degrees > steep)
+        deck_warning(
+            builder->deck, group, NULL, builder->messages,
+            "the surface is as steep as %.3g degrees, beyond the %g that errors were measured at; points "
+            "along it are %.3g spacings apart",
+            degrees, steep, hypot(1, range->slope));
+}
+
+static void check_cover(struct builder *builder, const struct deck_group *group,
+                        const struct topography *topography)
+{
+    const struct body *body = &builder->scene->body;
+    for (int axis = 0; axis < topography->axis && topography->map != NULL; axis++) {
+        double low, high;
+        height_map_extent(topography->map, axis, &low, &high);
+        const double small = 1e-6 * body->spacing;
+        if (low > body->low[axis] + small || high < body->high[axis] - small)
+            complain(builder, group, "file",
+                     "the heights reach from %g to %g along %c, the body from %g to %g", low, high,
+                     "xy"[axis], body -> low[axis], body -> high[axis]);
+    }
+}
+
+/* What cannot stand on a surface that is not level. */
+static bool check_body(struct builder *builder, const struct deck_group *group)
+{
+    const struct scene *scene = builder->scene;
+    const int top = 2 * scene->dimension - 2;
+    if (scene->dimension == 1 || !body_is_box(&scene->body) || scene->body.rotated || scene->body.jitter > 0)
+        complain(builder, group, NULL,
+                 "topography needs two or three dimensions and a body of shape 'box' or 'half-space', not "
+                 "turned and "
+                 "without jitter");
+    else if (!boundary_is_free(&scene->boundary[top]))
+        complain(builder, group, NULL,
+                 "topography is that of a free surface; expected no &boundary at face %s",
+                 face_name((enum face)top));
+    else
+        return true;
+    return false;
+}
+
+void build_topography(struct builder *builder)
+{
+    struct scene *scene = builder->scene;
+    if (deck_count(builder->deck, "topography") == 0 || !(scene->body.spacing > 0)) return;
+    const struct deck_group *group = deck_get(builder->deck, "topography", 0);
+    const selas_status before = builder->status;
+    if (!check_body(builder, group)) return;
+    struct topography *topography = scene_array(builder, 1, sizeof *topography);
+    if (topography == NULL) return;
+    scene->body.topography = topography;
+    topography->axis = scene->dimension - 1;
+    topography->plane = scene->body.low[topography->axis];
+    topography->depth = 1;
+    if (deck_given(group, "file"))
+        read_file(builder, group, topography);
+    else
+        read_shape(builder, group, topography);
+    if (builder->status != before || before != SELAS_OK) { /* a surface that is only half known is none */
+        topography_free(topography);
+        scene->body.topography = NULL;
+        return;
+    }
+    topography->depth = take_depth(builder, group, topography);
+    if (!builder->body_known) return;
+    check_cover(builder, group, topography);
+    const struct topography plain = *topography;
+    draw_out(scene, topography);
+    const struct range range = range_of(scene, topography, &plain);
+    tell(builder, topography, &range);
+    check_range(builder, group, topography, &range);
+}
+
+bool need_place(struct builder *builder, const struct deck_group *group, const char *name,
+                const char *purpose, double place[3])
+{
+    const struct body *body = &builder->scene->body;
+    const int down = builder->scene->dimension - 1;
+    if (!deck_given(group, "depth")) return need_vector(builder, group, name, purpose, place);
+    const size_t count = deck_values(group, name);
+    if (down == 0 || count != (size_t)down || body->rotated || !body_is_box(body)) {
+        complain(
+            builder, group, "depth",
+            "depth stands in place of the last of the %d values of %s, in a box or half-space that is not "
+            "turned",
+            down + 1, name);
+        return false;
+    }
+    for (int c = 0; c < 3; c++)
+        place[c] = c < down ? deck_real(group, name, (size_t)c) : 0;
+    const double drop = body->topography != NULL ? topography_drop(body->topography, place) : 0;
+    place[down] = body->low[down] + drop + deck_real(group, "depth", 0);
+    return true;
+}

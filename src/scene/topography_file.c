@@ -1,0 +1,305 @@
+/* Heights of the surface from a file: a grid of rows and columns, splines of degree 3 through its values by least
+ * squares, one axis after the other (C. de Boor, A Practical Guide to Splines, 1978, chapters XIV and XVII). */
+#include "base/gsl_errors.h"
+#include "base/lines.h"
+#include "base/memory.h"
+#include "scene/topography.h"
+
+#include <gsl/gsl_bspline.h>
+#include <gsl/gsl_linalg.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ORDER = 4 }; /* degree and one */
+/* Values that a piece has at least. */
+static const double values_a_piece = 1.5;
+
+struct axis_map {
+    size_t values, order, count; /* of the grid; of the splines: order, coefficients */
+    double *place;               /* [values] */
+    gsl_bspline_workspace *spline;
+    gsl_vector *basis; /* [order] */
+};
+
+struct height_map {
+    int axes;
+    struct axis_map along[2];
+    double *height;      /* [values of 0][values of 1] */
+    double *coefficient; /* [count of 0][count of 1] */
+    double most, smoothed;
+};
+
+/* Rows of the file as they stand: places along the axes, height. */
+struct rows {
+    size_t count, room;
+    double (*row)[3];
+};
+
+static bool keep(struct rows *rows, const double *value, int axes)
+{
+    if (rows->count == rows->room) {
+        const size_t more = 2 * rows->room + 1024;
+        double(*larger)[3] = array_new(more, sizeof *larger);
+        if (larger == NULL) return false;
+        if (rows->count > 0) memcpy(larger, rows->row, rows->count * sizeof *larger);
+        array_free(rows->row);
+        rows->row = larger;
+        rows->room = more;
+    }
+    double *row = rows->row[rows->count++];
+    row[0] = value[0];
+    row[1] = axes == 2 ? value[1] : 0;
+    row[2] = value[axes];
+    return true;
+}
+
+static selas_status read_rows(const char *path, int axes, struct rows *rows, struct messages *messages)
+{
+    FILE *file = fopen(path, "r");
+    if (file == NULL) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s': %s", path, strerror(errno));
+    char line[LINE_SIZE];
+    selas_status status = SELAS_OK;
+    enum line_found next = LINE_END;
+    for (size_t number = 1; status == SELAS_OK && (next = line_next(file, line)) != LINE_END; number++) {
+        double value[3];
+        int count = next == LINE_READ ? line_numbers(line, 3, value) : 0;
+        for (int i = 0; i < count; i++)
+            if (!isfinite(value[i])) count = -1;
+        if (next != LINE_READ)
+            status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
+        else if (count != 0 && count != axes + 1)
+            status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: expected %s", path, number,
+                          axes == 2 ? "three numbers, x y height" : "two numbers, x height");
+        else if (count != 0 && !keep(rows, value, axes))
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+    }
+    if (status == SELAS_OK && ferror(file) != 0)
+        status = fail(messages, SELAS_FILE_ERROR, "cannot read '%s': %s", path, strerror(errno));
+    fclose(file);
+    return status;
+}
+
+static int ascending(const void *one, const void *other)
+{
+    const double a = *(const double *)one, b = *(const double *)other;
+    return (a > b) - (a < b);
+}
+
+/* Places that occur along an axis, those that rounding parts taken together. */
+static bool find_places(const struct rows *rows, int axis, struct axis_map *along)
+{
+    along->place = array_new(rows->count, sizeof *along->place);
+    if (along->place == NULL) return false;
+    for (size_t i = 0; i < rows->count; i++)
+        along->place[i] = rows->row[i][axis];
+    qsort(along->place, rows->count, sizeof *along->place, ascending);
+    const double small = 1e-9 * (along->place[rows->count - 1] - along->place[0]);
+    along->values = 0;
+    for (size_t i = 0; i < rows->count; i++)
+        if (along->values == 0 || along->place[i] > along->place[along->values - 1] + small)
+            along->place[along->values++] = along->place[i];
+    return true;
+}
+
+static size_t nearest(const struct axis_map *along, double x)
+{
+    size_t low = 0, high = along->values - 1;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        *(along->place[middle] <= x ? &low : &high) = middle;
+    }
+    return x - along->place[low] < along->place[high] - x ? low : high;
+}
+
+/* Puts the rows into the grid: each place once. */
+static selas_status lay_grid(const char *path, const struct rows *rows, double datum, struct height_map *map,
+                             struct messages *messages)
+{
+    const size_t n[2] = {map->along[0].values, map->along[1].values};
+    if (n[0] < 2 || (map->axes == 2 && n[1] < 2))
+        return fail(messages, SELAS_FILE_ERROR, "%s: %zu x %zu places; expected two at least along each axis",
+                    path, n[0], n[1]);
+    if (n[0] * n[1] > 4 * rows->count + 4)
+        return fail(
+            messages, SELAS_FILE_ERROR,
+            "%s: %zu heights at %zu places along x and %zu along y, which is no grid; expected each x with "
+            "each y (grid loose points first, as with GMT's surface or GDAL's gdal_grid)",
+            path, rows->count, n[0], n[1]);
+    map->height = array_new(n[0] * n[1], sizeof *map->height);
+    if (map->height == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+    for (size_t i = 0; i < n[0] * n[1]; i++)
+        map->height[i] = NAN;
+    for (size_t r = 0; r < rows->count; r++) {
+        const double *row = rows->row[r];
+        double *height =
+            &map->height[nearest(&map->along[0], row[0]) * n[1] + nearest(&map->along[1], row[1])];
+        if (!isnan(*height))
+            return fail(messages, SELAS_FILE_ERROR, "%s: two heights at (%g, %g)", path, row[0], row[1]);
+        *height = row[2] - datum;
+    }
+    for (size_t i = 0; i < n[0] * n[1]; i++) {
+        if (isnan(map->height[i]))
+            return fail(messages, SELAS_FILE_ERROR,
+                        "%s: no height at (%g, %g); expected each x of the file with each y: %zu x %zu", path,
+                        map->along[0].place[i / n[1]], map->along[1].place[i % n[1]], n[0], n[1]);
+        map->most = fmax(map->most, fabs(map->height[i]));
+    }
+    return SELAS_OK;
+}
+
+/* Splines of an axis whose pieces are no shorter than `piece` nor than so many values. */
+static bool lay_splines(struct axis_map *along, double piece)
+{
+    if (along->values < 2) { /* no such axis */
+        along->count = 1;
+        return true;
+    }
+    const double low = along->place[0], high = along->place[along->values - 1];
+    along->order = along->values < ORDER ? along->values : ORDER;
+    const double most = fmin((high - low) / piece, (double)(along->values - 1) / values_a_piece);
+    size_t pieces = most > 1 ? (size_t)most : 1;
+    if (pieces > along->values - along->order + 1) pieces = along->values - along->order + 1;
+    along->count = pieces + along->order - 1;
+    along->spline = gsl_bspline_alloc(along->order, pieces + 1);
+    along->basis = gsl_vector_alloc(along->order);
+    return along->spline != NULL && along->basis != NULL &&
+           gsl_bspline_knots_uniform(low, high, along->spline) == 0;
+}
+
+/* Values of the splines that are not 0 at x: from *first on. */
+static size_t basis_at(const struct axis_map *along, double x, size_t *first)
+{
+    size_t last;
+    *first = 0;
+    if (along->spline == NULL) return 1;
+    const double inside = fmin(fmax(x, along->place[0]), along->place[along->values - 1]);
+    if (gsl_bspline_eval_nonzero(inside, along->basis, first, &last, along->spline) != 0) return 0;
+    return last - *first + 1;
+}
+
+/* Coefficients along an axis: `lines` lines of values, number i of line l at in[l * skip + i * step]; out alike,
+ * with steps of its own. */
+struct lines_of {
+    double *at;
+    size_t step, skip;
+};
+
+static bool fit(const struct axis_map *along, size_t lines, struct lines_of in, struct lines_of out)
+{
+    if (along->spline == NULL) {
+        for (size_t l = 0; l < lines; l++)
+            out.at[l * out.skip] = in.at[l * in.skip];
+        return true;
+    }
+    gsl_matrix *matrix = gsl_matrix_calloc(along->values, along->count);
+    gsl_vector *tau = gsl_vector_alloc(along->count), *value = gsl_vector_alloc(along->values);
+    gsl_vector *found = gsl_vector_alloc(along->count), *rest = gsl_vector_alloc(along->values);
+    bool good = matrix != NULL && tau != NULL && value != NULL && found != NULL && rest != NULL;
+    for (size_t i = 0; good && i < along->values; i++) {
+        size_t first;
+        const size_t count = basis_at(along, along->place[i], &first);
+        for (size_t n = 0; n < count; n++)
+            gsl_matrix_set(matrix, i, first + n, gsl_vector_get(along->basis, n));
+    }
+    good = good && gsl_linalg_QR_decomp(matrix, tau) == 0;
+    for (size_t l = 0; good && l < lines; l++) {
+        for (size_t i = 0; i < along->values; i++)
+            gsl_vector_set(value, i, in.at[l * in.skip + i * in.step]);
+        good = gsl_linalg_QR_lssolve(matrix, tau, value, found, rest) == 0;
+        for (size_t i = 0; good && i < along->count; i++)
+            out.at[l * out.skip + i * out.step] = gsl_vector_get(found, i);
+    }
+    gsl_matrix_free(matrix);
+    gsl_vector_free(tau);
+    gsl_vector_free(value);
+    gsl_vector_free(found);
+    gsl_vector_free(rest);
+    return good;
+}
+
+static bool fit_all(struct height_map *map)
+{
+    const struct axis_map *x = &map->along[0], *y = &map->along[1];
+    double *half = array_new(x->count * y->values, sizeof *half);
+    map->coefficient = array_new(x->count * y->count, sizeof *map->coefficient);
+    const bool good = half != NULL && map->coefficient != NULL &&
+                      fit(x, y->values, (struct lines_of){map->height, y->values, 1},
+                          (struct lines_of){half, y->values, 1}) &&
+                      fit(y, x->count, (struct lines_of){half, 1, y->values},
+                          (struct lines_of){map->coefficient, 1, y->count});
+    array_free(half);
+    for (size_t i = 0; good && i < x->values * y->values; i++) {
+        const double place[2] = {x->place[i / y->values], y->place[i % y->values]};
+        map->smoothed = fmax(map->smoothed, fabs(height_map_at(map, place) - map->height[i]));
+    }
+    return good;
+}
+
+struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
+                                   struct messages *messages)
+{
+    struct rows rows = {0};
+    struct height_map *map = array_new(1, sizeof *map);
+    selas_status status = map != NULL ? read_rows(path, axes, &rows, messages) : SELAS_NO_MEMORY;
+    if (status == SELAS_OK && rows.count == 0)
+        status = fail(messages, SELAS_FILE_ERROR, "%s: no heights", path);
+    if (status == SELAS_OK) {
+        map->axes = axes;
+        const bool found = find_places(&rows, 0, &map->along[0]) && find_places(&rows, 1, &map->along[1]);
+        status = found ? lay_grid(path, &rows, datum, map, messages) : SELAS_NO_MEMORY;
+    }
+    gsl_errors_returned();
+    if (status == SELAS_OK &&
+        !(lay_splines(&map->along[0], piece) && lay_splines(&map->along[1], piece) && fit_all(map)))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+    gsl_errors_as_before();
+    array_free(rows.row);
+    if (status == SELAS_OK) return map;
+    height_map_free(map);
+    return NULL;
+}
+
+void height_map_free(struct height_map *map)
+{
+    if (map == NULL) return;
+    for (int axis = 0; axis < 2; axis++) {
+        array_free(map->along[axis].place);
+        if (map->along[axis].spline != NULL) gsl_bspline_free(map->along[axis].spline);
+        gsl_vector_free(map->along[axis].basis);
+    }
+    array_free(map->height);
+    array_free(map->coefficient);
+    array_free(map);
+}
+
+double height_map_at(const struct height_map *map, const double place[2])
+{
+    const struct axis_map *x = &map->along[0], *y = &map->along[1];
+    size_t first[2];
+    const size_t rows = basis_at(x, place[0], &first[0]), columns = basis_at(y, place[1], &first[1]);
+    double sum = 0;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            sum += gsl_vector_get(x->basis, i) * (y->basis == NULL ? 1 : gsl_vector_get(y->basis, j)) *
+                   map->coefficient[(first[0] + i) * y->count + first[1] + j];
+    return sum;
+}
+
+void height_map_extent(const struct height_map *map, int axis, double *low, double *high)
+{
+    *low = map->along[axis].place[0];
+    *high = map->along[axis].place[map->along[axis].values - 1];
+}
+
+double height_map_most(const struct height_map *map)
+{
+    return map->most;
+}
+
+double height_map_smoothed(const struct height_map *map)
+{
+    return map->smoothed;
+}
