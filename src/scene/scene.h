@@ -214,7 +214,8 @@ struct scene {
     double end_time;
     size_t materials;
     struct material *material;
-    const struct material *whole; /* [materials] a part of damped ground (method/damped/damped.h): materials of the
+    const struct material
+        *whole; /* [materials] a part of damped ground (method/damped/damped.h): materials of the
                                      whole, whose moduli those of `material` are a part of; itself: all. NULL: no
                                      part */
     struct body body;

@@ -10,7 +10,9 @@
 
 #include "base/gsl_errors.h"
 #include "base/memory.h"
+#include "method/consistent/galerkin/surface.h"
 #include "scene/ground.h"
+#include "scene/topography.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
@@ -54,6 +56,15 @@ static struct shares shares_at(const struct scene ground[2], const double place[
                            (more.mu - whole.mu) / (little * whole.mu)};
 }
 
+/* The ground's place of a place of the lattice: below a surface that is not level another depth. */
+static void to_ground(const struct consistent *c, double place[3])
+{
+    const struct topography *topography = c->model.scene->body.topography;
+    const int last = c->dimension - 1;
+    if (topography != NULL)
+        place[last] = topography_real(topography, consistent_drop(c, place, NULL), place[last]);
+}
+
 /* Their mean over the cell about a point of a family. */
 static struct shares mean_shares(const struct consistent *c, const struct family *family,
                                  const struct scene ground[2], const size_t at[3])
@@ -72,6 +83,7 @@ static struct shares mean_shares(const struct consistent *c, const struct family
         double place[3] = {0};
         for (int axis = 0; axis < c->dimension; axis++)
             place[axis] = middle[axis] + ((step[axis] + .5) / SAMPLES - .5) * spacing[axis];
+        to_ground(c, place);
         const struct shares one = shares_at(ground, place);
         sum.bulk += one.bulk / count;
         sum.shear += one.shear / count;
@@ -183,6 +195,7 @@ static bool turn_family(const struct consistent *c, struct eigen *eigen, const s
         double place[3] = {0};
         for (int axis = 0; axis < c->dimension; axis++)
             place[axis] = general_place(c, c->slot[axis], family->at[c->slot[axis]], at[c->slot[axis]]);
+        to_ground(c, place);
         const struct shares share = shares_at(ground, place);
         const double kappa = family->lambda[point] + 2. / 3 * family->mu[point];
         family->mu[point] *= share.shear;
