@@ -219,6 +219,9 @@ static const struct word model_words[] = {
      "and "
      "tomography_model.xyz: where z = 0, or the surface, lies; else the file's corner, of plain grids 0, 0, "
      "0"},
+    {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
+     "of a file that knows its ground: depths are those below it, or, 'sea', below elevation 0, or that of "
+     "the third value of origin"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
      "that is nearest to north"},
@@ -319,7 +322,7 @@ static const struct word output_words[] = {
      "time between rows of the histories [time]; 0: every step"},
     {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "zero-phase low-pass of the histories: exp(-(w/low_pass)^4) [angle/time]; 0: none"},
-    {"balance", WORD_LOGICAL, 1, ".false.", NULL, OPTIONAL,
+    {"balance", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
      "the report's balance of energy has what damped materials take, which several operator calls a step "
      "tell"},
 };
