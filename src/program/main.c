@@ -220,9 +220,13 @@ int main(int count, char **words)
     H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
                         here */
     selas_status status = open_named(&arguments, &simulation);
-    if (simulation == NULL) ranks_abort(ranks, EXIT_RUN_FAILED); /* no memory for anything */
-    if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);
-    if (simulation != NULL) simulation_share(simulation, ranks);
+    if (simulation == NULL) { /* no memory for anything */
+        ranks_abort(ranks, EXIT_RUN_FAILED);
+        status = SELAS_NO_MEMORY;
+    } else {
+        status = ranks_agree(ranks, status, &simulation->messages);
+        simulation_share(simulation, ranks);
+    }
     if (status == SELAS_OK && arguments.strict) status = be_strict(simulation);
     if (status == SELAS_OK) status = carry_out(simulation, &arguments, &told);
     if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);

@@ -103,6 +103,8 @@ struct recorder {
 /* trace.c: receivers step by step, and their finished rows */
 selas_status trace_create(struct recorder *recorder, struct messages *messages);
 selas_status trace_observe(struct recorder *recorder, const struct state *state, struct messages *messages);
+/* Together: the first rank gets what every step showed at the receivers of others. */
+void trace_gather(struct recorder *recorder);
 selas_status trace_finish(struct recorder *recorder, struct messages *messages);
 /* Room for as many rows of all receivers. */
 selas_status trace_reserve(struct recorder *recorder, size_t rows, struct messages *messages);

@@ -78,11 +78,18 @@ selas_status recorder_observe_again(struct recorder *recorder, const struct stat
     return watched;
 }
 
+/* Together: true for the first rank, which then has all that receivers and profiles have seen. */
+static bool gathered(struct recorder *recorder)
+{
+    profile_gather(recorder);
+    trace_gather(recorder);
+    return ranks_first(recorder->scene->ranks);
+}
+
 selas_status recorder_finish(struct recorder *recorder, struct messages *messages)
 {
     if (recorder->finished) return SELAS_OK;
-    profile_gather(recorder);
-    const selas_status status = trace_finish(recorder, messages);
+    const selas_status status = gathered(recorder) ? trace_finish(recorder, messages) : SELAS_OK;
     recorder->finished = status == SELAS_OK;
     return status;
 }
@@ -101,11 +108,10 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)
 {
     const char *results = recorder->folder;
-    profile_gather(recorder);
-    selas_status status = trace_finish(recorder, messages);
-    if (!ranks_first(recorder->scene->ranks)) return status;
-    if (status == SELAS_OK) status = recorder_unfinished(recorder, &recorder->folder, messages);
+    if (!gathered(recorder)) return SELAS_OK;
+    selas_status status = recorder_unfinished(recorder, &recorder->folder, messages);
     recorder->so_far = true;
+    if (status == SELAS_OK) status = trace_finish(recorder, messages);
     if (status == SELAS_OK) status = histories_write(recorder, messages);
     if (status == SELAS_OK) status = profile_write(recorder, messages);
     if (status == SELAS_OK && recorder->scene->output.plots) plot_histories(recorder, messages);

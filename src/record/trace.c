@@ -202,8 +202,7 @@ static selas_status finish_one(const struct recorder *recorder, struct trace *tr
     return status;
 }
 
-/* Together: the first rank gets what every step showed at the receivers of others. */
-static void gather(const struct recorder *recorder)
+void trace_gather(struct recorder *recorder)
 {
     struct ranks *ranks = recorder->scene->ranks;
     for (size_t r = 0; r < recorder->scene->receivers; r++) {
@@ -216,8 +215,6 @@ static void gather(const struct recorder *recorder)
 
 selas_status trace_finish(struct recorder *recorder, struct messages *messages)
 {
-    gather(recorder);
-    if (!ranks_first(recorder->scene->ranks)) return SELAS_OK;
     selas_status status = make_times(recorder, messages);
     for (size_t r = 0; r < recorder->scene->receivers && status == SELAS_OK; r++)
         status = finish_one(recorder, &recorder->trace[r], messages);

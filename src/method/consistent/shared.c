@@ -45,8 +45,8 @@ void shared_describe(const struct consistent *c,
     tell(context, "checkpoints", "none on ranks");
 }
 
-/* Where fields of the whole body are not at hand: the fastest of the own control values, or the middle of those that are
- * spoiled. */
+/* Where fields of the whole body are not at hand: the fastest of the own control values, or the middle of those
+ * that are spoiled. */
 static void own_fastest(const struct consistent *c, const double *y, struct unseen *found)
 {
     const double *v = y + c->model.unknowns;

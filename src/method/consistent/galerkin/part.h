@@ -1,7 +1,7 @@
-/* The part of a body that a rank has (manual, doc/ranks.md): planes of control values, the slot DEPTH. All ranks know the
- * axes of the whole body; a model's fields have a window of its planes, those of its own and on both sides some
- * of its neighbours', the halo. What is made of a window is right in own planes; the halo gets what the
- * neighbours have made. Alone, the window is the whole body. */
+/* The part of a body that a rank has (manual, doc/ranks.md): planes of control values, the slot DEPTH. All ranks
+ * know the axes of the whole body; a model's fields have a window of its planes, those of its own and on both
+ * sides some of its neighbours', the halo. What is made of a window is right in own planes; the halo gets what
+ * the neighbours have made. Alone, the window is the whole body. */
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_PART_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_PART_H
 
@@ -49,15 +49,15 @@ size_t part_face(const struct consistent *c, int face);
 /* The rank that has this plane of the body for its own. */
 int part_holder(const struct consistent *c, size_t plane);
 
-/* Together: halo planes become what the neighbours have: `fields` fields of the window, `apart` bytes from one to the next,
- * `plane` bytes a plane. */
+/* Together: halo planes become what the neighbours have: `fields` fields of the window, `apart` bytes from one
+ * to the next, `plane` bytes a plane. */
 void part_exchange(const struct consistent *c, void *field, size_t fields, size_t apart, size_t plane);
 /* Together: the largest of a number of each rank. */
 double part_largest(const struct consistent *c, double value);
 
-/* Together: work that goes over the planes of the body in their order (or, not `forward`, the other way) and reads `reach`
- * planes before each: calls work(context, from, end) for the own planes once those before them are there. Fields
- * as in part_exchange(), at most `reach` >= halo. */
+/* Together: work that goes over the planes of the body in their order (or, not `forward`, the other way) and
+ * reads `reach` planes before each, not more than the halo has: calls work(context, from, end) for the own planes once
+ * those before them are there. Fields as in part_exchange(). */
 void part_sweep(const struct consistent *c, bool forward, size_t reach, double *field, size_t fields,
                 size_t apart, size_t plane, void (*work)(void *context, size_t from, size_t end),
                 void *context);
