@@ -144,9 +144,12 @@ fuzz-replay: $(FUZZED:%=$(BUILD)/replay/%) # on the inputs that are kept, with a
 
 # Studies: tables and figures of the manual
 
-.PHONY: absorption quiet paper-figures sph-figures consistent-tables tables stability accuracy bench bench-all bench-sph bench-host lamb-check
+.PHONY: absorption damping quiet paper-figures sph-figures consistent-tables tables stability accuracy bench bench-all bench-sph bench-host lamb-check
 absorption: $(BUILD)/selas ## table of doc/absorbing-faces.md: what comes back from transmitting faces
 	@sh regress/studies/absorption $(BUILD)
+
+damping: $(BUILD)/selas ## error against mechanisms and Q: table and plot of doc/damping.md (a minute)
+	@sh regress/studies/damping $(BUILD)
 
 quiet: $(BUILD)/test/quiet ## energy beside absorbing faces to t = 1000 (twenty minutes): doc/absorbing-faces.md
 	@sh regress/studies/quiet/run $(BUILD)

@@ -151,6 +151,13 @@ static void run_end(struct damped_run *run)
     "&body name = 'b', material = 'm', low = 0.0, 0.0, 0.0, high = 1.0, 1.0, 3.0, spacing = 1.0 /\n"         \
     "&layer material = 's', top = 1.0 /\n&layer material = 'm', top = 2.3 /\n"                               \
     "&material name = 's', density = 0.7, lambda = 1.0, mu = 0.5, q_p = %g, q_s = %g, q_frequency = 0.2 /\n"
+/* The general operator: blocks of the same other ground. */
+#define BLOCKS                                                                                               \
+    "&scene dimension = 2, end_time = 1.0 /\n&method mechanisms = 3 /\n"                                     \
+    "&body name = 'b', material = 'm', low = 0.0, 0.0, high = 5.0, 4.0, spacing = 1.0 /\n"                   \
+    "&block material = 's', shape = 'ellipsoid', centre = 2.1, 1.2, size = 2.4, 1.5 /\n"                     \
+    "&block material = 's', shape = 'box', centre = 3.6, 3.2, size = 1.7, 1.3 /\n"                           \
+    "&material name = 's', density = 0.7, lambda = 1.0, mu = 0.5, q_p = %g, q_s = %g, q_frequency = 0.2 /\n"
 #define GROUND                                                                                               \
     "&material name = 'm', density = 1.0, lambda = %g, mu = 1.0, q_p = %g, q_s = %g, q_frequency = 0.1 /\n"
 
@@ -338,6 +345,53 @@ static void stress_is_that_of_the_moduli(void **state)
     run_end(&run);
 }
 
+/* --- Ground that varies in all directions --------------------------------------------------------------- */
+
+static double noise(uint64_t *bits)
+{
+    *bits = *bits * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*bits >> 11) * 0x1p-52 - 1;
+}
+
+/* Blocks with a Q of their own: nothing grows below the limit, and what mechanisms take and
+ * leave is not negative, for any displacements. */
+static void general_ground_is_passive(void **state)
+{
+    (void)state;
+    static const double q[][4] = {{7, 5, 40, 20}, {40, 20, 7, 5}, {3, 2, 1000, 900}, {40, 30, 300, 10}};
+    for (size_t i = 0; i < sizeof q / sizeof *q; i++) {
+        char deck[2048];
+        const int at = snprintf(deck, sizeof deck, BLOCKS, q[i][0], q[i][1]);
+        snprintf(deck + at, sizeof deck - (size_t)at, GROUND, i == 3 ? 48. : 1., q[i][2], q[i][3]);
+        struct damped_run run = run_of(deck);
+        struct damped *d = damped_of(run.model);
+        const size_t n = run.model->unknowns;
+        double *x = calloc(n, sizeof *x), given[1 + MOST_MECHANISMS], least = INFINITY;
+        uint64_t bits = 7;
+        assert_non_null(consistent_of(d->part[0].model)->general);
+        for (size_t p = 0; p < d->parts; p++)
+            given[p] = d->part[p].given;
+        for (int turn = 0; turn < 20; turn++) {
+            const double whole[1 + MOST_MECHANISMS] = {1};
+            for (size_t k = 0; k < n; k++)
+                x[k] = noise(&bits);
+            const double size = form(d, whole, x);
+            least = fmin(least, form(d, given, x) / size);
+            for (size_t l = 0; l < d->damping->mechanisms; l++)
+                least = fmin(least, form_of_memory(d, l, x) / size);
+        }
+        size_t count;
+        const double below = map_largest(run.model, .9999 * run.limit, NULL, &count);
+        const double above = map_largest(run.model, 1.002 * run.limit, NULL, &count);
+        print_message(
+            "blocks, Q %g %g, %g %g, %zu parts: 1 %+.1e below, 1 %+.1e above the limit; least %.1e\n",
+            q[i][0], q[i][1], q[i][2], q[i][3], d->parts, below - 1, above - 1, least);
+        assert_true(below < 1 + 2e-7 && above > 1 + 1e-4 && least > 0);
+        free(x);
+        run_end(&run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -345,6 +399,7 @@ int main(void)
         cmocka_unit_test(nothing_grows_below_the_limit),
         cmocka_unit_test(energy_falls_by_what_damping_takes),
         cmocka_unit_test(stress_is_that_of_the_moduli),
+        cmocka_unit_test(general_ground_is_passive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

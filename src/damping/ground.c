@@ -1,6 +1,6 @@
 /* Rates are common to all materials and suit the middle one of all Q; weights are fitted material by material
  * (relaxation.c). */
-#include "damping/ground.h"
+#include "damping/directions.h"
 
 #include "base/memory.h"
 #include "scene/resolution.h"
@@ -125,6 +125,7 @@ static selas_status fit(const struct scene *scene, struct ground_damping *dampin
         if (damping->wanted[i].shear.power > 0)
             status = relaxation_fit(&damping->band, damping->mechanisms, damping->rate,
                                     &damping->fitted[i].axial, &damping->fitted[i].shear, messages);
+    if (status == SELAS_OK) status = damping_directions(damping, messages);
     return status;
 }
 

@@ -322,7 +322,7 @@ static const struct word output_words[] = {
      "time between rows of the histories [time]; 0: every step"},
     {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "zero-phase low-pass of the histories: exp(-(w/low_pass)^4) [angle/time]; 0: none"},
-    {"balance", WORD_LOGICAL, 1, ".false.", NULL, OPTIONAL,
+    {"balance", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
      "the report's balance of energy has what damped materials take, which several operator calls a step "
      "tell"},
 };

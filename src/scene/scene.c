@@ -132,7 +132,7 @@ static void build_output(struct builder *builder)
     output->plots = deck_logical(group, "plots", 0);
     output->history_step = deck_real(group, "history_step", 0);
     output->low_pass = deck_real(group, "low_pass", 0);
-    output->balance = deck_logical(group, "balance", 0);
+    output->balance = deck_values(group, "balance") > 0 && deck_logical(group, "balance", 0);
     output->checkpoint_every = deck_integer(group, "checkpoint_every", 0);
     output->checkpoint_minutes = deck_real(group, "checkpoint_minutes", 0);
 }

@@ -215,6 +215,10 @@ struct scene {
     double end_time;
     size_t materials;
     struct material *material;
+    const struct material
+        *whole; /* [materials] a part of damped ground (method/damped/damped.h): materials of the
+                                     whole, whose moduli those of `material` are a part of; itself: all. NULL: no
+                                     part */
     struct body body;
     struct boundary boundary[FACES];
     size_t loads;

@@ -155,7 +155,8 @@ static double loss(struct model *model, const double *y)
     double sum = 0;
     for (size_t l = 0; l < d->damping->mechanisms; l++)
         for (size_t p = 0; p < d->parts; p++)
-            sum += 2 * d->damping->rate[l] * d->part[p].memory[l] * strain_of(d, &d->part[p], y + (2 + l) * n);
+            sum +=
+                2 * d->damping->rate[l] * d->part[p].memory[l] * strain_of(d, &d->part[p], y + (2 + l) * n);
     return sum;
 }
 

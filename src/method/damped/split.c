@@ -105,6 +105,7 @@ static selas_status set_part(const struct damped *d, struct damped_part *part, c
         set_material(d, part, scene, i, &columns[2 * i]);
     part->scene = *scene;
     part->scene.material = part->material;
+    part->scene.whole = d->part[0].material;
     return SELAS_OK;
 }
 
@@ -114,6 +115,9 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
     struct column *columns = array_new(2 * damping->materials, sizeof *columns);
     selas_status status = SELAS_OK;
     if (columns == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
+    if (scene->body.model != NULL)
+        status = fail(messages, SELAS_UNSUPPORTED,
+                      "ground from a file (&model) has no damping: q_p and q_s are those of materials");
     d->parts = 1;
     d->part[0].given = 1;
     for (size_t i = 0; i < damping->materials; i++)

@@ -295,7 +295,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
         watch->before[i] = step->w[watch->entry[i]];
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_remember)
-        (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
+    (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
     pass_over(c, step, drive, &fields, true, level);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++) {
         NAME(pml_fast_accelerate)(step->part[p].c, dt, step->part[p].extra, step->w);

@@ -124,13 +124,22 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     selas_status status =
         good ? SELAS_OK
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
-    if (status == SELAS_OK) status = general_material(c, mass, messages);
+    if (status == SELAS_OK) status = general_part_material(c, mass, messages);
     if (status == SELAS_OK) general_lay_corners(c);
     if (status == SELAS_OK && !general_scale(c, mass))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     array_free(mass);
     if (status == SELAS_OK) g->bytes += tensor_plan_bytes(g->inverse);
     return status;
+}
+
+void general_free_family(struct family *family)
+{
+    array_free(family->lambda);
+    array_free(family->mu);
+    array_free(family->first_run);
+    array_free(family->run);
+    array_free(family->stiffness);
 }
 
 void general_free(struct consistent *c)
@@ -143,13 +152,8 @@ void general_free(struct consistent *c)
         for (int odd = 0; odd < 2; odd++)
             for (int at = 0; at < 2; at++)
                 array_free(g->taps[slot][odd][at]);
-    for (int f = 0; f < 3; f++) {
-        array_free(g->family[f].lambda);
-        array_free(g->family[f].mu);
-        array_free(g->family[f].first_run);
-        array_free(g->family[f].run);
-        array_free(g->family[f].stiffness);
-    }
+    for (int f = 0; f < 3; f++)
+        general_free_family(&g->family[f]);
     for (int thread = 0; g->buffer != NULL && thread < c->threads; thread++)
         array_free(g->buffer[thread]);
     array_free(g->buffer);

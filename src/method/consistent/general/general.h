@@ -112,6 +112,10 @@ void general_corners(const struct consistent *c, const double *u, double *force)
 
 /* material.c: lays moduli at the points, and the mass of each control value. SELAS_NO_MEMORY. */
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
+/* part.c: the same, or of a part of damped ground (scene->whole). SELAS_UNSUPPORTED: a part whose points cannot be
+ * told apart. */
+selas_status general_part_material(struct consistent *c, double *mass, struct messages *messages);
+void general_free_family(struct family *family);
 
 /* hill.c: false: no memory. */
 bool general_lay_hill(struct consistent *c);
