@@ -73,7 +73,7 @@ static void test_sfile(void **state)
         const double x = 100 + place[i][0], y = 200 + place[i][1], top = -ground_of(x, y);
         assert_field(made.scene, place[i], x, y, top + place[i][2] * (1200 - top) / 1200, 1e-12);
     }
-    assert_text(&made, "depths are stretched above its bottom, 1200 below the sea", NULL);
+    assert_text(&made, "depths are stretched above its bottom", NULL);
     assert_true(made.scene->body.model->grid[0].n[0] == 5);
     from_deck_free(&made);
     made = right_scene(DECK("200, 200, 100", "origin = 510, 10"));
@@ -116,6 +116,41 @@ static void test_blocks(void **state)
     write_blocks(stored, 0, "km/s", 0);
     made = right_scene(DECK("800, 300, 900", ""));
     assert_near(scene_fastest(made.scene), 1000 * (4000 + 300 + 120 + 200), 3e5);
+    from_deck_free(&made);
+}
+
+/* Depths below an elevation of 20, whatever the ground. */
+static void test_sea(void **state)
+{
+    (void)state;
+    static const double place[][3] = {{0, 0, 0}, {600, 300, 900}, {523, 56, 78}, {600, 100, -70}};
+    for (int form = 0; form < 3; form++) {
+        if (form == 0) write_rfile(stored, 0, 0, 0);
+        if (form == 1) write_sfile(stored, 0);
+        if (form == 2) write_blocks(stored, 1, "m/s", 0);
+        struct from_deck made =
+            right_scene(form < 2 ? DECK("600, 300, 900", "depth = 'sea', origin = 300, 50, 20")
+                                 : DECK("600, 300, 900", "depth = 'sea'"));
+        for (int i = 0; i < 4; i++) {
+            const double z = place[i][2] - (form < 2 ? 20 : 0);
+            if (form < 2) assert_field(made.scene, place[i], 300 + place[i][0], 50 + place[i][1], z, 1e-12);
+            const double x = place[i][1], y = place[i][0], top = water_of(x, y);
+            if (form == 2) assert_field(made.scene, place[i], x, y, 1500 * (top + z) / (top + 1500), 1e-12);
+        }
+        assert_text(&made, form < 2 ? "depth 0 is its elevation 20" : "depth 0 is its elevation 0",
+                    form == 1 ? NULL : "q_p");
+        from_deck_free(&made);
+    }
+    write_rfile(stored, 0, 0, 0);
+#define HILL " /\n&topography shape = 'gaussian', height = 30, centre = 300, 150, width = 40"
+    assert_refused(DECK("600, 300, 900", HILL),
+                   "t.nml:", (const char *[]){"expected model%depth = 'sea'", NULL});
+    struct from_deck hill = right_scene(DECK("600, 300, 900", "depth = 'sea', origin = 0, 0, 20" HILL));
+    assert_field(hill.scene, (double[]){300, 150, -25}, 300, 150, -45, 1e-12);
+    from_deck_free(&hill);
+    write_text(stored, 0, 0, "", 60);
+    struct from_deck made = right_scene(DECK("700, 800, 300", "depth = 'sea', origin = 1000, 2000, -100"));
+    assert_field(made.scene, (double[]){100, 50, 30}, 50, 100, 130, 1e-12);
     from_deck_free(&made);
 }
 
@@ -208,8 +243,9 @@ static void test_cut_short(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rfile), cmocka_unit_test(test_sfile),      cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_text),  cmocka_unit_test(test_wrong_text), cmocka_unit_test(test_cut_short),
+        cmocka_unit_test(test_rfile),     cmocka_unit_test(test_sfile), cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_sea),       cmocka_unit_test(test_text),  cmocka_unit_test(test_wrong_text),
+        cmocka_unit_test(test_cut_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -219,6 +219,9 @@ static const struct word model_words[] = {
      "and "
      "tomography_model.xyz: where z = 0, or the surface, lies; else the file's corner, of plain grids 0, 0, "
      "0"},
+    {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
+     "of a file that knows its ground: depths are those below it, or, 'sea', below elevation 0, or that of "
+     "the third value of origin"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
      "that is nearest to north"},

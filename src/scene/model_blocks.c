@@ -204,23 +204,23 @@ static bool read_surface(const struct blocks *blocks, const char *name, struct m
     return good;
 }
 
-/* With a sea floor depths begin there; without one they are those of the blocks. */
+/* The top, and the sea floor if there is one; how deep into the blocks the body reaches. */
 static bool read_surfaces(const struct blocks *blocks)
 {
+    static const char *const name[] = {"top_surface", "topography_bathymetry"};
     struct model_source *source = blocks->source;
     struct ground_model *model = source->model;
     if (model->surfaces == 0) return true;
-    if (!read_surface(blocks, "top_surface", &model->surface[0]) ||
-        !read_surface(blocks, "topography_bathymetry", &model->surface[1]))
-        return false;
-    double least, floor, top, greatest;
+    for (size_t i = 0; i < model->surfaces; i++)
+        if (!read_surface(blocks, name[i], &model->surface[i])) return false;
+    double least, ground, top, greatest;
     model_extremes(&model->surface[0], &top, &greatest);
-    model_extremes(&model->surface[1], &least, &floor);
-    const double depth = source->range[2][1];
-    model->depth = MODEL_SEA_FLOOR;
-    model->bottom = blocks->bottom;
-    source->range[2][1] = fmax(depth, (floor + depth * (blocks->bottom - floor) / blocks->bottom - top) *
-                                          blocks->bottom / (blocks->bottom - top));
+    model_extremes(&model->surface[model->surfaces - 1], &least, &ground);
+    const double depth = source->range[2][1], bottom = blocks->bottom;
+    const double z = model->sea ? depth : ground + depth * (bottom - ground) / bottom;
+    model->depth = MODEL_STRETCHED;
+    model->bottom = bottom;
+    source->range[2][1] = fmax(depth, (z - top) * bottom / (bottom - top));
     return true;
 }
 
@@ -235,18 +235,22 @@ static bool read_all(struct blocks *blocks, hid_t file)
         return model_fault(source, "origin_x, origin_y, y_azimuth or dim_z (above 0) is missing");
     const struct model_axes axes = {
         .north = 1, .bearing = azimuth, .from = {from[0], from[1]}, .turned = true, .coordinates = 2};
-    const bool floor = blocks->group[1] >= 0 && stored_here(blocks->group[1], "topography_bathymetry") &&
-                       stored_here(blocks->group[1], "top_surface");
-    if (!model_place(source, &axes) || !model_covers(source, 2, 0, blocks->bottom) ||
-        !model_grids(source, blocks->count, floor ? 2 : 0) || !read_surfaces(blocks))
+    const bool top = blocks->group[1] >= 0 && stored_here(blocks->group[1], "top_surface");
+    const bool floor = top && stored_here(blocks->group[1], "topography_bathymetry");
+    if (!model_place(source, &axes)) return false;
+    source->range[2][1] += source->model->shift;
+    if (!model_covers(source, 2, 0, blocks->bottom) ||
+        !model_grids(source, blocks->count, (size_t)top + (size_t)floor) || !read_surfaces(blocks))
         return false;
     for (size_t i = 0; i < blocks->count; i++)
         if (!read_block(blocks, i)) return false;
-    snprintf(
-        source->model->text, sizeof source->model->text,
-        "GeoModelGrids file of %zu blocks, y points %.6g degrees from north; depth 0 is its %s, depths are "
-        "stretched above its bottom, %.6g below the sea",
-        blocks->count, azimuth, floor ? "solid ground" : "top", blocks->bottom);
+    snprintf(source->model->text, sizeof source->model->text,
+             "GeoModelGrids file of %zu blocks, y points %.6g degrees from north, bottom %.6g below the sea; "
+             "depth 0 "
+             "is ",
+             blocks->count, azimuth, blocks->bottom);
+    model_tell_depth(source->model, floor ? "its solid ground, depths are stretched above its bottom"
+                                          : "its top, depths are stretched above its bottom");
     model_fill(source, -1e19);
     return true;
 }

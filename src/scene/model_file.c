@@ -32,13 +32,13 @@ static double rounded(double x)
 static bool take_origin(struct model_source *source, const struct model_axes *axes)
 {
     struct ground_model *model = source->model;
-    const size_t given = deck_values(source->group, "origin");
+    const size_t given = deck_values(source->group, "origin"), most = model->sea ? 3 : axes->coordinates;
     model->origin[0] = axes->corner[0];
     model->origin[1] = axes->corner[1];
     if (given == 0) return true;
-    if (given < 2 || given > axes->coordinates) {
+    if (given < 2 || given > most) {
         complain(source->builder, source->group, "origin", "%zu values; expected %s of this format", given,
-                 axes->coordinates == 2 ? "2, as depths are those below the model's own surface," : "2 or 3");
+                 most == 2 ? "2, as depths are those below the model's own ground," : "2 or 3");
         return false;
     }
     double away[2];
@@ -48,7 +48,7 @@ static bool take_origin(struct model_source *source, const struct model_axes *ax
     const double c = rounded(cos(angle)), s = rounded(sin(angle));
     model->origin[0] = c * away[0] - s * away[1];
     model->origin[1] = s * away[0] + c * away[1];
-    if (given == 3) model->shift += deck_real(source->group, "origin", 2);
+    if (given == 3) model->shift += (model->sea ? -1 : 1) * deck_real(source->group, "origin", 2);
     return true;
 }
 
@@ -83,7 +83,8 @@ bool model_place(struct model_source *source, const struct model_axes *axes)
 bool model_covers(const struct model_source *source, int axis, double low, double high)
 {
     const double *range = source->range[axis], small = 1e-6 * source->builder->scene->body.spacing;
-    if (low <= range[0] + small && high >= range[1] - small) return true;
+    const bool above = axis == 2 && source->model->sea; /* there it is air */
+    if ((low <= range[0] + small || above) && high >= range[1] - small) return true;
     return model_fault(
         source,
         "the model reaches from %.9g to %.9g along %c, the body from %.9g to %.9g, in the model's own %s",
@@ -141,7 +142,7 @@ static bool check_grid(const struct model_source *source, size_t number, double 
                 "the value at (%.9g, %.9g, %.9g) of the model's own axes%s, density %g, p_speed %g, "
                 "s_speed %g, %s",
                 grid->at[0][at[0]], grid->at[1][at[1]], grid->at[2][at[2]],
-                source->model->depth == MODEL_STRETCHED ? " (depth in parts of its grid)" : "", value[0],
+                source->model->depth == MODEL_BETWEEN ? " (depth in parts of its grid)" : "", value[0],
                 value[1], value[2], fault);
         if (value[1] > fastest[1]) memcpy(fastest, value, sizeof value);
         if (value[2] < slowest[2]) memcpy(slowest, value, sizeof value);
@@ -246,6 +247,7 @@ void build_model(struct builder *builder)
     scene->body.model = model;
     struct model_source source = {.builder = builder, .group = group, .path = path, .model = model};
     if (model != NULL && path != NULL && builder->body_known) {
+        model->sea = strcmp(deck_text(group, "depth", 0), "sea") == 0;
         memcpy(model->low, scene->body.low, sizeof model->low);
         memcpy(model->high, scene->body.high, sizeof model->high);
         source.range[2][1] = model->high[2] - model->low[2];

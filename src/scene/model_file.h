@@ -59,6 +59,8 @@ bool model_room(struct model_source *source, struct model_grid *grid, int sets);
 /* In every column from the top values of air and water, whose s_speed is at most `none`, become those of the
  * first rock below, also in the grid below. */
 void model_fill(struct model_source *source, double none);
+/* Ends the model's text with where depth 0 is: an elevation, or `ground`. */
+void model_tell_depth(struct ground_model *model, const char *ground);
 /* Least and greatest value of a surface. */
 void model_extremes(const struct model_grid *surface, double *least, double *greatest);
 /* model_grid.c: the first `sets` values at a place along the grid's axes. */

@@ -3,6 +3,7 @@
 #include "scene/model_file.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Index of the place before x, and how far x lies beyond it, in parts; outside as at the edge. */
 static size_t before(const double *at, size_t n, double x, double *part)
@@ -51,27 +52,41 @@ static double surface_at(const struct ground_model *model, size_t i, const doubl
     return z;
 }
 
+/* Depth below the sea of a depth below the body's surface; `bottom`: of the model, which stays where it is, or
+ * INFINITY. */
+static double below_sea(const struct ground_model *model, double depth, double ground, double bottom)
+{
+    if (model->sea) return depth + model->shift;
+    return ground + depth * (isfinite(bottom) ? (bottom - ground) / bottom : 1);
+}
+
+/* The grid between whose surfaces a depth below the sea lies, and its part of the way between them. */
+static const struct model_grid *grid_between(const struct ground_model *model, double depth, double place[3])
+{
+    size_t i = 0;
+    double top = surface_at(model, 0, place), next = surface_at(model, 1, place);
+    const double z = below_sea(model, depth, top, surface_at(model, model->surfaces - 1, place));
+    for (; i + 1 < model->grids && z > next; i++) {
+        top = next;
+        next = surface_at(model, i + 2, place);
+    }
+    place[2] = next > top ? (z - top) / (next - top) : 0;
+    return &model->grid[i];
+}
+
 /* The grid of a place along the model's horizontal axes at a depth; place[2]: there. Where two grids meet the
  * upper one. */
 static const struct model_grid *grid_at(const struct ground_model *model, double depth, double place[3])
 {
     size_t i = 0;
     place[2] = depth + model->shift;
+    if (model->depth == MODEL_BETWEEN) return grid_between(model, depth, place);
+    if (model->depth == MODEL_BELOW)
+        place[2] = below_sea(model, depth, surface_at(model, 0, place), INFINITY);
     if (model->depth == MODEL_STRETCHED) {
-        const double end = surface_at(model, model->surfaces - 1, place);
-        double top = surface_at(model, 0, place), next = surface_at(model, 1, place);
-        const double z = top + depth * (end - top) / end;
-        for (; i + 1 < model->grids && z > next; i++) {
-            top = next;
-            next = surface_at(model, i + 2, place);
-        }
-        place[2] = next > top ? (z - top) / (next - top) : 0;
-        return &model->grid[i];
-    }
-    if (model->depth == MODEL_BELOW) place[2] = depth + surface_at(model, 0, place);
-    if (model->depth == MODEL_SEA_FLOOR) {
-        const double top = surface_at(model, 0, place), floor = surface_at(model, 1, place);
-        const double z = floor + depth * (model->bottom - floor) / model->bottom;
+        const double top = surface_at(model, 0, place),
+                     ground = surface_at(model, model->surfaces - 1, place);
+        const double z = below_sea(model, depth, ground, model->bottom);
         place[2] = (z - top) * model->bottom / (model->bottom - top);
     }
     while (i + 1 < model->grids && place[2] > model->grid[i].at[2][model->grid[i].n[2] - 1])
@@ -83,7 +98,8 @@ struct rock ground_model_at(const struct ground_model *model, const double place
 {
     double inside[3], there[3], value[MODEL_VALUES];
     for (int axis = 0; axis < 3; axis++)
-        inside[axis] = fmin(fmax(place[axis], model->low[axis]), model->high[axis]);
+        inside[axis] =
+            fmin(axis == 2 && model->sea ? place[2] : fmax(place[axis], model->low[axis]), model->high[axis]);
     for (int axis = 0; axis < 2; axis++)
         there[axis] =
             model->origin[axis] + model->turn[axis][0] * inside[0] + model->turn[axis][1] * inside[1];
@@ -139,8 +155,9 @@ bool model_part(struct model_source *source, struct model_grid *grid, int axis, 
                                i, i + 1, "xyz"[axis], place[i], place[i + 1]);
     source->whole[axis][0] = place[0];
     source->whole[axis][1] = place[last];
+    const bool above = axis == 2 && source->model->sea; /* all that is above the body, too */
     *first = 0;
-    while (*first + 2 < count && place[*first + 1] <= source->range[axis][0])
+    while (*first + 2 < count && !above && place[*first + 1] <= source->range[axis][0])
         ++*first;
     while (last > *first + 1 && place[last - 1] >= source->range[axis][1])
         last--;
@@ -189,6 +206,15 @@ void model_extremes(const struct model_grid *surface, double *least, double *gre
         *least = fmin(*least, surface->value[0][i]);
         *greatest = fmax(*greatest, surface->value[0][i]);
     }
+}
+
+void model_tell_depth(struct ground_model *model, const char *ground)
+{
+    const size_t length = strlen(model->text), room = sizeof model->text - length;
+    if (model->sea)
+        snprintf(model->text + length, room, "its elevation %g", 0 - model->shift);
+    else
+        snprintf(model->text + length, room, "%s", ground);
 }
 
 /* Rock for a column of grid i that has none: at the top of the grid below. */

@@ -46,6 +46,7 @@ bool model_read_plain(struct model_source *source, hid_t file)
     size_t extent[4] = {0}, first[3] = {0};
     if (!model_numbers(file, "origin", 3, origin) || !model_numbers(file, "spacing", 3, spacing))
         return not_plain(source, "an attribute is missing");
+    if (model->sea) return model_fault(source, "a plain grid knows no sea; leave model%%depth out");
     model->shift = model->low[2]; /* its depths are the body's own z */
     if (!model_grids(source, 1, 0) || !model_place(source, &axes)) return false;
     source->range[2][0] = model->shift;

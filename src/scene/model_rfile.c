@@ -180,13 +180,13 @@ static bool read_surface(struct rfile *rfile)
     }
     double least, greatest;
     model_extremes(surface, &least, &greatest);
-    source->range[2][0] += least;
-    source->range[2][1] += greatest;
-    snprintf(
-        source->model->text, sizeof source->model->text,
-        "rfile of %zu blocks, x points %.6g degrees from north; depth 0 is its ground, %.6g to %.6g above "
-        "the sea, to which the blocks below are shifted",
-        rfile->blocks - 1, rfile->azimuth, -greatest, -least);
+    source->range[2][0] += source->model->sea ? source->model->shift : least;
+    source->range[2][1] += source->model->sea ? source->model->shift : greatest;
+    snprintf(source->model->text, sizeof source->model->text,
+             "rfile of %zu blocks, x points %.6g degrees from north, ground %.6g to %.6g above the sea; "
+             "depth 0 is ",
+             rfile->blocks - 1, rfile->azimuth, -greatest, -least);
+    model_tell_depth(source->model, "its ground, to which the blocks below are shifted");
     const struct block *top = &rfile->block[1], *end = &rfile->block[rfile->blocks - 1];
     return model_covers(source, 2, top->top, end->top + end->step[1] * (double)(end->n[2] - 1));
 }

@@ -139,7 +139,7 @@ bool model_read_sfile(struct model_source *source, hid_t file)
                            "longitude, latitude, azimuth' or 'ngrids' (1 to 100) are missing");
     const struct model_axes axes = {.bearing = place[2], .coordinates = 2};
     source->damped = model_numbers(file, "Attenuation", 1, &damped) && damped == 1;
-    model->depth = MODEL_STRETCHED;
+    model->depth = MODEL_BETWEEN;
     if (!find_length(source, file, length) || !model_grids(source, (size_t)grids, (size_t)grids + 1) ||
         !model_place(source, &axes) || !model_covers(source, 0, 0, length[0]) ||
         !model_covers(source, 1, 0, length[1]) || !read_surfaces(source, file, length) ||
@@ -147,13 +147,15 @@ bool model_read_sfile(struct model_source *source, hid_t file)
         return false;
     model_extremes(&model->surface[0], &least, &top);
     model_extremes(&model->surface[model->surfaces - 1], &end, &deepest);
+    source->range[2][1] += model->shift;
     if (!model_covers(source, 2, 0, end)) return false;
     source->range[2][1] = 1; /* of each grid all */
-    snprintf(
-        model->text, sizeof model->text,
-        "sfile of %zu grids, x points %.6g degrees from north; depth 0 is its ground, %.6g to %.6g above "
-        "the sea, depths are stretched above its bottom, %.6g below the sea",
-        model->grids, place[2], -top, -least, end);
+    snprintf(model->text, sizeof model->text,
+             "sfile of %zu grids, x points %.6g degrees from north, ground %.6g to %.6g above the sea, "
+             "bottom %.6g "
+             "below it; depth 0 is ",
+             model->grids, place[2], -top, -least, end);
+    model_tell_depth(model, "its ground, depths are stretched above its bottom");
     if (!read_grids(source, file, length)) return false;
     model_fill(source, -999);
     return true;

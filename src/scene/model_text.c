@@ -98,7 +98,7 @@ static bool lay_grid(struct text *text)
     for (int axis = 0; axis < 2; axis++)
         axes.corner[axis] = text->origin[axis] + fmin(text->step[axis] * (double)(text->n[axis] - 1), 0);
     if (!model_grids(source, 1, 0) || !model_place(source, &axes)) return false;
-    model->shift = -model->shift; /* from an elevation */
+    if (!model->sea) model->shift = -model->shift; /* from an elevation */
     source->range[2][0] += model->shift;
     source->range[2][1] += model->shift;
     for (int axis = 0; axis < 3; axis++) {
@@ -188,6 +188,6 @@ bool model_read_text(struct model_source *source, FILE *file)
     source->damped = text.columns == 8;
     snprintf(source->model->text, sizeof source->model->text,
              "tomography_model.xyz of %zu x %zu x %zu, depth 0 is its elevation %g", text.n[0], text.n[1],
-             text.n[2], -source->model->shift);
+             text.n[2], 0 - source->model->shift);
     return true;
 }

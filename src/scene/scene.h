@@ -58,13 +58,13 @@ struct model_grid {
     double *value[MODEL_VALUES];
 };
 
-/* How the third coordinate of a place in a model, downward, comes from the depth below the body's z- face and
- * the model's surfaces (model_grid.c). */
+/* How the third coordinate of a place in a grid, downward, comes from the depth below the body's z- face and the
+ * model's surfaces, depths below the sea (model_grid.c). */
 enum model_depth {
-    MODEL_LEVEL,     /* depth + shift */
-    MODEL_BELOW,     /* depth below the one surface */
-    MODEL_STRETCHED, /* grid i between surfaces i and i + 1, in parts; the last one stays where it is */
-    MODEL_SEA_FLOOR  /* depth below surface 1 in a model that is stretched between surface 0 and its bottom */
+    MODEL_LEVEL,    /* depth + shift */
+    MODEL_BELOW,    /* depth below the sea; surface 0: the ground */
+    MODEL_BETWEEN,  /* grid i between surfaces i and i + 1, in parts; surface 0: the ground */
+    MODEL_STRETCHED /* between surface 0, the top, and the bottom; last surface: the ground */
 };
 
 /* The ground from a file: the part that the body needs (model_file.c). */
@@ -72,7 +72,8 @@ struct ground_model {
     double low[3], high[3];       /* the body's: beyond it the ground is that of its nearest face */
     double origin[2], turn[2][2]; /* place along the model's axes = origin + turn (x, y) */
     enum model_depth depth;
-    double shift, bottom; /* bottom: of MODEL_SEA_FLOOR, below elevation 0 */
+    bool sea;             /* depth + shift is one below the sea, not below the model's ground */
+    double shift, bottom; /* bottom: of MODEL_STRETCHED, below the sea */
     double detail[2];     /* least distance of values along x and y of the body */
     size_t grids, surfaces;
     struct model_grid *grid, *surface; /* from the top down */

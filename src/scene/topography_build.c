@@ -208,11 +208,10 @@ static bool check_body(struct builder *builder, const struct deck_group *group)
         complain(builder, group, NULL,
                  "topography is that of a free surface; expected no &boundary at face %s",
                  face_name((enum face)top));
-    else if (scene->body.model != NULL && scene->body.model->depth != MODEL_LEVEL)
+    else if (scene->body.model != NULL && scene->body.model->depth != MODEL_LEVEL && !scene->body.model->sea)
         complain(builder, group, NULL,
-                 "the model of the ground has a surface of its own, from which its depths count; expected a "
-                 "plain grid or "
-                 "tomography_model.xyz, or no &topography");
+                 "the model of the ground has a surface of its own, from which its depths count; expected "
+                 "model%%depth = 'sea', or no &topography");
     else
         return true;
     return false;
@@ -248,7 +247,7 @@ void build_topography(struct builder *builder)
     const struct range range = range_of(scene, topography, &plain);
     tell(builder, topography, &range);
     check_range(builder, group, topography, &range);
-    if (scene->body.model != NULL && range.low < -1e-9 * topography->depth)
+    if (scene->body.model != NULL && !scene->body.model->sea && range.low < -1e-9 * topography->depth)
         deck_warning(builder->deck, group, NULL, builder->messages,
                      "the model of the ground is read from face %s down; above it, up to the height %.4g, "
                      "its rock there "
