@@ -12,8 +12,9 @@ struct damping_column {
 /* Lengths are left 0. */
 void damping_columns(size_t mechanisms, const struct damped_moduli *moduli, struct damping_column column[2]);
 
-/* Changes the fitted weights by not more, over the band, than a third of `misfit` of what they do, so that they need as few operators as
- * that allows; phase speeds stay what they are where they are given, weights that are not negative stay so. SELAS_NO_MEMORY. */
+/* Changes the fitted weights by not more, over the band, than a third of `misfit` of what they do, so that
+ * they need as few operators as that allows; phase speeds stay what they are where they are given, weights
+ * that are not negative stay so. SELAS_NO_MEMORY. */
 selas_status damping_directions(struct ground_damping *damping, struct messages *messages);
 
 #endif
