@@ -199,8 +199,9 @@ SELAS_API selas_status selas_load_mean(selas_simulation *simulation, const char 
 /* Mean acceleration over the patch of load `moved`, along its direction, that a unit of `load` makes at once (its
  * accelerance over one step): what set_load(load, value) adds to selas_load_mean of the acceleration is value times
  * this, at every time but t = 0, where faces with dampers beside the patch do not act yet. For loads that set_load
- * holds, with leapfrog or the modified equation and linear methods, where no function drives anything (else SELAS_UNSUPPORTED). With one row
- * and column a load it is what contact with a body needs (doc/calling.md, section 5). */
+ * holds, with leapfrog or the modified equation and linear methods, where no function drives anything (else
+ * SELAS_UNSUPPORTED). With one row and column a load it is what contact with a body needs (doc/calling.md,
+ * section 5). */
 SELAS_API selas_status selas_load_response(selas_simulation *simulation, const char *load, const char *moved,
                                            double *value);
 

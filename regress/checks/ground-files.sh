@@ -1,6 +1,6 @@
 #!/bin/sh
-# The ground from a file and its plot, through the program: an even tomography_model.xyz gives the histories of an even body,
-# wrong files are refused with their place and exit status 2, `selas check --plot` leaves a picture before anything is
+# The ground from a file and its plot, through the program: an even tomography_model.xyz gives the histories of an even
+# body, wrong files are refused with their place and exit status 2, `selas check --plot` leaves a picture before anything is
 # computed and overwrites no foreign file. Argument: the build folder. Prints TAP.
 build=${1:-build}
 out=$(mktemp -d) || exit 1
@@ -74,6 +74,7 @@ plot() { # plot NAME DECK WORDS...
     shift 2
     timeout 100 "$build/selas" check --plot "$deck" output%directory="$out/$name" "$@" >"$out/log" 2>&1
     ok "a picture of $name" test -s "$out/$name/ground.png"
+    test -s "$out/$name/ground.png" || head -3 "$out/log" | sed 's/^/# /'
 }
 plot "even ground" "$out/even.nml" body%material=rock
 cat >"$out/two.nml" <<D
@@ -86,6 +87,14 @@ cat >"$out/two.nml" <<D
 &load face = 'y+', shape = 'square', centre = 3, 5, size = .5, direction = 0, -1, history = 'gaussian', width = 0.3, delay = 1.5 /
 D
 plot "two dimensions" "$out/two.nml"
+cat >"$out/hill.nml" <<D
+&scene dimension = 2, end_time = 1 /
+&material name = 'rock', density = 2.5, p_speed = 4, s_speed = 2.3 /
+&body material = 'rock', low = 0, 0, high = 12, 5, spacing = .25 /
+&topography shape = 'gaussian', height = 1, centre = 6, width = 1 /
+&load kind = 'body-force', shape = 'point', centre = 3, 2, direction = 0, 1, history = 'gaussian', width = 0.3, delay = 1.5 /
+D
+plot "a hill" "$out/hill.nml"
 mkdir "$out/foreign" && echo mine >"$out/foreign/ground.png"
 selas check --plot "$out/two.nml" output%directory="$out/foreign"
 ok "a foreign picture is not overwritten" test "$(cat "$out/foreign/ground.png")" = mine

@@ -50,7 +50,7 @@ static void wrong_text_is_refused(void **state)
         {"1 2 3 4 5 6 7 8\n", "sources.txt:1: expected 9 numbers"},
         {"1 2 3 4 5 6 7 8 9 1 0 3\n", "sources.txt:1: expected 9 numbers"},
         {"1 2 3 4 5 6 7 8 nine\n", "sources.txt:1: expected 9 numbers"},
-        {"1 2 3 4 5 6 7 8 inf\n", "sources.txt:1: expected 9 numbers"},
+        {"1 2 3 4 5 6 7 8 inf\n", "sources.txt:1: number 9 is not finite"},
         {"# x\n1 2 3 4 5 6 7 8 9 1 -2\n", "sources.txt:2: the start is -2"},
         {"# nothing\n", "holds no source"},
     };

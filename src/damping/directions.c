@@ -1,7 +1,8 @@
-/* Weights of many materials along few directions (doc/damping.md, section 3). A modulus of a material, kappa or mu, is a
- * column of weights, one for each mechanism; a run needs an operator for each direction in which columns lie apart. Weights for
- * unlike Q are nearly a constant and one more direction times 1/Q: columns are brought into the least affine space
- * in which none of them moves by more than a small part of what mechanisms are off anyway. */
+/* Weights of many materials along few directions (doc/damping.md, section 3). A modulus of a material, kappa
+ * or mu, is a column of weights, one for each mechanism; a run needs an operator for each direction in which
+ * columns lie apart. Weights for unlike Q are nearly a constant and one more direction times 1/Q: columns
+ * are brought into the least affine space in which none of them moves by more than a small part of what
+ * mechanisms are off anyway. */
 #include "damping/directions.h"
 
 #include "base/memory.h"
@@ -12,15 +13,10 @@
 /* Of a column, as a share of the misfit of the mechanisms. */
 static const double allowed = 1. / 3;
 
-struct column {
-    double size, weight[MOST_MECHANISMS];
-    double length; /* what it does to waves over the band: of kappa with what mu does to the same waves */
-};
-
 struct space {
     const struct ground_damping *damping;
     size_t mechanisms, columns, directions;
-    struct column *column; /* kappa, mu of each material */
+    struct damping_column *column; /* kappa, mu of each material */
     double origin[MOST_MECHANISMS], direction[MOST_MECHANISMS][MOST_MECHANISMS];
 };
 
@@ -48,7 +44,8 @@ static double effect(const struct ground_damping *damping, const double weight[M
 }
 
 /* What of a column lies beside the space. */
-static void beside(const struct space *space, const struct column *column, double off[MOST_MECHANISMS])
+static void beside(const struct space *space, const struct damping_column *column,
+                   double off[MOST_MECHANISMS])
 {
     const size_t n = space->mechanisms;
     for (size_t l = 0; l < n; l++)
@@ -61,7 +58,7 @@ static void beside(const struct space *space, const struct column *column, doubl
 }
 
 /* How far a column would move, over its length; infinite if a weight would become negative. */
-static double moves(const struct space *space, const struct column *column)
+static double moves(const struct space *space, const struct damping_column *column)
 {
     double off[MOST_MECHANISMS];
     const size_t n = space->mechanisms;
@@ -103,7 +100,7 @@ static double slowness(const struct modulus *bulk, double size, const struct mod
 }
 
 /* Moduli of a material with these weights and the phase speeds that the fitted ones have. */
-static void set_moduli(size_t n, const struct column column[2], double angular_frequency,
+static void set_moduli(size_t n, const struct damping_column column[2], double angular_frequency,
                        struct damped_moduli *fitted)
 {
     struct modulus bulk = fitted->axial, shear = fitted->shear;
@@ -131,22 +128,26 @@ static void set_moduli(size_t n, const struct column column[2], double angular_f
             (size * bulk.weight[l] + 4. / 3 * shear.size * shear.weight[l]) / fitted->axial.size;
 }
 
-/* A bulk modulus with as good as no damping has none. */
-static void set_columns(const struct ground_damping *damping, const struct damped_moduli *moduli, double most,
-                        struct column column[2])
+void damping_columns(size_t mechanisms, const struct damped_moduli *moduli, struct damping_column column[2])
 {
-    const size_t n = damping->mechanisms;
     const struct modulus *axial = &moduli->axial, *shear = &moduli->shear;
-    column[0] = (struct column){.size = axial->size - 4. / 3 * shear->size};
-    column[1] = (struct column){.size = shear->size};
-    for (size_t l = 0; l < n && shear->mechanisms > 0; l++) {
+    column[0] = (struct damping_column){.size = axial->size - 4. / 3 * shear->size};
+    column[1] = (struct damping_column){.size = shear->size};
+    for (size_t l = 0; l < mechanisms && shear->mechanisms > 0; l++) {
         column[1].weight[l] = shear->weight[l];
         column[0].weight[l] =
             (axial->size * axial->weight[l] - 4. / 3 * shear->size * shear->weight[l]) / column[0].size;
     }
+}
+
+/* A bulk modulus with as good as no damping has none. */
+static void set_columns(const struct ground_damping *damping, const struct damped_moduli *moduli, double most,
+                        struct damping_column column[2])
+{
+    damping_columns(damping->mechanisms, moduli, column);
     column[1].length = effect(damping, column[1].weight);
     column[0].length = effect(damping, column[0].weight);
-    const double whole = column[0].length + 4. / 3 * shear->size / column[0].size * column[1].length;
+    const double whole = column[0].length + 4. / 3 * column[1].size / column[0].size * column[1].length;
     if (column[0].length <= most * whole) memset(column[0].weight, 0, sizeof column[0].weight);
     column[0].length = whole;
 }

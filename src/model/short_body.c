@@ -2,13 +2,13 @@
 #include "model/short_body.h"
 
 #include "base/memory.h"
+#include "scene/ground.h"
 
 enum { WORTH = 2 }; /* times as many points as the short body has are in the whole one */
 
 size_t short_body_lost(const struct scene *scene, int axis, size_t cells, size_t longest)
 {
-    if (axis == scene->dimension - 1 && scene->body.layers > 0) return 0;
-    if (scene->body.topography != NULL) return 0;
+    if (scene->body.topography != NULL || ground_varies(scene, axis)) return 0;
     return cells > longest ? cells - longest : 0;
 }
 

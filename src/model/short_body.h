@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-/* Cells that an axis of so many loses down to `longest`; none over depth where the ground varies. */
+/* Cells that an axis of so many loses down to `longest`; none where the ground varies along it. */
 size_t short_body_lost(const struct scene *scene, int axis, size_t cells, size_t longest);
 /* True if what is left of axes of cells[c] that lose lost[c] is little enough to be worth its making. */
 bool short_body_pays(int dimension, const size_t *cells, const size_t *lost);

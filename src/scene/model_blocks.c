@@ -3,8 +3,8 @@
  * top_surface and topography_bathymetry [nx][ny][1], elevations; attributes of the file: data_values and
  * data_units (Vp, Vs, density are looked for), data_layout 'vertex', origin_x, origin_y, y_azimuth, dim_z. The
  * blocks' z is stretched between the top surface and the bottom (GeoModelGrids' manual, "Storage layout" and
- * "Squashing"; where two blocks meet the upper one counts). Depths of the body are those below the solid ground, in a model
- * squashed down to its bottom. */
+ * "Squashing"; where two blocks meet the upper one counts). Depths of the body are those below the solid ground,
+ * in a model squashed down to its bottom, or true elevations. */
 #include "base/memory.h"
 #include "base/stored.h"
 #include "scene/model_file.h"

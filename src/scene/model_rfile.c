@@ -1,9 +1,10 @@
-/* SW4's rfile: binary, in either order of bytes. Integers magic = 1, bytes of a number, attenuation; reals azimuth of x,
- * longitude, latitude; a projection's text with its length; the number of blocks; of each block the steps along
- * the surface and over depth, the depth z0 below the sea of its first values, and integers components, ni, nj,
- * nk. Then the blocks' numbers, [ni][nj][nk][components]: the first block the elevation of the ground, the
+/* SW4's rfile: binary, in either order of bytes. Integers magic = 1, bytes of a number, attenuation; reals
+ * azimuth of x, longitude, latitude; a projection's text with its length; the number of blocks; of each block the
+ * steps along the surface and over depth, the depth z0 below the sea of its first values, and integers components,
+ * ni, nj, nk. Then the blocks' numbers, [ni][nj][nk][components]: the first block the elevation of the ground, the
  * others density, p_speed, s_speed (and q_p, q_s), -999 in air, s_speed -999 in water (SW4 User's Guide, file
- * formats). Depths of the body are those below the ground; air and water take what is below them, as SW4 does. */
+ * formats). Depths of the body are those below the ground, or below the sea; air and water take what is below
+ * them, as SW4 does. */
 #include "base/memory.h"
 #include "scene/model_file.h"
 

@@ -3,8 +3,9 @@
  *
  *   (M + dt/2 C) a = F - K u - C w + sum over k of L_k f_k,   a = a0 + sum over k of L_k g_k,             (H1)
  *
- * (the modified equation alike), g_k the acceleration by a unit of load k alone, which is 0 (below 1e-18 of its largest value) but near the load. With
- * a0 and all g_k kept where any g_k is not 0, a change of L_k costs these few numbers and no operator call. */
+ * (the modified equation alike), g_k the acceleration by a unit of load k alone, which is 0 (below 1e-18 of its
+ * largest value) but near the load. With a0 and all g_k kept where any g_k is not 0, a change of L_k costs these few
+ * numbers and no operator call. */
 #ifndef SELAS_HELD_H
 #define SELAS_HELD_H
 

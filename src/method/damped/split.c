@@ -6,26 +6,10 @@
 #include "method/damped/damped.h"
 
 #include "base/memory.h"
+#include "damping/directions.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Bulk and shear modulus with their weights. */
-struct column {
-    double size, weight[MOST_MECHANISMS];
-};
-
-static void columns_of(const struct damped_moduli *moduli, size_t mechanisms, struct column column[2])
-{
-    const struct modulus *axial = &moduli->axial, *shear = &moduli->shear;
-    column[0] = (struct column){.size = axial->size - 4. / 3 * shear->size};
-    column[1] = (struct column){.size = shear->size};
-    for (size_t l = 0; l < mechanisms && shear->mechanisms > 0; l++) {
-        column[1].weight[l] = shear->weight[l];
-        column[0].weight[l] =
-            (axial->size * axial->weight[l] - 4. / 3 * shear->size * shear->weight[l]) / column[0].size;
-    }
-}
 
 static double dot(size_t n, const double *a, const double *b)
 {
@@ -36,7 +20,7 @@ static double dot(size_t n, const double *a, const double *b)
 }
 
 /* What parts 0 to `parts` - 1 leave of a column. */
-static void left_of(const struct damped *d, const struct column *column, double left[MOST_MECHANISMS])
+static void left_of(const struct damped *d, const struct damping_column *column, double left[MOST_MECHANISMS])
 {
     const size_t n = d->damping->mechanisms;
     for (size_t l = 0; l < n; l++)
@@ -49,7 +33,7 @@ static void left_of(const struct damped *d, const struct column *column, double 
 }
 
 /* Adds the direction that is most of what is left. False: nothing is left but rounding. */
-static bool add_part(struct damped *d, const struct column *columns)
+static bool add_part(struct damped *d, const struct damping_column *columns)
 {
     const double rounding = 1e-9;
     const size_t n = d->damping->mechanisms;
@@ -72,7 +56,7 @@ static bool add_part(struct damped *d, const struct column *columns)
 /* The material of a part: its moduli; speeds are those of the scene's at the centroid of the source's spectrum,
  * so that all parts have the same dampers and layers. */
 static void set_material(const struct damped *d, const struct damped_part *part, const struct scene *scene,
-                         size_t index, const struct column column[2])
+                         size_t index, const struct damping_column column[2])
 {
     const struct material *given = &scene->material[index];
     const struct damped_moduli *fitted = &d->damping->fitted[index];
@@ -97,7 +81,7 @@ static void set_material(const struct damped *d, const struct damped_part *part,
 }
 
 static selas_status set_part(const struct damped *d, struct damped_part *part, const struct scene *scene,
-                             const struct column *columns, struct messages *messages)
+                             const struct damping_column *columns, struct messages *messages)
 {
     part->material = array_new(scene->materials, sizeof *part->material);
     if (part->material == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
@@ -112,7 +96,7 @@ static selas_status set_part(const struct damped *d, struct damped_part *part, c
 selas_status damped_split(struct damped *d, const struct scene *scene, struct messages *messages)
 {
     const struct ground_damping *damping = d->damping;
-    struct column *columns = array_new(2 * damping->materials, sizeof *columns);
+    struct damping_column *columns = array_new(2 * damping->materials, sizeof *columns);
     selas_status status = SELAS_OK;
     if (columns == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
     if (scene->body.model != NULL)
@@ -121,7 +105,7 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
     d->parts = 1;
     d->part[0].given = 1;
     for (size_t i = 0; i < damping->materials; i++)
-        columns_of(&damping->fitted[i], damping->mechanisms, &columns[2 * i]);
+        damping_columns(damping->mechanisms, &damping->fitted[i], &columns[2 * i]);
     for (size_t i = 0; i < damping->materials && d->part[0].given == 1; i++)
         for (size_t l = 0; l < damping->mechanisms; l++) {
             d->part[0].memory[l] = columns[2 * i + 1].weight[l];

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
 #include "scene/ground.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,6 +16,26 @@ void cut_layers(const struct scene *scene, double thickness[BOX_FACES])
     for (int face = 0; face < BOX_FACES; face++)
         thickness[face] =
             face < 2 * scene->dimension ? (double)layer_points(scene, face) * scene->body.spacing : 0;
+}
+
+/* How far the surface lies below face z-, or y-, of the body. */
+static double drop_at(const struct scene *scene, const double place[3])
+{
+    return scene->body.topography == NULL ? 0 : topography_drop(scene->body.topography, place);
+}
+
+/* A section reaches up to the highest place of the surface along it. */
+static void reach_up(const struct scene *scene, struct cut *cut)
+{
+    const int last = scene->dimension - 1;
+    for (int i = 0; i <= PIXELS && scene->body.topography != NULL; i++) {
+        double place[3];
+        const double at = cut->low[0] + (cut->high[0] - cut->low[0]) * i / PIXELS;
+        for (int axis = 0; axis < 3; axis++)
+            place[axis] = cut->origin[axis] + at * cut->along[axis];
+        cut->low[1] = fmin(cut->low[1], scene->body.low[last] + 1.1 * drop_at(scene, place));
+        cut->body_low[1] = cut->low[1];
+    }
 }
 
 /* Pixels that are nearly square. */
@@ -96,6 +117,7 @@ void cut_section(const struct scene *scene, const double from[3], const double t
         cut->body_high[0] = range[1][1] - range[0][0];
         cut->face[0][0] = cut->face[0][1] = -1;
     }
+    reach_up(scene, cut);
     choose_pixels(cut);
 }
 
@@ -122,6 +144,12 @@ bool cut_fill(const struct scene *scene, struct cut *cut)
     for (size_t i = 0; i < count; i++) {
         double place[3];
         pixel(cut, i, place);
+        const double surface = scene->body.low[scene->dimension - 1] + drop_at(scene, place);
+        if (cut->across[2] == 0 && scene->dimension == 3) place[2] = surface; /* a map */
+        if (place[scene->dimension - 1] < surface) {                          /* air */
+            cut->speed[0][i] = cut->speed[1][i] = (float)NAN;
+            continue;
+        }
         const struct rock rock = ground_at(scene, place);
         const double speed[2] = {sqrt(rock.mu / rock.density),
                                  sqrt((rock.lambda + 2 * rock.mu) / rock.density)};
@@ -164,6 +192,7 @@ static bool jumps(const struct scene *scene, const struct cut *cut, size_t one, 
 {
     static const double part = .02;
     enum { HALVINGS = 6 };
+    if (isnan(cut->speed[0][one] + cut->speed[0][other])) return false;
     if (fabsf(cut->speed[0][one] - cut->speed[0][other]) <= (float)part / 4 * cut->speed[0][one] &&
         fabsf(cut->speed[1][one] - cut->speed[1][other]) <= (float)part / 4 * cut->speed[1][one])
         return false;
@@ -199,6 +228,20 @@ bool cut_write_jumps(const struct scene *scene, const struct cut *cut, FILE *scr
             }
         }
     return found;
+}
+
+bool cut_write_surface(const struct scene *scene, const struct cut *cut, FILE *script)
+{
+    const int last = scene->dimension - 1;
+    if (scene->body.topography == NULL || cut->across[last] == 0) return false;
+    for (int i = 0; i <= PIXELS; i++) {
+        double place[3];
+        const double at = cut->low[0] + (cut->high[0] - cut->low[0]) * i / PIXELS;
+        for (int axis = 0; axis < 3; axis++)
+            place[axis] = cut->origin[axis] + at * cut->along[axis];
+        fprintf(script, "%.9g %.9g\n", at, scene->body.low[last] + drop_at(scene, place));
+    }
+    return true;
 }
 
 bool cut_write_speed(const struct cut *cut, int which, FILE *data)

@@ -16,7 +16,7 @@ struct cut {
     double body_low[2], body_high[2]; /* the body's part of it */
     int face[2][2];                   /* faces at its ends, -1: none */
     size_t pixels[2];
-    float *speed[2]; /* [pixels] of S and P waves */
+    float *speed[2]; /* [pixels] of S and P waves; above the surface NaN */
     double least[2], greatest[2];
 };
 
@@ -32,6 +32,8 @@ bool cut_fill(const struct scene *scene, struct cut *cut);
 double cut_project(const struct cut *cut, const double place[3], double at[2]);
 /* Middles of the edges between pixels between which the rock jumps, as lines of two numbers; false: none. */
 bool cut_write_jumps(const struct scene *scene, const struct cut *cut, FILE *script);
+/* The surface along a section, as lines of two numbers; false: it is level, or this is a map. */
+bool cut_write_surface(const struct scene *scene, const struct cut *cut, FILE *script);
 bool cut_write_speed(const struct cut *cut, int which, FILE *data);
 void cut_free(struct cut *cut);
 

@@ -81,9 +81,10 @@ static void draw(const struct page *page, size_t c, size_t skip, bool key)
         step[side] = (cut->high[side] - cut->low[side]) / (double)cut->pixels[side];
     fprintf(script,
             "plot '" GNUPLOT_DATA "' binary skip=%zu array=(%zu,%zu) origin=(%.9g,%.9g) dx=%.9g dy=%.9g "
-            "format='%%float' with image notitle, $jumps%zu u 1:2 w p pt 7 ps .18 lc rgb '#000000' notitle",
+            "format='%%float' with image notitle, $jumps%zu u 1:2 w p pt 7 ps .18 lc rgb '#000000' notitle, "
+            "$surface%zu u 1:2 w l lc rgb '#000000' lw 2 notitle",
             skip, cut->pixels[0], cut->pixels[1], cut->low[0] + step[0] / 2, cut->low[1] + step[1] / 2,
-            step[0], step[1], c);
+            step[0], step[1], c, c);
     static const char *const look[LOOKS] = {"lc rgb '#d97706' lw 6", "lc rgb '#1d4ed8' lw 6"},
                              *const name[LOOKS] = {"face with dampers", "face held or moved"};
     for (int n = 0; n < LOOKS; n++)

@@ -59,6 +59,8 @@ static void write_places(struct page *page, size_t c)
     }
     fprintf(page->script, "END\n$jumps%zu << END\n", c);
     page->jumps = cut_write_jumps(scene, &page->cut[c], page->script) || page->jumps;
+    fprintf(page->script, "END\n$surface%zu << END\n", c);
+    cut_write_surface(scene, &page->cut[c], page->script);
     fprintf(page->script, "END\n");
 }
 
