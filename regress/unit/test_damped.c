@@ -161,7 +161,8 @@ static void run_end(struct damped_run *run)
 #define GROUND                                                                                               \
     "&material name = 'm', density = 1.0, lambda = %g, mu = 1.0, q_p = %g, q_s = %g, q_frequency = 0.1 /\n"
 
-/* Free squares and pillars of layers: Q of P and S waves, of each layer its own, Poisson ratios to .49. The limit is that of the undamped body with unrelaxed moduli, and is sharp. */
+/* Free squares and pillars of layers: Q of P and S waves, of each layer its own, Poisson ratios to .49. The limit is
+ * that of the undamped body with unrelaxed moduli, and is sharp. */
 static void nothing_grows_below_the_limit(void **state)
 {
     (void)state;

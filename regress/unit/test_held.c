@@ -1,5 +1,6 @@
-/* Held loads (stepping/held.h, Eq H1): a change at the time reached without the operator against one by it, on bodies with
- * dampers, layers, mirror planes, exact mass and ground that varies; operator calls counted; responses. */
+/* Held loads (stepping/held.h, Eq H1): a change at the time reached without the operator against one by it,
+ * on bodies with dampers, layers, mirror planes, exact mass and ground that varies; operator calls counted;
+ * responses. */
 #include "host/simulation.h"
 
 #include "api_scene.h"
