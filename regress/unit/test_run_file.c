@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 static const size_t cube[3] = {6, 5, 4};
-static const struct run_figures figures = {2.0, 3.0, 0.5, 0.6, 0.7, 1};
+static const struct run_figures figures = {2.0, 3.0, 0.5, 0.6, 0.7, 1, 0};
 
 static int reset(void **state)
 {

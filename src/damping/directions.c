@@ -167,7 +167,7 @@ selas_status damping_directions(struct ground_damping *damping, struct messages 
     if (!undamped) memcpy(space.origin, space.column[1].weight, sizeof space.origin);
     find_directions(&space, most);
     for (size_t i = 0; i < damping->materials && space.directions < n; i++) {
-        double off[MOST_MECHANISMS];
+        double off[MOST_MECHANISMS] = {0};
         if (damping->fitted[i].shear.mechanisms == 0) continue;
         for (size_t c = 0; c < 2; c++) {
             beside(&space, &space.column[2 * i + c], off);

@@ -211,9 +211,9 @@ static bool read_surfaces(const struct blocks *blocks)
     struct model_source *source = blocks->source;
     struct ground_model *model = source->model;
     if (model->surfaces == 0) return true;
-    for (size_t i = 0; i < model->surfaces; i++)
+    for (size_t i = 0; i < model->surfaces && i < 2; i++)
         if (!read_surface(blocks, name[i], &model->surface[i])) return false;
-    double least, ground, top, greatest;
+    double least = 0, ground = 0, top = 0, greatest = 0;
     model_extremes(&model->surface[0], &top, &greatest);
     model_extremes(&model->surface[model->surfaces - 1], &least, &ground);
     const double depth = source->range[2][1], bottom = blocks->bottom;

@@ -173,13 +173,15 @@ static bool read_surface(struct rfile *rfile)
     struct model_source *source = rfile->source;
     struct model_grid *surface = &source->model->surface[0];
     if (!read_block(rfile, &rfile->block[0], surface)) return false;
-    for (size_t i = 0; i < surface->n[0] * surface->n[1]; i++) {
-        surface->value[0][i] = -surface->value[0][i];
-        if (!(fabs(surface->value[0][i]) < 1e6))
-            return model_fault(source, "the elevation of the ground is %g at (%g, %g)", -surface->value[0][i],
-                               surface->at[0][i / surface->n[1]], surface->at[1][i % surface->n[1]]);
-    }
-    double least, greatest;
+    double *value = surface->value[0];
+    for (size_t i = 0; i < surface->n[0]; i++)
+        for (size_t j = 0; j < surface->n[1]; j++, value++) {
+            *value = -*value;
+            if (!(fabs(*value) < 1e6))
+                return model_fault(source, "the elevation of the ground is %g at (%g, %g)", -*value,
+                                   surface->at[0][i], surface->at[1][j]);
+        }
+    double least = 0, greatest = 0;
     model_extremes(surface, &least, &greatest);
     source->range[2][0] += source->model->sea ? source->model->shift : least;
     source->range[2][1] += source->model->sea ? source->model->shift : greatest;

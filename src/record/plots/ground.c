@@ -194,7 +194,7 @@ static void choose_sizes(struct page *page)
 
 static void write_page(struct page *page, FILE *data)
 {
-    size_t skip[3];
+    size_t skip[3] = {0};
     for (int n = 0; n < 2 + (page->cuts > 1); n++) {
         skip[n] = (size_t)ftell(data);
         if (!cut_write_speed(&page->cut[n == 2], n % 2, data)) return; /* gnuplot complains */
