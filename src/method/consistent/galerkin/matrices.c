@@ -45,6 +45,7 @@ static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *co
     for (int axis = 0; axis < c->dimension; axis++) {
         const struct band *band =
             consistent_matrix(c, axis, axis == test, axis == out, axis == trial, axis == in, weight);
+        if (band == NULL) return false;
         term->matrix[c->slot[axis]] = band;
     }
     return true;
