@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 1200, TOP = 80, BOTTOM = 70, PANEL = 300, GAP = 60 };
+enum { WIDTH = 1200, TOP = 80, BOTTOM = 10, PANEL = 300, GAP = 80 };
 
 /* f; 1/Q_p, 1/Q_s reached, wanted; c_p, c_s reached, wanted; weight over the largest. */
 static void write_data(FILE *script, const struct ground_damping *damping, size_t material, double density)
@@ -37,10 +37,10 @@ static void plot_panel(FILE *script, const char *unit, size_t material, int firs
     fprintf(script, "set ylabel '%s'\n", unit);
     fprintf(
         script,
-        "plot $damping%zu u 1:10 axes x1y2 w filledcurves y=0 lc rgb '#e6e6e6' t 'source', "
+        "plot $damping%zu u 1:10 axes x1y2 w filledcurves y=0 lc rgb '#e6e6e6' t 'spectrum of source', "
         "'' u 1:%d w l lc rgb '#f5a742' lw 6 t '%s_P wanted', '' u 1:%d w l lc rgb '#12306b' lw 1.6 t '%s_P "
         "reached', "
-        "'' u 1:%d w l lc rgb '#f5a742' lw 6 dt 2 t '%s_S wanted', '' u 1:%d w l lc rgb '#b3202c' lw 1.6 t "
+        "'' u 1:%d w l lc rgb '#e8a9a0' lw 6 t '%s_S wanted', '' u 1:%d w l lc rgb '#b3202c' lw 1.6 t "
         "'%s_S reached'\n",
         material, first + 2, name, first, name, first + 3, name, first + 1, name);
 }
@@ -82,7 +82,8 @@ void plot_damping(struct recorder *recorder, struct messages *messages)
     const int height = TOP + panels * (PANEL + GAP) + BOTTOM;
     gnuplot_page(plot.script, WIDTH, height, TOP, scene->title);
     gnuplot_output(plot.script, recorder->folder, "damping.png");
-    fprintf(plot.script, "set multiplot\nset logscale x\nset xlabel 'frequency'\nset y2range [0:1.2]\nset "
+    fprintf(plot.script, "set multiplot\nset logscale x\nset xlabel 'frequency (1/unit of time of the "
+                         "deck)'\nset y2range [0:1.2]\nset "
                          "key inside right center vertical maxrows 5 samplen 2\n");
     plot_materials(plot.script, recorder, damping, height);
     fprintf(plot.script, "unset multiplot\nunset output\n");
