@@ -6,6 +6,17 @@ steel="&material name = 'steel', density = 7800.0, young = 2e11, poisson = 0.3 /
 marks="&snapshot every = 0.4, fields = 'velocity', 'stress' /
 &output plots = .false. /"
 
+# steps in one pass beside layers, but for the rock
+fine="&scene dimension = 3, end_time = 4.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
+&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
+  history = 'ricker', frequency = 0.4, delay = 2.5 /
+&receiver name = 'r1', position = 2, 1.5, 0 /
+&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
+&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
+$marks"
+
 scene() {
     case $1 in
     layers) cat <<END ;; # C-PML, histories un-warped at the end
@@ -37,42 +48,18 @@ END
 $marks
 END
     relaxing) cat <<END ;; # relaxation mechanisms of two operators in steps in one pass, with layers
-&scene dimension = 3, end_time = 4.0 /
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0, q_p = 30, q_s = 20 /
-&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
-&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
-&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
-  history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks
+$fine
 END
     relaxing-single) cat <<END ;; # the same in single precision
-&scene dimension = 3, end_time = 4.0 /
 &method precision = 'single' /
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0, q_p = 30, q_s = 20 /
-&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
-&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
-&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
-  history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks
+$fine
 END
     single) cat <<END ;; # steps in one pass in single precision, with layers
-&scene dimension = 3, end_time = 4.0 /
 &method precision = 'single' /
 $rock
-&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
-&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
-&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
-  history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks
+$fine
 END
     pass) cat <<END ;; # steps in one pass, planes at rest
 &scene dimension = 3, end_time = 4.0 /
