@@ -136,10 +136,9 @@ static selas_status check_range(const struct scene *scene, double h, struct mess
         h, why);
 }
 
-/* Points times steps, those of absorbing layers counted as in the choice of a box (fitted_box.c). */
+/* Points times steps, those of absorbing layers counted as in the choice of a box. */
 static double work_of(const struct scene *scene)
 {
-    static const double layer_cost = 2.8;
     const struct body *body = &scene->body;
     double points = 1, all = 1;
     for (int c = 0; c < 3; c++) {
@@ -147,7 +146,7 @@ static double work_of(const struct scene *scene)
         points *= count;
         all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
     }
-    return (points + layer_cost * (all - points)) * scene_fastest(scene) * scene->end_time /
+    return (points + LAYER_COST * (all - points)) * scene_fastest(scene) * scene->end_time /
            (.35 * body->spacing);
 }
 

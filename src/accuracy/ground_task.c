@@ -3,6 +3,7 @@
 
 #include "base/fft_room.h"
 #include "base/memory.h"
+#include "compare/misfit.h"
 #include "damping/ground.h"
 
 #include <fftw3.h>
@@ -115,18 +116,6 @@ selas_status begin_task(const struct scene *scene, struct task *task, struct mes
     return status;
 }
 
-/* Of two histories of a receiver: relative L2 of the velocity vector. */
-static double apart(const double *value, const double *other)
-{
-    double off = 0, size = 0;
-    for (size_t i = 0; i < (size_t)6 * ROWS; i++) {
-        if (i % 6 < 3) continue;
-        off += (value[i] - other[i]) * (value[i] - other[i]);
-        size += other[i] * other[i];
-    }
-    return size > 0 ? sqrt(off / size) : 0;
-}
-
 /* What so many mechanisms are off at the worst receiver; `room`: [2][6 * ROWS]. */
 static selas_status mechanisms_off(const struct task *task, size_t mechanisms, const double *time,
                                    double *room, double *off, struct messages *messages)
@@ -143,7 +132,8 @@ static selas_status mechanisms_off(const struct task *task, size_t mechanisms, c
         status = exact->class->history(exact, place, ROWS, time, value, messages);
         if (status == SELAS_OK)
             status = task->exact->class->history(task->exact, place, ROWS, time, constant, messages);
-        if (status == SELAS_OK) *off = fmax(*off, apart(value, constant));
+        const struct misfit velocity = misfit_of(ROWS, time, value + 3, constant + 3, 6, 3);
+        if (status == SELAS_OK && velocity.l2_of > 0) *off = fmax(*off, velocity.l2 / velocity.l2_of);
     }
     exact_free(&exact);
     return status;

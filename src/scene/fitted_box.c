@@ -11,10 +11,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Points between what the box holds and a layer and depth of the box in points, at least, and what a layer
- * point costs against one of the body (regress/studies/layer-cost; doc/performance.md, section 6). */
+/* Points between what the box holds and a layer and depth of the box in points, at least. */
 enum { MARGIN = 4, LEAST_DEPTH = 12 };
-static const double LAYER_COST = 2.8;
 
 struct span {
     double low, high;
