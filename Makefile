@@ -64,7 +64,7 @@ setup: ## install what is missing with apt (root or sudo)
 setup-mpi: setup ## install what `make mpi` needs besides
 	@sh regress/setup mpi
 
-mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/ranks.md)
+mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/howto/ranks.md)
 
 halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots in output/halfspace/
 	@$(MAKE) --no-print-directory all
@@ -195,8 +195,7 @@ install: all ## install program, libraries, header, module, manual and decks bel
 	install -D -m 644 -t '$(AT)/include/selas' $(BUILD)/selas.mod src/selas.f90 src/selas77.f90
 	install -D -m 644 -t '$(AT)/share/man/man1' doc/selas.1
 	install -D -m 644 -t '$(AT)/share/selas' input/*.nml
-	install -D -m 644 -t '$(AT)/share/doc/selas' doc/*.md
-	install -D -m 644 -t '$(AT)/share/doc/selas/figures' doc/figures/*
+	cd doc && find . -type f ! -name selas.1 -exec install -D -m 644 '{}' '$(abspath $(AT))/share/doc/selas/{}' ';'
 
 uninstall: ## remove what install put there
 	rm -f '$(AT)/bin/selas' '$(AT)/lib/'libselas.so* '$(AT)/lib/libselas.a' '$(AT)/lib/libselas_fortran.a' \

@@ -1,0 +1,39 @@
+#!/bin/sh
+# The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
+# contents (doc/README.md), every page that the source or a script names is there. Prints TAP.
+cd "$(dirname "$0")/../.." || exit 1
+pages="README.md $(find doc regress/README.md -name '*.md' | sort | tr '\n' ' ')"
+
+anchors() { # anchors PAGE: the names that GitHub gives to its headings
+    sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr 'A-Z' 'a-z' | sed 's/\[\([^]]*\)\]([^)]*)/\1/g; s/[^a-z0-9 _-]//g; s/ /-/g'
+}
+for page in $pages; do
+    grep -oE '\]\([^) ]+\)' "$page" | sed 's/^](//; s/)$//' | while read -r link; do
+        case $link in *://* | mailto:*) continue ;; esac
+        file=${link%%#*}
+        to=$page
+        [ -z "$file" ] || to=$(dirname "$page")/$file
+        if [ ! -e "$to" ]; then echo "$page: $link"; continue; fi
+        case $link in *'#'*) anchors "$to" | grep -qxF -e "${link#*#}" || echo "$page: $link: no such heading" ;; esac
+    done
+done >"${TMPDIR:-/tmp}/manual-links-$$"
+broken=$(cat "${TMPDIR:-/tmp}/manual-links-$$")
+rm -f "${TMPDIR:-/tmp}/manual-links-$$"
+verdict() { # verdict WHAT OFFENDERS
+    if [ -z "$2" ]; then echo "ok - $1"; else
+        echo "not ok - $1"
+        echo "$2" | sed 's/^/#   /'
+    fi
+}
+verdict 'every link of the manual leads somewhere' "$broken"
+verdict 'every page of the manual is in its contents' "$(
+    for page in $pages; do
+        case $page in README.md | doc/README.md | regress/README.md) continue ;; esac
+        grep -qF "](${page#doc/})" doc/README.md || echo "$page"
+    done
+)"
+verdict 'every page that source and scripts name is there' "$(
+    grep -rhoE '\bdoc/[a-z0-9/-]+\.(md|1)\b' src regress input Makefile README.md doc/selas.1 | sort -u | while read -r page; do
+        [ -e "$page" ] || echo "$page"
+    done
+)"
