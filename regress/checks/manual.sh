@@ -2,6 +2,8 @@
 # The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
 # contents (doc/README.md), every page that the source or a script names is there. Prints TAP.
 cd "$(dirname "$0")/../.." || exit 1
+texts=$(mktemp) || exit 1
+trap 'rm -f "$texts"' EXIT
 pages="README.md $(find doc regress/README.md -name '*.md' | sort | tr '\n' ' ')"
 
 anchors() { # anchors PAGE: the names that GitHub gives to its headings
@@ -16,9 +18,8 @@ for page in $pages; do
         if [ ! -e "$to" ]; then echo "$page: $link"; continue; fi
         case $link in *'#'*) anchors "$to" | grep -qxF -e "${link#*#}" || echo "$page: $link: no such heading" ;; esac
     done
-done >"${TMPDIR:-/tmp}/manual-links-$$"
-broken=$(cat "${TMPDIR:-/tmp}/manual-links-$$")
-rm -f "${TMPDIR:-/tmp}/manual-links-$$"
+done >"$texts"
+broken=$(cat "$texts")
 verdict() { # verdict WHAT OFFENDERS
     if [ -z "$2" ]; then echo "ok - $1"; else
         echo "not ok - $1"
@@ -35,5 +36,12 @@ verdict 'every page of the manual is in its contents' "$(
 verdict 'every page that source and scripts name is there' "$(
     grep -rhoE '\bdoc/[a-z0-9/-]+\.(md|1)\b' src regress input Makefile README.md doc/selas.1 | sort -u | while read -r page; do
         [ -e "$page" ] || echo "$page"
+    done
+)"
+verdict 'every message of doc/howto/troubleshooting.md is one of the source' "$(
+    find src -name '*.[ch]' -exec cat {} + | tr '\n' ' ' | sed "s/\" *\"//g; s/%%/%/g; s/\\\\'/'/g" >"$texts"
+    sed -n 's/^| \(`[^|]*`\) |.*/\1/p' doc/howto/troubleshooting.md | grep -o '`[^`]*`' | tr -d '`' |
+        sed "s/'*\.\.\.'*/\n/g" | sed "s/^[ ,']*//; s/[ ,']*$//" | while read -r text; do
+        [ -z "$text" ] || grep -qF -e "$text" "$texts" || echo "$text"
     done
 )"
