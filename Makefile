@@ -54,7 +54,7 @@ define link
 endef
 
 .DEFAULT_GOAL := all
-.PHONY: all setup setup-mpi mpi halfspace test regress nightly install uninstall clean help always
+.PHONY: all setup setup-mpi setup-manual manual mpi halfspace test regress nightly install uninstall clean help always
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -63,6 +63,12 @@ setup: ## install what is missing with apt (root or sudo)
 
 setup-mpi: setup ## install what `make mpi` needs besides
 	@sh regress/setup mpi
+
+setup-manual: ## install what `make manual` needs: pandoc, weasyprint
+	@sh regress/setup manual
+
+manual: ## the manual as a site and a book: output/manual/html/index.html, output/manual/selas.pdf
+	@regress/manual/run
 
 mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/howto/ranks.md)
 
@@ -195,7 +201,7 @@ install: all ## install program, libraries, header, module, manual and decks bel
 	install -D -m 644 -t '$(AT)/include/selas' $(BUILD)/selas.mod src/selas.f90 src/selas77.f90
 	install -D -m 644 -t '$(AT)/share/man/man1' doc/selas.1
 	install -D -m 644 -t '$(AT)/share/selas' input/*.nml
-	cd doc && find . -type f ! -name selas.1 -exec install -D -m 644 '{}' '$(abspath $(AT))/share/doc/selas/{}' ';'
+	cd doc && find . '(' -name '*.md' -o -name '*.png' ')' -exec install -D -m 644 '{}' '$(abspath $(AT))/share/doc/selas/{}' ';'
 
 uninstall: ## remove what install put there
 	rm -f '$(AT)/bin/selas' '$(AT)/lib/'libselas.so* '$(AT)/lib/libselas.a' '$(AT)/lib/libselas_fortran.a' \

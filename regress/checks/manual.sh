@@ -1,6 +1,8 @@
 #!/bin/sh
 # The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
-# contents (doc/README.md), every page that the source or a script names is there. Prints TAP.
+# contents (doc/README.md), every page that the source or a script names is there, every command and option of --help is in the
+# man page. Argument: the build folder. Prints TAP.
+selas=$(cd "${1:-build}" && pwd)/selas
 cd "$(dirname "$0")/../.." || exit 1
 texts=$(mktemp) || exit 1
 trap 'rm -f "$texts"' EXIT
@@ -43,5 +45,10 @@ verdict 'every message of doc/howto/troubleshooting.md is one of the source' "$(
     sed -n 's/^| \(`[^|]*`\) |.*/\1/p' doc/howto/troubleshooting.md | grep -o '`[^`]*`' | tr -d '`' |
         sed "s/'*\.\.\.'*/\n/g" | sed "s/^[ ,']*//; s/[ ,']*$//" | while read -r text; do
         [ -z "$text" ] || grep -qF -e "$text" "$texts" || echo "$text"
+    done
+)"
+verdict 'the man page has every command and option' "$(
+    { "$selas" --help; "$selas" diff --help; } | grep -oE -e '--[a-z]+(-[a-z]+)*|^ +selas [a-z]+' | sort -u | while read -r what; do
+        sed 's/\\-/-/g' doc/selas.1 | grep -qE -e "${what#selas }" || echo "$what"
     done
 )"
