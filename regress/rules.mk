@@ -187,7 +187,7 @@ bench: $(BUILD)/selas $(BUILD)/test/bench ## speed beside the machine's own, und
 bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: doc/developers/performance.md (some minutes, 12 GB)
 	@sh regress/studies/bench/run $(BUILD) all
 
-bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/developers/performance.md
+bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/developers/performance-sph.md
 	@for kind in $$($(BUILD)/test/bench kinds); do SELAS_PROCESSOR=$$kind sh regress/studies/bench/sph $(BUILD) && echo || exit 1; done
 
 bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace-lysmer.nml

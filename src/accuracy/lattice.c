@@ -1,5 +1,5 @@
 /* The speed that plane waves have on the lattice of the consistent method and in its schemes in time
- * (doc/theory/consistent-method.md, section 11, Eqs T1 to T3), for scene%accuracy. */
+ * (doc/theory/consistent-splines.md, section 11, Eqs T1 to T3), for scene%accuracy. */
 #include "accuracy/lattice.h"
 
 #include <math.h>
