@@ -9,7 +9,7 @@ trap 'rm -f "$texts"' EXIT
 pages="README.md $(find doc regress/README.md -name '*.md' | sort | tr '\n' ' ')"
 
 anchors() { # anchors PAGE: the names that GitHub gives to its headings
-    sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr 'A-Z' 'a-z' | sed 's/\[\([^]]*\)\]([^)]*)/\1/g; s/[^a-z0-9 _-]//g; s/ /-/g'
+    sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/\[\([^]]*\)\]([^)]*)/\1/g; s/[^a-z0-9 _-]//g; s/ /-/g'
 }
 for page in $pages; do
     grep -oE '\]\([^) ]+\)' "$page" | sed 's/^](//; s/)$//' | while read -r link; do

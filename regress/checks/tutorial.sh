@@ -68,9 +68,9 @@ follow() { # follow PAGE
     : >printed
     while IFS= read -r line; do
         case $kind,$line in
-        ,'```sh') kind=sh; : >>printed; [ "$last" = text ] && : >printed ;;
-        ,'```text') kind=text; : >wanted ;;
-        ,'```'*) kind=file file='' ;;
+        ,'```sh') kind='sh'; : >>printed; [ "$last" = text ] && : >printed ;;
+        ,'```text') kind='text'; : >wanted ;;
+        ,'```'*) kind='file' file='' ;;
         *,'```')
             [ $kind = text ] && finish_commands
             last=$kind kind='' ;;
