@@ -201,7 +201,8 @@ install: all ## install program, libraries, header, module, manual and decks bel
 	install -D -m 644 -t '$(AT)/include/selas' $(BUILD)/selas.mod src/selas.f90 src/selas77.f90
 	install -D -m 644 -t '$(AT)/share/man/man1' doc/selas.1
 	install -D -m 644 -t '$(AT)/share/selas' input/*.nml
-	cd doc && find . '(' -name '*.md' -o -name '*.png' ')' -exec install -D -m 644 '{}' '$(abspath $(AT))/share/doc/selas/{}' ';'
+	for page in $$(cd doc && find . -name '*.md' -o -name '*.png'); do \
+	    install -D -m 644 "doc/$$page" '$(AT)/share/doc/selas/'"$$page" || exit 1; done
 
 uninstall: ## remove what install put there
 	rm -f '$(AT)/bin/selas' '$(AT)/lib/'libselas.so* '$(AT)/lib/libselas.a' '$(AT)/lib/libselas_fortran.a' \
