@@ -1,5 +1,5 @@
 /* The general operator of the consistent method on random ground: symmetry, sign, rigid motions, plane waves,
- * the largest step, energy, dampers, symmetry planes, threads (doc/general-ground.md). */
+ * the largest step, energy, dampers, symmetry planes, threads (doc/theory/general-ground.md). */
 #include "general_run.h"
 
 #include <gsl/gsl_eigen.h>
@@ -120,7 +120,7 @@ static double dispersion(struct run *run, double points)
     return worst;
 }
 
-/* The table of doc/general-ground.md, for Poisson's ratio 1/4 (worst of 150 directions there, three here). */
+/* The table of doc/theory/general-ground.md, for Poisson's ratio 1/4 (worst of 150 directions there, three here). */
 static void test_plane_waves(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
- * (doc/absorbing-faces.md, sections 3, 6 and 7). */
+ * (doc/theory/absorbing-faces.md, sections 3, 6 and 7). */
 #include "scene/absorbing_layers.h"
 
 #include "scene/echo.h"

@@ -1,4 +1,4 @@
-/* Absorbing layers as the scene asks for them (doc/absorbing-faces.md, sections 3, 5 and 6). */
+/* Absorbing layers as the scene asks for them (doc/theory/absorbing-faces.md, sections 3, 5 and 6). */
 #ifndef SELAS_SCENE_ABSORBING_LAYERS_H
 #define SELAS_SCENE_ABSORBING_LAYERS_H
 
@@ -10,7 +10,8 @@ const char *layers_refusal(const struct scene *scene);
 
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
-/* What a layer point costs against one of the body (regress/studies/layer-cost; doc/performance.md, section 6). */
+/* What a layer point costs against one of the body (regress/studies/layer-cost;
+ * doc/developers/performance.md, section 6). */
 #define LAYER_COST 2.8
 
 /* Points of the absorbing layer behind a face, 0 if it has none. */

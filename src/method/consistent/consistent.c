@@ -1,4 +1,4 @@
-/* The consistent smoothed point method (manual, doc/consistent-method.md): Ding et al. (2006), Eq 14, with
+/* The consistent smoothed point method (manual, doc/theory/consistent-method.md): Ding et al. (2006), Eq 14, with
  * the smoothing kept on both sides, which is Galerkin's method with tensor-product B-splines:
  *
  *   M a + C v + K u = F.

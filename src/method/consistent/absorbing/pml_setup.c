@@ -1,4 +1,4 @@
-/* Building the absorbing layers: slabs, damping profiles, matrices (doc/absorbing-faces.md, sections 2 and
+/* Building the absorbing layers: slabs, damping profiles, matrices (doc/theory/absorbing-faces.md, sections 2 and
  * 3). The matrices of the axis across the face are cut to the slab's region; nothing outside is touched. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/absorbing/pml_terms.h"

@@ -1,4 +1,4 @@
-/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/performance.md).
+/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/developers/performance.md).
  *
  * With b = B_z u (N M over depth, or the identity), each line one pass over rows that stay in the cache,
  *

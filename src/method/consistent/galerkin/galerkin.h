@@ -1,4 +1,4 @@
-/* The consistent smoothed point method: inside of the model (doc/consistent-method.md).
+/* The consistent smoothed point method: inside of the model (doc/theory/consistent-method.md).
  *
  * Unknowns are control values of tensor-product B-splines in the body's own frame, component c of control
  * value (i, j, k) at c * volume + i + n[0] * (j + n[1] * k). The scene's axes lie in the slots x, y, z of

@@ -1,5 +1,5 @@
 /* Corners where three free faces meet: the points of the three families see nothing of one motion of each
- * component there (doc/general-ground.md, section 2). One more point on each corner, of the weight that it has
+ * component there (doc/theory/general-ground.md, section 2). One more point on each corner, of the weight that it has
  * in Simpson's rule, sees them. */
 #include "method/consistent/general/general.h"
 

@@ -1,4 +1,4 @@
-/* The general operator: making, acceleration, M v and energies (doc/general-ground.md). */
+/* The general operator: making, acceleration, M v and energies (doc/theory/general-ground.md). */
 #include "method/consistent/general/general.h"
 
 #include "base/memory.h"

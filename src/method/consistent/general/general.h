@@ -1,5 +1,5 @@
 /* The general operator of the consistent method: material that varies in all directions
- * (doc/general-ground.md).
+ * (doc/theory/general-ground.md).
  *
  * The strain energy is taken at three families of points, on the knots of one axis and in the middles of the
  * cells of the others (G1), for splines of degree 2; the mass inverse is that of an even ground between two
@@ -93,7 +93,7 @@ bool general_row_is_loud(const struct consistent *c, const struct taps *y, const
 /* Does a plane of points reach planes from .. end - 1, and does it move anything? */
 bool general_plane_counts(const struct consistent *c, enum at at, size_t m, size_t from, size_t end);
 
-/* layers.c: absorbing layers (doc/general-ground.md, section 5). */
+/* layers.c: absorbing layers (doc/theory/general-ground.md, section 5). */
 selas_status general_layers_create(struct consistent *c, struct messages *messages);
 void general_layers_free(struct consistent *c);
 /* Adds their memory to the slopes of points from .. end - 1 of row j in plane m. */

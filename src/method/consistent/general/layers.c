@@ -1,5 +1,5 @@
 /* Absorbing layers of the general operator: convolutional perfectly matched layers at its points
- * (doc/general-ground.md, section 5). Along the axis j across the face the layer keeps
+ * (doc/theory/general-ground.md, section 5). Along the axis j across the face the layer keeps
  *
  *   psi_ij = F_j[d_j u_i]  at the points,   phi_ij = F_j[f_ij]  at the control values,                  (G13)
  *
