@@ -9,6 +9,7 @@
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/moving_load.h"
 #include "method/consistent/general/general.h"
+#include "method/consistent/general/sweep.h"
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
@@ -23,6 +24,7 @@ static void destroy(struct model *model)
     general_free(c);
     pml_free(c);
     fused_free(c->fused);
+    watch_free(&c->watch);
     hform_free(c);
     forces_free(c);
     mass_free(c);
@@ -288,7 +290,8 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     if (c->pml != NULL) c->model.memory = &memory;
     c->model.layers = c->pml != NULL;
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
-    if (status == SELAS_OK) status = fused_steps_create(c, messages);
+    if (status == SELAS_OK)
+        status = (c->general != NULL ? general_steps_create : fused_steps_create)(c, messages);
     if (status != SELAS_OK) {
         destroy(&c->model);
         return status;
