@@ -83,6 +83,8 @@ struct sweep {
         real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */  \
     };                                                                                                       \
     struct sweep_kernels_##precision {                                                                       \
+        /* u += dt w, n numbers; gives the largest |u| */                                                     \
+        real (*bring)(size_t n, real dt, const real *w, real *u);                                            \
         /* out[q][i] := sum over d of weight[q][d] in[d][i], i < n */                                        \
         void (*depth)(size_t n, const real *const in[SPAN], const real weight[DEPTH_FIELDS][SPAN],           \
                       real *const out[DEPTH_FIELDS]);                                                        \
@@ -90,9 +92,12 @@ struct sweep {
         /* out[d][i] -= sum over q of weight[q][d] in[q][i], i < width */                                    \
         void (*pulls)(size_t width, const real *const in[DEPTH_FIELDS],                                      \
                       const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                         \
-        /* out[p][i] += factor root[p][i] sum over t of weight[p][t] in[p + t][i], p < planes, i < n */      \
-        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, real factor,      \
-                       const real *const *root, real *const *out);                                           \
+        /* out[i] := factor[i] in[i], i < n */                                                                 \
+        void (*scale)(size_t n, const real *factor, const real *in, real *out);                              \
+        /* out[p][i] += factor root[p][i] sum over t of weight[p][t] in[p + t][i], p < planes, i < n; what is   \
+         * `ahead` numbers on, the next row, is asked for */                                                  \
+        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,     \
+                       real factor, const real *const *root, real *const *out);                              \
     };                                                                                                       \
     EACH_PROCESSOR(struct sweep_kernels_##precision, sweep_kernels_##precision)
 SWEEP_KERNELS(double, double)

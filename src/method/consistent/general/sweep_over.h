@@ -6,10 +6,18 @@
 #include "base/machine.h"
 #include "method/consistent/general/sweep.h"
 
+#include <string.h>
+
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
 enum { LANES = VECTOR_BYTES / sizeof(REAL) };
 
 #define UNROLLED _Pragma("GCC unroll 32")
+
+#if defined(__GNUC__)
+#define FETCH(place) __builtin_prefetch(place, 0, 2)
+#else
+#define FETCH(place) (void)(place)
+#endif
 
 INLINED lanes at(const REAL *place)
 {
@@ -24,11 +32,15 @@ INLINED void put(REAL *place, lanes value)
 static void depth(size_t n, const REAL *const in[SPAN], const REAL weight[DEPTH_FIELDS][SPAN],
                   REAL *const out[DEPTH_FIELDS])
 {
+    REAL w[DEPTH_FIELDS][SPAN], *to[DEPTH_FIELDS];
+    memcpy(w, weight, sizeof w);
+    memcpy(to, out, sizeof to);
+    const REAL *const from[SPAN] = {in[0], in[1], in[2]};
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
-        const lanes a = at(in[0] + i), b = at(in[1] + i), c = at(in[2] + i);
+        const lanes a = at(from[0] + i), b = at(from[1] + i), c = at(from[2] + i);
         UNROLLED for (int q = 0; q < DEPTH_FIELDS; q++)
-            put(out[q] + i, weight[q][0] * a + weight[q][1] * b + weight[q][2] * c);
+            put(to[q] + i, w[q][0] * a + w[q][1] * b + w[q][2] * c);
         if (i + LANES >= n) break;
     }
 }
@@ -77,13 +89,13 @@ enum { XX, YY, ZZ, YZ, ZX, XY, DEPTH_X, DEPTH_Y, DEPTH_Z };
 
 INLINED void level_stresses(const bool knots, const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
 {
-    const size_t stride = row->stride;
-    const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2];
+    const size_t stride = row->stride, width = row->width;
+    const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2], *lambda = row->lambda, *shear = row->mu;
 #define AT(component, slot) (in + (3 * (component) + (slot)) * stride + i)
-    for (size_t i = 0; i < row->width; i += LANES) {
+    for (size_t i = 0; i < width; i += LANES) {
         const lanes exx = x * slope_of(knots, AT(0, 0)), eyy = y * value_of(knots, AT(1, 1)),
-                    ezz = z * value_of(knots, AT(2, 2)), mu = at(row->mu + i), twice = mu + mu,
-                    pressure = at(row->lambda + i) * (exx + eyy + ezz);
+                    ezz = z * value_of(knots, AT(2, 2)), mu = at(shear + i), twice = mu + mu,
+                    pressure = at(lambda + i) * (exx + eyy + ezz);
         put(out + XX * stride + i, pressure + twice * exx);
         put(out + YY * stride + i, pressure + twice * eyy);
         put(out + ZZ * stride + i, pressure + twice * ezz);
@@ -96,22 +108,23 @@ INLINED void level_stresses(const bool knots, const struct NAME(sweep_row) * row
 /* Below a surface that is not level: slopes along the axes (G17), and what pulls along the lattice's depth. */
 INLINED void tilted_stresses(const bool knots, const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
 {
-    const struct NAME(sweep_hill) *hill = row->hill;
-    const size_t stride = row->stride;
-    for (size_t i = 0; i < row->width; i += LANES) {
-        const lanes up = 1 / (1 + hill->fall * at(hill->drop + i)),
-                    one = hill->share * at(hill->slope[0] + i) * up,
-                    two = hill->share * at(hill->slope[1] + i) * up;
+    const struct NAME(sweep_hill) hill = *row->hill;
+    const size_t stride = row->stride, width = row->width;
+    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]}, *lambda = row->lambda, *shear = row->mu;
+    for (size_t i = 0; i < width; i += LANES) {
+        const lanes up = 1 / (1 + hill.fall * at(hill.drop + i)),
+                    one = hill.share * at(hill.slope[0] + i) * up,
+                    two = hill.share * at(hill.slope[1] + i) * up;
         lanes x[3], y[3], z[3];
         UNROLLED for (size_t c = 0; c < 3; c++)
         {
-            const lanes down = row->factor[2] * value_of(knots, AT(c, 2));
-            x[c] = row->factor[0] * slope_of(knots, AT(c, 0)) - one * down;
-            y[c] = row->factor[1] * value_of(knots, AT(c, 1)) - two * down;
+            const lanes down = factor[2] * value_of(knots, AT(c, 2));
+            x[c] = factor[0] * slope_of(knots, AT(c, 0)) - one * down;
+            y[c] = factor[1] * value_of(knots, AT(c, 1)) - two * down;
             z[c] = up * down;
         }
-        const lanes mu = at(row->mu + i), twice = mu + mu,
-                    pressure = at(row->lambda + i) * (x[0] + y[1] + z[2]);
+        const lanes mu = at(shear + i), twice = mu + mu,
+                    pressure = at(lambda + i) * (x[0] + y[1] + z[2]);
         const lanes xx = pressure + twice * x[0], yy = pressure + twice * y[1], zz = pressure + twice * z[2];
         const lanes yz = mu * (z[1] + y[2]), zx = mu * (z[0] + x[2]), xy = mu * (y[0] + x[1]);
         put(out + XX * stride + i, xx);
@@ -172,10 +185,11 @@ INLINED void pulls_back(const bool x_knots, const bool y_knots, const struct NAM
     REAL *const *pull = row->pull[component], *const *slope = row->slope_pull[component];
     REAL *restrict p0 = pull[0], *restrict p1 = pull[1], *restrict p2 = pull[2];
     REAL *restrict s0 = slope[0], *restrict s1 = slope[1], *restrict s2 = slope[2];
-    for (size_t i = 0; i < row->width; i += LANES) {
-        const lanes one = row->factor[0] * slope_pull(x_knots, x + i),
-                    two = row->factor[1] * value_pull(x_knots, y + i),
-                    three = row->factor[2] * value_pull(x_knots, z + i);
+    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]};
+    const size_t width = row->width;
+    for (size_t i = 0; i < width; i += LANES) {
+        const lanes one = factor[0] * slope_pull(x_knots, x + i), two = factor[1] * value_pull(x_knots, y + i),
+                    three = factor[2] * value_pull(x_knots, z + i);
         put(p0 + i, at(p0 + i) + (one - two));
         put(s0 + i, at(s0 + i) + three);
         if (y_knots) {
@@ -224,22 +238,26 @@ static void points(const struct NAME(sweep_row) * row)
 static void pulls(size_t width, const REAL *const in[DEPTH_FIELDS],
                   const REAL weight[DEPTH_FIELDS][SPAN], REAL *const out[SPAN])
 {
+    REAL w[DEPTH_FIELDS][SPAN], *to[SPAN];
+    memcpy(w, weight, sizeof w);
+    memcpy(to, out, sizeof to);
+    const REAL *const from[DEPTH_FIELDS] = {in[0], in[1], in[2], in[3]};
     for (size_t i = 0; i < width; i += LANES) {
-        const lanes a = at(in[0] + i), b = at(in[1] + i), c = at(in[2] + i), d = at(in[3] + i);
-        UNROLLED for (int s = 0; s < SPAN; s++) put(out[s] + i, at(out[s] + i) - weight[0][s] * a -
-                                                                    weight[1][s] * b - weight[2][s] * c -
-                                                                    weight[3][s] * d);
+        const lanes a = at(from[0] + i), b = at(from[1] + i), c = at(from[2] + i), d = at(from[3] + i);
+        UNROLLED for (int s = 0; s < SPAN; s++)
+            put(to[s] + i, at(to[s] + i) - w[0][s] * a - w[1][s] * b - w[2][s] * c - w[3][s] * d);
     }
 }
 
-INLINED void finished(const int planes, size_t n, const REAL *weight, const REAL *const *in, REAL factor,
-                      const REAL *const *root, REAL *const *out)
+INLINED void finished(const int planes, size_t n, const REAL *weight, const REAL *const *in, size_t ahead,
+                      REAL factor, const REAL *const *root, REAL *const *out)
 {
     for (size_t i = 0; i < n; i += LANES) {
         lanes sum[SWEEP_PLANES] = {0};
         UNROLLED for (int t = 0; t < SWEEP_TAPS + planes - 1; t++)
         {
             const lanes value = at(in[t] + i);
+            FETCH(in[t] + i + ahead);
             UNROLLED for (int p = 0; p < planes; p++) if (t >= p && t - p < SWEEP_TAPS) sum[p] +=
                 weight[p * SWEEP_TAPS + t - p] * value;
         }
@@ -254,15 +272,34 @@ INLINED void finished(const int planes, size_t n, const REAL *weight, const REAL
     }
 }
 
-static void finish(size_t n, size_t planes, const REAL *weight, const REAL *const *in, REAL factor,
-                   const REAL *const *root, REAL *const *out)
+static void finish(size_t n, size_t planes, const REAL *weight, const REAL *const *in, size_t ahead,
+                   REAL factor, const REAL *const *root, REAL *const *out)
 {
     if (planes == SWEEP_PLANES) {
-        finished(SWEEP_PLANES, n, weight, in, factor, root, out);
+        finished(SWEEP_PLANES, n, weight, in, ahead, factor, root, out);
         return;
     }
     for (size_t p = 0; p < planes; p++)
-        finished(1, n, weight + p * SWEEP_TAPS, in + p, factor, root + p, out + p);
+        finished(1, n, weight + p * SWEEP_TAPS, in + p, ahead, factor, root + p, out + p);
 }
 
-const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {depth, points, pulls, finish};
+static REAL bring(size_t n, REAL dt, const REAL *restrict w, REAL *restrict u)
+{
+    REAL most = 0;
+#pragma omp simd reduction(max : most)
+    for (size_t i = 0; i < n; i++) {
+        const REAL value = u[i] + dt * w[i], size = value < 0 ? -value : value;
+        u[i] = value;
+        most = size > most ? size : most;
+    }
+    return most;
+}
+
+static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in, REAL *restrict out)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        out[i] = factor[i] * in[i];
+}
+
+const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth, points, pulls, scale, finish};

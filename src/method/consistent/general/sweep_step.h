@@ -18,7 +18,7 @@ struct rings {
     REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS] */
     REAL *scratch;
     REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
-    REAL *scaled, *passed, *zero, *column;
+    REAL *scaled, *passed, *zero;
     struct rows touched[SPAN]; /* of `force` */
 };
 
@@ -46,7 +46,6 @@ static struct rings rings_of(const struct sweep *s, REAL *buffer)
     r.scaled = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
     r.passed = r.scaled + s->n[1] * s->stride;
     r.zero = r.passed + FUSED_ROWS * s->stride;
-    r.column = r.zero + FUSED_ROWS * s->stride;
     return r;
 }
 
@@ -66,7 +65,7 @@ static size_t less(size_t a, size_t b)
 /* --- Displacements --------------------------------------------------------------------------------------- */
 
 /* Largest |u| of each row of plane k, those of u brought on. */
-static void bring_plane(const struct pass *pass, const struct rings *r, size_t k)
+static void bring_plane(const struct pass *pass, size_t k)
 {
     const struct sweep *s = pass->s;
     const struct rows *reached = &s->reached[k];
@@ -79,8 +78,7 @@ static void bring_plane(const struct pass *pass, const struct rings *r, size_t k
             const size_t at = component * s->volume + k * s->plane + j * s->n[0];
             REAL most;
             if (pass->moving)
-                most = NAME(taken_fused_kernels)()->drift(s->n[0], 1, s->n[0], dt, pass->out + at, pass->u + at,
-                                                          r->column);
+                most = NAME(taken_sweep_kernels)()->bring(s->n[0], dt, pass->out + at, pass->u + at);
             else
                 most = taken_passes()->NAME(largest_size)(pass->u + at, s->n[0]);
             if (!(most <= *size)) *size = most;
@@ -263,10 +261,7 @@ static void scale_row(const struct sweep *s, size_t component, const REAL *root,
     row[last - 1] += (s->mirror[0][1] ? sign : -1) * row[last];
     if (!s->mirror[0][0]) row[0] *= 2;
     if (!s->mirror[0][1]) row[last] *= 2;
-    const REAL *restrict in = row + s->low[0];
-#pragma omp simd
-    for (size_t i = 0; i < s->n[0]; i++)
-        out[i] = root[i] * in[i];
+    NAME(taken_sweep_kernels)()->scale(s->n[0], root, row + s->low[0], out);
 }
 
 /* Corners (corners.c) that act on plane k. */
@@ -397,7 +392,7 @@ static void finish_planes(const struct pass *pass, const struct rings *r, size_t
             }
             NAME(taken_sweep_kernels)()->finish(s->n[0], planes,
                                                 (const REAL *)s->z[component] + first * SWEEP_TAPS, in,
-                                                pass->factor, root, out);
+                                                s->stride, pass->factor, root, out);
         }
     for (size_t k = first; pass->moving && k < first + planes; k++)
         join(&s->reached[k], rows.from, rows.end);
@@ -423,7 +418,7 @@ static void sweep_points(const struct pass *pass, struct rings *r, size_t from, 
     for (size_t m = less(from + s->low[2], 2); done < end; m++) {
         if (m <= s->cells[2]) {
             for (; pass->moving && next < s->pair[m].base + SPAN && next + 2 < end; next++)
-                bring_plane(pass, r, next);
+                bring_plane(pass, next);
             point_planes(pass, r, m);
         }
         if (m >= s->low[2] && m - s->low[2] < from) forget_plane(s, r, m - s->low[2]);
@@ -446,7 +441,7 @@ static void sweep_stage(const struct pass *pass, int thread, int stage)
     if (from >= end) return;
     if (stage == 0)
         for (size_t k = from; k < end; k++) {
-            if (!pass->moving || k < from + 2 || k + 2 >= end) bring_plane(pass, &r, k);
+            if (!pass->moving || k < from + 2 || k + 2 >= end) bring_plane(pass, k);
         }
     else if (stage == 1)
         sweep_points(pass, &r, from, end);
