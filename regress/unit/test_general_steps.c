@@ -60,9 +60,8 @@ static void compare(const struct stepped *one, const struct stepped *other, doub
 {
     const size_t n = one->model->unknowns;
     for (size_t part = 0; part < 3; part++)
-        worst[part] =
-            fmax(worst[part], difference(n, part == 2 ? one->state.a : one->state.y + part * n,
-                                         part == 2 ? other->state.a : other->state.y + part * n));
+        worst[part] = fmax(worst[part], difference(n, part == 2 ? one->state.a : one->state.y + part * n,
+                                                   part == 2 ? other->state.a : other->state.y + part * n));
 }
 
 static void test_one_by_one(void **unused)
@@ -97,8 +96,8 @@ static void test_one_by_one(void **unused)
         end(&one);
         end(&other);
     }
-    print_message("# %d scenes, 40 steps: u %.1e, v %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes, worst[0],
-                  worst[1], worst[2], seen, watched);
+    print_message("# %d scenes, 40 steps: u %.1e, v %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
+                  worst[0], worst[1], worst[2], seen, watched);
     for (size_t part = 0; part < 3; part++)
         assert_true(worst[part] < 1e-12);
     assert_true(seen < 1e-11);
@@ -231,7 +230,8 @@ static void test_refused(void **unused)
         model_free(&model);
         struct messages messages = {0};
         options.single = true;
-        assert_int_equal(consistent_create_with(&plain.scene, &options, &model, &messages), SELAS_UNSUPPORTED);
+        assert_int_equal(consistent_create_with(&plain.scene, &options, &model, &messages),
+                         SELAS_UNSUPPORTED);
         assert_non_null(strstr(messages.text, "precision"));
         messages_free(&messages);
     }

@@ -174,6 +174,9 @@ static void describe(const struct model *model,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     const struct consistent *c = (const struct consistent *)model;
+    const char *step = model->single ? "leapfrog's is one pass with the operator, in single precision"
+                       : model->one_pass != NULL ? "leapfrog's is one pass with the operator"
+                                                 : "apart from the operator";
     char text[160];
     snprintf(text, sizeof text, "B-splines of degree %d, %s ends", c->options.degree,
              c->options.mapped ? "mapped" : "open");
@@ -183,6 +186,7 @@ static void describe(const struct model *model,
     if (c->options.tuned) tell(context, "splines along the surface", "tuned for short waves");
     if (c->general != NULL) {
         tell(context, "operator", "general: three points of quadrature a control value");
+        tell(context, "step", step);
         snprintf(text, sizeof text, "van Cittert, %d sweeps tuned for the points, between two diagonals",
                  c->options.sweeps);
     }
@@ -191,10 +195,7 @@ static void describe(const struct model *model,
         snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,
                  FUSED_STRIP);
         tell(context, "operator", text);
-        tell(context, "step",
-             model->single             ? "leapfrog's is one pass with the operator, in single precision"
-             : model->one_pass != NULL ? "leapfrog's is one pass with the operator"
-                                       : "apart from the operator");
+        tell(context, "step", step);
         snprintf(text, sizeof text, "what is below %g of the largest displacement moves nothing",
                  c->fused->quiet);
         tell(context, "quiet parts", c->fused->quiet > 0 ? text : "all are computed");

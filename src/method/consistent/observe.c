@@ -2,7 +2,6 @@
  * de-convolution, Eq 38, done exactly), fields stand at the lattice points, initial states are interpolated
  * at the Greville points of the control values (manual, section 6). */
 #include "method/consistent/consistent.h"
-#include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"

@@ -334,7 +334,8 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
 void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, double dt,
                         const struct NAME(step_fields) * step, double *y, double *a)
 {
-    const struct NAME(settled) settled = {c->model.unknowns, c->threads, step->part[0].u, step->w, step->work};
+    const struct NAME(settled)
+        settled = {c->model.unknowns, c->threads, step->part[0].u, step->w, step->work};
     accelerate(c, drive, step, step->work);
     NAME(settle)(&settled, dt, y, a);
 }

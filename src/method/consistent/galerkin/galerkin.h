@@ -100,7 +100,7 @@ struct consistent {
     struct hform *hform;     /* NULL: exact mass */
     struct general *general; /* NULL: the H-form or the exact mass */
     struct watch watch;
-    struct fused *fused;     /* NULL: the scene is none for it, or it is not wanted */
+    struct fused *fused; /* NULL: the scene is none for it, or it is not wanted */
     int threads;
     struct tuned_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
     struct band *collocation[3][2];    /* [axis][odd]: LU factors of the values at the Greville points */

@@ -71,9 +71,8 @@ void general_corners(const struct consistent *c, const double *u, double *force)
             for (int of = 0; of < 3; of++)
                 for (int slot = 0; slot < 3; slot++) {
                     const double *at = u + (size_t)of * c->volume;
-                    slope[of][slot] =
-                        corner->slope[slot] * (at[general_corner_seen(c, corner, slot, 1)] -
-                                               at[general_corner_seen(c, corner, slot, 0)]);
+                    slope[of][slot] = corner->slope[slot] * (at[general_corner_seen(c, corner, slot, 1)] -
+                                                             at[general_corner_seen(c, corner, slot, 0)]);
                 }
             general_corner_pull(corner, slope, component, pull);
             for (int slot = 0; slot < 3; slot++) {

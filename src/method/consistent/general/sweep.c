@@ -127,8 +127,8 @@ static bool lay_points(const struct consistent *c, struct sweep *s)
 static bool lay_fields(const struct consistent *c, struct sweep *s)
 {
     const size_t planes = s->n[2], threads = (size_t)c->threads;
-    const size_t room = (2 * SPAN * 3 * DEPTH_FIELDS + 9 + STRESS_ROOM + 3 * SPAN * (s->cells[1] + 2) + s->n[1] +
-                         2 * FUSED_ROWS + 2) *
+    const size_t room = (2 * SPAN * 3 * DEPTH_FIELDS + 9 + STRESS_ROOM + 3 * SPAN * (s->cells[1] + 2) +
+                         s->n[1] + 2 * FUSED_ROWS + 2) *
                         s->stride;
     s->root = numbers(s, s->volume);
     s->ready = numbers(s, 3 * planes * s->rows * s->stride + s->stride);

@@ -90,7 +90,8 @@ enum { XX, YY, ZZ, YZ, ZX, XY, DEPTH_X, DEPTH_Y, DEPTH_Z };
 INLINED void level_stresses(const bool knots, const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
 {
     const size_t stride = row->stride, width = row->width;
-    const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2], *lambda = row->lambda, *shear = row->mu;
+    const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2], *lambda = row->lambda,
+               *shear = row->mu;
 #define AT(component, slot) (in + (3 * (component) + (slot)) * stride + i)
     for (size_t i = 0; i < width; i += LANES) {
         const lanes exx = x * slope_of(knots, AT(0, 0)), eyy = y * value_of(knots, AT(1, 1)),
@@ -110,7 +111,8 @@ INLINED void tilted_stresses(const bool knots, const struct NAME(sweep_row) * ro
 {
     const struct NAME(sweep_hill) hill = *row->hill;
     const size_t stride = row->stride, width = row->width;
-    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]}, *lambda = row->lambda, *shear = row->mu;
+    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]}, *lambda = row->lambda,
+               *shear = row->mu;
     for (size_t i = 0; i < width; i += LANES) {
         const lanes up = 1 / (1 + hill.fall * at(hill.drop + i)),
                     one = hill.share * at(hill.slope[0] + i) * up,
@@ -123,8 +125,7 @@ INLINED void tilted_stresses(const bool knots, const struct NAME(sweep_row) * ro
             y[c] = factor[1] * value_of(knots, AT(c, 1)) - two * down;
             z[c] = up * down;
         }
-        const lanes mu = at(shear + i), twice = mu + mu,
-                    pressure = at(lambda + i) * (x[0] + y[1] + z[2]);
+        const lanes mu = at(shear + i), twice = mu + mu, pressure = at(lambda + i) * (x[0] + y[1] + z[2]);
         const lanes xx = pressure + twice * x[0], yy = pressure + twice * y[1], zz = pressure + twice * z[2];
         const lanes yz = mu * (z[1] + y[2]), zx = mu * (z[0] + x[2]), xy = mu * (y[0] + x[1]);
         put(out + XX * stride + i, xx);
@@ -156,8 +157,7 @@ INLINED void other_stresses(const bool knots, const struct NAME(sweep_row) * row
                        two = hill == NULL ? 0 : hill->share * hill->slope[1][i] * up;
             REAL x[3], y[3], z[3], stress[STRESSES] = {0};
             for (size_t c = 0; c < 3; c++) {
-                const REAL *rows = in + 3 * c * stride,
-                           down = row->factor[2] * VALUE_AT(rows + 2 * stride);
+                const REAL *rows = in + 3 * c * stride, down = row->factor[2] * VALUE_AT(rows + 2 * stride);
                 x[c] = row->factor[0] * SLOPE_AT(rows) - one * down;
                 y[c] = row->factor[1] * VALUE_AT(rows + stride) - two * down;
                 z[c] = up * down;
@@ -179,8 +179,8 @@ INLINED void other_stresses(const bool knots, const struct NAME(sweep_row) * row
 }
 
 /* Back along x, then along y: what stresses x, y, z of a component pull at. */
-INLINED void pulls_back(const bool x_knots, const bool y_knots, const struct NAME(sweep_row) * row, int component,
-                        const REAL *restrict x, const REAL *restrict y, const REAL *restrict z)
+INLINED void pulls_back(const bool x_knots, const bool y_knots, const struct NAME(sweep_row) * row,
+                        int component, const REAL *restrict x, const REAL *restrict y, const REAL *restrict z)
 {
     REAL *const *pull = row->pull[component], *const *slope = row->slope_pull[component];
     REAL *restrict p0 = pull[0], *restrict p1 = pull[1], *restrict p2 = pull[2];
@@ -188,7 +188,8 @@ INLINED void pulls_back(const bool x_knots, const bool y_knots, const struct NAM
     const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]};
     const size_t width = row->width;
     for (size_t i = 0; i < width; i += LANES) {
-        const lanes one = factor[0] * slope_pull(x_knots, x + i), two = factor[1] * value_pull(x_knots, y + i),
+        const lanes one = factor[0] * slope_pull(x_knots, x + i),
+                    two = factor[1] * value_pull(x_knots, y + i),
                     three = factor[2] * value_pull(x_knots, z + i);
         put(p0 + i, at(p0 + i) + (one - two));
         put(s0 + i, at(s0 + i) + three);
@@ -235,8 +236,8 @@ static void points(const struct NAME(sweep_row) * row)
         points_of(false, false, row);
 }
 
-static void pulls(size_t width, const REAL *const in[DEPTH_FIELDS],
-                  const REAL weight[DEPTH_FIELDS][SPAN], REAL *const out[SPAN])
+static void pulls(size_t width, const REAL *const in[DEPTH_FIELDS], const REAL weight[DEPTH_FIELDS][SPAN],
+                  REAL *const out[SPAN])
 {
     REAL w[DEPTH_FIELDS][SPAN], *to[SPAN];
     memcpy(w, weight, sizeof w);
@@ -302,4 +303,5 @@ static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in
         out[i] = factor[i] * in[i];
 }
 
-const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth, points, pulls, scale, finish};
+const struct NAME(sweep_kernels)
+    OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth, points, pulls, scale, finish};
