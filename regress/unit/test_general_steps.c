@@ -1,6 +1,5 @@
 /* Steps of leapfrog of the general operator by sweeps (method/consistent/general/sweep.h) against drift, operator and
  * kick one by one: whole states and what is looked at after each step, threads, what is kept, what is refused. */
-#include "few.h"
 #include "stepped.h"
 
 #include "method/consistent/general/sweep.h"
@@ -42,17 +41,6 @@ static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool
     load->size[0] = 1.3;
     load->size[1] = .9;
     load->history = (struct history){.kind = HISTORY_STEP};
-}
-
-static void observed(struct stepped *s, double value[VALUES])
-{
-    static const selas_field field[3] = {SELAS_DISPLACEMENT, SELAS_VELOCITY, SELAS_ACCELERATION};
-    for (size_t i = 0; i < PLACES; i++)
-        for (size_t k = 0; k < 3; k++) {
-            double six[6] = {0};
-            model_observe(s->model, &s->probe[i], field[k], s->state.y, s->state.a, six);
-            memcpy(value + 9 * i + 3 * k, six, 3 * sizeof *six);
-        }
 }
 
 /* u, v and a of two settled states. */
@@ -142,76 +130,30 @@ static void test_single(void **unused)
     assert_true(watched < 1e-6);
 }
 
-/* The same bits with any number of threads, whether or not somebody looks at the whole state on the way. */
-static void same_bits(bool single, bool hilly)
-{
-    struct plain_scene plain;
-    struct topography hill;
-    double *first = NULL;
-    drawn_scene(&plain, &hill, hilly);
-    plain.scene.body.high[2] = 60 * .3;
-    struct consistent_options options = general();
-    options.single = single;
-    const int runs = few_of(4, 2);
-    for (int i = 0; i < runs; i++) {
-        omp_set_num_threads(1 + i);
-        struct stepped s = begin(&plain, options, true, false);
-        assert_int_equal(consistent_of(s.model)->threads, 1 + i);
-        const size_t n = s.model->unknowns;
-        for (int count = 0; count < 50; count++) {
-            step(&s);
-            if (i % 2 == 1 && count % 9 == 4) state_settle(s.stepper, &s.state, count % 2 == 0);
-        }
-        state_settle(s.stepper, &s.state, true);
-        if (first == NULL) first = array_new(3 * n, sizeof *first);
-        if (i == 0) memcpy(first, s.state.y, 2 * n * sizeof *first);
-        if (i == 0) memcpy(first + 2 * n, s.state.a, n * sizeof *first);
-        assert_memory_equal(first, s.state.y, 2 * n * sizeof *first);
-        assert_memory_equal(first + 2 * n, s.state.a, n * sizeof *first);
-        end(&s);
-    }
-    omp_set_num_threads(1);
-    array_free(first);
-}
-
 static void test_bits(void **unused)
 {
     (void)unused;
-    same_bits(false, true);
-    same_bits(true, false);
+    for (int single = 0; single < 2; single++) {
+        struct plain_scene plain;
+        struct topography hill;
+        struct consistent_options options = general();
+        drawn_scene(&plain, &hill, single == 0);
+        plain.scene.body.high[2] = 60 * .3;
+        options.single = single == 1;
+        assert_same_bits(&plain, options, NULL);
+    }
 }
 
-/* y and what is kept are all that goes on: a state that is taken to another model goes on to the same bits. */
 static void test_kept(void **unused)
 {
     (void)unused;
     for (int single = 0; single < 2; single++) {
         struct plain_scene plain;
         struct topography hill;
-        drawn_scene(&plain, &hill, true);
         struct consistent_options options = general();
+        drawn_scene(&plain, &hill, true);
         options.single = single == 1;
-        struct stepped one = begin(&plain, options, true, true), other = begin(&plain, options, true, false);
-        const size_t n = one.model->unknowns;
-        for (int count = 0; count < 17; count++)
-            step(&one);
-        size_t bytes = 0, room = 0;
-        const void *from = one.model->one_pass->kept(one.model, &bytes);
-        void *to = other.model->one_pass->kept(other.model, &room);
-        assert_int_equal(bytes, room);
-        memcpy(to, from, bytes);
-        memcpy(other.state.y, one.state.y, one.model->state_size * sizeof(double));
-        other.state.step = one.state.step;
-        for (int count = 0; count < 17; count++) {
-            step(&one);
-            step(&other);
-        }
-        state_settle(one.stepper, &one.state, true);
-        state_settle(other.stepper, &other.state, true);
-        assert_memory_equal(one.state.y, other.state.y, one.model->state_size * sizeof(double));
-        assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
-        end(&one);
-        end(&other);
+        assert_goes_on(&plain, options);
     }
 }
 

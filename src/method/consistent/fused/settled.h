@@ -1,5 +1,5 @@
-/* The state that others see of one that is kept half a step ahead, for numbers of type REAL; included by the steps in one
- * pass. */
+/* The state that others see of one that is kept half a step ahead, for numbers of type REAL; included by the
+ * steps in one pass. */
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
