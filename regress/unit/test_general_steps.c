@@ -11,9 +11,9 @@ static struct consistent_options general(void)
         .degree = 2, .sweeps = 3, .depth_exact = true, .general = true, .quiet = 1e-12};
 }
 
-/* A box with faces drawn by chance, two rocks that meet at a tilted face, every other one below a hill, and a load that
+/* A box with faces drawn by chance, of one rock or of two that meet at a tilted face, below a hill or not, and a load that
  * begins at t = 0. */
-static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly)
+static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks)
 {
     static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
                                                BOUNDARY_SYMMETRY};
@@ -21,13 +21,13 @@ static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool
     double size[3];
     for (int axis = 0; axis < 3; axis++)
         size[axis] = spacing * (double)(17 + chance(10)); /* single precision takes 16 at least */
-    size[2] += spacing * 14;
+    size[2] += spacing * 4;
     plain_box(plain, 3, size, spacing);
     for (int face = 0; face < 6; face++)
         plain->scene.boundary[face].kind = kinds[chance(4)];
     plain->scene.boundary[4].kind = chance(3) == 0 ? BOUNDARY_SYMMETRY : BOUNDARY_FREE;
     if (hilly) plain->scene.boundary[4].kind = BOUNDARY_FREE;
-    plain->scene.body.layers = 2;
+    plain->scene.body.layers = rocks ? 2 : 0;
     plain->layer[0] = (struct layer){.material = 0};
     plain->layer[1] = (struct layer){.material = 1, .top = .8, .slope = {.2, .1}};
     *hill = (struct topography){.shape = TOPOGRAPHY_GAUSSIAN, .width = .8, .height = .5, .across = {1, 0}};
@@ -56,11 +56,11 @@ static void test_one_by_one(void **unused)
 {
     (void)unused;
     double worst[3] = {0}, seen = 0, watched = 0;
-    const int scenes = few_of(8, 4);
+    const int scenes = few_of(8, 2);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         struct topography hill;
-        drawn_scene(&plain, &hill, i % 2 == 1);
+        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3);
         struct consistent_options options = general();
         options.quiet = i % 4 < 2 ? 0 : 1e-15; /* what is left out differs: rows within reach of others */
         struct stepped one = begin(&plain, options, true, i % 3 != 0);
@@ -69,7 +69,8 @@ static void test_one_by_one(void **unused)
             double a[VALUES], b[VALUES], settled[VALUES];
             observed(&one, a);
             observed(&other, b);
-            for (size_t k = 0; k < 3 * PLACES; k++)
+            for (size_t k = 0; k < 3 * PLACES && options.quiet == 0;
+                 k++) /* before waves come they may be all quiet */
                 seen = fmax(seen, difference(3, a + 3 * k, b + 3 * k));
             if (count % 8 == 5) {
                 state_settle(one.stepper, &one.state, true);
@@ -97,11 +98,11 @@ static void test_single(void **unused)
 {
     (void)unused;
     double worst[3] = {0}, watched = 0;
-    const int scenes = few_of(6, 2);
+    const int scenes = few_of(4, 2);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         struct topography hill;
-        drawn_scene(&plain, &hill, i % 2 == 1);
+        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3);
         struct consistent_options options = general();
         struct stepped exact = begin(&plain, options, true, i % 3 != 0);
         options.single = true;
@@ -137,8 +138,8 @@ static void test_bits(void **unused)
         struct plain_scene plain;
         struct topography hill;
         struct consistent_options options = general();
-        drawn_scene(&plain, &hill, single == 0);
-        plain.scene.body.high[2] = 60 * .3;
+        drawn_scene(&plain, &hill, single == 0, false);
+        plain.scene.body.high[2] = 40 * .3;
         options.single = single == 1;
         assert_same_bits(&plain, options, NULL);
     }
@@ -151,7 +152,7 @@ static void test_kept(void **unused)
         struct plain_scene plain;
         struct topography hill;
         struct consistent_options options = general();
-        drawn_scene(&plain, &hill, true);
+        drawn_scene(&plain, &hill, true, false);
         options.single = single == 1;
         assert_goes_on(&plain, options);
     }
