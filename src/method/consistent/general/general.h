@@ -43,6 +43,7 @@ struct general {
     size_t corners;
     struct corner corner[8];
     struct hill *hill;           /* NULL: the surface is level */
+    struct sweep *sweep;         /* NULL: steps are made with the operator */
     struct general_layer *layer; /* [layers] */
     size_t layers;
     double *middle;              /* memory of slopes at the middle of a step, as in extra */
@@ -109,6 +110,10 @@ void general_layers_remember(struct consistent *c, double dt, double to_middle, 
 /* corners.c: lays the corners; adds -K u of their points. */
 void general_lay_corners(struct consistent *c);
 void general_corners(const struct consistent *c, const double *u, double *force);
+/* Control values that the point of a corner sees: on the corner, and the next one along each axis. */
+size_t general_corner_seen(const struct consistent *c, const struct corner *corner, int slot, int next);
+/* What the stresses of a component pull at along each slot, from the slopes along the lattice; these are spoiled. */
+void general_corner_pull(const struct corner *corner, double slope[3][3], int component, double pull[3]);
 
 /* material.c: lays moduli at the points, and the mass of each control value. SELAS_NO_MEMORY. */
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
