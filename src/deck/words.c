@@ -221,7 +221,7 @@ static const struct word model_words[] = {
      "0"},
     {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
      "of a file that knows its ground: depths are those below it, or, 'sea', below elevation 0, or that of "
-     "the third value of origin"},
+     "the third value of origin; beside &topography always those of 'sea'"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
      "that is nearest to north"},
@@ -229,7 +229,8 @@ static const struct word model_words[] = {
 
 static const struct word topography_words[] = {
     {"shape", WORD_CHOICE, 1, NULL, CHOICES(TOPOGRAPHY_SHAPES), OPTIONAL,
-     "shape of the surface: a hill, a ridge or a valley with the profile of a Gaussian"},
+     "shape of the surface: a hill, a ridge or a valley with the profile of a Gaussian, or the ground of the "
+     "&model"},
     {"height", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "height of the hill or ridge, depth of the canyon, from face z- on [length]"},
     {"centre", WORD_REAL, 2, NULL, NULL, OPTIONAL, "centre of the shape: x, y; in 2D x [length]"},

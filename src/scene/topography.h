@@ -56,6 +56,10 @@ void topography_free(struct topography *topography); /* takes NULL */
 struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
                                    struct messages *messages);
 void height_map_free(struct height_map *map); /* takes NULL */
+/* As if such a file had heights, by a function, at points of a grid `step` apart from low to high. */
+struct height_map *height_map_sample(double (*height)(const struct ground_model *of, const double place[2]),
+                                     const struct ground_model *of, const double low[2], const double high[2],
+                                     double step, double piece, struct messages *messages);
 double height_map_at(const struct height_map *map,
                      const double place[2]); /* beyond the grid as at its edge */
 /* Where the grid reaches, the largest height either way, the largest difference that the splines leave. */

@@ -238,28 +238,62 @@ static bool fit_all(struct height_map *map)
     return good;
 }
 
-struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
-                                   struct messages *messages)
+/* Splines through rows of a grid; `path`: what they are from. */
+static struct height_map *map_of(const struct rows *rows, const char *path, int axes, double datum,
+                                 double piece, struct messages *messages)
 {
-    struct rows rows = {0};
     struct height_map *map = array_new(1, sizeof *map);
-    selas_status status = map != NULL ? read_rows(path, axes, &rows, messages) : SELAS_NO_MEMORY;
-    if (status == SELAS_OK && rows.count == 0)
-        status = fail(messages, SELAS_FILE_ERROR, "%s: no heights", path);
+    selas_status status = map != NULL ? SELAS_OK : SELAS_NO_MEMORY;
     if (status == SELAS_OK) {
         map->axes = axes;
-        const bool found = find_places(&rows, 0, &map->along[0]) && find_places(&rows, 1, &map->along[1]);
-        status = found ? lay_grid(path, &rows, datum, map, messages) : SELAS_NO_MEMORY;
+        const bool found = find_places(rows, 0, &map->along[0]) && find_places(rows, 1, &map->along[1]);
+        status = found ? lay_grid(path, rows, datum, map, messages) : SELAS_NO_MEMORY;
     }
     gsl_errors_returned();
     if (status == SELAS_OK &&
         !(lay_splines(&map->along[0], piece) && lay_splines(&map->along[1], piece) && fit_all(map)))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
     gsl_errors_as_before();
-    array_free(rows.row);
     if (status == SELAS_OK) return map;
     height_map_free(map);
     return NULL;
+}
+
+struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
+                                   struct messages *messages)
+{
+    struct rows rows = {0};
+    struct height_map *map = NULL;
+    const selas_status status = read_rows(path, axes, &rows, messages);
+    if (status == SELAS_OK && rows.count == 0)
+        fail(messages, SELAS_FILE_ERROR, "%s: no heights", path);
+    else if (status == SELAS_OK)
+        map = map_of(&rows, path, axes, datum, piece, messages);
+    array_free(rows.row);
+    return map;
+}
+
+struct height_map *height_map_sample(double (*height)(const struct ground_model *of, const double place[2]),
+                                     const struct ground_model *of, const double low[2], const double high[2],
+                                     double step, double piece, struct messages *messages)
+{
+    struct rows rows = {0};
+    size_t n[2];
+    bool room = true;
+    for (int axis = 0; axis < 2; axis++)
+        n[axis] = (size_t)fmax(ceil((high[axis] - low[axis]) / step), 1) + 1;
+    for (size_t i = 0; i < n[0] * n[1] && room; i++) {
+        const double x = low[0] + (high[0] - low[0]) * (double)(i / n[1]) / (double)(n[0] - 1);
+        const double y = low[1] + (high[1] - low[1]) * (double)(i % n[1]) / (double)(n[1] - 1);
+        room = keep(&rows, (double[]){x, y, height(of, (double[]){x, y})}, 2);
+    }
+    struct height_map *map = NULL;
+    if (room)
+        map = map_of(&rows, "the ground of the model", 2, 0, piece, messages);
+    else
+        fail(messages, SELAS_NO_MEMORY, "no memory for the ground of the model");
+    array_free(rows.row);
+    return map;
 }
 
 void height_map_free(struct height_map *map)
