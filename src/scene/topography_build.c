@@ -211,21 +211,6 @@ static void check_range(struct builder *builder, const struct deck_group *group,
             degrees, steep, hypot(1, range->slope));
 }
 
-static void check_cover(struct builder *builder, const struct deck_group *group,
-                        const struct topography *topography)
-{
-    const struct body *body = &builder->scene->body;
-    for (int axis = 0; axis < topography->axis && topography->map != NULL; axis++) {
-        double low, high;
-        height_map_extent(topography->map, axis, &low, &high);
-        const double small = 1e-6 * body->spacing;
-        if (low > body->low[axis] + small || high < body->high[axis] - small)
-            complain(builder, group, "file",
-                     "the heights reach from %g to %g along %c, the body from %g to %g", low, high,
-                     "xy"[axis], body -> low[axis], body -> high[axis]);
-    }
-}
-
 /* What cannot stand on a surface that is not level. */
 static bool check_body(struct builder *builder, const struct deck_group *group)
 {
@@ -269,7 +254,7 @@ void build_topography(struct builder *builder)
     }
     topography->depth = take_depth(builder, group, topography);
     if (!builder->body_known) return;
-    check_cover(builder, group, topography);
+    if (deck_given(group, "file")) height_map_cover(topography->map, builder, group, topography->axis);
     const struct topography plain = *topography;
     draw_out(scene, topography);
     const struct range range = range_of(scene, topography, &plain);
