@@ -55,6 +55,53 @@ static void test_layers_and_blocks(void **state)
     from_deck_free(&made);
 }
 
+static const char heights[] = "build/test/interface.txt";
+
+/* Heights 100 + x + bend y^2 in rows that are not evenly apart. */
+static void write_heights(double bend, double end)
+{
+    FILE *file = fopen(heights, "w");
+    for (int i = 0; i <= 20; i++)
+        for (int j = 0; j <= 20; j++) {
+            const double x = end * pow(i / 20., 1.3), y = j * .1;
+            fprintf(file, "%.17g %.17g %.17g\n", x, y, 100 + x + bend * y * y);
+        }
+    fclose(file);
+}
+
+/* An interface from a file: of a plane that of a tilted layer, of a parabola its own; what is refused. */
+static void test_interface_from_file(void **state)
+{
+    (void)state;
+#define FROM_FILE(words)                                                                                     \
+    HEAD ROCK BODY "&layer material = 'soil', bottom = 'rock', top = 0.0 /\n"                                \
+                   "&layer material = 'rock', file = 'build/test/interface.txt', " words " /\n"
+    write_heights(0, 2);
+    struct from_deck made = right_scene(FROM_FILE("top = 1.0, datum = 100"));
+    assert_true(ground_is_general(made.scene) && ground_varies(made.scene, 1));
+    assert_rock(made.scene, 0, 0, 1.01, 3, 6, 3);
+    assert_rock(made.scene, 0, 1.5, .5, 2.5, 4, 2);
+    assert_rock(made.scene, .5, 0, .25, 2.5, 4, 2);
+    assert_rock(made.scene, .5, 0, .51, 3, 6, 3);
+    assert_rock(made.scene, 1.5, 0, .01, 3, 6, 3); /* above the surface there */
+    from_deck_free(&made);
+    write_heights(-.25, 2);
+    made = right_scene(FROM_FILE("top = 101.0"));
+    double at[4];
+    assert_int_equal(ground_jumps(made.scene, (double[]){.3, 1.7, 0}, 2, .1, 2, at), 1);
+    assert_near(at[0], 1 - .3 + .25 * 1.7 * 1.7, 1e-12);
+    assert_int_equal(ground_jumps(made.scene, (double[]){.3, 1.7, 0}, 0, 0, 2, at), 0);
+    from_deck_free(&made);
+    assert_refused(FROM_FILE("top = 101.0, dip = 3"), "t.nml:", (const char *[]){"dip", "from a file", NULL});
+    assert_refused(HEAD ROCK BODY "&layer material = 'rock', top = 1.0, datum = 3 /\n",
+                   "t.nml:", (const char *[]){"datum", "without a file", NULL});
+    write_heights(0, 1.5);
+    assert_refused(FROM_FILE("top = 101.0"),
+                   "t.nml:7:", (const char *[]){"from 0 to 1.5 along x", "the body from 0 to 2", NULL});
+    unlink(heights);
+    assert_refused(FROM_FILE("top = 101.0"), "t.nml:7:", (const char *[]){"cannot open", NULL});
+}
+
 static void write_model(int nz, double fault, bool whole)
 {
     enum { NX = 2, NY = 3, MOST = 40 };
@@ -173,8 +220,11 @@ static void test_dampers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers_and_blocks), cmocka_unit_test(test_model),
-        cmocka_unit_test(test_refused_models),    cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_layers_and_blocks),
+        cmocka_unit_test(test_interface_from_file),
+        cmocka_unit_test(test_model),
+        cmocka_unit_test(test_refused_models),
+        cmocka_unit_test(test_who_takes_it),
         cmocka_unit_test(test_dampers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

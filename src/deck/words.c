@@ -200,7 +200,12 @@ static const struct word layer_words[] = {
     {"body", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of the body"},
     {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
     {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, OBLIGATORY,
-     "depth of the upper face [length]; of a tilted one where x = y = 0"},
+     "depth of the upper face [length]; of a tilted one where x = y = 0, of one from a file that of the "
+     "height datum"},
+    {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
+     "heights of the upper face, upwards: text, x y height a line, each x with each y (consistent, operator "
+     "'general')"},
+    {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at depth top [length]"},
     {"dip", WORD_REAL, 1, "0", "[0, 80]", OPTIONAL,
      "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},
     {"strike", WORD_REAL, 1, "0", NULL, OPTIONAL,

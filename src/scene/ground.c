@@ -2,6 +2,8 @@
  * blocks in the deck's order. */
 #include "scene/ground.h"
 
+#include "scene/height_map.h"
+
 #include <math.h>
 
 static double depth_of(const struct scene *scene, const double place[3])
@@ -13,7 +15,8 @@ static double depth_of(const struct scene *scene, const double place[3])
 /* Depth of a layer's upper face above or below a place. */
 static double top_at(const struct layer *layer, const double place[3])
 {
-    return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1];
+    const double rise = layer->map != NULL ? height_map_at(layer->map, place) : 0;
+    return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1] - rise;
 }
 
 static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3])
@@ -36,12 +39,18 @@ static struct rock between(const struct material *one, const struct material *ot
     return (struct rock){density, density * (p * p - 2 * s * s), density * s * s};
 }
 
+/* From the surface on, wherever that is. */
+static bool layer_covers(const struct layer *layer)
+{
+    return layer->top == 0 && layer->map == NULL;
+}
+
 /* Index of the layer at a place, or the number of layers: the body's own material. */
 static size_t layer_at(const struct body *body, const double place[3], double depth)
 {
     size_t found = body->layers;
     for (size_t i = 0; i < body->layers; i++)
-        if (top_at(&body->layer[i], place) <= depth || body->layer[i].top == 0) found = i;
+        if (top_at(&body->layer[i], place) <= depth || layer_covers(&body->layer[i])) found = i;
     return found;
 }
 
@@ -113,7 +122,7 @@ bool ground_varies(const struct scene *scene, int axis)
     const struct body *body = &scene->body;
     if (body->blocks > 0 || body->model != NULL) return true;
     for (size_t i = 0; i < body->layers && axis < 2; i++)
-        if (body->layer[i].slope[axis] != 0) return true;
+        if (body->layer[i].slope[axis] != 0 || body->layer[i].map != NULL) return true;
     return axis == scene->dimension - 1 && body_is_layered(body);
 }
 

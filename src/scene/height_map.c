@@ -364,6 +364,14 @@ double height_map_centre(struct height_map *map)
     return mean;
 }
 
+void complain_of_heights(struct builder *builder, const struct deck_group *group, const char *word,
+                         const struct messages *said)
+{
+    const char *text = said->text != NULL ? said->text : "";
+    if (strncmp(text, "error: ", 7) == 0) text += 7;
+    complain(builder, group, word, "the heights cannot be used: %.*s", (int)strcspn(text, "\n"), text);
+}
+
 void height_map_cover(const struct height_map *map, struct builder *builder, const struct deck_group *group,
                       int axes)
 {

@@ -27,6 +27,9 @@ double height_map_most(const struct height_map *map);
 double height_map_smoothed(const struct height_map *map);
 /* Takes their mean from the heights and gives it. */
 double height_map_centre(struct height_map *map);
+/* Complains of a word as the messages of reading say. */
+void complain_of_heights(struct builder *builder, const struct deck_group *group, const char *word,
+                         const struct messages *said);
 /* Complains, of word `file`, unless the grid covers the body along the first `axes`. */
 void height_map_cover(const struct height_map *map, struct builder *builder, const struct deck_group *group,
                       int axes);

@@ -19,11 +19,8 @@ static const double least_stretch = .4, most_stretch = 1.8, steep = 45, steepest
 static void take_map(struct builder *builder, const struct deck_group *group, const char *word,
                      struct topography *topography, struct height_map *map, const struct messages *said)
 {
-    const char *text = said->text != NULL ? said->text : "";
     topography->map = map;
-    if (map != NULL) return;
-    if (strncmp(text, "error: ", 7) == 0) text += 7;
-    complain(builder, group, word, "the heights cannot be used: %.*s", (int)strcspn(text, "\n"), text);
+    if (map == NULL) complain_of_heights(builder, group, word, said);
 }
 
 /* The ground of the model, which is read below the sea. */
