@@ -8,6 +8,7 @@
 
 #include <hdf5.h>
 #include <math.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 static const char stored[] = "build/test/ground.h5";
@@ -100,6 +101,41 @@ static void test_interface_from_file(void **state)
                    "t.nml:7:", (const char *[]){"from 0 to 1.5 along x", "the body from 0 to 2", NULL});
     unlink(heights);
     assert_refused(FROM_FILE("top = 101.0"), "t.nml:7:", (const char *[]){"cannot open", NULL});
+}
+
+/* A step within 10 of 1000 in a model: places for the integrals lie about it, none where the ground is even. */
+static void test_step_of_a_model(void **state)
+{
+    (void)state;
+    FILE *file = fopen(heights, "w");
+    fprintf(file, "0 0 -2005 4000 4000 5\n4000 4000 10\n2 2 202\n100 9000 100 9000 100 9000\n");
+    for (int k = 0; k < 202; k++)
+        for (int i = 0; i < 4; i++) {
+            const double z = -2005 + 10 * k;
+            fprintf(file, "%d %d %g %s\n", i % 2 * 4000, i / 2 * 4000, z,
+                    z > -1030 ? "900 500 1000" : "1800 1000 1000");
+        }
+    fclose(file);
+    struct from_deck made = right_scene(
+        "&scene dimension = 3, end_time = 9 /\n"
+        "&body low = 0, 0, 0, high = 4000, 4000, 2000, spacing = 100 /\n"
+        "&load face = 'z-', shape = 'square', centre = 1000, 1000, 0, size = 900, 900, direction = 0, 0, 1, "
+        "history = 'triangle', duration = 1 /\n"
+        "&model file = 'build/test/interface.txt', origin = 0, 0 /\n");
+    const size_t most = ground_jumps_at_most(made.scene);
+    double *at = calloc(most, sizeof *at), near = 1000;
+    const double place[3] = {1234, 567, 0};
+    assert_int_equal(ground_jumps(made.scene, place, 2, 100, 500, at), 0);
+    const size_t count = ground_jumps(made.scene, place, 2, 820, 1220, at);
+    assert_true(count >= 4 && count <= 64);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(at[i] > 1012 && at[i] < 1048); /* no farther off than a half of a part of 25 */
+        near = fmin(near, fabs(at[i] - 1025));
+    }
+    assert_true(near < 1);
+    free(at);
+    from_deck_free(&made);
+    unlink(heights);
 }
 
 static void write_model(int nz, double fault, bool whole)
@@ -220,11 +256,9 @@ static void test_dampers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers_and_blocks),
-        cmocka_unit_test(test_interface_from_file),
-        cmocka_unit_test(test_model),
-        cmocka_unit_test(test_refused_models),
-        cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_layers_and_blocks), cmocka_unit_test(test_interface_from_file),
+        cmocka_unit_test(test_step_of_a_model),   cmocka_unit_test(test_model),
+        cmocka_unit_test(test_refused_models),    cmocka_unit_test(test_who_takes_it),
         cmocka_unit_test(test_dampers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
