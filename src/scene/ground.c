@@ -78,8 +78,8 @@ struct rock ground_at(const struct scene *scene, const double place[3])
 
 /* --- Where a model changes much: its values may be much nearer than the points of the lattice --- */
 
-/* Parts of a range that are looked at. One over which the shear modulus rises by more than this is halved, so its halves,
- * so often. */
+/* Parts of a range that are looked at. One over which the shear modulus rises by more than this is halved, and so are
+ * its halves, so often. */
 enum { MODEL_PARTS = 16, HALVINGS = 5 };
 static const double much = .05;
 

@@ -163,8 +163,8 @@ static void lay_splines(struct axis_map *along, double piece)
     along->count = pieces + along->order - 1;
 }
 
-/* Values of the splines that are not 0 at x, from *first on, of even knots, those at the ends as many times as the order
- * (L. Piegl, W. Tiller, The NURBS Book, 1997, A2.2). */
+/* Values of the splines that are not 0 at x, from *first on, of even knots, those at the ends as many times as the
+ * order (L. Piegl, W. Tiller, The NURBS Book, 1997, A2.2). */
 static size_t basis_at(const struct axis_map *along, double x, double basis[ORDER], size_t *first)
 {
     basis[0] = 1;
