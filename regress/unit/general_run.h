@@ -22,21 +22,26 @@ static inline double chance(double low, double high)
     return low * pow(high / low, (double)(bits >> 11) * 0x1p-53);
 }
 
-/* Multiplies the moduli at every point and the mass of every control value by numbers from 1/2 to 2. */
-static inline void make_random(struct consistent *c)
+/* Multiplies the moduli at every point and the mass of every control value by numbers from low to high. */
+static inline void make_random_within(struct consistent *c, double low, double high)
 {
     double *mass = calloc(c->volume, sizeof *mass);
     for (int f = 0; f < 3; f++) {
         struct family *family = &c->general->family[f];
         for (size_t i = 0; i < family->n[0] * family->n[1] * family->n[2]; i++) {
-            family->lambda[i] *= chance(.5, 2);
-            family->mu[i] *= chance(.5, 2);
+            family->lambda[i] *= chance(low, high);
+            family->mu[i] *= chance(low, high);
         }
     }
     for (size_t i = 0; i < c->volume; i++)
-        mass[i] = chance(.5, 2) * pow(c->model.scene->body.spacing, c->dimension);
+        mass[i] = chance(low, high) * pow(c->model.scene->body.spacing, c->dimension);
     assert_true(general_scale(c, mass));
     free(mass);
+}
+
+static inline void make_random(struct consistent *c)
+{
+    make_random_within(c, .5, 2);
 }
 
 /* Grows beyond the limit that the program finds, not below it. */

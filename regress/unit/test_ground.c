@@ -8,6 +8,7 @@
 
 #include <hdf5.h>
 #include <math.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 static const char stored[] = "build/test/ground.h5";
@@ -53,6 +54,88 @@ static void test_layers_and_blocks(void **state)
     assert_true(ground_jumps_at_most(scene) <= 16);
     assert_int_equal(ground_jumps(scene, (double[]){1, 1, 0}, 2, 1.2, 2, at), 2); /* top of either block */
     from_deck_free(&made);
+}
+
+static const char heights[] = "build/test/interface.txt";
+
+/* Heights 100 + x + bend y^2 in rows that are not evenly apart. */
+static void write_heights(double bend, double end)
+{
+    FILE *file = fopen(heights, "w");
+    for (int i = 0; i <= 20; i++)
+        for (int j = 0; j <= 20; j++) {
+            const double x = end * pow(i / 20., 1.3), y = j * .1;
+            fprintf(file, "%.17g %.17g %.17g\n", x, y, 100 + x + bend * y * y);
+        }
+    fclose(file);
+}
+
+/* An interface from a file: of a plane that of a tilted layer, of a parabola its own; what is refused. */
+static void test_interface_from_file(void **state)
+{
+    (void)state;
+#define FROM_FILE(words)                                                                                     \
+    HEAD ROCK BODY "&layer material = 'soil', bottom = 'rock', top = 0.0 /\n"                                \
+                   "&layer material = 'rock', file = 'build/test/interface.txt', " words " /\n"
+    write_heights(0, 2);
+    struct from_deck made = right_scene(FROM_FILE("top = 1.0, datum = 100"));
+    assert_true(ground_is_general(made.scene) && ground_varies(made.scene, 1));
+    assert_rock(made.scene, 0, 0, 1.01, 3, 6, 3);
+    assert_rock(made.scene, 0, 1.5, .5, 2.5, 4, 2);
+    assert_rock(made.scene, .5, 0, .25, 2.5, 4, 2);
+    assert_rock(made.scene, .5, 0, .51, 3, 6, 3);
+    assert_rock(made.scene, 1.5, 0, .01, 3, 6, 3); /* above the surface there */
+    from_deck_free(&made);
+    write_heights(-.25, 2);
+    made = right_scene(FROM_FILE("top = 101.0"));
+    double at[4];
+    assert_int_equal(ground_jumps(made.scene, (double[]){.3, 1.7, 0}, 2, .1, 2, at), 1);
+    assert_near(at[0], 1 - .3 + .25 * 1.7 * 1.7, 1e-12);
+    assert_int_equal(ground_jumps(made.scene, (double[]){.3, 1.7, 0}, 0, 0, 2, at), 0);
+    from_deck_free(&made);
+    assert_refused(FROM_FILE("top = 101.0, dip = 3"), "t.nml:", (const char *[]){"dip", "from a file", NULL});
+    assert_refused(HEAD ROCK BODY "&layer material = 'rock', top = 1.0, datum = 3 /\n",
+                   "t.nml:", (const char *[]){"datum", "without a file", NULL});
+    write_heights(0, 1.5);
+    assert_refused(FROM_FILE("top = 101.0"),
+                   "t.nml:7:", (const char *[]){"from 0 to 1.5 along x", "the body from 0 to 2", NULL});
+    unlink(heights);
+    assert_refused(FROM_FILE("top = 101.0"), "t.nml:7:", (const char *[]){"cannot open", NULL});
+}
+
+/* A step within 10 of 1000 in a model: places for the integrals lie about it, none where the ground is even. */
+static void test_step_of_a_model(void **state)
+{
+    (void)state;
+    FILE *file = fopen(heights, "w");
+    fprintf(file, "0 0 -2005 4000 4000 5\n4000 4000 10\n2 2 202\n100 9000 100 9000 100 9000\n");
+    for (int k = 0; k < 202; k++)
+        for (int i = 0; i < 4; i++) {
+            const double z = -2005 + 10 * k;
+            fprintf(file, "%d %d %g %s\n", i % 2 * 4000, i / 2 * 4000, z,
+                    z > -1030 ? "900 500 1000" : "1800 1000 1000");
+        }
+    fclose(file);
+    struct from_deck made = right_scene(
+        "&scene dimension = 3, end_time = 9 /\n"
+        "&body low = 0, 0, 0, high = 4000, 4000, 2000, spacing = 100 /\n"
+        "&load face = 'z-', shape = 'square', centre = 1000, 1000, 0, size = 900, 900, direction = 0, 0, 1, "
+        "history = 'triangle', duration = 1 /\n"
+        "&model file = 'build/test/interface.txt', origin = 0, 0 /\n");
+    const size_t most = ground_jumps_at_most(made.scene);
+    double *at = calloc(most, sizeof *at), near = 1000;
+    const double place[3] = {1234, 567, 0};
+    assert_int_equal(ground_jumps(made.scene, place, 2, 100, 500, at), 0);
+    const size_t count = ground_jumps(made.scene, place, 2, 820, 1220, at);
+    assert_true(count >= 4 && count <= 64);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(at[i] > 1012 && at[i] < 1048); /* no farther off than a half of a part of 25 */
+        near = fmin(near, fabs(at[i] - 1025));
+    }
+    assert_true(near < 1);
+    free(at);
+    from_deck_free(&made);
+    unlink(heights);
 }
 
 static void write_model(int nz, double fault, bool whole)
@@ -173,7 +256,8 @@ static void test_dampers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers_and_blocks), cmocka_unit_test(test_model),
+        cmocka_unit_test(test_layers_and_blocks), cmocka_unit_test(test_interface_from_file),
+        cmocka_unit_test(test_step_of_a_model),   cmocka_unit_test(test_model),
         cmocka_unit_test(test_refused_models),    cmocka_unit_test(test_who_takes_it),
         cmocka_unit_test(test_dampers),
     };

@@ -1,6 +1,7 @@
 /* Models of the ground in each format that is read, and wrong files (doc/theory/general-ground.md, section 4). */
 #include "from_deck.h"
 #include "model_writers.h"
+#include "scene/topography.h"
 
 #include "scene/ground.h"
 
@@ -11,7 +12,7 @@ static const char stored[] = "build/test/model";
 #define DECK(body, words)                                                                                    \
     "&scene dimension = 3, end_time = 1 /\n"                                                                 \
     "&body low = 0, 0, 0, high = " body ", spacing = 10 /\n"                                                 \
-    "&load face = 'z-', shape = 'square', centre = 10, 10, 0, size = 20, 20, direction = 0, 0, 1, "          \
+    "&load face = 'z-', shape = 'square', centre = 10, 10, depth = 0, size = 20, 20, direction = 0, 0, 1, "  \
     "history = 'triangle', duration = 1 /\n"                                                                 \
     "&model file = 'build/test/model' " words " /\n"
 
@@ -143,15 +144,47 @@ static void test_sea(void **state)
     }
     write_rfile(stored, 0, 0, 0);
 #define HILL " /\n&topography shape = 'gaussian', height = 30, centre = 300, 150, width = 40"
-    assert_refused(DECK("600, 300, 900", HILL),
-                   "t.nml:", (const char *[]){"expected model%depth = 'sea'", NULL});
     struct from_deck hill = right_scene(DECK("600, 300, 900", "depth = 'sea', origin = 0, 0, 20" HILL));
+    assert_field(hill.scene, (double[]){300, 150, -25}, 300, 150, -45, 1e-12);
+    from_deck_free(&hill);
+    hill = right_scene(DECK("600, 300, 900", "origin = 0, 0, 20" HILL)); /* the same */
     assert_field(hill.scene, (double[]){300, 150, -25}, 300, 150, -45, 1e-12);
     from_deck_free(&hill);
     write_text(stored, 0, 0, "", 60);
     struct from_deck made = right_scene(DECK("700, 800, 300", "depth = 'sea', origin = 1000, 2000, -100"));
     assert_field(made.scene, (double[]){100, 50, 30}, 50, 100, 130, 1e-12);
     from_deck_free(&made);
+}
+
+/* The model's own ground as surface of the body: heights above the elevation of face z-, rock at true places. */
+static void test_own_surface(void **state)
+{
+    (void)state;
+#define OWN " /\n&topography shape = 'model'"
+    for (int form = 0; form < 3; form++) {
+        if (form == 0) write_rfile(stored, 0, 0, 0);
+        if (form == 1) write_sfile(stored, 0);
+        if (form == 2) write_blocks(stored, 1, "m/s", 0);
+        struct from_deck made = right_scene(form < 2 ? DECK("600, 300, 900", "origin = 300, 50, 90" OWN)
+                                                     : DECK("600, 300, 900", "" OWN));
+        const struct scene *scene = made.scene;
+        const double e = form < 2 ? 90 : 0;
+        for (int i = 0; i < 4; i++) {
+            const double place[3] = {i * 200, i * 100, -5};
+            const double x = form < 2 ? 300 + place[0] : place[1], y = form < 2 ? 50 + place[1] : place[0];
+            const double depth = -5 - e, top = water_of(x, y);
+            assert_near(topography_drop(scene->body.topography, place), e - ground_of(x, y), 1e-3);
+            if (form < 2) assert_field(scene, place, x, y, depth, 1e-6);
+            if (form == 2) assert_field(scene, place, x, y, 1500 * (top + depth) / (top + 1500), 1e-6);
+        }
+        assert_non_null(strstr(scene->body.topography->text[2], "from the model's heights"));
+        from_deck_free(&made);
+    }
+    write_text(stored, 0, 0, "", 60);
+    assert_refused(DECK("600, 300, 900", OWN),
+                   "t.nml:", (const char *[]){"expected a &model with a surface of its own", NULL});
+    write_rfile(stored, 0, 0, 0);
+    assert_refused(DECK("600, 300, 900", OWN ", datum = 3"), "t.nml:", (const char *[]){"datum", NULL});
 }
 
 static void test_text(void **state)
@@ -243,9 +276,10 @@ static void test_cut_short(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rfile),     cmocka_unit_test(test_sfile), cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_sea),       cmocka_unit_test(test_text),  cmocka_unit_test(test_wrong_text),
-        cmocka_unit_test(test_cut_short),
+        cmocka_unit_test(test_rfile),      cmocka_unit_test(test_sfile),
+        cmocka_unit_test(test_blocks),     cmocka_unit_test(test_sea),
+        cmocka_unit_test(test_text),       cmocka_unit_test(test_own_surface),
+        cmocka_unit_test(test_wrong_text), cmocka_unit_test(test_cut_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

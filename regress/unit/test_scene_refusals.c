@@ -352,6 +352,8 @@ static void receivers_and_outputs(void **unused)
         {BOX "&receiver name='.a', position=3,3,3 /\n", "t.nml:4:11: error:", {"begins with '.'"}},
         {BOX "&receiver name='a b', position=3,3,3 /\n", "t.nml:4:11: error:", {"' '", "file name"}},
         {BOX "&receiver name='a.exact', position=3,3,3 /\n", "t.nml:4:11: error:", {".exact"}},
+        {BOX "&receiver name='Ground', position=3,3,3 /\n", "t.nml:4:11: error:", {"'Ground.png' is a plot"}},
+        {BOX "&receiver name='snapshot_1', position=3,3,3 /\n", "t.nml:4:11: error:", {"another name"}},
         {BOX "&receiver name='a23456789012345678901234567890123456789012345678901234567890123456789', "
              "position=3,3,3 /\n",
          "t.nml:4:11: error:",

@@ -83,7 +83,8 @@
 #define TOPOGRAPHY_SHAPES(X)                                                                                 \
     X(TOPOGRAPHY_GAUSSIAN, "gaussian")                                                                       \
     X(TOPOGRAPHY_RIDGE, "ridge")                                                                             \
-    X(TOPOGRAPHY_CANYON, "canyon")
+    X(TOPOGRAPHY_CANYON, "canyon")                                                                           \
+    X(TOPOGRAPHY_MODEL, "model")
 
 #define ARRANGEMENTS(X)                                                                                      \
     X(ARRANGEMENT_LATTICE, "lattice")                                                                        \

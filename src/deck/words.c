@@ -200,7 +200,12 @@ static const struct word layer_words[] = {
     {"body", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of the body"},
     {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
     {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, OBLIGATORY,
-     "depth of the upper face [length]; of a tilted one where x = y = 0"},
+     "depth of the upper face [length]; of a tilted one where x = y = 0, of one from a file that of the "
+     "height datum"},
+    {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
+     "heights of the upper face, upwards: text, x y height a line, each x with each y (consistent, operator "
+     "'general')"},
+    {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at depth top [length]"},
     {"dip", WORD_REAL, 1, "0", "[0, 80]", OPTIONAL,
      "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},
     {"strike", WORD_REAL, 1, "0", NULL, OPTIONAL,
@@ -221,7 +226,7 @@ static const struct word model_words[] = {
      "0"},
     {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
      "of a file that knows its ground: depths are those below it, or, 'sea', below elevation 0, or that of "
-     "the third value of origin"},
+     "the third value of origin; beside &topography always those of 'sea'"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
      "that is nearest to north"},
@@ -229,7 +234,8 @@ static const struct word model_words[] = {
 
 static const struct word topography_words[] = {
     {"shape", WORD_CHOICE, 1, NULL, CHOICES(TOPOGRAPHY_SHAPES), OPTIONAL,
-     "shape of the surface: a hill, a ridge or a valley with the profile of a Gaussian"},
+     "shape of the surface: a hill, a ridge or a valley with the profile of a Gaussian, or the ground of the "
+     "&model"},
     {"height", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "height of the hill or ridge, depth of the canyon, from face z- on [length]"},
     {"centre", WORD_REAL, 2, NULL, NULL, OPTIONAL, "centre of the shape: x, y; in 2D x [length]"},

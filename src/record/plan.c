@@ -89,12 +89,24 @@ static void say_surface(const struct teller *teller, const struct topography *to
         if (topography->text[line][0] != '\0') say(teller, keys[line], "%s", topography->text[line]);
 }
 
+static void say_interfaces(const struct teller *teller, const struct body *body)
+{
+    for (size_t i = 0; i < body->layers; i++) {
+        const struct height_map *map = body->layer[i].map;
+        if (map == NULL) continue;
+        say(teller, "interface",
+            "heights from a file: mean depth %.4g, up to %.3g off it; splines differ by up to %.3g",
+            body->layer[i].top, height_map_most(map), height_map_smoothed(map));
+    }
+}
+
 static void say_parts(const struct teller *teller, const struct scene *scene)
 {
     if (scene->body.accuracy[0] != '\0') say(teller, "accuracy", "%s", scene->body.accuracy);
     if (scene->body.chosen) say(teller, "box chosen", "%s", scene->body.choice);
     if (scene->body.model != NULL) say(teller, "ground", "%s", scene->body.model->text);
     say_surface(teller, scene->body.topography);
+    say_interfaces(teller, &scene->body);
     say(teller, "loads", "%zu", scene->loads);
     say(teller, "receivers", "%zu", scene->receivers);
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);

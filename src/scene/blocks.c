@@ -1,11 +1,43 @@
 /* Ground that the general operator takes: tilted and graded layers, blocks. */
+#include "base/memory.h"
 #include "scene/build.h"
+#include "scene/height_map.h"
 
 #include <math.h>
 #include <string.h>
 
-void read_tilt_and_grade(struct builder *builder, const struct deck_group *group, struct layer *layer)
+/* An interface of heights in a file. */
+static void read_heights(struct builder *builder, const struct deck_group *group, struct layer *layer)
 {
+    static const char *const tilt_words[] = {"dip", "strike", NULL};
+    static const double piece = 2; /* of the splines, in spacings */
+    const struct body *body = &builder->scene->body;
+    struct messages said = {0};
+    refuse(builder, group, tilt_words, "a layer whose upper face is from a file");
+    if (body->shape != BODY_BOX) {
+        complain(builder, group, "file", "interfaces from files need body%%shape = 'box'");
+        return;
+    }
+    char *path = deck_path(builder, deck_text(group, "file", 0));
+    if (path != NULL && builder->body_known)
+        layer->map = height_map_read(path, 2, deck_real(group, "datum", 0), piece * body->spacing, &said);
+    if (path != NULL && builder->body_known && layer->map == NULL)
+        complain_of_heights(builder, group, "file", &said);
+    messages_free(&said);
+    array_free(path);
+    if (layer->map == NULL) return;
+    height_map_cover(layer->map, builder, group, 2);
+    layer->top -= height_map_centre(layer->map);
+}
+
+void read_interface(struct builder *builder, const struct deck_group *group, struct layer *layer)
+{
+    static const char *const file_words[] = {"datum", NULL};
+    if (deck_given(group, "file")) {
+        read_heights(builder, group, layer);
+        return;
+    }
+    refuse(builder, group, file_words, "a layer without a file");
     const double degree = atan(1) / 45;
     const double dip = deck_real(group, "dip", 0) * degree;
     const double towards = (deck_real(group, "strike", 0) + 90) * degree;
@@ -13,6 +45,10 @@ void read_tilt_and_grade(struct builder *builder, const struct deck_group *group
     layer->slope[1] = tan(dip) * sin(towards);
     for (int axis = 0; axis < 2; axis++) /* along an axis: what rounding left of 0 */
         if (fabs(layer->slope[axis]) < 1e-12 * tan(dip)) layer->slope[axis] = 0;
+}
+
+void read_grade(struct builder *builder, const struct deck_group *group, struct layer *layer)
+{
     layer->graded = deck_given(group, "bottom");
     if (layer->graded) layer->bottom = find_material(builder, group, "bottom");
 }

@@ -278,7 +278,8 @@ static void read_layer(struct builder *builder, const struct deck_group *group, 
                  scene->body.name);
     layer->material = find_material(builder, group, "material");
     layer->top = deck_real(group, "top", 0);
-    read_tilt_and_grade(builder, group, layer);
+    read_interface(builder, group, layer);
+    read_grade(builder, group, layer);
     const double depth = scene->body.high[2] - scene->body.low[2];
     if (builder->body_known && layer->top >= depth)
         complain(builder, group, "top", "the layer begins at depth %g, below the body; expected less than %g",
@@ -322,7 +323,7 @@ void build_layers(struct builder *builder)
         for (size_t i = 0; i < count; i++) {
             read_layer(builder, deck_get(builder->deck, "layer", i), &body->layer[i]);
             for (size_t k = 0; k < i; k++)
-                if (body->layer[k].top == body->layer[i].top)
+                if (body->layer[k].top == body->layer[i].top && body->layer[i].map == NULL)
                     complain(builder, deck_get(builder->deck, "layer", i), "top",
                              "&layer %zu begins at depth %g already", k + 1, body->layer[i].top);
         }
@@ -332,7 +333,8 @@ void build_layers(struct builder *builder)
         complain(builder, deck_get(builder->deck, "layer", 0), NULL,
                  "the ground is that of &model; leave &layer out");
     build_model(builder);
-    const bool covered = body->model != NULL || (count > 0 && body->layer[0].top == 0);
+    const bool covered =
+        body->model != NULL || (count > 0 && body->layer[0].top == 0 && body->layer[0].map == NULL);
     if (deck_values(group, "material") == 0 && !covered)
         complain(builder, group, NULL,
                  "the body needs material: the name of a &material (or layers from depth 0 on)");

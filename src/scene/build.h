@@ -80,8 +80,9 @@ size_t find_material(struct builder *builder, const struct deck_group *group, co
 void build_model(struct builder *builder);
 /* blocks.c */
 void build_blocks(struct builder *builder);
-/* blocks.c: dip, strike, bottom of a layer. */
-void read_tilt_and_grade(struct builder *builder, const struct deck_group *group, struct layer *layer);
+/* blocks.c: a layer's upper face (dip and strike, or a file) and what it goes over to (bottom). */
+void read_interface(struct builder *builder, const struct deck_group *group, struct layer *layer);
+void read_grade(struct builder *builder, const struct deck_group *group, struct layer *layer);
 
 /* body.c: spacing of the deck, or the one chosen for it; false (without complaint) if there is none. */
 bool take_spacing(const struct builder *builder, const struct deck_group *group, double *spacing);

@@ -2,6 +2,8 @@
  * blocks in the deck's order. */
 #include "scene/ground.h"
 
+#include "scene/height_map.h"
+
 #include <math.h>
 
 static double depth_of(const struct scene *scene, const double place[3])
@@ -13,7 +15,8 @@ static double depth_of(const struct scene *scene, const double place[3])
 /* Depth of a layer's upper face above or below a place. */
 static double top_at(const struct layer *layer, const double place[3])
 {
-    return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1];
+    const double rise = layer->map != NULL ? height_map_at(layer->map, place) : 0;
+    return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1] - rise;
 }
 
 static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3])
@@ -36,12 +39,18 @@ static struct rock between(const struct material *one, const struct material *ot
     return (struct rock){density, density * (p * p - 2 * s * s), density * s * s};
 }
 
+/* From the surface on, wherever that is. */
+static bool layer_covers(const struct layer *layer)
+{
+    return layer->top == 0 && layer->map == NULL;
+}
+
 /* Index of the layer at a place, or the number of layers: the body's own material. */
 static size_t layer_at(const struct body *body, const double place[3], double depth)
 {
     size_t found = body->layers;
     for (size_t i = 0; i < body->layers; i++)
-        if (top_at(&body->layer[i], place) <= depth || body->layer[i].top == 0) found = i;
+        if (top_at(&body->layer[i], place) <= depth || layer_covers(&body->layer[i])) found = i;
     return found;
 }
 
@@ -67,6 +76,49 @@ struct rock ground_at(const struct scene *scene, const double place[3])
     return between(material, &scene->material[body->layer[layer].bottom], fmin(fmax(part, 0), 1));
 }
 
+/* --- Where a model changes much: its values may be much nearer than the points of the lattice --- */
+
+/* Parts of a range that are looked at. One over which the shear modulus rises by more than this is halved, and so are
+ * its halves, so often. */
+enum { MODEL_PARTS = 16, HALVINGS = 5 };
+static const double much = .05;
+
+/* In logarithms. */
+static double stiffness_at(const struct scene *scene, const double place[3], double z)
+{
+    double there[3] = {place[0], place[1], place[2]};
+    there[scene->dimension - 1] = z;
+    return log(ground_model_at(scene->body.model, there).mu);
+}
+
+/* Ends of a piece and the stiffness there. */
+struct piece {
+    double from, to, low, high;
+    int halvings;
+};
+
+static size_t model_jumps(const struct scene *scene, const double place[3], double from, double to,
+                          double *at)
+{
+    const double step = (to - from) / MODEL_PARTS;
+    double stiffness = stiffness_at(scene, place, from);
+    size_t count = 0;
+    for (int part = 0; part < MODEL_PARTS; part++) {
+        const double start = from + part * step, next = stiffness_at(scene, place, start + step);
+        struct piece piece[HALVINGS + 1] = {{start, start + step, stiffness, next, 0}};
+        for (int pieces = 1; pieces > 0;) {
+            const struct piece whole = piece[--pieces];
+            if (whole.halvings == HALVINGS || fabs(whole.high - whole.low) < much) continue;
+            const double middle = (whole.from + whole.to) / 2, between = stiffness_at(scene, place, middle);
+            at[count++] = middle;
+            piece[pieces++] = (struct piece){whole.from, middle, whole.low, between, whole.halvings + 1};
+            piece[pieces++] = (struct piece){middle, whole.to, between, whole.high, whole.halvings + 1};
+        }
+        stiffness = next;
+    }
+    return count;
+}
+
 size_t ground_jumps(const struct scene *scene, const double place[3], int axis, double from, double to,
                     double *at)
 {
@@ -86,12 +138,15 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
             if (x > from && x < to) at[count++] = x;
         }
     }
+    if (body->model != NULL && axis == scene->dimension - 1)
+        count += model_jumps(scene, place, from, to, at + count);
     return count;
 }
 
 size_t ground_jumps_at_most(const struct scene *scene)
 {
-    return scene->body.layers + 2 * scene->body.blocks;
+    return scene->body.layers + 2 * scene->body.blocks +
+           (scene->body.model != NULL ? MODEL_PARTS << HALVINGS : 0);
 }
 
 bool ground_grades(const struct scene *scene)
@@ -113,7 +168,7 @@ bool ground_varies(const struct scene *scene, int axis)
     const struct body *body = &scene->body;
     if (body->blocks > 0 || body->model != NULL) return true;
     for (size_t i = 0; i < body->layers && axis < 2; i++)
-        if (body->layer[i].slope[axis] != 0) return true;
+        if (body->layer[i].slope[axis] != 0 || body->layer[i].map != NULL) return true;
     return axis == scene->dimension - 1 && body_is_layered(body);
 }
 

@@ -12,6 +12,9 @@ struct rock {
 struct rock ground_at(const struct scene *scene, const double place[3]);
 /* model_grid.c: even between the values of the grids, beyond the body as at its nearest face. */
 struct rock ground_model_at(const struct ground_model *model, const double place[3]);
+/* How far the ground of a model lies above the plane of face z-; of one with a surface of its own, read with depth =
+ * 'sea'. */
+double ground_model_height(const struct ground_model *model, const double place[2]);
 void ground_model_free(struct ground_model *model); /* takes NULL */
 /* Places from < x < to along a line through `place` at which the rock may jump, in no order; at most
  * ground_jumps_at_most(). */

@@ -260,6 +260,7 @@ bool model_read_blocks(struct model_source *source, hid_t file)
     struct blocks *blocks = scene_array(source->builder, 1, sizeof *blocks);
     if (blocks == NULL) return false;
     source->si = true;
+    source->model->sea = source->model->sea || source->below_sea;
     blocks->source = source;
     blocks->group[0] = H5Gopen2(file, "blocks", H5P_DEFAULT);
     blocks->group[1] = stored_here(file, "surfaces") ? H5Gopen2(file, "surfaces", H5P_DEFAULT) : -1;

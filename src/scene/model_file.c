@@ -248,6 +248,7 @@ void build_model(struct builder *builder)
     struct model_source source = {.builder = builder, .group = group, .path = path, .model = model};
     if (model != NULL && path != NULL && builder->body_known) {
         model->sea = strcmp(deck_text(group, "depth", 0), "sea") == 0;
+        source.below_sea = deck_count(builder->deck, "topography") > 0;
         memcpy(model->low, scene->body.low, sizeof model->low);
         memcpy(model->high, scene->body.high, sizeof model->high);
         source.range[2][1] = model->high[2] - model->low[2];

@@ -19,6 +19,7 @@ struct model_source {
     struct ground_model *model;
     double range[3][2]; /* what the body needs along the model's own axes (model_place(), the reader) */
     bool si;            /* speeds in m/s and densities in kg/m^3, by the format */
+    bool below_sea;     /* formats that know their ground: read it with depth = 'sea' */
     bool damped;        /* the file has q_p, q_s */
     size_t filled;      /* values of air or water that took those of the rock below */
     double whole[3][2]; /* first and last place in the file along each axis of the last grid */

@@ -94,16 +94,30 @@ static const struct model_grid *grid_at(const struct ground_model *model, double
     return &model->grid[i];
 }
 
-struct rock ground_model_at(const struct ground_model *model, const double place[3])
+/* Place along the model's horizontal axes; beyond the body that of its nearest face. */
+static void place_in(const struct ground_model *model, const double place[2], double there[2])
 {
-    double inside[3], there[3], value[MODEL_VALUES];
-    for (int axis = 0; axis < 3; axis++)
-        inside[axis] =
-            fmin(axis == 2 && model->sea ? place[2] : fmax(place[axis], model->low[axis]), model->high[axis]);
+    double inside[2];
+    for (int axis = 0; axis < 2; axis++)
+        inside[axis] = fmin(fmax(place[axis], model->low[axis]), model->high[axis]);
     for (int axis = 0; axis < 2; axis++)
         there[axis] =
             model->origin[axis] + model->turn[axis][0] * inside[0] + model->turn[axis][1] * inside[1];
-    const struct model_grid *grid = grid_at(model, inside[2] - model->low[2], there);
+}
+
+double ground_model_height(const struct ground_model *model, const double place[2])
+{
+    double there[3] = {0};
+    place_in(model, place, there);
+    return model->shift - surface_at(model, model->depth == MODEL_STRETCHED ? model->surfaces - 1 : 0, there);
+}
+
+struct rock ground_model_at(const struct ground_model *model, const double place[3])
+{
+    double there[3], value[MODEL_VALUES];
+    const double z = fmin(model->sea ? place[2] : fmax(place[2], model->low[2]), model->high[2]);
+    place_in(model, place, there);
+    const struct model_grid *grid = grid_at(model, z - model->low[2], there);
     model_grid_at(grid, there, MODEL_VALUES, value);
     const double mu = value[0] * value[2] * value[2];
     return (struct rock){value[0], value[0] * value[1] * value[1] - 2 * mu, mu};

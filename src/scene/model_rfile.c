@@ -199,6 +199,7 @@ bool model_read_rfile(struct model_source *source, FILE *file)
     struct rfile rfile = {.source = source, .file = file};
     const selas_status before = source->builder->status;
     source->si = true;
+    source->model->sea = source->model->sea || source->below_sea;
     if (!read_head(&rfile) || !read_block_heads(&rfile)) {
         if (source->builder->status != before) return false;
         return model_fault(source, "it begins as SW4's rfiles do, but its head is cut short or wrong");

@@ -132,6 +132,7 @@ bool model_read_sfile(struct model_source *source, hid_t file)
     struct ground_model *model = source->model;
     double place[3], grids = 0, damped = 0, length[2], top, least, end, deepest;
     source->si = true;
+    source->model->sea = source->model->sea || source->below_sea;
     if (!model_numbers(file, "Origin longitude, latitude, azimuth", 3, place) ||
         !model_numbers(file, "ngrids", 1, &grids) || !(grids >= 1) || grids > 100)
         return model_fault(source,

@@ -30,6 +30,21 @@ static bool check_file_name(struct builder *builder, const struct deck_group *gr
     return true;
 }
 
+/* A receiver's plot, NAME.png, is none of those that a run makes of other things. */
+static void check_picture(struct builder *builder, const struct deck_group *group, const char *name)
+{
+    static const char *const taken[] = {"ground", "damping", "snapshot_"};
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) {
+        const size_t length = strlen(taken[i]);
+        const bool stem = taken[i][length - 1] == '_';
+        if (stem ? strncasecmp(name, taken[i], length) == 0 : strcasecmp(name, taken[i]) == 0)
+            complain(builder, group, "name",
+                     "'%s.png' is a plot of the run itself; expected another name than 'ground', 'damping' "
+                     "or 'snapshot_...'",
+                     name);
+    }
+}
+
 /* Receivers and profiles share a folder; some file systems do not tell case. */
 static void check_unique(struct builder *builder, const struct deck_group *group, const char *name,
                          size_t receivers, size_t profiles)
@@ -94,8 +109,10 @@ void build_receivers(struct builder *builder)
         const struct deck_group *group = deck_get(builder->deck, "receiver", i);
         struct receiver *receiver = &scene->receiver[i];
         if (take_name(builder, group, "name", receiver->name) &&
-            check_file_name(builder, group, receiver->name))
+            check_file_name(builder, group, receiver->name)) {
             check_unique(builder, group, receiver->name, i, 0);
+            check_picture(builder, group, receiver->name);
+        }
         read_place(builder, group, "position", "the receiver", receiver->position);
     }
 }

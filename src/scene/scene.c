@@ -219,6 +219,8 @@ void scene_free(struct scene **scene)
         array_free(old->profile[i].time);
     for (size_t i = 0; i < old->snapshots; i++)
         array_free(old->snapshot[i].time);
+    for (size_t i = 0; i < old->body.layers; i++)
+        height_map_free(old->body.layer[i].map);
     array_free(old->body.layer);
     array_free(old->body.block);
     ground_model_free(old->body.model);

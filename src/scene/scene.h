@@ -38,7 +38,8 @@ struct layer {
     size_t material; /* index into scene->materials */
     double top;      /* depth (distance from the z- face) of its upper face; tilted: where x = y = 0 ... */
     double slope[2]; /* ... and what it gains along x and y of the body's frame; 0, 0: level */
-    bool graded;     /* speeds and density go over to those of `bottom` at the next layer's upper face */
+    struct height_map *map; /* of a file: how far it lies above `top`, its mean; NULL: none */
+    bool graded; /* speeds and density go over to those of `bottom` at the next layer's upper face */
     size_t bottom;
 };
 

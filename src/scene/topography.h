@@ -8,6 +8,7 @@
 #ifndef SELAS_SCENE_TOPOGRAPHY_H
 #define SELAS_SCENE_TOPOGRAPHY_H
 
+#include "scene/height_map.h"
 #include "scene/scene.h"
 
 enum topography_shape { TOPOGRAPHY_SHAPES(CHOICE_SYMBOL) };
@@ -16,8 +17,6 @@ enum topography_shape { TOPOGRAPHY_SHAPES(CHOICE_SYMBOL) };
 struct drawn_out {
     double from, width;
 };
-
-struct height_map; /* topography_file.c: splines through the values of a file */
 
 struct topography {
     enum topography_shape shape;
@@ -34,8 +33,7 @@ struct topography {
 };
 enum { TOPOGRAPHY_LINES = 4 };
 
-/* s at a place (x, y): how far the surface lies below the plane of face z-; a hill's is negative. Not for several
- * threads at once. */
+/* s at a place (x, y): how far the surface lies below the plane of face z-; a hill's is negative. */
 double topography_drop(const struct topography *topography, const double place[2]);
 /* f at a depth below the plane of face z-, its slope over depth in *slope. */
 double topography_share(const struct topography *topography, double depth, double *slope);
@@ -49,18 +47,5 @@ void topography_to_deck(const struct topography *topography, double place[3]);
 /* Is the surface its own image across the middle of the body along an axis? */
 bool topography_mirrors(const struct body *body, int dimension, int axis);
 void topography_free(struct topography *topography); /* takes NULL */
-
-/* topography_file.c: reads x, height (two dimensions) or x, y, height, on a grid of rows and columns whatever their
- * distances; splines of pieces no shorter than `piece` by least squares. NULL: SELAS_FILE_ERROR or SELAS_NO_MEMORY
- * in messages. */
-struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
-                                   struct messages *messages);
-void height_map_free(struct height_map *map); /* takes NULL */
-double height_map_at(const struct height_map *map,
-                     const double place[2]); /* beyond the grid as at its edge */
-/* Where the grid reaches, the largest height either way, the largest difference that the splines leave. */
-void height_map_extent(const struct height_map *map, int axis, double *low, double *high);
-double height_map_most(const struct height_map *map);
-double height_map_smoothed(const struct height_map *map);
 
 #endif

@@ -1,6 +1,7 @@
 /* The surface of the ground from the deck (&topography), and places that are told by their depth below it. */
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/ground.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -15,17 +16,47 @@ static const double chosen_depth = 6;
 /* Vertical spacings over the body's; slopes in degrees. */
 static const double least_stretch = .4, most_stretch = 1.8, steep = 45, steepest = 60;
 
+static void take_map(struct builder *builder, const struct deck_group *group, const char *word,
+                     struct topography *topography, struct height_map *map, const struct messages *said)
+{
+    topography->map = map;
+    if (map == NULL) complain_of_heights(builder, group, word, said);
+}
+
+/* The ground of the model, which is read below the sea. */
+static void read_model_ground(struct builder *builder, const struct deck_group *group,
+                              struct topography *topography)
+{
+    static const char *const other_words[] = {"height", "centre", "width", "azimuth", "datum", NULL};
+    const struct body *body = &builder->scene->body;
+    struct messages said = {0};
+    refuse(builder, group, other_words, "the ground of the model");
+    if (body->model == NULL || (builder->body_known && body->model->surfaces == 0))
+        complain(builder, group, "shape",
+                 "expected a &model with a surface of its own: rfile, sfile or GeoModelGrids");
+    else if (builder->body_known)
+        take_map(builder, group, "shape", topography,
+                 height_map_sample(ground_model_height, body->model, body->low, body->high, body->spacing,
+                                   piece * body->spacing, &said),
+                 &said);
+    messages_free(&said);
+}
+
 static void read_shape(struct builder *builder, const struct deck_group *group, struct topography *topography)
 {
     static const char *const file_words[] = {"datum", NULL};
     static const char *const ridge_words[] = {"azimuth", NULL};
     const double degree = atan(1) / 45;
-    refuse(builder, group, file_words, "a shape of topography");
     if (!deck_given(group, "shape")) {
         complain(builder, group, NULL, "topography needs shape or file");
         return;
     }
     topography->shape = (enum topography_shape)deck_choice(group, "shape", 0);
+    if (topography->shape == TOPOGRAPHY_MODEL) {
+        read_model_ground(builder, group, topography);
+        return;
+    }
+    refuse(builder, group, file_words, "a shape of topography");
     if (topography->shape == TOPOGRAPHY_GAUSSIAN || builder->scene->dimension == 2)
         refuse(builder, group, ridge_words, "what is round, or to two dimensions");
     const double azimuth = deck_real(group, "azimuth", 0) * degree;
@@ -49,13 +80,10 @@ static void read_file(struct builder *builder, const struct deck_group *group, s
     refuse(builder, group, shape_words, "topography from a file");
     char *path = deck_path(builder, deck_text(group, "file", 0));
     if (path == NULL) return;
-    topography->map = height_map_read(path, topography->axis, deck_real(group, "datum", 0),
-                                      piece * builder->scene->body.spacing, &said);
-    if (topography->map == NULL) {
-        const char *text = said.text != NULL ? said.text : "";
-        if (strncmp(text, "error: ", 7) == 0) text += 7;
-        complain(builder, group, "file", "the heights cannot be used: %.*s", (int)strcspn(text, "\n"), text);
-    }
+    take_map(builder, group, "file", topography,
+             height_map_read(path, topography->axis, deck_real(group, "datum", 0),
+                             piece * builder->scene->body.spacing, &said),
+             &said);
     messages_free(&said);
     array_free(path);
 }
@@ -143,7 +171,8 @@ static void tell(const struct builder *builder, struct topography *topography, c
              h * fmin(1, 1 - stretch * range->high), h * fmax(1, 1 - stretch * range->low), topography->depth,
              h * hypot(1, range->slope));
     if (topography->map != NULL)
-        snprintf(topography->text[2], size, "splines differ from the file's heights by up to %.3g",
+        snprintf(topography->text[2], size, "splines differ from the %s's heights by up to %.3g",
+                 topography->shape == TOPOGRAPHY_MODEL ? "model" : "file",
                  height_map_smoothed(topography->map));
     if (topography->end[0][0].width + topography->end[0][1].width + topography->end[1][0].width +
             topography->end[1][1].width >
@@ -165,7 +194,7 @@ static void check_range(struct builder *builder, const struct deck_group *group,
                  "spacing, between "
                  "heights of %g and %g and a level depth of %g; expected %g to %g: a deeper body, or heights "
                  "nearer "
-                 "to face z- (datum)",
+                 "to face z- (datum; of a model the third value of origin)",
                  1 - stretch * range->high, 1 - stretch * range->low, -range->high, -range->low,
                  topography->depth, least_stretch, most_stretch);
     if (degrees > steepest)
@@ -177,21 +206,6 @@ static void check_range(struct builder *builder, const struct deck_group *group,
             "the surface is as steep as %.3g degrees, beyond the %g that errors were measured at; points "
             "along it are %.3g spacings apart",
             degrees, steep, hypot(1, range->slope));
-}
-
-static void check_cover(struct builder *builder, const struct deck_group *group,
-                        const struct topography *topography)
-{
-    const struct body *body = &builder->scene->body;
-    for (int axis = 0; axis < topography->axis && topography->map != NULL; axis++) {
-        double low, high;
-        height_map_extent(topography->map, axis, &low, &high);
-        const double small = 1e-6 * body->spacing;
-        if (low > body->low[axis] + small || high < body->high[axis] - small)
-            complain(builder, group, "file",
-                     "the heights reach from %g to %g along %c, the body from %g to %g", low, high,
-                     "xy"[axis], body -> low[axis], body -> high[axis]);
-    }
 }
 
 /* What cannot stand on a surface that is not level. */
@@ -208,10 +222,6 @@ static bool check_body(struct builder *builder, const struct deck_group *group)
         complain(builder, group, NULL,
                  "topography is that of a free surface; expected no &boundary at face %s",
                  face_name((enum face)top));
-    else if (scene->body.model != NULL && scene->body.model->depth != MODEL_LEVEL && !scene->body.model->sea)
-        complain(builder, group, NULL,
-                 "the model of the ground has a surface of its own, from which its depths count; expected "
-                 "model%%depth = 'sea', or no &topography");
     else
         return true;
     return false;
@@ -241,7 +251,7 @@ void build_topography(struct builder *builder)
     }
     topography->depth = take_depth(builder, group, topography);
     if (!builder->body_known) return;
-    check_cover(builder, group, topography);
+    if (deck_given(group, "file")) height_map_cover(topography->map, builder, group, topography->axis);
     const struct topography plain = *topography;
     draw_out(scene, topography);
     const struct range range = range_of(scene, topography, &plain);

@@ -79,6 +79,7 @@ static void draw(const struct page *page, size_t c, size_t skip, bool key)
     double step[2];
     for (int side = 0; side < 2; side++)
         step[side] = (cut->high[side] - cut->low[side]) / (double)cut->pixels[side];
+    marks_names(page, c);
     fprintf(script,
             "plot '" GNUPLOT_DATA "' binary skip=%zu array=(%zu,%zu) origin=(%.9g,%.9g) dx=%.9g dy=%.9g "
             "format='%%float' with image notitle, $jumps%zu u 1:2 w p pt 7 ps .18 lc rgb '#000000' notitle, "
@@ -99,8 +100,6 @@ static void draw(const struct page *page, size_t c, size_t skip, bool key)
         "'#000000' %s",
         c, c, key && page->sources > 0 ? "t 'source'" : "notitle", c,
         key && page->receivers > 0 ? "t 'receiver'" : "notitle");
-    if (page->receivers > 0 && page->receivers <= NAMED)
-        fprintf(script, ", '' u 1:2:3 w labels offset 0,1.1 font 'DejaVu Sans,11' noenhanced notitle");
     if (key) {
         double thickness[BOX_FACES], thickest = 0;
         cut_layers(page->scene, thickness);
@@ -112,6 +111,8 @@ static void draw(const struct page *page, size_t c, size_t skip, bool key)
                     ", NaN w filledcurves fs transparent pattern 4 fc rgb '#444444' t 'absorbing layer'");
     }
     fprintf(script, "\nunset key\nunset label 1\n");
+    for (size_t r = 0; r < page->receivers && r < NAMED; r++)
+        fprintf(script, "unset label %zu\n", NAME_TAGS + r);
 }
 
 static void set_scale(const struct page *page, int which)

@@ -38,6 +38,72 @@ void marks_line(const struct scene *scene, double from[3], double to[3])
     if (farthest == 0) to[0] += body->high[0] - body->low[0];
 }
 
+/* A name and its middle, in pixels of the panel. */
+struct label {
+    double at[2], half[2];
+};
+
+static bool overlaps(const struct label *one, const struct label *other)
+{
+    return fabs(one->at[0] - other->at[0]) < one->half[0] + other->half[0] &&
+           fabs(one->at[1] - other->at[1]) < one->half[1] + other->half[1];
+}
+
+/* Above, right, left or below, a line farther off as long as it lies on a name or a receiver. */
+static struct label place_label(const struct page *page, size_t c, const struct label *place, size_t r,
+                                const struct label *label)
+{
+    static const double line = 15, half_letter = 4;
+    const int *size = page->size[c];
+    struct label found = {{0}, {half_letter * (double)strlen(page->scene->receiver[r].name), line / 2}};
+    bool free = false;
+    for (int attempt = 0; attempt < 4 * NAMED && !free; attempt++) {
+        const int where = attempt % 4;
+        const double away = line * (where == 0 || where == 3 ? 1.1 + attempt / 4 : attempt / 4);
+        const double aside = where == 1   ? 1
+                             : where == 2 ? -1
+                                          : 0,
+                     x = place[r].at[0] + aside * (found.half[0] + line);
+        found.at[0] = fmax(fmin(x, size[0] - found.half[0]), found.half[0]);
+        found.at[1] = place[r].at[1] + (where < 2 ? away : -away);
+        free = found.at[1] > 0 && found.at[1] < size[1] + 2 * line;
+        for (size_t other = 0; other < page->scene->receivers; other++)
+            free =
+                free && !overlaps(&found, &place[other]) && (other >= r || !overlaps(&found, &label[other]));
+    }
+    return found;
+}
+
+void marks_names(const struct page *page, size_t c)
+{
+    const struct scene *scene = page->scene;
+    const struct cut *cut = &page->cut[c];
+    struct label place[NAMED], label[NAMED];
+    double zero[2], pixel[2]; /* where the panel begins at the left and below; a pixel in units of the deck */
+    if (scene->receivers > NAMED) return;
+    for (int side = 0; side < 2; side++) {
+        const bool down = side == 1 && cut->downwards;
+        zero[side] = down ? cut->high[side] : cut->low[side];
+        pixel[side] = (down ? -1 : 1) * (cut->high[side] - cut->low[side]) / page->size[c][side];
+    }
+    for (size_t r = 0; r < scene->receivers; r++) {
+        double own[3];
+        own_place(scene, scene->receiver[r].position, own);
+        cut_project(cut, own, place[r].at);
+        for (int side = 0; side < 2; side++) {
+            place[r].at[side] = (place[r].at[side] - zero[side]) / pixel[side];
+            place[r].half[side] = 6;
+        }
+    }
+    for (size_t r = 0; r < scene->receivers; r++) {
+        label[r] = place_label(page, c, place, r, label);
+        fprintf(page->script,
+                "set label %zu '%s' at %.9g,%.9g center front noenhanced font 'DejaVu Sans,11'\n",
+                NAME_TAGS + r, scene->receiver[r].name, zero[0] + label[r].at[0] * pixel[0],
+                zero[1] + label[r].at[1] * pixel[1]);
+    }
+}
+
 static void write_places(struct page *page, size_t c)
 {
     const struct scene *scene = page->scene;
@@ -54,8 +120,7 @@ static void write_places(struct page *page, size_t c)
     for (size_t r = 0; r < scene->receivers; r++) {
         own_place(scene, scene->receiver[r].position, own);
         cut_project(&page->cut[c], own, at);
-        fprintf(page->script, "%.9g %.9g \"%s\"\n", at[0], at[1],
-                scene->receivers <= NAMED ? scene->receiver[r].name : "");
+        fprintf(page->script, "%.9g %.9g\n", at[0], at[1]);
     }
     fprintf(page->script, "END\n$jumps%zu << END\n", c);
     page->jumps = cut_write_jumps(scene, &page->cut[c], page->script) || page->jumps;

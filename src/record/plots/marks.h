@@ -4,7 +4,7 @@
 
 #include "record/plots/cut.h"
 
-enum { NAMED = 12 /* receivers, at most, whose names are written */ };
+enum { NAMED = 12 /* receivers, at most, whose names are written */, NAME_TAGS = 10 };
 
 struct page {
     const struct scene *scene;
@@ -23,9 +23,11 @@ enum face_look { LOOK_DAMPED, LOOK_HELD, LOOKS };
 /* Where the section goes (body's frame): first source that has a place, else first receiver, else the middle;
  * the receiver farthest from it. */
 void marks_line(const struct scene *scene, double from[3], double to[3]);
-/* The data of a cut: $sources, $receivers (with names), $jumps, $surface, $patches (rims), each with the cut's
+/* The data of a cut: $sources, $receivers, $jumps, $surface, $patches (rims), each with the cut's
  * number, and $facesCUT_LOOK. */
 void marks_write(struct page *page, size_t c);
+/* Sets labels NAME_TAGS and so on: the receivers' names, none on another. */
+void marks_names(const struct page *page, size_t c);
 /* Are there faces that look so? */
 bool marks_any_face(const struct page *page, enum face_look look);
 

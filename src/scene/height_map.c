@@ -1,11 +1,11 @@
 /* Heights of the surface from a file: a grid of rows and columns, splines of degree 3 through its values by least
  * squares, one axis after the other (C. de Boor, A Practical Guide to Splines, 1978, chapters XIV and XVII). */
+#include "scene/height_map.h"
 #include "base/gsl_errors.h"
 #include "base/lines.h"
 #include "base/memory.h"
-#include "scene/topography.h"
+#include "scene/build.h"
 
-#include <gsl/gsl_bspline.h>
 #include <gsl/gsl_linalg.h>
 
 #include <errno.h>
@@ -20,8 +20,7 @@ static const double values_a_piece = 1.5;
 struct axis_map {
     size_t values, order, count; /* of the grid; of the splines: order, coefficients */
     double *place;               /* [values] */
-    gsl_bspline_workspace *spline;
-    gsl_vector *basis; /* [order] */
+    size_t pieces;               /* of the splines; 0: no such axis */
 };
 
 struct height_map {
@@ -151,33 +150,43 @@ static selas_status lay_grid(const char *path, const struct rows *rows, double d
 }
 
 /* Splines of an axis whose pieces are no shorter than `piece` nor than so many values. */
-static bool lay_splines(struct axis_map *along, double piece)
+static void lay_splines(struct axis_map *along, double piece)
 {
-    if (along->values < 2) { /* no such axis */
-        along->count = 1;
-        return true;
-    }
+    along->count = 1;
+    if (along->values < 2) return; /* no such axis */
     const double low = along->place[0], high = along->place[along->values - 1];
     along->order = along->values < ORDER ? along->values : ORDER;
     const double most = fmin((high - low) / piece, (double)(along->values - 1) / values_a_piece);
     size_t pieces = most > 1 ? (size_t)most : 1;
     if (pieces > along->values - along->order + 1) pieces = along->values - along->order + 1;
+    along->pieces = pieces;
     along->count = pieces + along->order - 1;
-    along->spline = gsl_bspline_alloc(along->order, pieces + 1);
-    along->basis = gsl_vector_alloc(along->order);
-    return along->spline != NULL && along->basis != NULL &&
-           gsl_bspline_knots_uniform(low, high, along->spline) == 0;
 }
 
-/* Values of the splines that are not 0 at x: from *first on. */
-static size_t basis_at(const struct axis_map *along, double x, size_t *first)
+/* Values of the splines that are not 0 at x, from *first on, of even knots, those at the ends as many times as the
+ * order (L. Piegl, W. Tiller, The NURBS Book, 1997, A2.2). */
+static size_t basis_at(const struct axis_map *along, double x, double basis[ORDER], size_t *first)
 {
-    size_t last;
+    basis[0] = 1;
     *first = 0;
-    if (along->spline == NULL) return 1;
-    const double inside = fmin(fmax(x, along->place[0]), along->place[along->values - 1]);
-    if (gsl_bspline_eval_nonzero(inside, along->basis, first, &last, along->spline) != 0) return 0;
-    return last - *first + 1;
+    if (along->pieces == 0) return 1;
+    const double low = along->place[0], high = along->place[along->values - 1];
+    const double pieces = (double)along->pieces, t = fmin(fmax((x - low) / (high - low), 0), 1) * pieces;
+    const double at = fmin(floor(t), pieces - 1);
+    double left[ORDER], right[ORDER];
+    *first = (size_t)at;
+    for (size_t j = 1; j < along->order; j++) {
+        left[j] = t - fmax(at + 1 - (double)j, 0);
+        right[j] = fmin(at + (double)j, pieces) - t;
+        double saved = 0;
+        for (size_t r = 0; r < j; r++) {
+            const double part = basis[r] / (right[r + 1] + left[j - r]);
+            basis[r] = saved + right[r + 1] * part;
+            saved = left[j - r] * part;
+        }
+        basis[j] = saved;
+    }
+    return along->order;
 }
 
 /* Coefficients along an axis: `lines` lines of values, number i of line l at in[l * skip + i * step]; out alike,
@@ -189,7 +198,7 @@ struct lines_of {
 
 static bool fit(const struct axis_map *along, size_t lines, struct lines_of in, struct lines_of out)
 {
-    if (along->spline == NULL) {
+    if (along->pieces == 0) {
         for (size_t l = 0; l < lines; l++)
             out.at[l * out.skip] = in.at[l * in.skip];
         return true;
@@ -199,10 +208,11 @@ static bool fit(const struct axis_map *along, size_t lines, struct lines_of in, 
     gsl_vector *found = gsl_vector_alloc(along->count), *rest = gsl_vector_alloc(along->values);
     bool good = matrix != NULL && tau != NULL && value != NULL && found != NULL && rest != NULL;
     for (size_t i = 0; good && i < along->values; i++) {
+        double basis[ORDER];
         size_t first;
-        const size_t count = basis_at(along, along->place[i], &first);
+        const size_t count = basis_at(along, along->place[i], basis, &first);
         for (size_t n = 0; n < count; n++)
-            gsl_matrix_set(matrix, i, first + n, gsl_vector_get(along->basis, n));
+            gsl_matrix_set(matrix, i, first + n, basis[n]);
     }
     good = good && gsl_linalg_QR_decomp(matrix, tau) == 0;
     for (size_t l = 0; good && l < lines; l++) {
@@ -238,38 +248,71 @@ static bool fit_all(struct height_map *map)
     return good;
 }
 
-struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
-                                   struct messages *messages)
+/* Splines through rows of a grid; `path`: what they are from. */
+static struct height_map *map_of(const struct rows *rows, const char *path, int axes, double datum,
+                                 double piece, struct messages *messages)
 {
-    struct rows rows = {0};
     struct height_map *map = array_new(1, sizeof *map);
-    selas_status status = map != NULL ? read_rows(path, axes, &rows, messages) : SELAS_NO_MEMORY;
-    if (status == SELAS_OK && rows.count == 0)
-        status = fail(messages, SELAS_FILE_ERROR, "%s: no heights", path);
+    selas_status status = map != NULL ? SELAS_OK : SELAS_NO_MEMORY;
     if (status == SELAS_OK) {
         map->axes = axes;
-        const bool found = find_places(&rows, 0, &map->along[0]) && find_places(&rows, 1, &map->along[1]);
-        status = found ? lay_grid(path, &rows, datum, map, messages) : SELAS_NO_MEMORY;
+        const bool found = find_places(rows, 0, &map->along[0]) && find_places(rows, 1, &map->along[1]);
+        status = found ? lay_grid(path, rows, datum, map, messages) : SELAS_NO_MEMORY;
     }
-    gsl_errors_returned();
-    if (status == SELAS_OK &&
-        !(lay_splines(&map->along[0], piece) && lay_splines(&map->along[1], piece) && fit_all(map)))
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
-    gsl_errors_as_before();
-    array_free(rows.row);
+    if (status == SELAS_OK) {
+        lay_splines(&map->along[0], piece);
+        lay_splines(&map->along[1], piece);
+        gsl_errors_returned();
+        if (!fit_all(map)) status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+        gsl_errors_as_before();
+    }
     if (status == SELAS_OK) return map;
     height_map_free(map);
     return NULL;
 }
 
+struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
+                                   struct messages *messages)
+{
+    struct rows rows = {0};
+    struct height_map *map = NULL;
+    const selas_status status = read_rows(path, axes, &rows, messages);
+    if (status == SELAS_OK && rows.count == 0)
+        fail(messages, SELAS_FILE_ERROR, "%s: no heights", path);
+    else if (status == SELAS_OK)
+        map = map_of(&rows, path, axes, datum, piece, messages);
+    array_free(rows.row);
+    return map;
+}
+
+struct height_map *height_map_sample(double (*height)(const struct ground_model *of, const double place[2]),
+                                     const struct ground_model *of, const double low[2], const double high[2],
+                                     double step, double piece, struct messages *messages)
+{
+    struct rows rows = {0};
+    size_t n[2];
+    bool room = true;
+    for (int axis = 0; axis < 2; axis++)
+        n[axis] = (size_t)fmax(ceil((high[axis] - low[axis]) / step), 1) + 1;
+    for (size_t i = 0; i < n[0] * n[1] && room; i++) {
+        const double x = low[0] + (high[0] - low[0]) * (double)(i / n[1]) / (double)(n[0] - 1);
+        const double y = low[1] + (high[1] - low[1]) * (double)(i % n[1]) / (double)(n[1] - 1);
+        room = keep(&rows, (double[]){x, y, height(of, (double[]){x, y})}, 2);
+    }
+    struct height_map *map = NULL;
+    if (room)
+        map = map_of(&rows, "the ground of the model", 2, 0, piece, messages);
+    else
+        fail(messages, SELAS_NO_MEMORY, "no memory for the ground of the model");
+    array_free(rows.row);
+    return map;
+}
+
 void height_map_free(struct height_map *map)
 {
     if (map == NULL) return;
-    for (int axis = 0; axis < 2; axis++) {
+    for (int axis = 0; axis < 2; axis++)
         array_free(map->along[axis].place);
-        if (map->along[axis].spline != NULL) gsl_bspline_free(map->along[axis].spline);
-        gsl_vector_free(map->along[axis].basis);
-    }
     array_free(map->height);
     array_free(map->coefficient);
     array_free(map);
@@ -278,13 +321,14 @@ void height_map_free(struct height_map *map)
 double height_map_at(const struct height_map *map, const double place[2])
 {
     const struct axis_map *x = &map->along[0], *y = &map->along[1];
+    double along[2][ORDER];
     size_t first[2];
-    const size_t rows = basis_at(x, place[0], &first[0]), columns = basis_at(y, place[1], &first[1]);
+    const size_t rows = basis_at(x, place[0], along[0], &first[0]),
+                 columns = basis_at(y, place[1], along[1], &first[1]);
     double sum = 0;
     for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < columns; j++)
-            sum += gsl_vector_get(x->basis, i) * (y->basis == NULL ? 1 : gsl_vector_get(y->basis, j)) *
-                   map->coefficient[(first[0] + i) * y->count + first[1] + j];
+            sum += along[0][i] * along[1][j] * map->coefficient[(first[0] + i) * y->count + first[1] + j];
     return sum;
 }
 
@@ -302,4 +346,43 @@ double height_map_most(const struct height_map *map)
 double height_map_smoothed(const struct height_map *map)
 {
     return map->smoothed;
+}
+
+double height_map_centre(struct height_map *map)
+{
+    const size_t values = map->along[0].values * map->along[1].values;
+    double mean = 0;
+    for (size_t i = 0; i < values; i++)
+        mean += map->height[i] / (double)values;
+    map->most = 0;
+    for (size_t i = 0; i < values; i++) {
+        map->height[i] -= mean;
+        map->most = fmax(map->most, fabs(map->height[i]));
+    }
+    for (size_t i = 0; i < map->along[0].count * map->along[1].count; i++)
+        map->coefficient[i] -= mean; /* splines add up to 1 */
+    return mean;
+}
+
+void complain_of_heights(struct builder *builder, const struct deck_group *group, const char *word,
+                         const struct messages *said)
+{
+    const char *text = said->text != NULL ? said->text : "";
+    if (strncmp(text, "error: ", 7) == 0) text += 7;
+    complain(builder, group, word, "the heights cannot be used: %.*s", (int)strcspn(text, "\n"), text);
+}
+
+void height_map_cover(const struct height_map *map, struct builder *builder, const struct deck_group *group,
+                      int axes)
+{
+    const struct body *body = &builder->scene->body;
+    const double small = 1e-6 * body->spacing;
+    for (int axis = 0; axis < axes; axis++) {
+        double low, high;
+        height_map_extent(map, axis, &low, &high);
+        if (low > body->low[axis] + small || high < body->high[axis] - small)
+            complain(builder, group, "file",
+                     "the heights reach from %g to %g along %c, the body from %g to %g", low, high,
+                     "xy"[axis], body -> low[axis], body -> high[axis]);
+    }
 }
