@@ -24,14 +24,3 @@ selas_status shared_check(selas_simulation *simulation)
     return fail(&simulation->messages, SELAS_UNSUPPORTED,
                 "%s: on one rank only; start it without mpirun, or leave it out", what);
 }
-
-/* What a profile shows of velocities in one pass hangs on when the watch looks, and that on the rank. */
-selas_status shared_check_model(selas_simulation *simulation)
-{
-    const bool one_pass = model_computed(simulation->model)->one_pass != NULL;
-    if (ranks_count(simulation->ranks) == 1 || simulation->scene->profiles == 0 || !one_pass) return SELAS_OK;
-    return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                "&profile beside steps in one pass: on one rank only; start it without mpirun, or take "
-                "method%%fused = "
-                ".false.");
-}

@@ -114,7 +114,6 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 void simulation_share(selas_simulation *simulation, struct ranks *ranks);
 /* SELAS_UNSUPPORTED for what is not done on more than one rank. */
 selas_status shared_check(selas_simulation *simulation);
-selas_status shared_check_model(selas_simulation *simulation); /* once the model is made */
 
 /* host/trial.c: a trial_run (accuracy/trial.h). */
 selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct messages *messages);

@@ -54,12 +54,12 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     recorder->before = recorder->watch;
     recorder->before_time = recorder->last_time;
     selas_status status = trace_observe(recorder, state, messages);
+    profile_observe(recorder, state); /* and then the watch, which may settle the state */
     if (status == SELAS_OK) status = watch_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
     recorder->started = true;
     recorder->last_step = state->step;
     recorder->last_time = state->time;
-    profile_observe(recorder, state);
     return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
 }
 
