@@ -50,7 +50,8 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
         }
     }
     state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
-    model->core->field(model, field, simulation->state.y, simulation->state.a, simulation->values);
+    model->core->field(model, field, simulation->state.y, simulation->state.a, 0, model->points,
+                       simulation->values);
     *count = model->points;
     *components = width;
     *value = simulation->values;

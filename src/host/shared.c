@@ -15,8 +15,7 @@ selas_status shared_check(selas_simulation *simulation)
     const struct deck_group *output = scene->deck != NULL ? deck_get(scene->deck, "output", 0) : NULL;
     const bool checkpoints = output != NULL && (deck_given(output, "checkpoint_every") ||
                                                 deck_given(output, "checkpoint_minutes"));
-    const char *what = scene->snapshots > 0  ? "&snapshot"
-                       : checkpoints         ? "checkpoints (output%checkpoint_every, checkpoint_minutes)"
+    const char *what = checkpoints           ? "checkpoints (output%checkpoint_every, checkpoint_minutes)"
                        : simulation->work    ? "a restart"
                        : scene_driven(scene) ? "a host that drives loads or faces"
                                              : NULL;

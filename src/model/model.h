@@ -95,8 +95,13 @@ struct model_core {
      * model/probe.c (from u, v, a, weights and Hooke's law). */
     void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
                     const double *a, double *value);
-    /* Field at all body points, value[components * i + c], deck coordinates. */
-    void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
+    /* Field at the body points from .. end - 1, value[components * (i - from) + c], deck coordinates. Of a model with
+     * `holder`: whole planes over the last axis, which this rank holds. */
+    void (*field)(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                  size_t end, double *value);
+    /* The rank that can show a plane of points over the last axis of the lattice. NULL: points are shown together, by a
+     * model that is alone. */
+    int (*holder)(const struct model *model, size_t plane);
     void (*energy)(struct model *model, const double *y, struct energy *energy); /* ranks: together */
     /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out);
      * on ranks each one's part of it. */
@@ -245,6 +250,9 @@ void model_free(struct model **model);
 
 /* model/positions.c: deck coordinates of a point that users see. */
 void model_position(const struct model *model, size_t point, double position[3]);
+/* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
+ * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has. */
+size_t model_piece(const struct model *model, size_t from, int *holder);
 
 /* What is known at one place, in the frame of the unknowns. */
 struct point_values {

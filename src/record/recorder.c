@@ -37,6 +37,7 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
 
 selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
 {
+    recorder->recording = true;
     if (recorder->file != NULL || !ranks_first(recorder->scene->ranks)) return SELAS_OK;
     selas_status status = make_folder(recorder->scene->output.directory, messages);
     if (status != SELAS_OK) return status;
@@ -60,7 +61,7 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     recorder->started = true;
     recorder->last_step = state->step;
     recorder->last_time = state->time;
-    return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+    return recorder->recording ? snapshot_observe(recorder, state, messages) : SELAS_OK;
 }
 
 selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,

@@ -256,6 +256,7 @@ static const struct model_core core = {
     .probe = consistent_probe,
     .observe = consistent_observe,
     .field = consistent_field,
+    .holder = consistent_holder,
     .energy = energy,
     .power = power,
     .unseen = consistent_unseen,
