@@ -10,16 +10,7 @@ void simulation_share(selas_simulation *simulation, struct ranks *ranks)
 
 selas_status shared_check(selas_simulation *simulation)
 {
-    const struct scene *scene = simulation->scene;
-    if (ranks_count(simulation->ranks) == 1) return SELAS_OK;
-    const struct deck_group *output = scene->deck != NULL ? deck_get(scene->deck, "output", 0) : NULL;
-    const bool checkpoints = output != NULL && (deck_given(output, "checkpoint_every") ||
-                                                deck_given(output, "checkpoint_minutes"));
-    const char *what = checkpoints           ? "checkpoints (output%checkpoint_every, checkpoint_minutes)"
-                       : simulation->work    ? "a restart"
-                       : scene_driven(scene) ? "a host that drives loads or faces"
-                                             : NULL;
-    if (what == NULL) return SELAS_OK;
+    if (ranks_count(simulation->ranks) == 1 || !scene_driven(simulation->scene)) return SELAS_OK;
     return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                "%s: on one rank only; start it without mpirun, or leave it out", what);
+                "a host that drives loads or faces: on one rank only");
 }

@@ -13,6 +13,7 @@
 #define SELAS_MODEL_MODEL_H
 
 #include "base/messages.h"
+#include "model/spread.h"
 #include "scene/scene.h"
 
 /* Amplitudes that drive the model at one instant; the stepping scheme fills them (so it may take differences
@@ -83,6 +84,8 @@ struct method {
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
 };
 
+enum model_array { ARRAY_UNKNOWNS, ARRAY_EXTRA };
+
 /* What every model has. */
 struct model_core {
     void (*destroy)(struct model *model);
@@ -102,6 +105,9 @@ struct model_core {
     /* The rank that can show a plane of points over the last axis of the lattice. NULL: points are shown together, by a
      * model that is alone. */
     int (*holder)(const struct model *model, size_t plane);
+    /* Together: adds how an array like u, or the extra part of the state, lies in that of all ranks. NULL: a model that is
+     * alone. */
+    void (*share)(struct model *model, enum model_array array, struct spread *shares);
     void (*energy)(struct model *model, const double *y, struct energy *energy); /* ranks: together */
     /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out);
      * on ranks each one's part of it. */
@@ -173,6 +179,8 @@ struct model_one_pass {
     void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
     /* What is kept beside y, for checkpoints. */
     void *(*kept)(struct model *model, size_t *bytes);
+    /* The same for that, in numbers. */
+    void (*share)(struct model *model, struct spread *shares);
     /* From now on steps in one pass, and they alone, relax; the model is that of part 0. SELAS_UNSUPPORTED:
      * not in one pass; SELAS_NO_MEMORY. */
     selas_status (*relax)(struct model *model, const struct relaxing *relaxing);

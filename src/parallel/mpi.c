@@ -15,6 +15,11 @@ struct ranks {
     double sent;
 };
 
+static int length_of(size_t left)
+{
+    return (int)(left < LONGEST ? left : LONGEST);
+}
+
 struct ranks *ranks_begin(void)
 {
     int threads, count;
@@ -76,7 +81,8 @@ void ranks_sum(struct ranks *ranks, size_t n, double *value)
 
 void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
 {
-    if (ranks != NULL) MPI_Bcast(data, (int)bytes, MPI_BYTE, from, ranks->comm);
+    for (size_t at = 0; ranks != NULL && at < bytes; at += LONGEST)
+        MPI_Bcast((char *)data + at, length_of(bytes - at), MPI_BYTE, from, ranks->comm);
 }
 
 /* Messages under way. */
@@ -89,11 +95,6 @@ static MPI_Request *next(const struct ranks *ranks, struct requests *requests)
 {
     if (requests->count == MOST_REQUESTS) MPI_Abort(ranks->comm, 1); /* hundreds of GiB in one exchange */
     return &requests->request[requests->count++];
-}
-
-static int length_of(size_t left)
-{
-    return (int)(left < LONGEST ? left : LONGEST);
 }
 
 void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)

@@ -102,6 +102,9 @@ struct recorder {
     double memory;  /* planned bytes of the largest rank; 0: one alone */
 };
 
+/* recorder.c; together: true for the first rank, which then has all that receivers and profiles have seen */
+bool recorder_gather(struct recorder *recorder);
+
 /* trace.c: receivers step by step, and their finished rows */
 selas_status trace_create(struct recorder *recorder, struct messages *messages);
 selas_status trace_observe(struct recorder *recorder, const struct state *state, struct messages *messages);

@@ -79,8 +79,7 @@ selas_status recorder_observe_again(struct recorder *recorder, const struct stat
     return watched;
 }
 
-/* Together: true for the first rank, which then has all that receivers and profiles have seen. */
-static bool gathered(struct recorder *recorder)
+bool recorder_gather(struct recorder *recorder)
 {
     profile_gather(recorder);
     trace_gather(recorder);
@@ -90,7 +89,7 @@ static bool gathered(struct recorder *recorder)
 selas_status recorder_finish(struct recorder *recorder, struct messages *messages)
 {
     if (recorder->finished) return SELAS_OK;
-    const selas_status status = gathered(recorder) ? trace_finish(recorder, messages) : SELAS_OK;
+    const selas_status status = recorder_gather(recorder) ? trace_finish(recorder, messages) : SELAS_OK;
     recorder->finished = status == SELAS_OK;
     return status;
 }
@@ -109,7 +108,7 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)
 {
     const char *results = recorder->folder;
-    if (!gathered(recorder)) return SELAS_OK;
+    if (!recorder_gather(recorder)) return SELAS_OK;
     selas_status status = recorder_unfinished(recorder, &recorder->folder, messages);
     recorder->so_far = true;
     if (status == SELAS_OK) status = trace_finish(recorder, messages);

@@ -257,6 +257,7 @@ static const struct model_core core = {
     .observe = consistent_observe,
     .field = consistent_field,
     .holder = consistent_holder,
+    .share = consistent_share,
     .energy = energy,
     .power = power,
     .unseen = consistent_unseen,

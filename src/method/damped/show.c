@@ -125,6 +125,18 @@ static int holder_of(const struct model *model, size_t plane)
     return first->core->holder(first, plane);
 }
 
+static void share(struct model *model, enum model_array array, struct spread *shares)
+{
+    struct damped *d = damped_of(model);
+    struct model *first = first_of(model);
+    if (array != ARRAY_EXTRA) first->core->share(first, array, shares);
+    if (array != ARRAY_EXTRA) return;
+    for (size_t l = 0; l < d->damping->mechanisms; l++)
+        first->core->share(first, ARRAY_UNKNOWNS, shares);
+    for (size_t p = 0; p < d->parts; p++)
+        first->core->share(d->part[p].model, ARRAY_EXTRA, shares);
+}
+
 /* --- Energy ------------------------------------------------------------------------------------------- */
 
 /* x.K_p x / 2 */
@@ -200,6 +212,7 @@ const struct model_core damped_core = {
     .observe = observe,
     .field = field_of,
     .holder = holder_of,
+    .share = share,
     .energy = energy,
     .power = power,
     .loss = loss,
