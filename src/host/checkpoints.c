@@ -22,6 +22,8 @@ selas_status selas_save(selas_simulation *simulation, const char *path)
     simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
+    if (status == SELAS_OK && scene_driven(simulation->scene))
+        status = shared_alone(simulation, "a checkpoint of loads that a host drives");
     if (status != SELAS_OK) return status;
     return checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path,
                             KEEP_NOTHING, &simulation->messages);

@@ -8,9 +8,40 @@ void simulation_share(selas_simulation *simulation, struct ranks *ranks)
     if (simulation->scene != NULL) simulation->scene->ranks = ranks;
 }
 
+selas_status selas_share_handle(selas_simulation *simulation, int communicator)
+{
+    AT_THE_DOOR(simulation);
+    simulation_call(simulation);
+    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    struct messages *messages = &simulation->messages;
+    if (simulation->joined != NULL || simulation->model != NULL)
+        return fail(messages, SELAS_BAD_ARGUMENT, "a simulation is shared once, right after it is opened");
+    selas_status status = ranks_join(communicator, &simulation->joined, messages);
+    if (status != SELAS_OK) return status;
+    status = simulation->deck == NULL || simulation->broken ? SELAS_BAD_DECK : SELAS_OK;
+    simulation_share(simulation, simulation->joined);
+    status = ranks_agree(simulation->ranks, status, messages);
+    simulation_failed(simulation, status);
+    return status;
+}
+
 selas_status shared_check(selas_simulation *simulation)
 {
-    if (ranks_count(simulation->ranks) == 1 || !scene_driven(simulation->scene)) return SELAS_OK;
+    const struct host *host = &simulation->host;
+    bool functions = false;
+    for (size_t face = 0; face < FACES; face++)
+        functions = functions || host->face[face].function != NULL;
+    for (size_t i = 0; i < host->loads; i++)
+        functions = functions || host->load[i].function != NULL;
+    if (ranks_count(simulation->ranks) == 1 || !functions) return SELAS_OK;
     return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                "a host that drives loads or faces: on one rank only");
+                "a function of the host that drives a load or a face: on one rank only; selas_set_load gives "
+                "values on "
+                "ranks, too");
+}
+
+selas_status shared_alone(selas_simulation *simulation, const char *what)
+{
+    if (ranks_count(simulation->ranks) == 1) return SELAS_OK;
+    return fail(&simulation->messages, SELAS_UNSUPPORTED, "%s: on one rank only", what);
 }

@@ -149,6 +149,7 @@ void selas_close(selas_simulation **closed)
     free(simulation->last);
     deck_free(&simulation->deck);
     messages_free(&simulation->messages);
+    ranks_leave(&simulation->joined);
     free(simulation);
     *closed = NULL;
 }

@@ -258,9 +258,6 @@ void model_free(struct model **model);
 
 /* model/positions.c: deck coordinates of a point that users see. */
 void model_position(const struct model *model, size_t point, double position[3]);
-/* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
- * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has. */
-size_t model_piece(const struct model *model, size_t from, int *holder);
 
 /* What is known at one place, in the frame of the unknowns. */
 struct point_values {

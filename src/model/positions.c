@@ -2,7 +2,6 @@
  * are the body's corners: x_i = low + (high - low) i / cells on each axis of the body. A lattice needs no
  * memory for them. */
 #include "model/model.h"
-#include "parallel/ranks.h"
 
 #include <string.h>
 
@@ -30,20 +29,4 @@ void model_free(struct model **model)
     if (model == NULL || *model == NULL) return;
     (*model)->core->destroy(*model);
     *model = NULL;
-}
-
-size_t model_piece(const struct model *model, size_t from, int *holder)
-{
-    enum { LEAST = 1 << 17, PIECES = 16 };
-    *holder = 0;
-    if (model->core->holder == NULL) return model->points;
-    const size_t share = model->points / (size_t)ranks_count(model->scene->ranks) / PIECES;
-    const size_t most = share > LEAST ? share : LEAST;
-    const size_t planes = model->grid[model->scene->dimension - 1], plane = model->points / planes;
-    size_t k = from / plane;
-    *holder = model->core->holder(model, k);
-    do
-        k++;
-    while (k < planes && (k + 1) * plane - from <= most && model->core->holder(model, k) == *holder);
-    return k * plane;
 }

@@ -21,6 +21,12 @@ struct ranks_piece {
 struct ranks *ranks_begin(void);
 void ranks_end(struct ranks **ranks);
 
+/* Together: those of a host's communicator (its Fortran handle), which stay as many as they are. NULL: there is one.
+ * SELAS_UNSUPPORTED without MPI, SELAS_BAD_ARGUMENT before MPI_Init, SELAS_NO_MEMORY. */
+selas_status ranks_join(int communicator, struct ranks **ranks, struct messages *messages);
+void ranks_leave(struct ranks **ranks); /* together; NULL is fine */
+bool ranks_fixed(const struct ranks *ranks);
+
 int ranks_me(const struct ranks *ranks);
 int ranks_count(const struct ranks *ranks); /* 1: alone */
 /* The first one speaks to the user and writes the files. */

@@ -36,7 +36,7 @@ struct snapshot_record {
     bool regular;      /* the lattice lies along the deck's axes ... */
     double origin[3];  /* ... begins here ... */
     double step[3];    /* ... and has these spacings */
-    size_t room;       /* points in the largest piece of the body (model_piece) */
+    size_t room;       /* points in the largest piece of the body */
     double *buffer;    /* [room * 6] one field of a piece */
     char position[48]; /* path of the positions in run.h5 */
 };
@@ -140,6 +140,9 @@ selas_status snapshot_create(struct recorder *recorder, struct messages *message
 selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
 void snapshot_free(struct recorder *recorder);
+/* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
+ * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has. */
+size_t snapshot_piece(const struct model *model, size_t from, int *holder);
 
 /* run_file.c: run.h5. `work`: folder of the run that goes on, or NULL (unfinished.h). */
 selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages);

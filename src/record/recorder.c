@@ -102,7 +102,11 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
 void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
                     double *value)
 {
-    model_observe(recorder->model, &recorder->trace[receiver].probe, field, state->y, state->a, value);
+    const struct probe *probe = &recorder->trace[receiver].probe;
+    struct ranks *ranks = recorder->scene->ranks;
+    if (probe->holder == ranks_me(ranks))
+        model_observe(recorder->model, probe, field, state->y, state->a, value);
+    ranks_spread(ranks, probe->holder, value, (size_t)field_components(field) * sizeof *value);
 }
 
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)

@@ -3,6 +3,7 @@
 #include "record/parts.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -80,6 +81,22 @@ static void look_regular(const struct model *model, struct snapshot_record *reco
     }
 }
 
+size_t snapshot_piece(const struct model *model, size_t from, int *holder)
+{
+    enum { LEAST = 1 << 17, PIECES = 16 };
+    *holder = 0;
+    if (model->core->holder == NULL) return model->points;
+    const size_t share = model->points / (size_t)ranks_count(model->scene->ranks) / PIECES;
+    const size_t most = share > LEAST ? share : LEAST;
+    const size_t planes = model->grid[model->scene->dimension - 1], plane = model->points / planes;
+    size_t k = from / plane;
+    *holder = model->core->holder(model, k);
+    do
+        k++;
+    while (k < planes && (k + 1) * plane - from <= most && model->core->holder(model, k) == *holder);
+    return k * plane;
+}
+
 /* The points in the region, into `index` if it is not NULL; how many there are. */
 static size_t points_in_region(const struct model *model, const struct snapshot *snapshot, size_t *index)
 {
@@ -105,7 +122,7 @@ static selas_status create_one(const struct model *model, size_t number, struct 
                     number + 1);
     int holder;
     for (size_t from = 0, end; from < model->points; from = end) {
-        end = model_piece(model, from, &holder);
+        end = snapshot_piece(model, from, &holder);
         record->room = end - from > record->room ? end - from : record->room;
     }
     record->buffer = array_new(6 * record->room, sizeof *record->buffer);

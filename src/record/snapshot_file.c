@@ -104,7 +104,7 @@ static bool pass_field(struct recorder *recorder, const struct snapshot_record *
     int holder;
     state_settle(recorder->stepper, state, field == SELAS_ACCELERATION);
     for (size_t from = 0, row = 0, rows, end; from < model->points; from = end, row += rows) {
-        end = model_piece(model, from, &holder);
+        end = snapshot_piece(model, from, &holder);
         if (holder == ranks_me(ranks))
             model->core->field(model, field, state->y, state->a, from, end, record->buffer);
         rows = pick_rows(record, components, row, from, end);
