@@ -457,8 +457,8 @@ contains
    end subroutine
 
    ! Opens a deck file; overrides(i) = 'group%name=value'.
-   ! comm: Fortran handle of an MPI communicator (of mpi_f08: comm%mpi_val), whose ranks share the work and all make the same
-   ! calls; needs the library selas-mpi.
+   ! comm: Fortran handle of an MPI communicator (of mpi_f08: comm%mpi_val), whose ranks share the work and all make
+   ! the same calls; needs the library selas-mpi.
    subroutine open_file(self, path, status, overrides, comm)
       class(selas_simulation), intent(inout) :: self
       character(*), intent(in) :: path

@@ -88,8 +88,8 @@ SELAS_API double selas_time_step(selas_simulation *simulation);
 SELAS_API unsigned long selas_steps(const selas_simulation *simulation);
 SELAS_API unsigned long selas_steps_needed(selas_simulation *simulation);
 
-/* Values of a receiver at the step reached (for all ranks), in deck coordinates: value[0..2] (vectors), [0..5] (tensors), [0]
- * (scalars). Errors: SELAS_BAD_ARGUMENT for an unknown receiver or field. */
+/* Values of a receiver at the step reached (for all ranks), in deck coordinates: value[0..2] (vectors), [0..5]
+ * (tensors), [0] (scalars). Errors: SELAS_BAD_ARGUMENT for an unknown receiver or field. */
 SELAS_API selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field,
                                       double *value);
 

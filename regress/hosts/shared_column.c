@@ -1,4 +1,5 @@
-/* Host 5: ranks that share a column of ground: shared_column DECK prints what each rank sees at the receiver 'lower'. */
+/* Host 5: ranks that share a column of ground: shared_column DECK prints what each rank sees at the receiver
+ * 'lower'. */
 #include "selas_mpi.h"
 
 #include <stdio.h>

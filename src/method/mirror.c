@@ -139,8 +139,9 @@ static size_t folded_index(const struct mirror *mirror, int axis, size_t i, unsi
     return 2 * last - i;
 }
 
-/* The part's values, from its point `first` on, fill the head of the array and spread from its end to the points
- * from .. end - 1: none of these is nearer to the head than its image, so nothing is overwritten that is still needed. */
+/* The part's values, from its point `first` on, fill the head of the array and spread from its end to the
+ * points from .. end - 1: none of these is nearer to the head than its image, so nothing is overwritten that is
+ * still needed. */
 static void unfold(const struct mirror *mirror, selas_field field, size_t first, size_t from, size_t end,
                    double *value)
 {

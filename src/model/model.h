@@ -105,8 +105,8 @@ struct model_core {
     /* The rank that can show a plane of points over the last axis of the lattice. NULL: points are shown together, by a
      * model that is alone. */
     int (*holder)(const struct model *model, size_t plane);
-    /* Together: adds how an array like u, or the extra part of the state, lies in that of all ranks. NULL: a model that is
-     * alone. */
+    /* Together: adds how an array like u, or the extra part of the state, lies in that of all ranks. NULL: a
+     * model that is alone. */
     void (*share)(struct model *model, enum model_array array, struct spread *shares);
     void (*energy)(struct model *model, const double *y, struct energy *energy); /* ranks: together */
     /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out);

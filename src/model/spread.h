@@ -1,5 +1,5 @@
-/* How a rank's part of an array lies in that of the whole body: runs of numbers that follow each other in both. A rank has
- * its window (doc/ranks.md); each number is the own of one rank. Alone, a rank has the whole. */
+/* How a rank's part of an array lies in that of the whole body: runs of numbers that follow each other in both.
+ * A rank has its window (doc/ranks.md); each number is the own of one rank. Alone, a rank has the whole. */
 #ifndef SELAS_MODEL_SPREAD_H
 #define SELAS_MODEL_SPREAD_H
 
@@ -8,7 +8,8 @@
 
 enum { SPREAD_RUNS = 512 };
 
-/* `count` numbers from `here` on in the rank's array, from `there` on in the whole one; own: from .. end - 1 of them. */
+/* `count` numbers from `here` on in the rank's array, from `there` on in the whole one; own: from .. end - 1 of
+ * them. */
 struct spread_run {
     size_t here, there, count, from, end;
 };

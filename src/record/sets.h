@@ -9,8 +9,8 @@
 /* What is done with numbers in memory and in a file. SET_COMPARE: are they the same bit for bit? */
 enum set_mode { SET_WRITE, SET_READ, SET_COMPARE };
 
-/* A set of `count` numbers of a type as they are in memory: a new one, or (not SET_WRITE) one that is there and has so many.
- * Close it with H5Dclose; negative on failure. */
+/* A set of `count` numbers of a type as they are in memory: a new one, or (not SET_WRITE) one that is there and
+ * has so many. Close it with H5Dclose; negative on failure. */
 hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode);
 /* `count` of its numbers, from `from` on; false on failure, or if they differ. */
 bool set_pass(hid_t set, hid_t type, enum set_mode mode, void *data, size_t from, size_t count);

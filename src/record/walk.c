@@ -1,5 +1,5 @@
-/* Arrays of a checkpoint (see the header). Shares go through the first rank piece by piece, each straight from where it is: no
- * rank ever has the whole. */
+/* Arrays of a checkpoint (see the header). Shares go through the first rank piece by piece, each straight from
+ * where it is: no rank ever has the whole. */
 #include "record/walk.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* One way through all arrays of a checkpoint, for writing, reading and comparing. The first rank has the file; all ranks walk
- * together. */
+/* One way through all arrays of a checkpoint, for writing, reading and comparing. The first rank has the file;
+ * all ranks walk together. */
 #ifndef SELAS_RECORD_WALK_H
 #define SELAS_RECORD_WALK_H
 
@@ -27,13 +27,13 @@ void walk_real(struct walk *walk, const char *name, size_t number, const char *e
                size_t count);
 void walk_text(struct walk *walk, const char *name, const char *text); /* not SET_READ */
 
-/* An array of `count` numbers, each of `units` entries of the type, of which ranks have shares. Shares NULL: one rank, which
- * has the whole. */
+/* An array of `count` numbers, each of `units` entries of the type, of which ranks have shares. Shares NULL:
+ * one rank, which has the whole. */
 void walk_shared(struct walk *walk, const char *name, hid_t type, size_t units, void *data, size_t count,
                  const struct spread *shares);
 
-/* walk_recorder.c: the state and what the recorder has: `rows` of histories, `entries` in the list of snapshots, for which
- * there is room. */
+/* walk_recorder.c: the state and what the recorder has: `rows` of histories, `entries` in the list of
+ * snapshots, for which there is room. */
 struct recorder;
 struct state;
 void walk_recorder(struct walk *walk, struct recorder *recorder, struct state *state, size_t rows,

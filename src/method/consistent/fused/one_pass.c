@@ -236,8 +236,8 @@ static void share_times(struct model *model, size_t times, struct spread *shares
         model->core->share(model, ARRAY_UNKNOWNS, shares);
 }
 
-/* As step_fields have it: in double precision w and the u of all parts if they relax; in single precision u, w, the extra
- * part of the state, and the u of parts but the first. */
+/* As step_fields have it: in double precision w and the u of all parts if they relax; in single precision u, w,
+ * the extra part of the state, and the u of parts but the first. */
 static void share(struct model *model, struct spread *shares)
 {
     const struct relaxing *relaxing = consistent_of(model)->fused->relaxing;
