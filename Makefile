@@ -26,6 +26,7 @@ OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(filter-out $(KERNELS),$(SOURCES
 PROGRAM  = $(wildcard src/program/*.c)
 VERSION  = $(shell sed -n 's/^\#define SELAS_VERSION "\(.*\)"/\1/p' src/selas.h)
 SONAME   = libselas.so.$(firstword $(subst ., ,$(VERSION)))
+MPI_SONAME = $(SONAME:libselas%=libselas-mpi%)
 FFLAGS  ?= -O2 -g
 ALL_F    = -std=f2018 -fPIC -Wall -Wextra -Wno-compare-reals $(if $(WERROR),-Werror) $(FFLAGS)
 AR      := $(if $(findstring -flto,$(CFLAGS)),gcc-ar,$(AR))
@@ -70,7 +71,7 @@ setup-manual: ## install what `make manual` needs: pandoc, weasyprint
 manual: ## the manual as a site and a book: output/manual/html/index.html, output/manual/selas.pdf
 	@regress/manual/run
 
-mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/howto/ranks.md)
+mpi: all $(BUILD)/selas-mpi $(BUILD)/$(MPI_SONAME) ## build build/selas-mpi for mpirun and libselas-mpi for hosts (doc/howto/ranks.md)
 
 halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots in output/halfspace/
 	@$(MAKE) --no-print-directory all
@@ -98,14 +99,19 @@ $(BUILD)/obj/%.o: src/%.c
 
 # The program for ranks: MPI's own compiler makes one object and links
 MPICC   ?= mpicc
-$(BUILD)/selas-mpi: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/mpi/mpi.o $(BUILD)/libselas-mpi.a
+MPI_OBJECTS = $(filter-out %/parallel/alone.o,$(OBJECTS)) $(BUILD)/mpi/mpi.o
+$(BUILD)/selas-mpi: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/mpi/libselas-mpi.a
 	$(link)
-$(BUILD)/libselas-mpi.a: $(filter-out %/parallel/alone.o,$(OBJECTS))
+$(BUILD)/mpi/libselas-mpi.a: $(MPI_OBJECTS)
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
+$(BUILD)/$(MPI_SONAME): $(MPI_OBJECTS) $(BUILD)/selas.map
+	$(link)
+	@ln -sf $(MPI_SONAME) $(BUILD)/libselas-mpi.so
+$(BUILD)/$(MPI_SONAME): private EXTRA = -shared -Wl,-soname,$(MPI_SONAME) -Wl,--version-script=$(BUILD)/selas.map
 $(BUILD)/mpi/mpi.o: $(MPI_ONLY)
 	$(compile)
-$(BUILD)/selas-mpi $(BUILD)/mpi/mpi.o: private override CC = $(MPICC)
+$(BUILD)/selas-mpi $(BUILD)/$(MPI_SONAME) $(BUILD)/mpi/mpi.o: private override CC = $(MPICC)
 
 # the commit that is built, "+" behind it if files were changed; provenance.c is compiled anew when it changes
 COMMIT   = $(shell git describe --always --exclude='*' --dirty=+ 2>/dev/null || echo unknown)

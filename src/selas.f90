@@ -82,6 +82,12 @@ module selas
          type(c_ptr), intent(out) :: sim
          integer(c_int) :: c_open_deck_with
       end function
+      function c_share_handle(sim, communicator) bind(c, name='selas_share_handle')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: sim
+         integer(c_int), value :: communicator
+         integer(c_int) :: c_share_handle
+      end function
       function c_open_text(name, text, sim) bind(c, name='selas_open_text')
          import :: c_int, c_char, c_ptr
          character(kind=c_char), intent(in) :: name(*), text(*)
@@ -451,11 +457,14 @@ contains
    end subroutine
 
    ! Opens a deck file; overrides(i) = 'group%name=value'.
-   subroutine open_file(self, path, status, overrides)
+   ! comm: Fortran handle of an MPI communicator (of mpi_f08: comm%mpi_val), whose ranks share the work and all make
+   ! the same calls; needs the library selas-mpi.
+   subroutine open_file(self, path, status, overrides, comm)
       class(selas_simulation), intent(inout) :: self
       character(*), intent(in) :: path
       integer, intent(out), optional :: status
       character(*), intent(in), optional :: overrides(:)
+      integer, intent(in), optional :: comm
       character(1, kind=c_char), allocatable, target :: texts(:, :)
       type(c_ptr), allocatable :: pointers(:)
       integer(c_int) :: code
@@ -466,6 +475,7 @@ contains
       else
          code = c_open_deck(terminated(path), self%handle)
       end if
+      if (present(comm)) code = c_share_handle(self%handle, int(comm, c_int))
       call report(self, code, status)
    end subroutine
 

@@ -70,6 +70,9 @@ SELAS_API selas_status selas_open_deck_with(const char *path, size_t count, cons
  * output/NAME. */
 SELAS_API selas_status selas_open_text(const char *name, const char *text, selas_simulation **simulation);
 
+/* selas_share of selas_mpi.h for the Fortran handle of a communicator. */
+SELAS_API selas_status selas_share_handle(selas_simulation *simulation, int communicator);
+
 /* Runs to the first step at or past `time` (to rounding); steps are never shortened. Past the end time it
  * goes on. Errors: SELAS_UNSTABLE (the message says where and when), SELAS_BAD_SCENE (no stable step),
  * SELAS_UNSUPPORTED. */
@@ -85,8 +88,8 @@ SELAS_API double selas_time_step(selas_simulation *simulation);
 SELAS_API unsigned long selas_steps(const selas_simulation *simulation);
 SELAS_API unsigned long selas_steps_needed(selas_simulation *simulation);
 
-/* Values of a receiver at the step reached, in deck coordinates: value[0..2] (vectors), [0..5] (tensors), [0]
- * (scalars). Errors: SELAS_BAD_ARGUMENT for an unknown receiver or field. */
+/* Values of a receiver at the step reached (for all ranks), in deck coordinates: value[0..2] (vectors), [0..5]
+ * (tensors), [0] (scalars). Errors: SELAS_BAD_ARGUMENT for an unknown receiver or field. */
 SELAS_API selas_status selas_receiver(selas_simulation *simulation, const char *name, selas_field field,
                                       double *value);
 

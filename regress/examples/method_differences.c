@@ -104,13 +104,14 @@ static selas_status find_probe(struct model *model, const double position[3], st
     return SELAS_OK;
 }
 
-static void field(struct model *model, selas_field wanted, const double *y, const double *a, double *value)
+static void field(struct model *model, selas_field wanted, const double *y, const double *a, size_t from,
+                  size_t end, double *value)
 {
-    for (size_t i = 0; i < model->points; i++) {
+    for (size_t i = from; i < end; i++) {
         struct probe probe = {0};
         struct messages messages = {0};
         if (find_probe(model, model->position + 3 * i, &probe, &messages) == SELAS_OK)
-            probe_observe(model, &probe, wanted, y, a, value + (size_t)field_components(wanted) * i);
+            probe_observe(model, &probe, wanted, y, a, value + (size_t)field_components(wanted) * (i - from));
         probe_free(&probe);
         messages_free(&messages);
     }

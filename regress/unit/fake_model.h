@@ -70,16 +70,16 @@ static selas_status fake_probe(struct model *model, const double position[3], st
     return SELAS_OK;
 }
 
-static void fake_field(struct model *model, selas_field field, const double *y, const double *a,
-                       double *value)
+static void fake_field(struct model *model, selas_field field, const double *y, const double *a, size_t first,
+                       size_t end, double *value)
 {
     const size_t components = (size_t)field_components(field);
-    for (size_t i = 0; i < model->points; i++)
+    for (size_t i = first; i < end; i++)
         for (size_t c = 0; c < components; c++) {
             const double *from = field == SELAS_VELOCITY       ? y + model->unknowns
                                  : field == SELAS_ACCELERATION ? a
                                                                : y;
-            value[components * i + c] = from[3 * i + c % 3];
+            value[components * (i - first) + c] = from[3 * i + c % 3];
         }
 }
 

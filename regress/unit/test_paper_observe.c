@@ -98,7 +98,7 @@ static void test_fields(void **state)
     struct messages messages = {0};
     for (size_t f = 0; f < 4; f++) {
         const size_t components = (size_t)field_components(fields[f]);
-        model->core->field(model, fields[f], y, NULL, value);
+        model->core->field(model, fields[f], y, NULL, 0, model->points, value);
         for (size_t i = 0; i < model->points; i += 7) {
             struct probe probe = {0};
             double seen[6];

@@ -136,6 +136,14 @@ static void numbers_elsewhere_are_refused(void **state)
     }
 }
 
+static void put_text(hid_t file, const char *name)
+{
+    char text[] = "text";
+    const hid_t set = set_open(file, name, H5T_NATIVE_CHAR, sizeof text, SET_WRITE);
+    assert_true(set >= 0 && set_pass(set, H5T_NATIVE_CHAR, SET_WRITE, text, 0, sizeof text));
+    H5Dclose(set);
+}
+
 /* A deck kept in a checkpoint or run.h5 must be its own. */
 static void decks_elsewhere_are_refused(void **state)
 {
@@ -144,7 +152,7 @@ static void decks_elsewhere_are_refused(void **state)
     static const char *const of_run[3] = {"deck_echo", "deck", "deck_name"};
     const hid_t there = new_file(other);
     for (int k = 0; k < 3; k++)
-        assert_true(set_write(there, name[k], H5T_NATIVE_CHAR, "text", 5));
+        put_text(there, name[k]);
     const hid_t group = hdf_group(there, "provenance");
     for (int k = 0; k < 3; k++)
         assert_true(hdf_text(group, of_run[k], "text"));
@@ -158,7 +166,7 @@ static void decks_elsewhere_are_refused(void **state)
             if (linked)
                 H5Lcreate_external(other, name[k], file, name[k], H5P_DEFAULT, H5P_DEFAULT);
             else
-                assert_true(set_write(file, name[k], H5T_NATIVE_CHAR, "text", 5));
+                put_text(file, name[k]);
         if (linked) H5Lcreate_external(other, "provenance", file, "provenance", H5P_DEFAULT, H5P_DEFAULT);
         H5Fclose(file);
         assert_int_equal(checkpoint_seal(path, &messages), SELAS_OK);

@@ -1,6 +1,7 @@
 /* Saving a simulation and going on with it; runs that go on from a checkpoint, or are made again from the
  * deck in run.h5. */
 #include "host/simulation.h"
+#include "parallel/ranks.h"
 
 #include "record/kept.h"
 
@@ -21,6 +22,8 @@ selas_status selas_save(selas_simulation *simulation, const char *path)
     simulation_call(simulation);
     selas_status status = simulation_begin(simulation);
     if (status == SELAS_OK) status = check_path(simulation, path);
+    if (status == SELAS_OK && scene_driven(simulation->scene))
+        status = shared_alone(simulation, "a checkpoint of loads that a host drives");
     if (status != SELAS_OK) return status;
     return checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path,
                             KEEP_NOTHING, &simulation->messages);
@@ -62,7 +65,7 @@ static selas_status prepare_restore(selas_simulation *simulation)
     if (simulation->state.y == NULL)
         status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
     if (status == SELAS_OK && simulation->recording) status = open_again(simulation);
-    return status;
+    return ranks_agree(simulation->ranks, status, &simulation->messages);
 }
 
 selas_status selas_restore(selas_simulation *simulation, const char *path)
@@ -191,8 +194,11 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 {
     const char *folder;
     char *path = simulation_checkpoint_path(simulation);
-    if (path == NULL) return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
-    selas_status status = recorder_unfinished(simulation->recorder, &folder, &simulation->messages);
+    selas_status status =
+        path != NULL ? SELAS_OK : fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
+    if (status == SELAS_OK && ranks_first(simulation->ranks))
+        status = recorder_unfinished(simulation->recorder, &folder, &simulation->messages);
+    status = ranks_agree(simulation->ranks, status, &simulation->messages);
     if (status == SELAS_OK)
         status = checkpoint_write(simulation->recorder, &simulation->state, &simulation->figures, path, keep,
                                   &simulation->messages);

@@ -3,6 +3,7 @@
 #include "host/simulation.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -171,7 +172,10 @@ static selas_status mean_of(selas_simulation *simulation, size_t index, const do
     model->core->power(model, &drive, y, &measure, &absorbed);
     memcpy(y + n, part, n * sizeof *y);
     model->core->power(model, &drive, y, &power, &absorbed);
-    *value = power / measure;
+    double sum[2] = {power, measure};
+    ranks_sum(simulation->ranks, 2, sum);
+    *value = sum[0] / sum[1];
+    ranks_spread(simulation->ranks, 0, value, sizeof *value);
     return SELAS_OK;
 }
 

@@ -7,7 +7,8 @@ selas_status selas_points(selas_simulation *simulation, size_t *count, const dou
 {
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
-    const selas_status status = simulation_begin(simulation);
+    selas_status status = simulation_begin(simulation);
+    if (status == SELAS_OK) status = shared_alone(simulation, "all points");
     if (status != SELAS_OK) return status;
     if (count == NULL || position == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no room for the count or the positions");
@@ -31,7 +32,8 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
 {
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
-    const selas_status status = simulation_begin(simulation);
+    selas_status status = simulation_begin(simulation);
+    if (status == SELAS_OK) status = shared_alone(simulation, "a whole field");
     if (status != SELAS_OK) return status;
     const size_t width = (size_t)field_components(field);
     if (width == 0 || count == NULL || components == NULL || value == NULL)
@@ -50,7 +52,8 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
         }
     }
     state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
-    model->core->field(model, field, simulation->state.y, simulation->state.a, simulation->values);
+    model->core->field(model, field, simulation->state.y, simulation->state.a, 0, model->points,
+                       simulation->values);
     *count = model->points;
     *components = width;
     *value = simulation->values;

@@ -8,30 +8,40 @@ void simulation_share(selas_simulation *simulation, struct ranks *ranks)
     if (simulation->scene != NULL) simulation->scene->ranks = ranks;
 }
 
-selas_status shared_check(selas_simulation *simulation)
+selas_status selas_share_handle(selas_simulation *simulation, int communicator)
 {
-    const struct scene *scene = simulation->scene;
-    if (ranks_count(simulation->ranks) == 1) return SELAS_OK;
-    const struct deck_group *output = scene->deck != NULL ? deck_get(scene->deck, "output", 0) : NULL;
-    const bool checkpoints = output != NULL && (deck_given(output, "checkpoint_every") ||
-                                                deck_given(output, "checkpoint_minutes"));
-    const char *what = scene->snapshots > 0  ? "&snapshot"
-                       : checkpoints         ? "checkpoints (output%checkpoint_every, checkpoint_minutes)"
-                       : simulation->work    ? "a restart"
-                       : scene_driven(scene) ? "a host that drives loads or faces"
-                                             : NULL;
-    if (what == NULL) return SELAS_OK;
-    return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                "%s: on one rank only; start it without mpirun, or leave it out", what);
+    AT_THE_DOOR(simulation);
+    simulation_call(simulation);
+    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    struct messages *messages = &simulation->messages;
+    if (simulation->joined != NULL || simulation->model != NULL)
+        return fail(messages, SELAS_BAD_ARGUMENT, "a simulation is shared once, right after it is opened");
+    selas_status status = ranks_join(communicator, &simulation->joined, messages);
+    if (status != SELAS_OK) return status;
+    status = simulation->deck == NULL || simulation->broken ? SELAS_BAD_DECK : SELAS_OK;
+    simulation_share(simulation, simulation->joined);
+    status = ranks_agree(simulation->ranks, status, messages);
+    simulation_failed(simulation, status);
+    return status;
 }
 
-/* What a profile shows of velocities in one pass hangs on when the watch looks, and that on the rank. */
-selas_status shared_check_model(selas_simulation *simulation)
+selas_status shared_check(selas_simulation *simulation)
 {
-    const bool one_pass = model_computed(simulation->model)->one_pass != NULL;
-    if (ranks_count(simulation->ranks) == 1 || simulation->scene->profiles == 0 || !one_pass) return SELAS_OK;
+    const struct host *host = &simulation->host;
+    bool functions = false;
+    for (size_t face = 0; face < FACES; face++)
+        functions = functions || host->face[face].function != NULL;
+    for (size_t i = 0; i < host->loads; i++)
+        functions = functions || host->load[i].function != NULL;
+    if (ranks_count(simulation->ranks) == 1 || !functions) return SELAS_OK;
     return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                "&profile beside steps in one pass: on one rank only; start it without mpirun, or take "
-                "method%%fused = "
-                ".false.");
+                "a function of the host that drives a load or a face: on one rank only; selas_set_load gives "
+                "values on "
+                "ranks, too");
+}
+
+selas_status shared_alone(selas_simulation *simulation, const char *what)
+{
+    if (ranks_count(simulation->ranks) == 1) return SELAS_OK;
+    return fail(&simulation->messages, SELAS_UNSUPPORTED, "%s: on one rank only", what);
 }

@@ -149,6 +149,7 @@ void selas_close(selas_simulation **closed)
     free(simulation->last);
     deck_free(&simulation->deck);
     messages_free(&simulation->messages);
+    ranks_leave(&simulation->joined);
     free(simulation);
     *closed = NULL;
 }
@@ -229,7 +230,6 @@ selas_status simulation_prepare(selas_simulation *simulation)
     status = shared_check(simulation);
     if (status == SELAS_OK && simulation->model == NULL)
         status = model_create(simulation->scene, &simulation->model, messages);
-    if (status == SELAS_OK) status = shared_check_model(simulation);
     if (ranks_idle(simulation->ranks)) return SELAS_STOPPED;
     status = ranks_agree(simulation->ranks, status, messages);
     if (status == SELAS_OK && simulation->stepper == NULL)

@@ -55,7 +55,8 @@ struct selas_simulation {
     bool consequence;    /* the last call was not done because of that failure */
     char *last;          /* what selas_last_message handed out */
     struct host host;
-    struct ranks *ranks; /* that share the work, borrowed; NULL: one alone */
+    struct ranks *ranks;  /* that share the work, borrowed; NULL: one alone */
+    struct ranks *joined; /* the same of a host's communicator; NULL: there is none */
     struct given_points points;
     double *point_position, *point_volume;
     size_t *point_material;
@@ -114,7 +115,8 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 void simulation_share(selas_simulation *simulation, struct ranks *ranks);
 /* SELAS_UNSUPPORTED for what is not done on more than one rank. */
 selas_status shared_check(selas_simulation *simulation);
-selas_status shared_check_model(selas_simulation *simulation); /* once the model is made */
+/* The same for a call: "WHAT: on one rank only". */
+selas_status shared_alone(selas_simulation *simulation, const char *what);
 
 /* host/trial.c: a trial_run (accuracy/trial.h). */
 selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct messages *messages);

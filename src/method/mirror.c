@@ -11,6 +11,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct mirror {
     struct model model;
@@ -138,37 +139,71 @@ static size_t folded_index(const struct mirror *mirror, int axis, size_t i, unsi
     return 2 * last - i;
 }
 
-/* The part's values fill the head of the array and spread from its end: a point's index in the whole is never
- * below its index in the part, so nothing is overwritten that is still needed. */
-static void unfold(const struct mirror *mirror, selas_field field, double *value)
+/* The part's values, from its point `first` on, fill the head of the array and spread from its end to the
+ * points from .. end - 1: none of these is nearer to the head than its image, so nothing is overwritten that is
+ * still needed. */
+static void unfold(const struct mirror *mirror, selas_field field, size_t first, size_t from, size_t end,
+                   double *value)
 {
     const size_t components = (size_t)field_components(field);
     const size_t *whole = mirror->model.grid;
     const size_t *part = mirror->model.part->grid;
-    for (size_t k = whole[2]; k-- > 0;)
-        for (size_t j = whole[1]; j-- > 0;)
-            for (size_t i = whole[0]; i-- > 0;) {
-                unsigned planes = 0;
-                const size_t pi = folded_index(mirror, 0, i, &planes);
-                const size_t pj = folded_index(mirror, 1, j, &planes);
-                const size_t pk = folded_index(mirror, 2, k, &planes);
-                const size_t from = pi + part[0] * (pj + part[1] * pk);
-                const size_t to = i + whole[0] * (j + whole[1] * k);
-                for (size_t c = 0; c < components; c++)
-                    value[components * to + c] = value[components * from + c];
-                if (planes == 0) continue;
-                double h[3][3];
-                reflection(mirror, planes, h);
-                reflect(h, field, value + components * to);
-            }
+    for (size_t point = end; point-- > from;) {
+        unsigned planes = 0;
+        const size_t i = folded_index(mirror, 0, point % whole[0], &planes);
+        const size_t j = folded_index(mirror, 1, point / whole[0] % whole[1], &planes);
+        const size_t k = folded_index(mirror, 2, point / (whole[0] * whole[1]), &planes);
+        const double *image = value + components * (i + part[0] * (j + part[1] * k) - first);
+        double *to = value + components * (point - from);
+        memmove(to, image, components * sizeof *to);
+        if (planes == 0) continue;
+        double h[3][3];
+        reflection(mirror, planes, h);
+        reflect(h, field, to);
+    }
 }
 
-static void whole_field(struct model *model, selas_field field, const double *y, const double *a,
-                        double *value)
+/* Planes from .. end - 1 over the last axis whose images are in the part's planes first .. last - 1. */
+static void show_planes(struct mirror *mirror, selas_field field, const double *y, const double *a,
+                        const size_t planes[2], const size_t images[2], double *value)
+{
+    const int axis = mirror->model.scene->dimension - 1;
+    struct model *part = mirror->model.part;
+    const size_t plane = mirror->model.points / mirror->model.grid[axis],
+                 image = part->points / part->grid[axis];
+    part->core->field(part, field, y, a, images[0] * image, images[1] * image, value);
+    unfold(mirror, field, images[0] * image, planes[0] * plane, planes[1] * plane, value);
+}
+
+/* Planes below the mirror across the last axis, or all from the first on, together; those above it one by one. */
+static void whole_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                        size_t end, double *value)
 {
     struct mirror *mirror = (struct mirror *)model;
-    mirror->model.part->core->field(mirror->model.part, field, y, a, value);
-    unfold(mirror, field, value);
+    const int axis = model->scene->dimension - 1;
+    const size_t plane = model->points / model->grid[axis], below = model->part->grid[axis];
+    size_t planes[2] = {from / plane, end / plane};
+    if (planes[0] == 0 || planes[1] <= below) {
+        const size_t images[2] = {planes[0], planes[1] < below ? planes[1] : below};
+        show_planes(mirror, field, y, a, planes, images, value);
+        return;
+    }
+    for (size_t k = from / plane; k < end / plane; k++) {
+        unsigned above = 0;
+        const size_t image = folded_index(mirror, axis, k, &above), images[2] = {image, image + 1};
+        planes[0] = k;
+        planes[1] = k + 1;
+        show_planes(mirror, field, y, a, planes, images,
+                    value + (size_t)field_components(field) * (k * plane - from));
+    }
+}
+
+static int holder_of(const struct model *model, size_t plane)
+{
+    unsigned above = 0;
+    const int axis = model->scene->dimension - 1;
+    return model->part->core->holder(model->part,
+                                     folded_index((const struct mirror *)model, axis, plane, &above));
 }
 
 static double copies(const struct model *model)
@@ -242,6 +277,7 @@ static void fill(struct mirror *mirror, struct model *part, const struct scene *
     model->part = part;
     mirror->core = mirror_core;
     if (part->core->loss != NULL) mirror->core.loss = whole_loss;
+    if (part->core->holder != NULL) mirror->core.holder = holder_of;
     model->core = &mirror->core;
     model->scene = scene;
     for (int axis = 0; axis < 3; axis++)

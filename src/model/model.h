@@ -13,6 +13,7 @@
 #define SELAS_MODEL_MODEL_H
 
 #include "base/messages.h"
+#include "model/spread.h"
 #include "scene/scene.h"
 
 /* Amplitudes that drive the model at one instant; the stepping scheme fills them (so it may take differences
@@ -83,6 +84,8 @@ struct method {
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
 };
 
+enum model_array { ARRAY_UNKNOWNS, ARRAY_EXTRA };
+
 /* What every model has. */
 struct model_core {
     void (*destroy)(struct model *model);
@@ -95,8 +98,16 @@ struct model_core {
      * model/probe.c (from u, v, a, weights and Hooke's law). */
     void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
                     const double *a, double *value);
-    /* Field at all body points, value[components * i + c], deck coordinates. */
-    void (*field)(struct model *model, selas_field field, const double *y, const double *a, double *value);
+    /* Field at the body points from .. end - 1, value[components * (i - from) + c], deck coordinates. Of a model with
+     * `holder`: whole planes over the last axis, which this rank holds. */
+    void (*field)(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                  size_t end, double *value);
+    /* The rank that can show a plane of points over the last axis of the lattice. NULL: points are shown together, by a
+     * model that is alone. */
+    int (*holder)(const struct model *model, size_t plane);
+    /* Together: adds how an array like u, or the extra part of the state, lies in that of all ranks. NULL: a
+     * model that is alone. */
+    void (*share)(struct model *model, enum model_array array, struct spread *shares);
     void (*energy)(struct model *model, const double *y, struct energy *energy); /* ranks: together */
     /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out);
      * on ranks each one's part of it. */
@@ -168,6 +179,8 @@ struct model_one_pass {
     void (*settle)(struct model *model, const struct drive *drive, double dt, double *y, double *a);
     /* What is kept beside y, for checkpoints. */
     void *(*kept)(struct model *model, size_t *bytes);
+    /* The same for that, in numbers. */
+    void (*share)(struct model *model, struct spread *shares);
     /* From now on steps in one pass, and they alone, relax; the model is that of part 0. SELAS_UNSUPPORTED:
      * not in one pass; SELAS_NO_MEMORY. */
     selas_status (*relax)(struct model *model, const struct relaxing *relaxing);

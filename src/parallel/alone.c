@@ -11,6 +11,25 @@ void ranks_end(struct ranks **ranks)
     (void)ranks;
 }
 
+selas_status ranks_join(int communicator, struct ranks **ranks, struct messages *messages)
+{
+    (void)communicator;
+    *ranks = NULL;
+    return fail(messages, SELAS_UNSUPPORTED,
+                "this library has no MPI: a host with a communicator is linked with selas-mpi (make mpi)");
+}
+
+void ranks_leave(struct ranks **ranks)
+{
+    *ranks = NULL;
+}
+
+bool ranks_fixed(const struct ranks *ranks)
+{
+    (void)ranks;
+    return false;
+}
+
 int ranks_me(const struct ranks *ranks)
 {
     (void)ranks;

@@ -12,8 +12,14 @@ enum { LONGEST = 1 << 30, MOST_REQUESTS = 512 };
 struct ranks {
     MPI_Comm comm; /* MPI_COMM_NULL: idle */
     int me, count;
+    bool fixed; /* the communicator is a host's */
     double sent;
 };
+
+static int length_of(size_t left)
+{
+    return (int)(left < LONGEST ? left : LONGEST);
+}
 
 struct ranks *ranks_begin(void)
 {
@@ -37,6 +43,38 @@ void ranks_end(struct ranks **ended)
     *ended = NULL;
     MPI_Barrier(MPI_COMM_WORLD); /* a failed rank that ends ends the others, who may have more to say */
     MPI_Finalize();
+}
+
+selas_status ranks_join(int communicator, struct ranks **joined, struct messages *messages)
+{
+    int begun = 0, count = 1;
+    *joined = NULL;
+    MPI_Initialized(&begun);
+    if (!begun) return fail(messages, SELAS_BAD_ARGUMENT, "a communicator needs MPI_Init before");
+    const MPI_Comm comm = MPI_Comm_f2c(communicator);
+    MPI_Comm_size(comm, &count);
+    if (count == 1) return SELAS_OK;
+    struct ranks *ranks = array_new(1, sizeof *ranks);
+    if (ranks == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    MPI_Comm_dup(comm, &ranks->comm);
+    MPI_Comm_rank(ranks->comm, &ranks->me);
+    ranks->count = count;
+    ranks->fixed = true;
+    *joined = ranks;
+    return SELAS_OK;
+}
+
+void ranks_leave(struct ranks **left)
+{
+    if (*left == NULL) return;
+    MPI_Comm_free(&(*left)->comm);
+    array_free(*left);
+    *left = NULL;
+}
+
+bool ranks_fixed(const struct ranks *ranks)
+{
+    return ranks != NULL && ranks->fixed;
 }
 
 int ranks_me(const struct ranks *ranks)
@@ -76,7 +114,8 @@ void ranks_sum(struct ranks *ranks, size_t n, double *value)
 
 void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
 {
-    if (ranks != NULL) MPI_Bcast(data, (int)bytes, MPI_BYTE, from, ranks->comm);
+    for (size_t at = 0; ranks != NULL && at < bytes; at += LONGEST)
+        MPI_Bcast((char *)data + at, length_of(bytes - at), MPI_BYTE, from, ranks->comm);
 }
 
 /* Messages under way. */
@@ -89,11 +128,6 @@ static MPI_Request *next(const struct ranks *ranks, struct requests *requests)
 {
     if (requests->count == MOST_REQUESTS) MPI_Abort(ranks->comm, 1); /* hundreds of GiB in one exchange */
     return &requests->request[requests->count++];
-}
-
-static int length_of(size_t left)
-{
-    return (int)(left < LONGEST ? left : LONGEST);
 }
 
 void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)

@@ -21,6 +21,12 @@ struct ranks_piece {
 struct ranks *ranks_begin(void);
 void ranks_end(struct ranks **ranks);
 
+/* Together: those of a host's communicator (its Fortran handle), which stay as many as they are. NULL: there is one.
+ * SELAS_UNSUPPORTED without MPI, SELAS_BAD_ARGUMENT before MPI_Init, SELAS_NO_MEMORY. */
+selas_status ranks_join(int communicator, struct ranks **ranks, struct messages *messages);
+void ranks_leave(struct ranks **ranks); /* together; NULL is fine */
+bool ranks_fixed(const struct ranks *ranks);
+
 int ranks_me(const struct ranks *ranks);
 int ranks_count(const struct ranks *ranks); /* 1: alone */
 /* The first one speaks to the user and writes the files. */
@@ -38,7 +44,7 @@ bool ranks_idle(const struct ranks *ranks);
  * rounding. */
 void ranks_largest(struct ranks *ranks, size_t n, double *value);
 void ranks_sum(struct ranks *ranks, size_t n, double *value);
-/* Together: what rank `from` has, for all; less than 2 GiB. */
+/* Together: what rank `from` has, for all. */
 void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes);
 
 /* Sends and receives; two ranks name the pieces between them in the same order. Counts the bytes sent. */
@@ -50,6 +56,14 @@ static inline void ranks_fetch(struct ranks *ranks, int from, void *data, size_t
     const struct ranks_piece give = {.with = 0, .send = data, .send_bytes = bytes};
     if (from > 0 && ranks_first(ranks)) ranks_exchange(ranks, 1, &get);
     if (from > 0 && ranks_me(ranks) == from) ranks_exchange(ranks, 1, &give);
+}
+/* The other way: rank `to` gets what the first one has. */
+static inline void ranks_give(struct ranks *ranks, int to, void *data, size_t bytes)
+{
+    const struct ranks_piece get = {.with = 0, .receive = data, .receive_bytes = bytes};
+    const struct ranks_piece give = {.with = to, .send = data, .send_bytes = bytes};
+    if (to > 0 && ranks_first(ranks)) ranks_exchange(ranks, 1, &give);
+    if (to > 0 && ranks_me(ranks) == to) ranks_exchange(ranks, 1, &get);
 }
 double ranks_sent(const struct ranks *ranks); /* bytes, by this rank */
 

@@ -85,7 +85,6 @@ static selas_status save(struct run *run)
 
 static bool due(const struct run *run)
 {
-    if (ranks_count(run->simulation->ranks) > 1) return false; /* no checkpoints there */
     const long every = run->simulation->scene->output.checkpoint_every;
     if (every > 0 && selas_steps(run->simulation) % (unsigned long)every == 0) return true;
     return minutes_between(run) > 0.0 && wall_seconds() >= run->next_moment;
@@ -96,7 +95,7 @@ static selas_status save_on_the_way(struct run *run)
 {
     const selas_status status = save(run);
     if (status == SELAS_OK || status == SELAS_UNSTABLE) return status;
-    if (!run->complained) {
+    if (!run->complained && ranks_first(run->simulation->ranks)) {
         tell_messages(run->simulation, run->told);
         fprintf(stderr, "warning: the run goes on without this checkpoint\n");
     }
@@ -129,14 +128,9 @@ static void tell_last(const struct run *run, bool unstable)
 static void keep_state(struct run *run, const char *why)
 {
     const unsigned long step = selas_steps(run->simulation);
-    if (ranks_count(run->simulation->ranks) > 1) {
-        if (ranks_first(run->simulation->ranks))
-            fprintf(stderr, "%s at step %lu, t = %.6g; on ranks the state is not kept\n", why, step,
-                    selas_time(run->simulation));
-        return;
-    }
     const selas_status status = save(run);
     tell_messages(run->simulation, run->told);
+    if (!ranks_first(run->simulation->ranks)) return;
     if (status == SELAS_OK)
         fprintf(stderr, "%s at step %lu, t = %.6g; the state is kept, go on with: selas restart %s\n", why,
                 step, selas_time(run->simulation), run->path);
@@ -159,22 +153,28 @@ static void leave_histories(struct run *run)
 
 /* --- Stepping --- */
 
-/* A signal to any rank stops all. */
-static bool stopping(const struct run *run)
+/* What is to be done after a step: what any rank is told to, or the clock of any. */
+struct wishes {
+    bool stop, save;
+};
+
+static struct wishes wishes_of(const struct run *run, bool stepped)
 {
-    double stops = signals_stop() != NULL ? 1.0 : 0.0;
-    ranks_largest(run->simulation->ranks, 1, &stops);
-    return stops > 0.0;
+    double wish[2] = {signals_stop() != NULL ? 1.0 : 0.0,
+                      stepped && (signals_save() || due(run)) ? 1.0 : 0.0};
+    ranks_largest(run->simulation->ranks, 2, wish);
+    return (struct wishes){wish[0] > 0.0, wish[1] > 0.0};
 }
 
 static selas_status step_on(struct run *run, struct progress *progress, unsigned long needed)
 {
     selas_simulation *simulation = run->simulation;
     selas_status status = SELAS_OK;
-    while (status == SELAS_OK && selas_steps(simulation) < needed && !stopping(run)) {
+    struct wishes wishes = wishes_of(run, false);
+    while (status == SELAS_OK && selas_steps(simulation) < needed && !wishes.stop) {
         status = selas_step(simulation, 1);
-        if (status == SELAS_OK && (signals_save() || due(run)) && ranks_count(simulation->ranks) == 1)
-            status = save_on_the_way(run);
+        if (status == SELAS_OK) wishes = wishes_of(run, true);
+        if (status == SELAS_OK && wishes.save) status = save_on_the_way(run);
         if (!run->quiet) progress_update(progress, selas_time(simulation), selas_steps(simulation));
     }
     return status;

@@ -12,7 +12,7 @@
 #include "base/safe_file.h"
 #include "record/checkpoint_head.h"
 #include "record/run_file.h"
-#include "record/sets.h"
+#include "record/walk.h"
 
 #include <errno.h>
 #include <math.h>
@@ -37,136 +37,30 @@ enum figure {
     FIGURES
 };
 
-/* One way through all arrays of a checkpoint. */
-struct walk {
-    hid_t file;
-    enum { WALK_WRITE, WALK_READ, WALK_COMPARE } mode;
-    bool good;
-};
-
-static void pass(struct walk *walk, const char *name, hid_t type, void *data, size_t count)
-{
-    if (count == 0 || !walk->good) return;
-    if (walk->mode == WALK_WRITE)
-        walk->good = set_write(walk->file, name, type, data, count);
-    else if (walk->mode == WALK_READ)
-        walk->good = set_read(walk->file, name, type, data, count);
-    else
-        walk->good = set_compare(walk->file, name, type, data, count);
-}
-
-static void pass_real(struct walk *walk, const char *name, size_t number, const char *ending, double *data,
-                      size_t count)
-{
-    char full[48];
-    snprintf(full, sizeof full, number > 0 ? "%s_%zu%s" : "%s", name, number, ending);
-    pass(walk, full, H5T_NATIVE_DOUBLE, data, count);
-}
-
-/* --- The parts of the recorder --- */
-
-static void pass_traces(struct walk *walk, struct recorder *recorder, size_t rows)
-{
-    for (size_t r = 0; r < recorder->scene->receivers; r++) {
-        struct trace *trace = &recorder->trace[r];
-        pass_real(walk, "trace", r + 1, "_u", trace->u, 3 * rows);
-        pass_real(walk, "trace", r + 1, "_v", trace->v, 3 * rows);
-        pass_real(walk, "trace", r + 1, "_a", trace->a, 3 * rows);
-        trace->rows = rows;
-    }
-}
-
-static void pass_profiles(struct walk *walk, struct recorder *recorder)
-{
-    for (size_t p = 0; p < recorder->scene->profiles; p++) {
-        struct profile_record *record = &recorder->profile[p];
-        const size_t times = record->profile->times;
-        char seen[32];
-        snprintf(seen, sizeof seen, "seen_%zu", p + 1);
-        pass_real(walk, "profile", p + 1, "", record->value,
-                  times * record->profile->points * record->columns);
-        pass(walk, seen, H5T_NATIVE_UCHAR, record->seen, times);
-    }
-}
-
-/* Which snapshots there are; recorder->entry has room for them. */
-static void pass_entries(struct walk *walk, struct recorder *recorder, size_t entries)
-{
-    const size_t groups = recorder->scene->snapshots;
-    double *number = array_new(2 * entries + groups, sizeof *number);
-    if (number == NULL) walk->good = false;
-    if (number == NULL) return;
-    double *group = number, *time = number + entries, *due = number + 2 * entries;
-    for (size_t k = 0; k < entries; k++) {
-        group[k] = (double)recorder->entry[k].group;
-        time[k] = recorder->entry[k].time;
-    }
-    for (size_t s = 0; s < groups; s++)
-        due[s] = (double)recorder->snapshot[s].due;
-    pass_real(walk, "entry_group", 0, "", group, entries);
-    pass_real(walk, "entry_time", 0, "", time, entries);
-    pass_real(walk, "due", 0, "", due, groups);
-    for (size_t k = 0; walk->mode == WALK_READ && walk->good && k < entries; k++) {
-        walk->good = group[k] >= 0.0 && group[k] < (double)groups;
-        if (walk->good) recorder->entry[k] = (struct snapshot_entry){(size_t)group[k], k, time[k]};
-    }
-    for (size_t s = 0; walk->mode == WALK_READ && walk->good && s < groups; s++) {
-        walk->good = due[s] >= 0.0 && due[s] <= 1e15;
-        if (walk->good) recorder->snapshot[s].due = (size_t)due[s];
-    }
-    array_free(number);
-}
-
-static void pass_all(struct walk *walk, struct recorder *recorder, struct state *state,
-                     double figures[FIGURES])
-{
-    pass_real(walk, "y", 0, "", state->y, recorder->model->state_size);
-    pass_real(walk, "a", 0, "", state->a, recorder->model->unknowns);
-    if (recorder->stepper->one_pass) {
-        size_t bytes = 0;
-        struct model *model = recorder->stepper->model;
-        void *kept = model->one_pass->kept(model, &bytes);
-        pass(walk, "kept", H5T_NATIVE_UCHAR, kept, bytes);
-    }
-    const struct held *held = &recorder->stepper->held;
-    if (held->count > 0) pass_real(walk, "held", 0, "", held->rest, held->count);
-    pass(walk, "watch", H5T_NATIVE_DOUBLE, &recorder->watch, WATCH_NUMBERS);
-    pass(walk, "before", H5T_NATIVE_DOUBLE, &recorder->before, WATCH_NUMBERS);
-    pass_traces(walk, recorder, (size_t)figures[STEP] + 1);
-    pass_profiles(walk, recorder);
-    pass_entries(walk, recorder, (size_t)figures[ENTRIES]);
-}
-
-/* The same deck to the letter. */
-static bool same_deck(hid_t file, const char *text)
-{
-    return set_compare(file, "deck", H5T_NATIVE_CHAR, text, strlen(text) + 1);
-}
-
 /* --- Writing --- */
 
 struct text_piece {
     const char *name, *text;
 };
 
-/* Writes or compares everything. */
+/* Writes or compares everything; together. */
 static bool walk_file(const char *path, struct recorder *recorder, struct state *state,
                       const struct text_piece text[3], double figures[FIGURES], bool write)
 {
-    struct walk walk = {.file = write ? hdf_create_file(path, CHECKPOINT_HEAD) : hdf_open_file(path),
-                        .mode = write ? WALK_WRITE : WALK_COMPARE};
-    if (walk.file < 0) return false;
-    walk.good = true;
-    pass_real(&walk, "figures", 0, "", figures, FIGURES);
-    pass_all(&walk, recorder, state, figures);
-    for (size_t i = 0; i < 3 && walk.good; i++) {
-        const size_t size = strlen(text[i].text) + 1;
-        walk.good = write ? set_write(walk.file, text[i].name, H5T_NATIVE_CHAR, text[i].text, size)
-                          : set_compare(walk.file, text[i].name, H5T_NATIVE_CHAR, text[i].text, size);
+    struct walk walk = {.ranks = recorder->scene->ranks, .file = -1, .mode = write ? SET_WRITE : SET_COMPARE};
+    if (ranks_first(walk.ranks))
+        walk.file = write ? hdf_create_file(path, CHECKPOINT_HEAD) : hdf_open_file(path);
+    if (walk_begin(&walk)) {
+        walk_real(&walk, "figures", 0, "", figures, FIGURES);
+        walk_recorder(&walk, recorder, state, (size_t)figures[STEP] + 1, (size_t)figures[ENTRIES]);
+        for (size_t i = 0; i < 3; i++)
+            walk_text(&walk, text[i].name, text[i].text);
     }
-    return H5Fclose(walk.file) >= 0 && walk.good;
+    if (walk.file >= 0) walk.good = H5Fclose(walk.file) >= 0 && walk.good;
+    return walk_end(&walk);
 }
 
+/* Together; what went wrong is the first rank's to tell. */
 static selas_status write_checked(const char *temporary, struct recorder *recorder, struct state *state,
                                   double figures[FIGURES], const char *deck, struct messages *messages)
 {
@@ -188,6 +82,7 @@ static selas_status write_checked(const char *temporary, struct recorder *record
         if (written) error = errno;
         quiet_end(quiet);
     }
+    if (!ranks_first(recorder->scene->ranks)) return SELAS_OK;
     if (!written) return hdf_cannot("write the checkpoint", temporary, error, messages);
     if (!same && error == ENOMEM) return hdf_cannot("check the checkpoint", temporary, error, messages);
     if (!same)
@@ -228,16 +123,16 @@ static void keep_older(const char *path, enum checkpoint_keep keep)
 selas_status checkpoint_write(struct recorder *recorder, struct state *state, const struct run_figures *spent,
                               const char *path, enum checkpoint_keep keep, struct messages *messages)
 {
+    struct ranks *ranks = recorder->scene->ranks;
     uint64_t files = 0;
-    if (!kept_files_checksum(recorder->scene, &files))
-        return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
+    const bool named = kept_files_checksum(recorder->scene, &files);
     double figures[FIGURES] = {[STEP] = (double)state->step,
                                [TIME] = state->time,
                                [LAST_TIME] = recorder->last_time,
                                [BEFORE_TIME] = recorder->before_time,
                                [TIME_STEP] = recorder->stepper->dt,
                                [ENTRIES] = (double)recorder->entries,
-                               [RECORDED] = recorder->file != NULL ? 1.0 : 0.0,
+                               [RECORDED] = recorder->recording ? 1.0 : 0.0,
                                [EVALUATIONS] = (double)model_computed(recorder->model)->evaluations,
                                [WALL_SECONDS] = spent->wall_seconds,
                                [CPU_SECONDS] = spent->cpu_seconds,
@@ -247,21 +142,25 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
     const size_t room = strlen(path) + 8;
     char *temporary = malloc(room);
     selas_status status = watch_sound(recorder, state, messages);
-    if (status == SELAS_OK && (text == NULL || temporary == NULL))
+    if (status == SELAS_OK && (!named || text == NULL || temporary == NULL))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
+    status = ranks_agree(ranks, status, messages);
     if (status != SELAS_OK || text == NULL || temporary == NULL) {
         free(text);
         free(temporary);
         return status;
     }
     snprintf(temporary, room, "%s.part", path);
+    recorder_gather(recorder);
     status = write_checked(temporary, recorder, state, figures, text, messages);
-    if (status != SELAS_OK) remove(temporary);
-    if (status == SELAS_OK && keep != KEEP_NOTHING) keep_older(path, keep);
-    if (status == SELAS_OK) status = safe_file_commit(temporary, path, messages);
+    if (ranks_first(ranks)) {
+        if (status != SELAS_OK) remove(temporary);
+        if (status == SELAS_OK && keep != KEEP_NOTHING) keep_older(path, keep);
+        if (status == SELAS_OK) status = safe_file_commit(temporary, path, messages);
+    }
     free(text);
     free(temporary);
-    return status;
+    return ranks_agree(ranks, status, messages);
 }
 
 /* --- Reading --- */
@@ -316,18 +215,41 @@ static const char *make_room(struct recorder *recorder, const double figures[FIG
     return NULL;
 }
 
+/* Together: is something wrong with any rank? "" stands for what is wrong elsewhere. */
+static const char *wrong_anywhere(const struct recorder *recorder, const char *wrong)
+{
+    double any = wrong != NULL ? 1.0 : 0.0;
+    ranks_largest(recorder->scene->ranks, 1, &any);
+    return wrong == NULL && any > 0.0 ? "" : wrong;
+}
+
+/* What the first rank finds before anything is read. */
+static const char *look_at_file(hid_t file, const struct recorder *recorder, const char *text,
+                                double figures[FIGURES])
+{
+    if (file < 0) return "it cannot be opened";
+    if (!set_compare(file, "deck", H5T_NATIVE_CHAR, text, strlen(text) + 1)) return "it is of another scene";
+    const hid_t set = set_open(file, "figures", H5T_NATIVE_DOUBLE, FIGURES, SET_READ);
+    const bool good = set >= 0 && set_pass(set, H5T_NATIVE_DOUBLE, SET_READ, figures, 0, FIGURES);
+    if (set >= 0) H5Dclose(set);
+    const char *wrong = good ? misfit_of_figures(recorder, figures) : "it is damaged";
+    return wrong == NULL && !rows_there(file, recorder, figures) ? "it is damaged" : wrong;
+}
+
 static const char *read_all(hid_t file, struct recorder *recorder, struct state *state, const char *text,
                             double figures[FIGURES], struct messages *messages)
 {
-    if (!same_deck(file, text)) return "it is of another scene";
-    if (!set_read(file, "figures", H5T_NATIVE_DOUBLE, figures, FIGURES)) return "it is damaged";
-    const char *wrong = misfit_of_figures(recorder, figures);
-    if (wrong == NULL && !rows_there(file, recorder, figures)) wrong = "it is damaged";
-    if (wrong == NULL) wrong = make_room(recorder, figures, messages);
+    struct ranks *ranks = recorder->scene->ranks;
+    struct walk walk = {.ranks = ranks, .file = file, .mode = SET_READ};
+    const char *wrong = ranks_first(ranks) ? look_at_file(file, recorder, text, figures) : NULL;
+    wrong = wrong_anywhere(recorder, wrong);
     if (wrong != NULL) return wrong;
-    struct walk walk = {file, WALK_READ, true};
-    pass_all(&walk, recorder, state, figures);
-    if (!walk.good) return "it is damaged";
+    ranks_spread(ranks, 0, figures, FIGURES * sizeof *figures);
+    wrong = wrong_anywhere(recorder, make_room(recorder, figures, messages));
+    if (wrong != NULL) return wrong;
+    if (walk_begin(&walk))
+        walk_recorder(&walk, recorder, state, (size_t)figures[STEP] + 1, (size_t)figures[ENTRIES]);
+    if (!walk_end(&walk)) return ranks_first(ranks) ? "it is damaged" : "";
     state->step = (unsigned long)figures[STEP];
     state->time = figures[TIME];
     recorder->last_step = state->step;
@@ -336,40 +258,50 @@ static const char *read_all(hid_t file, struct recorder *recorder, struct state 
     recorder->entries = (size_t)figures[ENTRIES];
     model_computed(recorder->model)->evaluations = (unsigned long)figures[EVALUATIONS];
     recorder->started = true;
-    for (size_t k = 0; recorder->file != NULL && k < recorder->entries; k++)
+    for (size_t k = 0; wrong == NULL && recorder->file != NULL && k < recorder->entries; k++)
         if (!snapshot_file_there(recorder, k, recorder->entry[k].time))
-            return "a file snapshot_NNNN.h5 that belongs beside it is missing or damaged";
-    return NULL;
+            wrong = "a file snapshot_NNNN.h5 that belongs beside it is missing or damaged";
+    return wrong_anywhere(recorder, wrong);
+}
+
+/* Together; the file is the first rank's. *error: the system's reason. */
+static const char *read_file(struct recorder *recorder, struct state *state, const char *path,
+                             const char *text, double figures[FIGURES], int *error, struct messages *messages)
+{
+    const char *wrong;
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        const hid_t file = ranks_first(recorder->scene->ranks) ? hdf_open_file(path) : -1;
+        wrong = read_all(file, recorder, state, text, figures, messages);
+        *error = wrong != NULL && file >= 0 ? errno : 0;
+        if (file >= 0) H5Fclose(file);
+        quiet_end(quiet);
+    }
+    return wrong;
 }
 
 selas_status checkpoint_read(struct recorder *recorder, struct state *state, struct run_figures *spent,
                              const char *path, struct messages *messages)
 {
+    struct ranks *ranks = recorder->scene->ranks;
     char *text = deck_echo(recorder->scene->deck, messages), why[200] = "";
-    const char *wrong = why;
+    const bool whole = !ranks_first(ranks) || checkpoint_whole(path, why, sizeof why);
+    const char *wrong = text == NULL ? "there is no memory for its deck" : whole ? NULL : why;
     int error = 0;
     double figures[FIGURES] = {0};
-    if (text == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
-    if (checkpoint_whole(path, why, sizeof why)) {
-#pragma omp critical(selas_hdf5)
-        {
-            const struct quiet quiet = quiet_begin();
-            const hid_t file = hdf_open_file(path);
-            wrong = "it cannot be opened";
-            if (file >= 0) {
-                wrong = read_all(file, recorder, state, text, figures, messages);
-                error = wrong != NULL ? errno : 0;
-                H5Fclose(file);
-            }
-            quiet_end(quiet);
-        }
-    }
+    wrong = wrong_anywhere(recorder, wrong);
+    if (wrong == NULL) wrong = read_file(recorder, state, path, text, figures, &error, messages);
     free(text);
-    if (error == ENOMEM) return hdf_cannot("read the checkpoint", path, error, messages);
-    if (wrong != NULL)
-        return fail(messages, SELAS_FILE_ERROR, "the checkpoint '%s' cannot be used: %s", path, wrong);
+    selas_status status = SELAS_OK;
+    if (error == ENOMEM)
+        status = hdf_cannot("read the checkpoint", path, error, messages);
+    else if (wrong != NULL && wrong[0] != '\0')
+        status = fail(messages, SELAS_FILE_ERROR, "the checkpoint '%s' cannot be used: %s", path, wrong);
+    status = ranks_agree(ranks, status, messages);
+    if (status != SELAS_OK) return status;
     spent->wall_seconds = figures[WALL_SECONDS];
     spent->cpu_seconds = figures[CPU_SECONDS];
     /* a snapshot of this very step that could not be written is still due */
-    return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+    return recorder->recording ? snapshot_observe(recorder, state, messages) : SELAS_OK;
 }

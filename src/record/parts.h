@@ -31,12 +31,13 @@ struct snapshot_record {
     const struct snapshot *snapshot;
     size_t due;        /* index of the next time */
     size_t points;     /* that are shown */
-    size_t *index;     /* [points] which ones; NULL: all */
+    size_t *index;     /* [points] which ones, ascending; NULL: all */
     size_t grid[3];    /* of the points shown, 0 0 0 if they form no lattice */
     bool regular;      /* the lattice lies along the deck's axes ... */
     double origin[3];  /* ... begins here ... */
     double step[3];    /* ... and has these spacings */
-    double *buffer;    /* [points * 6] one field of the whole body */
+    size_t room;       /* points in the largest piece of the body */
+    double *buffer;    /* [room * 6] one field of a piece */
     char position[48]; /* path of the positions in run.h5 */
 };
 
@@ -97,8 +98,12 @@ struct recorder {
     unsigned long last_step;
     double last_time;
     bool started;
-    double memory; /* planned bytes of the largest rank; 0: one alone */
+    bool recording; /* with result files, which the first rank has */
+    double memory;  /* planned bytes of the largest rank; 0: one alone */
 };
+
+/* recorder.c; together: true for the first rank, which then has all that receivers and profiles have seen */
+bool recorder_gather(struct recorder *recorder);
 
 /* trace.c: receivers step by step, and their finished rows */
 selas_status trace_create(struct recorder *recorder, struct messages *messages);
@@ -135,10 +140,13 @@ selas_status snapshot_create(struct recorder *recorder, struct messages *message
 selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
 void snapshot_free(struct recorder *recorder);
+/* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
+ * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has. */
+size_t snapshot_piece(const struct model *model, size_t from, int *holder);
 
 /* run_file.c: run.h5. `work`: folder of the run that goes on, or NULL (unfinished.h). */
 selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages);
-/* snapshot_file.c */
+/* snapshot_file.c; together: the first rank writes what the others have */
 selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_record *record,
                                const struct state *state, size_t number, struct messages *messages);
 /* Points, snapshots, histories, settings, provenance: writes the file and gives it its name. */

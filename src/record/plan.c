@@ -69,8 +69,10 @@ static double memory_of(const struct recorder *recorder)
                    8.0 * (vectors * (double)model->state_size + (double)model->unknowns) +
                    72.0 * rows * (double)recorder->scene->receivers;
     for (size_t s = 0; s < recorder->scene->snapshots;
-         s++) /* a buffer of 6 numbers a point; a region's list */
-        bytes += (recorder->scene->snapshot[s].whole ? 48.0 : 56.0) * (double)model->points;
+         s++) { /* 6 numbers a point of a piece; a region's list */
+        const struct snapshot_record *record = &recorder->snapshot[s];
+        bytes += 48.0 * (double)record->room + (record->index != NULL ? 8.0 * (double)record->points : 0.0);
+    }
     return bytes;
 }
 

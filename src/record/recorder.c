@@ -37,6 +37,7 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
 
 selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
 {
+    recorder->recording = true;
     if (recorder->file != NULL || !ranks_first(recorder->scene->ranks)) return SELAS_OK;
     selas_status status = make_folder(recorder->scene->output.directory, messages);
     if (status != SELAS_OK) return status;
@@ -54,13 +55,13 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     recorder->before = recorder->watch;
     recorder->before_time = recorder->last_time;
     selas_status status = trace_observe(recorder, state, messages);
+    profile_observe(recorder, state); /* and then the watch, which may settle the state */
     if (status == SELAS_OK) status = watch_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
     recorder->started = true;
     recorder->last_step = state->step;
     recorder->last_time = state->time;
-    profile_observe(recorder, state);
-    return recorder->file != NULL ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+    return recorder->recording ? snapshot_observe(recorder, state, messages) : SELAS_OK;
 }
 
 selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
@@ -78,8 +79,7 @@ selas_status recorder_observe_again(struct recorder *recorder, const struct stat
     return watched;
 }
 
-/* Together: true for the first rank, which then has all that receivers and profiles have seen. */
-static bool gathered(struct recorder *recorder)
+bool recorder_gather(struct recorder *recorder)
 {
     profile_gather(recorder);
     trace_gather(recorder);
@@ -89,7 +89,7 @@ static bool gathered(struct recorder *recorder)
 selas_status recorder_finish(struct recorder *recorder, struct messages *messages)
 {
     if (recorder->finished) return SELAS_OK;
-    const selas_status status = gathered(recorder) ? trace_finish(recorder, messages) : SELAS_OK;
+    const selas_status status = recorder_gather(recorder) ? trace_finish(recorder, messages) : SELAS_OK;
     recorder->finished = status == SELAS_OK;
     return status;
 }
@@ -102,13 +102,17 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
 void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
                     double *value)
 {
-    model_observe(recorder->model, &recorder->trace[receiver].probe, field, state->y, state->a, value);
+    const struct probe *probe = &recorder->trace[receiver].probe;
+    struct ranks *ranks = recorder->scene->ranks;
+    if (probe->holder == ranks_me(ranks))
+        model_observe(recorder->model, probe, field, state->y, state->a, value);
+    ranks_spread(ranks, probe->holder, value, (size_t)field_components(field) * sizeof *value);
 }
 
 selas_status recorder_write_so_far(struct recorder *recorder, struct messages *messages)
 {
     const char *results = recorder->folder;
-    if (!gathered(recorder)) return SELAS_OK;
+    if (!recorder_gather(recorder)) return SELAS_OK;
     selas_status status = recorder_unfinished(recorder, &recorder->folder, messages);
     recorder->so_far = true;
     if (status == SELAS_OK) status = trace_finish(recorder, messages);

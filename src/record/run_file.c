@@ -81,15 +81,33 @@ bool hdf_numbers(hid_t place, const char *name, size_t count, const double *valu
     return good;
 }
 
-bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value)
+hid_t hdf_rows(hid_t place, const char *name, hid_t type, size_t rows, size_t columns)
 {
     const hsize_t size[2] = {rows, columns};
     const hid_t space = H5Screate_simple(2, size, NULL);
     const hid_t set = H5Dcreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const bool good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
-    const bool closed = set >= 0 && H5Dclose(set) >= 0;
     H5Sclose(space);
-    return good && closed;
+    return set;
+}
+
+bool hdf_rows_pass(hid_t set, bool write, size_t first, size_t rows, size_t columns, double *value)
+{
+    const hsize_t from[2] = {first, 0}, count[2] = {rows, columns};
+    if (rows == 0) return true;
+    const hid_t there = H5Dget_space(set), here = H5Screate_simple(2, count, NULL);
+    const bool good = H5Sselect_hyperslab(there, H5S_SELECT_SET, from, NULL, count, NULL) >= 0 &&
+                      (write ? H5Dwrite(set, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, value)
+                             : H5Dread(set, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, value)) >= 0;
+    H5Sclose(here);
+    H5Sclose(there);
+    return good;
+}
+
+bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value)
+{
+    const hid_t set = hdf_rows(place, name, type, rows, columns);
+    const bool good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;
+    return set >= 0 && H5Dclose(set) >= 0 && good;
 }
 
 hid_t hdf_group(hid_t place, const char *name)

@@ -24,6 +24,10 @@ hid_t hdf_open_file(const char *path); /* for reading */
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);
 bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value);
+/* A table whose rows come piece by piece; negative on failure. */
+hid_t hdf_rows(hid_t place, const char *name, hid_t type, size_t rows, size_t columns);
+/* Rows from `first` on, written (or read). */
+bool hdf_rows_pass(hid_t set, bool write, size_t first, size_t rows, size_t columns, double *value);
 hid_t hdf_group(hid_t place, const char *name);
 
 /* snapshot_file.c: group /points, and /snapshots from the files of their own */

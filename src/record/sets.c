@@ -6,22 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool set_write(hid_t file, const char *name, hid_t type, const void *data, size_t count)
+hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode)
 {
     const hsize_t size = count;
-    const hid_t space = H5Screate_simple(1, &size, NULL);
-    const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
-    if (set >= 0) good = H5Dclose(set) >= 0 && good;
-    H5Sclose(space);
-    return good;
-}
-
-/* A set of so many numbers, open; negative if there is none. */
-static hid_t set_open(hid_t file, const char *name, size_t count)
-{
-    const hid_t set = stored_set(file, name);
-    if (set < 0) return set;
+    const hid_t made = mode == SET_WRITE ? H5Screate_simple(1, &size, NULL) : -1;
+    const hid_t set = mode == SET_WRITE
+                          ? H5Dcreate2(file, name, type, made, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
+                          : stored_set(file, name);
+    if (made >= 0) H5Sclose(made);
+    if (set < 0 || mode == SET_WRITE) return set;
     const hid_t space = H5Dget_space(set);
     const bool right =
         H5Sget_simple_extent_npoints(space) == (hssize_t)count && H5Sget_simple_extent_ndims(space) == 1;
@@ -31,34 +24,63 @@ static hid_t set_open(hid_t file, const char *name, size_t count)
     return -1;
 }
 
-bool set_read(hid_t file, const char *name, hid_t type, void *data, size_t count)
+/* Numbers one after the other in the set. */
+struct slab {
+    hid_t there, here;
+};
+
+static bool slab_open(hid_t set, size_t from, size_t count, struct slab *slab)
 {
-    const hid_t set = set_open(file, name, count);
-    if (set < 0) return false;
-    const bool good = H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
-    H5Dclose(set);
+    const hsize_t start = from, size = count;
+    *slab = (struct slab){H5Dget_space(set), H5Screate_simple(1, &size, NULL)};
+    return H5Sselect_hyperslab(slab->there, H5S_SELECT_SET, &start, NULL, &size, NULL) >= 0;
+}
+
+static void slab_close(const struct slab *slab)
+{
+    H5Sclose(slab->here);
+    H5Sclose(slab->there);
+}
+
+static bool pass_slab(hid_t set, hid_t type, enum set_mode mode, void *data, size_t from, size_t count)
+{
+    struct slab slab;
+    bool good = slab_open(set, from, count, &slab);
+    if (good && mode == SET_WRITE)
+        good = H5Dwrite(set, type, slab.here, slab.there, H5P_DEFAULT, data) >= 0;
+    else if (good)
+        good = H5Dread(set, type, slab.here, slab.there, H5P_DEFAULT, data) >= 0;
+    slab_close(&slab);
     return good;
 }
 
 /* Piece by piece: a checkpoint must not need the memory of another state. */
-bool set_compare(hid_t file, const char *name, hid_t type, const void *data, size_t count)
+static bool same(hid_t set, hid_t type, const void *data, size_t from, size_t count)
 {
     enum { SLAB = 1 << 16 };
     const size_t width = H5Tget_size(type);
     char *piece = malloc(SLAB * width);
-    const hid_t set = set_open(file, name, count);
-    bool good = piece != NULL && set >= 0;
-    for (size_t from = 0; good && from < count; from += SLAB) {
-        const hsize_t start = from, size = count - from < SLAB ? count - from : SLAB;
-        const hid_t there = H5Dget_space(set), here = H5Screate_simple(1, &size, NULL);
-        good = H5Sselect_hyperslab(there, H5S_SELECT_SET, &start, NULL, &size, NULL) >= 0 &&
-               H5Dread(set, type, here, there, H5P_DEFAULT, piece) >= 0 &&
-               memcmp(piece, (const char *)data + from * width, (size_t)size * width) == 0;
-        H5Sclose(here);
-        H5Sclose(there);
+    bool good = piece != NULL;
+    for (size_t at = 0; good && at < count; at += SLAB) {
+        const size_t size = count - at < SLAB ? count - at : SLAB;
+        good = pass_slab(set, type, SET_READ, piece, from + at, size) &&
+               memcmp(piece, (const char *)data + at * width, size * width) == 0;
     }
-    if (set >= 0) H5Dclose(set);
     free(piece);
+    return good;
+}
+
+bool set_pass(hid_t set, hid_t type, enum set_mode mode, void *data, size_t from, size_t count)
+{
+    return mode == SET_COMPARE ? same(set, type, data, from, count)
+                               : pass_slab(set, type, mode, data, from, count);
+}
+
+bool set_compare(hid_t file, const char *name, hid_t type, const void *data, size_t count)
+{
+    const hid_t set = set_open(file, name, type, count, SET_COMPARE);
+    const bool good = set >= 0 && same(set, type, data, 0, count);
+    if (set >= 0) H5Dclose(set);
     return good;
 }
 

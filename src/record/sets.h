@@ -6,11 +6,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* `count` numbers of a type as they are in memory; false on failure, or if the file has another number of
- * them. */
-bool set_write(hid_t file, const char *name, hid_t type, const void *data, size_t count);
-bool set_read(hid_t file, const char *name, hid_t type, void *data, size_t count);
-/* True if the file has the same numbers, bit for bit. */
+/* What is done with numbers in memory and in a file. SET_COMPARE: are they the same bit for bit? */
+enum set_mode { SET_WRITE, SET_READ, SET_COMPARE };
+
+/* A set of `count` numbers of a type as they are in memory: a new one, or (not SET_WRITE) one that is there and
+ * has so many. Close it with H5Dclose; negative on failure. */
+hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode);
+/* `count` of its numbers, from `from` on; false on failure, or if they differ. */
+bool set_pass(hid_t set, hid_t type, enum set_mode mode, void *data, size_t from, size_t count);
+/* True if the file has a set of the very same numbers. */
 bool set_compare(hid_t file, const char *name, hid_t type, const void *data, size_t count);
 /* A text (free it); NULL if there is none or it is beyond all bounds. */
 char *set_text(hid_t file, const char *name);

@@ -3,6 +3,7 @@
 #include "record/parts.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -80,31 +81,58 @@ static void look_regular(const struct model *model, struct snapshot_record *reco
     }
 }
 
+size_t snapshot_piece(const struct model *model, size_t from, int *holder)
+{
+    enum { LEAST = 1 << 17, PIECES = 16 };
+    *holder = 0;
+    if (model->core->holder == NULL) return model->points;
+    const size_t share = model->points / (size_t)ranks_count(model->scene->ranks) / PIECES;
+    const size_t most = share > LEAST ? share : LEAST;
+    const size_t planes = model->grid[model->scene->dimension - 1], plane = model->points / planes;
+    size_t k = from / plane;
+    *holder = model->core->holder(model, k);
+    do
+        k++;
+    while (k < planes && (k + 1) * plane - from <= most && model->core->holder(model, k) == *holder);
+    return k * plane;
+}
+
+/* The points in the region, into `index` if it is not NULL; how many there are. */
+static size_t points_in_region(const struct model *model, const struct snapshot *snapshot, size_t *index)
+{
+    size_t points = 0;
+    for (size_t i = 0; i < model->points; i++) {
+        double x[3];
+        model_position(model, i, x);
+        if (model->scene->body.topography != NULL) topography_to_lattice(model->scene->body.topography, x);
+        if (!in_region(snapshot, x)) continue;
+        if (index != NULL) index[points] = i;
+        points++;
+    }
+    return points;
+}
+
 static selas_status create_one(const struct model *model, size_t number, struct snapshot_record *record,
                                struct messages *messages)
 {
     const struct snapshot *snapshot = record->snapshot;
-    record->points = model->points;
-    record->buffer = array_new(6 * model->points, sizeof *record->buffer);
-    if (record->buffer == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", model->points);
+    record->points = snapshot->whole ? model->points : points_in_region(model, snapshot, NULL);
+    if (record->points == 0)
+        return fail(messages, SELAS_BAD_SCENE, "the region of snapshot group %zu holds no points",
+                    number + 1);
+    int holder;
+    for (size_t from = 0, end; from < model->points; from = end) {
+        end = snapshot_piece(model, from, &holder);
+        record->room = end - from > record->room ? end - from : record->room;
+    }
+    record->buffer = array_new(6 * record->room, sizeof *record->buffer);
+    if (!snapshot->whole) record->index = array_new(record->points, sizeof *record->index);
+    if (record->buffer == NULL || (!snapshot->whole && record->index == NULL))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", record->points);
     snprintf(record->position, sizeof record->position, "/points/position");
     lattice_of(model, record->grid);
     if (!snapshot->whole) {
-        record->index = array_new(model->points, sizeof *record->index);
-        if (record->index == NULL)
-            return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", model->points);
-        record->points = 0;
-        for (size_t i = 0; i < model->points; i++) {
-            double x[3];
-            model_position(model, i, x);
-            if (model->scene->body.topography != NULL)
-                topography_to_lattice(model->scene->body.topography, x);
-            if (in_region(snapshot, x)) record->index[record->points++] = i;
-        }
-        if (record->points == 0)
-            return fail(messages, SELAS_BAD_SCENE, "the region of snapshot group %zu holds no points",
-                        number + 1);
+        points_in_region(model, snapshot, record->index);
         const size_t whole[3] = {record->grid[0], record->grid[1], record->grid[2]};
         if (whole[0] > 0) sub_lattice(whole, record, record->grid);
         snprintf(record->position, sizeof record->position, "/points/region_%zu/position", number + 1);

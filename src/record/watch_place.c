@@ -74,7 +74,7 @@ static bool look(const struct recorder *recorder, const struct state *state, str
     *found = (struct found){.speed = -1.0};
     const bool room = value != NULL && spoiled != NULL;
     for (size_t f = 0; room && f < sizeof all / sizeof *all; f++) {
-        model->core->field(model, all[f], state->y, state->a, value);
+        model->core->field(model, all[f], state->y, state->a, 0, model->points, value);
         mark_spoiled(model, all[f], value, spoiled);
     }
     size_t first = model->points;

@@ -2,6 +2,7 @@
 #include "stepping/held.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,6 +41,7 @@ static selas_status take(struct held *held, const struct model *model, held_acce
     }
     for (size_t i = 0; i < held->loads * n; i++)
         largest = fmax(largest, fabs(whole[n + i]));
+    ranks_largest(model->scene->ranks, 1, &largest);
     held->index = array_new(n, sizeof *held->index);
     if (held->index == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the host's loads");
     for (size_t i = 0; i < n; i++) {

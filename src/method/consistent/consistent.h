@@ -38,8 +38,10 @@ selas_status consistent_probe(struct model *model, const double position[3], str
                               struct messages *messages);
 void consistent_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                         const double *a, double *value);
-void consistent_field(struct model *model, selas_field field, const double *y, const double *a,
-                      double *value);
+void consistent_share(struct model *model, enum model_array array, struct spread *shares);
+int consistent_holder(const struct model *model, size_t plane);
+void consistent_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                      size_t end, double *value);
 
 /* accelerate.c: a = M^-1 (F - K u - C v), M v and energies with the H-form. */
 void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,

@@ -220,12 +220,19 @@ bool observe_create(struct consistent *c)
     return true;
 }
 
-void consistent_field(struct model *model, selas_field field, const double *y, const double *a, double *value)
+int consistent_holder(const struct model *model, size_t plane)
+{
+    const struct consistent *c = (const struct consistent *)model;
+    return holder_of(c, &c->lattice[c->dimension - 1][0][plane]);
+}
+
+void consistent_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                      size_t end, double *value)
 {
     const struct consistent *c = consistent_of(model);
     const size_t components = (size_t)field_components(field);
 #pragma omp parallel for schedule(static)
-    for (size_t p = 0; p < model->points; p++) {
+    for (size_t p = from; p < end; p++) {
         const size_t at[3] = {p % model->grid[0], p / model->grid[0] % model->grid[1],
                               p / (model->grid[0] * model->grid[1])};
         struct place place = {0};
@@ -239,7 +246,8 @@ void consistent_field(struct model *model, selas_field field, const double *y, c
         const struct metric metric = consistent_metric(c, position);
         const struct material *material = c->general != NULL ? general_material_at(c, position, &here)
                                                              : material_at(c, position[c->dimension - 1]);
-        field_at(c, &place, tilted(c) ? &metric : NULL, material, field, y, a, value + components * p);
+        field_at(c, &place, tilted(c) ? &metric : NULL, material, field, y, a,
+                 value + components * (p - from));
     }
 }
 

@@ -1,9 +1,53 @@
-/* What the consistent model tells of its share of a body on ranks (galerkin/part.h). */
+/* A consistent model's share of a body on ranks (galerkin/part.h): its arrays, what is told of it. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/consistent.h"
 
 #include <math.h>
 #include <stdio.h>
+
+/* --- Arrays -------------------------------------------------------------------------------------------- */
+
+/* Rows of the window over the last axis, of `row` numbers each. */
+static void add_rows(const struct consistent *c, size_t row, struct spread *shares)
+{
+    const struct rank_part *part = &c->part;
+    const struct spread_run run = {0, part->first * row, c->n[DEPTH] * row, part->own * row, part->end * row};
+    spread_add(shares, c->n[DEPTH] * row, part->whole * row, &run);
+}
+
+/* Memory variables of the layers, face by face: those across the last axis are one rank's own, whole. */
+static void add_layers(const struct consistent *c, struct spread *shares)
+{
+    const struct slab *own[BOX_FACES] = {NULL};
+    double sizes[BOX_FACES] = {0};
+    for (size_t s = 0; c->pml != NULL && s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        own[2 * slab->axis + slab->end] = slab;
+        sizes[2 * slab->axis + slab->end] = (double)slab->inner;
+    }
+    ranks_largest(c->part.ranks, BOX_FACES, sizes);
+    for (int face = 0; face < 2 * c->dimension; face++)
+        for (int i = 0; sizes[face] > 0 && i < 2 * c->dimension; i++) {
+            const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
+            const struct spread_run all = {0, 0, here, 0, here};
+            if (c->slot[face / 2] == DEPTH)
+                spread_add(shares, here, there, &all);
+            else
+                add_rows(c, here / c->n[DEPTH], shares);
+        }
+}
+
+void consistent_share(struct model *model, enum model_array array, struct spread *shares)
+{
+    const struct consistent *c = consistent_of(model);
+    if (array == ARRAY_EXTRA)
+        add_layers(c, shares);
+    else
+        for (int component = 0; component < c->dimension; component++)
+            add_rows(c, c->plane, shares);
+}
+
+/* --- What the plan tells -------------------------------------------------------------------------------- */
 
 /* Bytes that a rank sends to one neighbour at each call of the operator, or step in one pass. */
 static double halo_bytes(const struct consistent *c)
@@ -42,8 +86,9 @@ void shared_describe(const struct consistent *c,
     snprintf(text, sizeof text, "%.0f by the first rank (%zu planes to a neighbour)",
              neighbours * (halo_bytes(c) + solve_bytes(c)), part->halo);
     tell(context, "halo bytes a step", text);
-    tell(context, "checkpoints", "none on ranks");
 }
+
+/* --- What is wrong -------------------------------------------------------------------------------------- */
 
 /* Where fields of the whole body are not at hand: the fastest of the own control values, or the middle of those
  * that are spoiled. */

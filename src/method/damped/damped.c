@@ -177,6 +177,12 @@ static void *kept(struct model *model, size_t *bytes)
     return first->one_pass->kept(first, bytes);
 }
 
+static void share(struct model *model, struct spread *shares)
+{
+    struct model *first = damped_of(model)->part[0].model;
+    first->one_pass->share(first, shares);
+}
+
 /* Steps in one pass where the parts' can be made together, else pass by pass. */
 static selas_status relax(struct damped *d, size_t extra)
 {
@@ -196,7 +202,7 @@ static selas_status relax(struct damped *d, size_t extra)
 }
 
 static const struct model_one_pass one_pass = {
-    .begin = begin, .advance = advance, .settle = settle, .kept = kept};
+    .begin = begin, .advance = advance, .settle = settle, .kept = kept, .share = share};
 static const struct model_operator spatial = {.accelerate = accelerate, .weigh = weigh, .shorten = shorten};
 static const struct model_memory memory = {remember, drag};
 

@@ -31,18 +31,19 @@ static selas_status find_probe(struct model *model, const double position[3], st
 
 /* --- Fields ------------------------------------------------------------------------------------------- */
 
-/* A field of a part: of all points, or at a probe. */
+/* A field of a part: of points, or at a probe. */
 struct look {
     const struct probe *probe;
     selas_field field;
     size_t numbers; /* in a value */
+    size_t from, end;
 };
 
 static void look_at(const struct damped *d, const struct damped_part *part, const struct look *look,
                     const double *y, const double *a, double *value)
 {
     if (look->probe == NULL) {
-        part->model->core->field(part->model, look->field, y, a, value);
+        part->model->core->field(part->model, look->field, y, a, look->from, look->end, value);
         return;
     }
     struct probe probe = *look->probe;
@@ -107,15 +108,33 @@ static void show(struct model *model, struct look *look, const double *y, const 
 static void observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                     const double *a, double *value)
 {
-    struct look look = {probe, field, (size_t)field_components(field)};
+    struct look look = {probe, field, (size_t)field_components(field), 0, 1};
     show(model, &look, y, a, value);
 }
 
-static void whole_field(struct model *model, selas_field field, const double *y, const double *a,
-                        double *value)
+static void field_of(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                     size_t end, double *value)
 {
-    struct look look = {NULL, field, (size_t)field_components(field) * model->points};
+    struct look look = {NULL, field, (size_t)field_components(field) * (end - from), from, end};
     show(model, &look, y, a, value);
+}
+
+static int holder_of(const struct model *model, size_t plane)
+{
+    const struct model *first = first_of(model);
+    return first->core->holder(first, plane);
+}
+
+static void share(struct model *model, enum model_array array, struct spread *shares)
+{
+    struct damped *d = damped_of(model);
+    struct model *first = first_of(model);
+    if (array != ARRAY_EXTRA) first->core->share(first, array, shares);
+    if (array != ARRAY_EXTRA) return;
+    for (size_t l = 0; l < d->damping->mechanisms; l++)
+        first->core->share(first, ARRAY_UNKNOWNS, shares);
+    for (size_t p = 0; p < d->parts; p++)
+        first->core->share(d->part[p].model, ARRAY_EXTRA, shares);
 }
 
 /* --- Energy ------------------------------------------------------------------------------------------- */
@@ -191,7 +210,9 @@ const struct model_core damped_core = {
     .initialise = initialise,
     .probe = find_probe,
     .observe = observe,
-    .field = whole_field,
+    .field = field_of,
+    .holder = holder_of,
+    .share = share,
     .energy = energy,
     .power = power,
     .loss = loss,

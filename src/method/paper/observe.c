@@ -214,7 +214,8 @@ static void point_gradient(const struct paper *paper, size_t a, const double *u,
     }
 }
 
-void paper_field(struct model *model, selas_field field, const double *y, const double *a, double *value)
+void paper_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                 size_t end, double *value)
 {
     const struct paper *paper = (const struct paper *)model;
     const bool sharp = paper->options.deconvolution;
@@ -222,14 +223,14 @@ void paper_field(struct model *model, selas_field field, const double *y, const 
         field == SELAS_STRESS || field == SELAS_STRAIN || field == SELAS_PRESSURE || field == SELAS_ENERGY;
     const size_t components = (size_t)field_components(field);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < model->points; i++) {
+    for (size_t i = from; i < end; i++) {
         struct point_values values = {0};
         if (field == SELAS_DISPLACEMENT) point_value(paper, i, y, sharp, values.displacement);
         if (field == SELAS_VELOCITY || field == SELAS_ENERGY)
             point_value(paper, i, y + model->unknowns, sharp, values.velocity);
         if (field == SELAS_ACCELERATION && a != NULL) point_value(paper, i, a, sharp, values.acceleration);
         if (slopes) point_gradient(paper, i, y, sharp, values.gradient);
-        field_from_values(model, paper->material, &values, field, value + components * i);
+        field_from_values(model, paper->material, &values, field, value + components * (i - from));
     }
 }
 

@@ -119,7 +119,8 @@ void paper_point_loads(const struct paper *paper, const struct drive *drive, dou
 /* What is seen of the state (method/paper/observe.c). */
 selas_status paper_probe(struct model *model, const double position[3], struct probe *probe,
                          struct messages *messages);
-void paper_field(struct model *model, selas_field field, const double *y, const double *a, double *value);
+void paper_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                 size_t end, double *value);
 void paper_energy(struct model *model, const double *y, struct energy *energy);
 void paper_power(struct model *model, const struct drive *drive, const double *y, double *load,
                  double *absorbed);

@@ -100,7 +100,8 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
     nonlinear_field(model, probe->material, &elastic, H, velocity, field, value);
 }
 
-void tl_field(struct model *model, selas_field field, const double *y, const double *a, double *value)
+void tl_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+              size_t end, double *value)
 {
     struct tl_model *tl = (struct tl_model *)model;
     const size_t d = (size_t)tl->cloud->dimension;
@@ -112,16 +113,17 @@ void tl_field(struct model *model, selas_field field, const double *y, const dou
         tl_sites(tl, y, NULL, tl->displacement, NULL);
         tl_gradients(tl);
     }
-    for (size_t i = 0; i < model->points; i++) {
+    for (size_t i = from; i < end; i++) {
+        double *out = value + components * (i - from);
         if (!is_vector(field)) {
             double H[9];
             tl_tensor(tl, i, H);
             nonlinear_field(model, tl->material[i], &tl->elastic[i], H, y + model->unknowns + d * i, field,
-                            value + components * i);
+                            out);
             continue;
         }
         double vector[3] = {0};
         memcpy(vector, own + d * i, d * sizeof *own);
-        body_direction_to_deck(&model->scene->body, vector, value + 3 * i);
+        body_direction_to_deck(&model->scene->body, vector, out);
     }
 }

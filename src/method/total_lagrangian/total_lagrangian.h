@@ -206,7 +206,8 @@ selas_status tl_model_probe(struct model *model, const double position[3], struc
                             struct messages *messages);
 void tl_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                 const double *a, double *value);
-void tl_field(struct model *model, selas_field field, const double *y, const double *a, double *value);
+void tl_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+              size_t end, double *value);
 enum { TL_PROBE_ROOM = 512 };
 /* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
  * hundred points, much more on a busy machine). */

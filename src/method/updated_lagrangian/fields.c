@@ -163,18 +163,19 @@ void updated_observe(struct model *model, const struct probe *probe, selas_field
     field_from_values(model, updated->material, &values, field, value);
 }
 
-void updated_field(struct model *model, selas_field field, const double *y, const double *a, double *value)
+void updated_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                   size_t end, double *value)
 {
     const struct updated *updated = updated_of(model);
     const size_t stresses = (size_t)updated->stresses, dimension = (size_t)updated->dimension;
     const size_t components = (size_t)field_components(field), bytes = dimension * sizeof(double);
-    for (size_t i = 0; i < updated->cloud->points; i++) {
+    for (size_t i = from; i < end; i++) {
         struct point_values values = {0};
         memcpy(values.displacement, y + dimension * i, bytes);
         memcpy(values.velocity, y + model->unknowns + dimension * i, bytes);
         if (a != NULL) memcpy(values.acceleration, a + dimension * i, bytes);
         strain_of(updated, y + stress_offset(updated) + stresses * i, values.gradient);
-        field_from_values(model, updated->material, &values, field, value + components * i);
+        field_from_values(model, updated->material, &values, field, value + components * (i - from));
     }
 }
 

@@ -175,7 +175,8 @@ selas_status updated_probe(struct model *model, const double position[3], struct
                            struct messages *messages);
 void updated_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                      const double *a, double *value);
-void updated_field(struct model *model, selas_field field, const double *y, const double *a, double *value);
+void updated_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
+                   size_t end, double *value);
 void updated_energy(struct model *model, const double *y, struct energy *energy);
 void updated_power(struct model *model, const struct drive *drive, const double *y, double *load,
                    double *absorbed);

@@ -213,9 +213,8 @@ static bool choose_field(unsigned fields, selas_field *field)
 static bool read_section(const struct recorder *recorder, const struct film *film,
                          const struct section *section, const struct frame *frame, struct messages *messages)
 {
-    const struct snapshot_record *record = &recorder->snapshot[film->group];
     const size_t components = (size_t)field_components(film->field);
-    double *value = record->buffer;
+    double *value = film->value;
     if (run_file_read(recorder, frame->number, film->field, section->start, section->stride, section->count,
                       section->block, value, messages) != SELAS_OK)
         return false;
@@ -238,13 +237,25 @@ static bool choose_component(const struct recorder *recorder, struct film *film,
     for (size_t f = 0; f < film->frames && components > 1; f++)
         for (size_t s = 0; s < film->sections; s++) {
             if (!read_section(recorder, film, &film->section[s], &film->frame[f], messages)) return false;
-            const double *value = recorder->snapshot[film->group].buffer;
+            const double *value = film->value;
             for (size_t i = 0; i < film->section[s].points * components; i++)
                 largest[i % components] = fmax(largest[i % components], fabs(value[i]));
         }
     for (size_t c = 1; c < components; c++)
         if (largest[c] > largest[film->component]) film->component = c;
     return true;
+}
+
+/* Room for a field of the largest section, as it is read. */
+static bool make_room(struct film *film)
+{
+    size_t most = 0;
+    for (size_t s = 0; s < film->sections; s++) {
+        const size_t rows = film->section[s].count * film->section[s].block;
+        most = rows > most ? rows : most;
+    }
+    film->value = array_new(most, (size_t)field_components(film->field) * sizeof *film->value);
+    return film->value != NULL;
 }
 
 bool film_create(const struct recorder *recorder, size_t group, struct film *film, struct messages *messages)
@@ -256,7 +267,8 @@ bool film_create(const struct recorder *recorder, size_t group, struct film *fil
         if (recorder->entry[k].group == group)
             film->frame[film->frames++] =
                 (struct frame){.number = recorder->entry[k].number, .time = recorder->entry[k].time};
-    if (film->frames > 0 && choose_sections(recorder, film) && choose_component(recorder, film, messages))
+    if (film->frames > 0 && choose_sections(recorder, film) && make_room(film) &&
+        choose_component(recorder, film, messages))
         return true;
     film_free(film);
     return false;
@@ -348,7 +360,7 @@ bool film_write(const struct recorder *recorder, struct film *film, FILE *data, 
             const struct section *section = &film->section[s];
             struct frame *frame = &film->frame[f];
             if (!read_section(recorder, film, section, frame, messages)) return false;
-            const double *value = recorder->snapshot[film->group].buffer + film->component;
+            const double *value = film->value + film->component;
             frame->skip[s] = (size_t)ftell(data);
             if (!(section->regular ? write_image : write_points)(section, value, components, data))
                 return false;
@@ -362,6 +374,7 @@ bool film_write(const struct recorder *recorder, struct film *film, FILE *data, 
 void film_free(struct film *film)
 {
     array_free(film->frame);
+    array_free(film->value);
     for (size_t s = 0; s < 2; s++) {
         array_free(film->section[s].pick);
         array_free(film->section[s].coordinate);

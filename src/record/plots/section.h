@@ -38,6 +38,7 @@ struct film {
     struct section section[2];
     double largest[2]; /* over all frames */
     double scale[2];   /* for maps that share one scale */
+    double *value;     /* a field as it is read for one section */
 };
 
 /* Chooses sections, field and component; false if there is nothing to draw. */

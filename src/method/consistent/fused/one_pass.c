@@ -173,6 +173,28 @@ static void *kept(struct model *model, size_t *bytes)
     return fused->kept;
 }
 
+static void share_times(struct model *model, size_t times, struct spread *shares)
+{
+    for (size_t i = 0; i < times; i++)
+        model->core->share(model, ARRAY_UNKNOWNS, shares);
+}
+
+/* As step_fields have it: in double precision w and the u of all parts if they relax; in single precision u, w,
+ * the extra part of the state, and the u of parts but the first. */
+static void share(struct model *model, struct spread *shares)
+{
+    const struct relaxing *relaxing = consistent_of(model)->fused->relaxing;
+    if (!model->single) {
+        share_times(model, relaxing != NULL ? 1 + relaxing->parts : 1, shares);
+        return;
+    }
+    share_times(model, 2 + (relaxing != NULL ? relaxing->mechanisms : 0), shares);
+    if (relaxing == NULL) model->core->share(model, ARRAY_EXTRA, shares);
+    for (size_t p = 0; relaxing != NULL && p < relaxing->parts; p++)
+        model->core->share(relaxing->part[p].model, ARRAY_EXTRA, shares);
+    if (relaxing != NULL) share_times(model, relaxing->parts - 1, shares);
+}
+
 static selas_status relax(struct model *model, const struct relaxing *relaxing)
 {
     struct fused *fused = consistent_of(model)->fused;
@@ -198,7 +220,7 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
     return SELAS_OK;
 }
 
-static const struct model_one_pass one_pass = {begin, advance, settle, kept, relax};
+static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, relax};
 
 /* Why steps of leapfrog cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)

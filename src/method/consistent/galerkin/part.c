@@ -63,6 +63,12 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
     while (ranks > 1 && !share(c, ranks, part->bound))
         ranks--;
     if (ranks == 1) part->bound[1] = whole;
+    if (ranks < ranks_count(part->ranks) && ranks_fixed(part->ranks))
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "%d of the %d ranks of the communicator would have work: the body has %zu planes over its "
+            "last axis, a rank needs at least %zu; open it with %d ranks",
+            ranks, ranks_count(part->ranks), whole, least_of(c, -1, 1), ranks);
     if (ranks < ranks_count(part->ranks))
         warn(messages,
              "%d of %d ranks have work: the body has %zu planes over its last axis, a rank needs at least "
