@@ -1,4 +1,4 @@
-/* selas_mpi.h - a simulation on the ranks of an MPI communicator; link with selas-mpi. doc/ranks.md says what
+/* selas_mpi.h - a simulation on the ranks of an MPI communicator; link with selas-mpi. doc/howto/ranks.md says what
  * runs there. */
 #ifndef SELAS_MPI_H
 #define SELAS_MPI_H

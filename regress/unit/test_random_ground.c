@@ -1,5 +1,5 @@
 /* The largest step on grounds drawn by chance against the largest eigenvalue of the run's own operator, which a power
- * iteration of its own finds (doc/general-ground.md, section 6): blocks, layers, tilted or graded, moduli and masses
+ * iteration of its own finds (doc/theory/general-ground.md, section 6): blocks, layers, tilted or graded, moduli and masses
  * that differ from point to point, hills, ridges and canyons, absorbing layers, in two and three dimensions. */
 #include "from_deck.h"
 #include "general_run.h"

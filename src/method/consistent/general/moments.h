@@ -1,4 +1,4 @@
-/* The memory phi_ij of absorbing layers of the general operator (doc/general-ground.md, section 5): forces are
+/* The memory phi_ij of absorbing layers of the general operator (doc/theory/general-ground.md, section 5): forces are
  * moments of the field with the splines, f_i = sum of N_i(q) g(q), and the moments of d g are
  *
  *   (D f)_i = (d_i + d''_i h^2/8) f_i + d'_i h/8 (f_(i+1) - f_(i-1))                                       (G13a)

@@ -71,7 +71,8 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
     return SELAS_UNSUPPORTED;
 }
 
-static const struct model_one_pass one_pass = {begin, advance, settle, kept, relax};
+/* Never on ranks. */
+static const struct model_one_pass one_pass = {begin, advance, settle, kept, NULL, relax};
 
 /* Why steps cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)

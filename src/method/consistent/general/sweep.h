@@ -1,5 +1,5 @@
 /* Steps of leapfrog of the general operator in one pass over the fields, in three dimensions
- * (doc/general-ground.md, section 2).
+ * (doc/theory/general-ground.md, section 2).
  *
  * Control values are those of the unclamped splines along x and y, c~ of (G5); over depth the weights of the ends say
  * the same. A plane of points on the knots of depth and the plane of middles below it are made together, row after
