@@ -54,7 +54,7 @@ define link
 endef
 
 .DEFAULT_GOAL := all
-.PHONY: all setup setup-mpi mpi halfspace test regress nightly install uninstall clean help always
+.PHONY: all setup setup-mpi setup-manual manual mpi halfspace test regress nightly install uninstall clean help always
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -64,7 +64,13 @@ setup: ## install what is missing with apt (root or sudo)
 setup-mpi: setup ## install what `make mpi` needs besides
 	@sh regress/setup mpi
 
-mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/ranks.md)
+setup-manual: ## install what `make manual` needs: pandoc, weasyprint
+	@sh regress/setup manual
+
+manual: ## the manual as a site and a book: output/manual/html/index.html, output/manual/selas.pdf
+	@regress/manual/run
+
+mpi: $(BUILD)/selas $(BUILD)/selas-mpi ## build build/selas-mpi for mpirun (doc/howto/ranks.md)
 
 halfspace: setup ## set up, build, run input/halfspace.nml and leave its plots in output/halfspace/
 	@$(MAKE) --no-print-directory all
@@ -195,8 +201,8 @@ install: all ## install program, libraries, header, module, manual and decks bel
 	install -D -m 644 -t '$(AT)/include/selas' $(BUILD)/selas.mod src/selas.f90 src/selas77.f90
 	install -D -m 644 -t '$(AT)/share/man/man1' doc/selas.1
 	install -D -m 644 -t '$(AT)/share/selas' input/*.nml
-	install -D -m 644 -t '$(AT)/share/doc/selas' doc/*.md
-	install -D -m 644 -t '$(AT)/share/doc/selas/figures' doc/figures/*
+	for page in $$(cd doc && find . -name '*.md' -o -name '*.png'); do \
+	    install -D -m 644 "doc/$$page" '$(AT)/share/doc/selas/'"$$page" || exit 1; done
 
 uninstall: ## remove what install put there
 	rm -f '$(AT)/bin/selas' '$(AT)/lib/'libselas.so* '$(AT)/lib/libselas.a' '$(AT)/lib/libselas_fortran.a' \

@@ -67,7 +67,7 @@ unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD
 	@$(ALONE) sh regress/run-tests $(BUILD)
 
 .PHONY: test-mpi cases-mpi
-test-mpi: mpi ## small scenes on 1, 2, 3, 4 and 7 ranks against one process: doc/ranks.md (a minute or two)
+test-mpi: mpi ## small scenes on 1, 2, 3, 4 and 7 ranks against one process: doc/howto/ranks.md (a minute or two)
 	@$(ALONE) regress/parallel/check $(BUILD)
 
 cases-mpi: mpi ## all cases on 1, 2, 3, 4 and 7 ranks against one process (an hour)
@@ -95,7 +95,7 @@ faults: $(BUILD)/selas ## plant faults in a copy of the source and count that th
 regress-compilers: ## one baseline for gcc and clang, -O2 and -O3, 1 and 2 threads (builds four programs)
 	@$(ALONE) regress/hardening/compilers
 
-verification: ## write doc/verification.md anew from the cases and their recorded errors
+verification: ## write doc/verification/verification.md anew from the cases and their recorded errors
 	@regress/studies/verification
 
 same-bits: $(BUILD)/selas ## all results of all cases bit for bit those of the program OLD=...
@@ -104,10 +104,10 @@ same-bits: $(BUILD)/selas ## all results of all cases bit for bit those of the p
 # Hardening
 
 .PHONY: relations stops kills instructions coverage no-memory check-sanitize check-valgrind check-leaks check-threads fuzz fuzz-build fuzz-replay
-relations: $(BUILD)/test/relations ## what every run keeps, on scenes drawn by chance (minutes): doc/robustness.md
+relations: $(BUILD)/test/relations ## what every run keeps, on scenes drawn by chance (minutes): doc/developers/robustness.md
 	@regress/hardening/relations/run $(BUILD) 1 100
 
-stops: $(BUILD)/test/stops ## restarts from random steps with two threads and one, all methods (minutes): doc/restart.md
+stops: $(BUILD)/test/stops ## restarts from random steps with two threads and one, all methods (minutes): doc/howto/long-runs.md
 	@sh regress/hardening/stops/run $(BUILD)
 
 kills: $(BUILD)/selas ## 200 runs killed at random times: each must go on to the same bits (some minutes)
@@ -137,7 +137,7 @@ check-leaks: ## wrong calls and checkpoints under valgrind (two minutes; install
 check-threads: ## all unit tests under ThreadSanitizer (ten minutes; clang, libomp with Archer)
 	@$(ALONE) regress/hardening/threads $(BUILD)/threads
 
-# Readers under libFuzzer with AddressSanitizer and UBSan: clang, in a folder of its own (doc/robustness.md)
+# Readers under libFuzzer with AddressSanitizer and UBSan: clang, in a folder of its own (doc/developers/robustness.md)
 SECONDS     ?= 30
 SANITIZED    = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 fuzz: ## fuzz the readers of decks, tables, points, checkpoints and results, SECONDS=30 of CPU each (clang)
@@ -152,13 +152,13 @@ fuzz-replay: $(FUZZED:%=$(BUILD)/replay/%) # on the inputs that are kept, with a
 # Studies: tables and figures of the manual
 
 .PHONY: absorption damping quiet paper-figures sph-figures consistent-tables tables stability accuracy bench bench-all bench-sph bench-host lamb-check
-absorption: $(BUILD)/selas ## table of doc/absorbing-faces.md: what comes back from transmitting faces
+absorption: $(BUILD)/selas ## table of doc/theory/absorbing-faces.md: what comes back from transmitting faces
 	@sh regress/studies/absorption $(BUILD)
 
-damping: $(BUILD)/selas ## error against mechanisms and Q: table and plot of doc/damping.md (a minute)
+damping: $(BUILD)/selas ## error against mechanisms and Q: table and plot of doc/theory/damping.md (a minute)
 	@sh regress/studies/damping $(BUILD)
 
-quiet: $(BUILD)/test/quiet ## energy beside absorbing faces to t = 1000 (twenty minutes): doc/absorbing-faces.md
+quiet: $(BUILD)/test/quiet ## energy beside absorbing faces to t = 1000 (twenty minutes): doc/theory/absorbing-faces.md
 	@sh regress/studies/quiet/run $(BUILD)
 
 paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their errors, in output/paper-figures/
@@ -167,27 +167,27 @@ paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their error
 sph-figures: $(BUILD)/selas ## Figs 4-13 and 15-19 of He & Seaid (2016), in output/sph-figures/ (about a minute)
 	@sh regress/studies/sph-figures/run $(BUILD)
 
-consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/consistent-tables.md
+consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/consistent-tables.md
 	@sh regress/studies/consistent-tables $(BUILD)
 
-tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/tables.md (some 20 minutes; installs calculix-ccx)
+tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/verification/tables.md (some 20 minutes; installs calculix-ccx)
 	@sh regress/setup tables
 	@$(MAKE) --no-print-directory all
 	@regress/studies/tables/run $(BUILD)
 
-stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots of doc/stability.md (minutes)
+stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots of doc/verification/stability.md (minutes)
 	@sh regress/studies/stability/run $(BUILD)
 
-accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/accuracy.md (some 20 minutes)
+accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/verification/accuracy.md (some 20 minutes)
 	@sh regress/studies/accuracy/run $(BUILD)
 
 bench: $(BUILD)/selas $(BUILD)/test/bench ## speed beside the machine's own, under a minute: output/bench/
 	@sh regress/studies/bench/run $(BUILD)
 
-bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: doc/performance.md (some minutes, 12 GB)
+bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: doc/developers/performance.md (some minutes, 12 GB)
 	@sh regress/studies/bench/run $(BUILD) all
 
-bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/performance.md
+bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/developers/performance-sph.md
 	@for kind in $$($(BUILD)/test/bench kinds); do SELAS_PROCESSOR=$$kind sh regress/studies/bench/sph $(BUILD) && echo || exit 1; done
 
 bench-host: all ## what stepping one step at a time from Fortran costs on input/halfspace-lysmer.nml

@@ -1,7 +1,7 @@
 ! The Fortran module selas: selas.h for Fortran 2018 hosts. Names are those of selas.h without the prefix and
 ! are bound to the type selas_simulation; strings are trimmed and terminated, arrays are (dimension, n) and
 ! 1-based, `status` is last and optional: without it a failure is kept and asked for by sim%status() and
-! sim%message(). What each procedure does, its units and errors stand in selas.h and doc/calling.md.
+! sim%message(). What each procedure does, its units and errors stand in selas.h and doc/howto/calling.md.
 module selas
    use, intrinsic :: iso_c_binding
    use, intrinsic :: iso_fortran_env, only: real64, int64

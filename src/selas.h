@@ -56,7 +56,7 @@ typedef struct selas_simulation selas_simulation;
 
 /* --- A simulation, from deck to results --- */
 
-/* Opens a simulation from a deck file (doc/deck.md). Reads and checks the deck and builds the scene; points
+/* Opens a simulation from a deck file (doc/reference/deck.md). Reads and checks the deck and builds the scene; points
  * and operator are made by the first call that needs them. A failed open still sets *simulation to a handle
  * that holds only the message (NULL if there was no memory even for that): close it as any other. Errors:
  * SELAS_BAD_DECK, SELAS_BAD_SCENE, SELAS_FILE_ERROR, SELAS_BAD_ARGUMENT (a NULL pointer), SELAS_NO_MEMORY. */
@@ -128,7 +128,7 @@ SELAS_API void selas_close(selas_simulation **simulation);
 
 /* --- Building a scene by calls ---
  *
- * A scene has the words of a deck (doc/deck.md), set one by one; what is not set has the deck's default. Each
+ * A scene has the words of a deck (doc/reference/deck.md), set one by one; what is not set has the deck's default. Each
  * value is checked at once, as those of a deck are (name, type, number, range, choice); a call that is refused
  * changes nothing. What the words mean together is checked when the scene is first used, or by selas_build.
  * The calls also change a simulation that was opened from a deck. All of them, and the functions further below
@@ -200,7 +200,7 @@ SELAS_API selas_status selas_load_mean(selas_simulation *simulation, const char 
  * accelerance over one step): what set_load(load, value) adds to selas_load_mean of the acceleration is value times
  * this, at every time but t = 0, where faces with dampers beside the patch do not act yet. For loads that set_load
  * holds, with leapfrog or the modified equation and linear methods, where no function drives anything (else
- * SELAS_UNSUPPORTED). With one row and column a load it is what contact with a body needs (doc/calling.md,
+ * SELAS_UNSUPPORTED). With one row and column a load it is what contact with a body needs (doc/howto/calling.md,
  * section 5). */
 SELAS_API selas_status selas_load_response(selas_simulation *simulation, const char *load, const char *moved,
                                            double *value);

@@ -1,6 +1,6 @@
 ! A thin layer for hosts in Fortran 77: external subroutines with names of six letters. SIM is an INTEGER*8 that
 ! stands for a simulation (0: none); IERR is a status of selas.h (0: success); reals are DOUBLE PRECISION. The
-! table of all of them is in doc/calling.md.
+! table of all of them is in doc/howto/calling.md.
 module selas77
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_f_pointer, c_associated, c_loc
    use, intrinsic :: iso_fortran_env, only: int64, real64

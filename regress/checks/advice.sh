@@ -121,7 +121,7 @@ untold() { # untold WHAT OVERRIDE...: nothing to warn of
         failures=$((failures + 1))
     fi
 }
-# 8 points leave .0036 there, the spacing .0001 (doc/accuracy.md, section 3)
+# 8 points leave .0036 there, the spacing .0001 (doc/verification/accuracy.md, section 3)
 untold "absorbing layers whose points the program chooses"
 sed -i "s/layer = 'pml'/layer = 'pml', layer_points = 8/" layers.nml
 told "layers too thin for the spacing" "layers of 8 points are only 0.0[0-9]* P wavelengths thick .* about 0.00[34], the spacing only 0.000[0-9]*; .* layer_points = 1[2-4] would"

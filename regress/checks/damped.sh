@@ -1,6 +1,6 @@
 #!/bin/sh
 # Damped ground: the half-space of input/damped.nml against velocities for constant Q that another program computed (regress/reference/damped) and
-# against the exact solution for the run's own mechanisms; Q without end; what is refused (doc/damping.md).
+# against the exact solution for the run's own mechanisms; Q without end; what is refused (doc/theory/damping.md).
 build=${1:-build}
 out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT

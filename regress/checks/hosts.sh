@@ -73,13 +73,13 @@ check "it needs no libselas.so" sh -c "! readelf -d ten-mixed | grep -q 'NEEDED.
 spacing=0.5
 check "the program runs halfspace.nml" "$selas" -q "$root/input/halfspace.nml" body%spacing=$spacing output%directory="$work/run" output%plots=.false.
 check "host 1: by calls, bit for bit the program's histories" ./halfspace_by_calls run $spacing
-# measured .0157 at spacing .25 (.0042 at .125, .049 at .5): command in doc/calling.md
+# measured .0157 at spacing .25 (.0042 at .125, .049 at .5): command in doc/howto/calling.md
 check "host 2: two-way coupled block" ./coupled_mass 0.25 0.018 0.065
 check "the program runs bar.nml" "$selas" -q "$root/input/bar.nml" body%spacing=0.02 output%directory="$work/bar" output%plots=.false.
 check "host 3: Fortran 77" ./legacy "$root/input/bar.nml" middle bar/middle.dat 0.02
 check "host 3, all libraries static" ./legacy-static "$root/input/bar.nml" middle bar/middle.dat 0.02
 check "Fortran 77: a scene by calls, energy, saved and taken up again" ./legacy_scene
-# with 8-byte default integers the Fortran part has to be compiled with them too (doc/calling.md, section 6)
+# with 8-byte default integers the Fortran part has to be compiled with them too (doc/howto/calling.md, section 6)
 check "and with -fdefault-integer-8 throughout" with selas gfortran -std=legacy -fdefault-integer-8 "$rpath" -o legacy_8 \
     "$place"/include/selas/selas.f90 "$place"/include/selas/selas77.f90 "$root/regress/hosts/legacy_scene.f"
 check "which runs" ./legacy_8

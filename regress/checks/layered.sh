@@ -1,7 +1,7 @@
 #!/bin/sh
 # Layered ground at few points per wavelength: a layer of thickness 1, waves in it half as fast as below, Gaussian pulse of width .3, spacing .125 (3.1 points
 # per wavelength of the slowest wave at the source's cutoff, 2.1 to 2.6 for the shortest that count), against the exact solution: L2 of v_z
-# at most 1 % at three receivers with the default method, more than that without tuned splines (doc/layered.md).
+# at most 1 % at three receivers with the default method, more than that without tuned splines (doc/theory/layered.md).
 build=${1:-build}
 out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT

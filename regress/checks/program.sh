@@ -33,14 +33,14 @@ ok "a quiet run prints nothing" sh -c "[ -z \"\$('$selas' -q input/halfspace.nml
 ok "and leaves its report" test -s "$out/report.txt"
 
 # selas words
-ok "words lists every group of the deck reference" sh -c "for group in \$(sed -n 's/^### .&\(.*\)\`/\1/p' doc/deck.md); do '$selas' words | grep -q \"^  \$group \" || exit 1; done"
+ok "words lists every group of the deck reference" sh -c "for group in \$(sed -n 's/^### .&\(.*\)\`/\1/p' doc/reference/deck.md); do '$selas' words | grep -q \"^  \$group \" || exit 1; done"
 ok "words of a group: type, values, default, meaning" sh -c "'$selas' words scene | grep -A1 -Fx \"  plane (text): 'strain', 'stress'; default 'strain'\" | grep -q across"
 ok "what must be given is said" sh -c "'$selas' words '&scene' | grep -Fqx '  end_time (real): (0, inf); must be given'"
 ok "words for experts come last" sh -c "'$selas' words method | sed '1,/^For experts:/d' | grep -q '^  quiet ' && '$selas' words method | sed '/^For experts:/,\$d' | grep -q '^  degree '"
 ok "and not before" sh -c "! '$selas' words method | sed '/^For experts:/,\$d' | grep -q '^  quiet '"
 ok "each word of the reference is printed" sh -c "
-    for group in \$(sed -n 's/^### .&\(.*\)\`/\1/p' doc/deck.md); do '$selas' words \$group || exit 1; done | sed -n 's/^  \([a-z_]*\) (.*/\1/p' | sort >'$out/printed'
-    sed -n '/tables: made/,/end of tables/s/^| [^a-z]\([a-z_]*\)[^a-z] | .*/\1/p' doc/deck.md | sort >'$out/listed'
+    for group in \$(sed -n 's/^### .&\(.*\)\`/\1/p' doc/reference/deck.md); do '$selas' words \$group || exit 1; done | sed -n 's/^  \([a-z_]*\) (.*/\1/p' | sort >'$out/printed'
+    sed -n '/tables: made/,/end of tables/s/^| [^a-z]\([a-z_]*\)[^a-z] | .*/\1/p' doc/reference/deck.md | sort >'$out/listed'
     [ -s '$out/printed' ] && cmp '$out/printed' '$out/listed'"
 ok "no line is longer than 80" sh -c "! for group in method boundary load; do '$selas' words \$group; done | grep -q '.\{81\}'"
 status 2 "an unknown group" "$selas" words stepng

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What every run keeps, on a dozen scenes drawn by chance (regress/hardening/relations/relations.c; doc/robustness.md). Argument: the build
+# What every run keeps, on a dozen scenes drawn by chance (regress/hardening/relations/relations.c; doc/developers/robustness.md). Argument: the build
 # folder. Prints TAP.
 build=${1:-build}
 if [ ! -x "$build/test/relations" ]; then

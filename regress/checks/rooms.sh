@@ -1,6 +1,6 @@
 #!/bin/sh
 # The rooms of src/ (its folders) and which includes which: fails if some include each other in a circle, or if the graph
-# in doc/rooms.md is another. `sh regress/checks/rooms.sh graph` prints the graph for that page (Mermaid): each room with
+# in doc/developers/rooms.md is another. `sh regress/checks/rooms.sh graph` prints the graph for that page (Mermaid): each room with
 # the rooms that it includes, but for those that it reaches through others.
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d) || exit 1
@@ -26,13 +26,13 @@ graph() {
 if tsort "$work/edges" >/dev/null 2>"$work/circle"; then
     if [ "${1:-}" = graph ]; then graph; exit; fi
     echo "ok - no rooms of src/ include each other in a circle"
-    if graph | grep -v flowchart | grep -vxF -f doc/rooms.md >"$work/missing" || [ "$(graph | wc -l)" != "$(sed -n '/^flowchart/,/^```/p' doc/rooms.md | grep -vc '^```')" ]; then
-        echo "not ok - doc/rooms.md shows the graph of the rooms"
+    if graph | grep -v flowchart | grep -vxF -f doc/developers/rooms.md >"$work/missing" || [ "$(graph | wc -l)" != "$(sed -n '/^flowchart/,/^```/p' doc/developers/rooms.md | grep -vc '^```')" ]; then
+        echo "not ok - doc/developers/rooms.md shows the graph of the rooms"
         echo "#   it differs from: sh regress/checks/rooms.sh graph"
         sed 's/^/#   missing: /' "$work/missing"
         exit 1
     fi
-    echo "ok - doc/rooms.md shows the graph of the rooms"
+    echo "ok - doc/developers/rooms.md shows the graph of the rooms"
 else
     echo "not ok - rooms of src/ include each other in a circle"
     sed 's/^/#   /' "$work/circle"

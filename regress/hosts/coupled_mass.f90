@@ -13,7 +13,7 @@
 ! Exact answer (Laplace transform): m s^2 U + U / C(s) = F(s), J s^2 V + V / D(s) = 4 EAST F(s), with
 !    C(s) = 1/(4 pi^2) int int X^2 uz dkx dky,  D(s) = 1/(4 pi^2) int int Y^2 uz dkx dky,                       (3)
 !    X = S(kx/2) S(ky/2),  Y = S(kx/4) S(ky/2) sin(kx/4),  S(x) = sin(x)/x,
-!    uz = nu_p w / R,  R = (2 k^2 + w)^2 - 4 k^2 nu_p nu_s,  w = s^2/cs^2  (Lamb 1904; doc/lamb.md).             (4)
+!    uz = nu_p w / R,  R = (2 k^2 + w)^2 - 4 k^2 nu_p nu_s,  w = s^2/cs^2  (Lamb 1904; doc/theory/lamb.md).             (4)
 ! The integrals are split: the static part uz = (1 - nu)/k in closed form, the rest by Gauss quadrature.
 !
 !   coupled_mass [SPACING [TOLERANCE OF_V]]     prints the relative L2 errors of U and V; ends with 1 if above the tolerances

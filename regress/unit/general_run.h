@@ -145,6 +145,10 @@ static inline double size_of(size_t n, const double *x)
  * nothing grows. */
 static inline void assert_layers_are_quiet(struct plain_scene *plain)
 {
+    struct ground_block everywhere = {.shape = BLOCK_BOX,
+                                      .half = {9, 9, 9}}; /* rock that changes in the layers */
+    plain->scene.body.block = &everywhere;
+    plain->scene.body.blocks = 1;
     struct run run = layered_run(plain, 63 & ~(1U << FACE_Z_LOW), 6);
     struct messages messages = {0};
     double omega, error;

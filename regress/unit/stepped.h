@@ -4,6 +4,7 @@
 
 #include "chance.h"
 #include "consistent_run.h"
+#include "few.h"
 
 #include "base/memory.h"
 #include "method/consistent/fused/fused.h"
@@ -70,6 +71,73 @@ static inline double difference(size_t n, const double *a, const double *b)
         largest = fmax(largest, fabs(b[i]));
     }
     return largest > 0 ? error / largest : error;
+}
+
+/* Displacements, velocities and accelerations at the places. */
+static inline void observed(struct stepped *s, double value[VALUES])
+{
+    static const selas_field field[3] = {SELAS_DISPLACEMENT, SELAS_VELOCITY, SELAS_ACCELERATION};
+    for (size_t i = 0; i < PLACES; i++)
+        for (size_t k = 0; k < 3; k++) {
+            double six[6] = {0};
+            model_observe(s->model, &s->probe[i], field[k], s->state.y, s->state.a, six);
+            memcpy(value + 9 * i + 3 * k, six, 3 * sizeof *six);
+        }
+}
+
+/* The same bits with any number of threads, whether or not somebody looks at the whole state on the way; `also` (NULL:
+ * nothing) looks at each run. */
+static inline void assert_same_bits(const struct plain_scene *plain, struct consistent_options options,
+                                    void (*also)(const struct stepped *s))
+{
+    double *first = NULL;
+    const int runs = few_of(4, 2);
+    for (int i = 0; i < runs; i++) {
+        omp_set_num_threads(1 + i);
+        struct stepped s = begin(plain, options, true, false);
+        assert_true(i < 2 || consistent_of(s.model)->threads > 1);
+        const size_t n = s.model->unknowns;
+        for (int count = 0; count < 50; count++) {
+            step(&s);
+            if (i % 2 == 1 && count % 9 == 4) state_settle(s.stepper, &s.state, count % 2 == 0);
+        }
+        if (also != NULL) also(&s);
+        state_settle(s.stepper, &s.state, true);
+        if (first == NULL) first = array_new(3 * n, sizeof *first);
+        if (i == 0) memcpy(first, s.state.y, 2 * n * sizeof *first);
+        if (i == 0) memcpy(first + 2 * n, s.state.a, n * sizeof *first);
+        assert_memory_equal(first, s.state.y, 2 * n * sizeof *first);
+        assert_memory_equal(first + 2 * n, s.state.a, n * sizeof *first);
+        end(&s);
+    }
+    omp_set_num_threads(1);
+    array_free(first);
+}
+
+/* y and what is kept are all that goes on: a state that is taken to another model goes on to the same bits. */
+static inline void assert_goes_on(const struct plain_scene *plain, struct consistent_options options)
+{
+    struct stepped one = begin(plain, options, true, true), other = begin(plain, options, true, false);
+    const size_t n = one.model->unknowns;
+    for (int count = 0; count < 17; count++)
+        step(&one);
+    size_t bytes = 0, room = 0;
+    const void *from = one.model->one_pass->kept(one.model, &bytes);
+    void *to = other.model->one_pass->kept(other.model, &room);
+    assert_int_equal(bytes, room);
+    memcpy(to, from, bytes);
+    memcpy(other.state.y, one.state.y, one.model->state_size * sizeof(double));
+    other.state.step = one.state.step;
+    for (int count = 0; count < 17; count++) {
+        step(&one);
+        step(&other);
+    }
+    state_settle(one.stepper, &one.state, true);
+    state_settle(other.stepper, &other.state, true);
+    assert_memory_equal(one.state.y, other.state.y, one.model->state_size * sizeof(double));
+    assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
+    end(&one);
+    end(&other);
 }
 
 #endif

@@ -179,7 +179,7 @@ static double modified_equation(double dt, bool held)
 }
 
 /* The modified equation takes the second difference of a load that a function gives; that of a held load is
- * not known, which leaves dt^2/12 F'': second order (the fixed scene of doc/calling.md, section 4). */
+ * not known, which leaves dt^2/12 F'': second order (the fixed scene of doc/howto/calling.md, section 4). */
 static void test_held_order(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Smoothed points on clouds (doc/cloud-method.md): summation by parts, exact linear fields, uniform stress
+/* Smoothed points on clouds (doc/theory/cloud-method.md): summation by parts, exact linear fields, uniform stress
  * under tractions, a real spectrum, what is refused. */
 #include "base/memory.h"
 #include "box_scene.h"

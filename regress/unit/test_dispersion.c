@@ -1,5 +1,5 @@
 /* Plane waves in the interior: the frequencies that the operators and the schemes in time really have,
- * against theory from the 1-D symbols (doc/consistent-method.md, section 11). Prints the table of phase
+ * against theory from the 1-D symbols (doc/theory/consistent-splines.md, section 11). Prints the table of phase
  * errors. */
 #include "consistent_run.h"
 #include "few.h"

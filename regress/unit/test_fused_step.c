@@ -1,7 +1,6 @@
 /* Steps of leapfrog in one pass (method/consistent/fused/fused_step.h) against drift, operator and kick one
  * by one: whole states and what is looked at after each step, threads, settling, checkpoints' kept part,
  * planes at rest. */
-#include "few.h"
 #include "stepped.h"
 
 /* A box with faces drawn by chance, and a load that begins at t = 0. */
@@ -41,17 +40,6 @@ static void random_scene(struct plain_scene *plain, bool layers)
         served = model->one_pass != NULL && (consistent_of(model)->pml != NULL) == layers;
         model_free(&model);
     }
-}
-
-static void observed(struct stepped *s, double value[VALUES])
-{
-    static const selas_field field[3] = {SELAS_DISPLACEMENT, SELAS_VELOCITY, SELAS_ACCELERATION};
-    for (size_t i = 0; i < PLACES; i++)
-        for (size_t k = 0; k < 3; k++) {
-            double six[6] = {0};
-            model_observe(s->model, &s->probe[i], field[k], s->state.y, s->state.a, six);
-            memcpy(value + 9 * i + 3 * k, six, 3 * sizeof *six);
-        }
 }
 
 static void test_one_by_one(void **unused)
@@ -145,36 +133,20 @@ static void test_single(void **unused)
     assert_true(worst_settled < 1e-6);
 }
 
-/* The same bits with any number of threads, whether or not somebody looks at the whole state on the way. */
+static void some_skipped(const struct stepped *s)
+{
+    const struct fused *both = consistent_of(s->model)->fused;
+    assert_true((s->model->single ? both->single : both)->skipped > 0);
+}
+
 static void same_bits(bool single, bool layers)
 {
     struct plain_scene plain;
     random_scene(&plain, layers);
     plain.scene.body.high[2] = 60 * .3;
-    const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-12, .single = single};
-    double *first = NULL;
-    const int runs = few_of(4, 2);
-    for (int i = 0; i < runs; i++) {
-        omp_set_num_threads(1 + i);
-        struct stepped s = begin(&plain, options, true, false);
-        const struct fused *both = consistent_of(s.model)->fused, *fused = single ? both->single : both;
-        assert_true(i < 2 || fused->threads > 1);
-        const size_t n = s.model->unknowns;
-        for (int count = 0; count < 50; count++) {
-            step(&s);
-            if (i % 2 == 1 && count % 9 == 4) state_settle(s.stepper, &s.state, count % 2 == 0);
-        }
-        assert_true(fused->skipped > 0);
-        state_settle(s.stepper, &s.state, true);
-        if (first == NULL) first = array_new(3 * n, sizeof *first);
-        if (i == 0) memcpy(first, s.state.y, 2 * n * sizeof *first);
-        if (i == 0) memcpy(first + 2 * n, s.state.a, n * sizeof *first);
-        assert_memory_equal(first, s.state.y, 2 * n * sizeof *first);
-        assert_memory_equal(first + 2 * n, s.state.a, n * sizeof *first);
-        end(&s);
-    }
-    omp_set_num_threads(1);
-    array_free(first);
+    assert_same_bits(&plain,
+                     (struct consistent_options){.degree = 2, .sweeps = 3, .quiet = 1e-12, .single = single},
+                     some_skipped);
 }
 
 static void test_bits(void **unused)
@@ -184,34 +156,12 @@ static void test_bits(void **unused)
     same_bits(true, true);
 }
 
-/* y and what is kept are all that goes on: a state that is taken to another model goes on to the same bits.
- */
 static void goes_on(bool single, bool layers)
 {
     struct plain_scene plain;
     random_scene(&plain, layers);
-    const struct consistent_options options = {.degree = 2, .sweeps = 3, .quiet = 1e-12, .single = single};
-    struct stepped one = begin(&plain, options, true, true), other = begin(&plain, options, true, false);
-    const size_t n = one.model->unknowns;
-    for (int count = 0; count < 17; count++)
-        step(&one);
-    size_t bytes = 0, room = 0;
-    const void *from = one.model->one_pass->kept(one.model, &bytes);
-    void *to = other.model->one_pass->kept(other.model, &room);
-    assert_int_equal(bytes, room);
-    memcpy(to, from, bytes);
-    memcpy(other.state.y, one.state.y, one.model->state_size * sizeof(double));
-    other.state.step = one.state.step;
-    for (int count = 0; count < 17; count++) {
-        step(&one);
-        step(&other);
-    }
-    state_settle(one.stepper, &one.state, true);
-    state_settle(other.stepper, &other.state, true);
-    assert_memory_equal(one.state.y, other.state.y, one.model->state_size * sizeof(double));
-    assert_memory_equal(one.state.a, other.state.a, n * sizeof(double));
-    end(&one);
-    end(&other);
+    assert_goes_on(&plain,
+                   (struct consistent_options){.degree = 2, .sweeps = 3, .quiet = 1e-12, .single = single});
 }
 
 static void test_kept(void **unused)

@@ -1,5 +1,5 @@
 /* The ground as a field: tilted and graded layers, blocks, a model from a file, what is refused; the effective
- * medium at an interface (doc/general-ground.md, section 4). */
+ * medium at an interface (doc/theory/general-ground.md, section 4). */
 #include "from_deck.h"
 
 #include "method/consistent/consistent.h"

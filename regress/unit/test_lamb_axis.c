@@ -3,7 +3,7 @@
  *
  *   2 pi z^2 u/t = [P part at xi^2 = t^2/z^2 - a, t > z sqrt a] + [S part at xi^2 = t^2/z^2 - 1, t > z]   (1)
  *
- * of the compliances without their exponentials (doc/lamb.md, Eqs 1-3; p^2 = xi^2 + a, q^2 = xi^2 + 1):
+ * of the compliances without their exponentials (doc/theory/lamb.md, Eqs 1-3; p^2 = xi^2 + a, q^2 = xi^2 + 1):
  *
  *   u_z of Tz:                  p (2 xi^2 + 1)/R,   -2 xi^2 p/R,
  *   u_x of Tx, n_x^2 averaged:  -xi^2 q/R,          [(2 xi^2 + 1) q/R + 1/q]/2.

@@ -1,5 +1,5 @@
 /* The whole step of a scene with absorbing layers, memory variables and all, is a linear map of the state.
- * All of its eigenvalues: none is outside the unit circle (doc/absorbing-faces.md, section 5). */
+ * All of its eigenvalues: none is outside the unit circle (doc/theory/absorbing-faces.md, section 5). */
 #include "consistent_run.h"
 #include "few.h"
 #include "step_map.h"

@@ -1,4 +1,4 @@
-/* doc/deck.md holds the tables of words as deck_reference() prints them, between its two marks. After a
+/* doc/reference/deck.md holds the tables of words as deck_reference() prints them, between its two marks. After a
  * change of words.c write them anew with: SELAS_WRITE_REFERENCE=1 build/test/test_reference */
 #include "deck/deck.h"
 
@@ -10,7 +10,7 @@
 /* after the four above, as cmocka asks */
 #include <cmocka.h>
 
-static const char path[] = "doc/deck.md";
+static const char path[] = "doc/reference/deck.md";
 static const char begin[] = "<!-- tables: made from src/deck/words.c by build/test/test_reference -->\n\n";
 static const char end[] = "<!-- end of tables -->\n";
 
@@ -46,7 +46,7 @@ static void manual_holds_the_table(void **state)
         fprintf(file, "%.*s%s%s", (int)(first - manual), manual, tables, last);
         fclose(file);
     } else if ((size_t)(last - first) != size || memcmp(first, tables, size) != 0) {
-        fail_msg("doc/deck.md is not what src/deck/words.c says: run SELAS_WRITE_REFERENCE=1 "
+        fail_msg("doc/reference/deck.md is not what src/deck/words.c says: run SELAS_WRITE_REFERENCE=1 "
                  "build/test/test_reference");
     }
     free(tables);

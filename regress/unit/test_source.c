@@ -1,4 +1,4 @@
-/* Point sources of higher order (doc/consistent-method.md, section 15): transforms against that of the functions'
+/* Point sources of higher order (doc/theory/consistent-splines.md, section 15): transforms against that of the functions'
  * own, symmetry planes, where there are none, smoothness in the place. */
 #include "near.h"
 

@@ -1,4 +1,4 @@
-/* Tuned splines (doc/consistent-method.md, section 14): symbols against theory, signs of the matrices with
+/* Tuned splines (doc/theory/consistent-splines.md, section 14): symbols against theory, signs of the matrices with
  * all kinds of ends, fields that must stay as they are, symmetry planes, energy. */
 #include "consistent_run.h"
 #include "few.h"

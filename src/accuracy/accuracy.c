@@ -1,4 +1,4 @@
-/* scene%accuracy: which kind of scene it is, and what no kind can serve (doc/accuracy.md). */
+/* scene%accuracy: which kind of scene it is, and what no kind can serve (doc/verification/accuracy.md). */
 #include "accuracy/accuracy.h"
 
 #include "accuracy/kinds.h"

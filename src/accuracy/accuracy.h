@@ -1,4 +1,4 @@
-/* scene%accuracy: spacing, method and step from a wanted error (doc/accuracy.md). */
+/* scene%accuracy: spacing, method and step from a wanted error (doc/verification/accuracy.md). */
 #ifndef SELAS_ACCURACY_ACCURACY_H
 #define SELAS_ACCURACY_ACCURACY_H
 

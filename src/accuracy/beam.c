@@ -1,4 +1,4 @@
-/* scene%accuracy for the swinging beam (He & Seaid 2016, section 4.2; doc/accuracy.md, section 6). What is
+/* scene%accuracy for the swinging beam (He & Seaid 2016, section 4.2; doc/verification/accuracy.md, section 6). What is
  * wanted of it is the frequency of its first bending mode, as the report names it: the velocity also holds
  * waves of shear across the beam that the start sets going (Euler and Bernoulli's mode moves no section along
  * the beam), and those no method has right for long. Measured (regress/studies/accuracy/beams.sh), with n

@@ -1,5 +1,5 @@
-/* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/accuracy.md, sections 2 to
- * 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
+/* The spacing that scene%accuracy leads to on half-spaces and boxes of ground (doc/verification/accuracy.md,
+ * sections 2 to 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
 #include "scene/ground.h"
 #include "accuracy/ground_task.h"
@@ -279,8 +279,8 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
     return status;
 }
 
-/* Narrows the choice down by trials (doc/accuracy.md, section 2): *h is the law's spacing at first, the chosen one
- * at last, *tried the last trial's, 0 without one. */
+/* Narrows the choice down by trials (doc/verification/accuracy.md, section 2): *h is the law's spacing at
+ * first, the chosen one at last, *tried the last trial's, 0 without one. */
 static selas_status narrow(struct task *task, const struct surface_ground *ground, const struct trial *trial,
                            const struct scene_choice *choice, double most, double *h, double *tried,
                            struct messages *messages)

@@ -1,4 +1,4 @@
-/* Parts of scene%accuracy (doc/accuracy.md): one file for each kind of scene that there is a law for. */
+/* Parts of scene%accuracy (doc/verification/accuracy.md): one file for each kind of scene that there is a law for. */
 #ifndef SELAS_ACCURACY_KINDS_H
 #define SELAS_ACCURACY_KINDS_H
 

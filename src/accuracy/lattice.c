@@ -1,5 +1,5 @@
 /* The speed that plane waves have on the lattice of the consistent method and in its schemes in time
- * (doc/consistent-method.md, section 11, Eqs T1 to T3), for scene%accuracy. */
+ * (doc/theory/consistent-splines.md, section 11, Eqs T1 to T3), for scene%accuracy. */
 #include "accuracy/lattice.h"
 
 #include <math.h>
@@ -79,7 +79,7 @@ static double square_frequency(const struct lattice_wave *wave, double spacing, 
 static const double LEAST_LEFT = .1;
 /* The modified equation's recorded velocity errs so many (omega dt)^4; dampers send back so many (omega
  * dt)^2; a wave reflected at a held end is so many (omega h/c)^3 off with sweeps in the place of the mass
- * (measured: regress/studies/accuracy/ends.sh; doc/accuracy.md, section 5). */
+ * (measured: regress/studies/accuracy/ends.sh; doc/verification/accuracy.md, section 5). */
 static const double MODIFIED = .042, PLAIN_DAMPER = .0625, MODIFIED_DAMPER = .0833, HELD = .0165;
 
 /* omega dt */

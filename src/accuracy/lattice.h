@@ -33,8 +33,8 @@ void lattice_wave_set(struct lattice_wave *wave, const struct accuracy_setting *
  */
 double lattice_speed_error(const struct lattice_wave *wave, double spacing, double omega);
 
-/* What a recorded velocity errs wherever the wave is (doc/accuracy.md, Eqs 7, 8): in time, and in place where
- * it is read between lattice points. */
+/* What a recorded velocity errs wherever the wave is (doc/verification/accuracy.md, Eqs 7, 8): in time, and
+ * in place where it is read between lattice points. */
 double lattice_local_error(const struct lattice_wave *wave, double spacing, double omega,
                            const double position[3]);
 /* What each reflection at a held end costs (Eq 10). */

@@ -1,5 +1,5 @@
 /* What the law of scene%accuracy expects of a half-space whose spacing the deck chose itself
- * (ground.c, doc/accuracy.md). */
+ * (ground.c, doc/verification/accuracy.md). */
 #ifndef SELAS_ACCURACY_OUTLOOK_H
 #define SELAS_ACCURACY_OUTLOOK_H
 

@@ -1,5 +1,5 @@
 /* scene%accuracy for the plate with a hole that is pulled slowly and settles (He & Seaid 2016, section 4.3;
- * doc/accuracy.md, section 7). Nothing moves in the end, so that what is wanted is the stress along the
+ * doc/verification/accuracy.md, section 7). Nothing moves in the end, so that what is wanted is the stress along the
  * ligament, L1 of the error over L1 of the stress, against the finite plate. Measured
  * (regress/studies/accuracy/plates.sh), E the distance from the hole's centre to the plate's edge,
  *   error = a (spacing / E)^p,                                                                            (1)

@@ -1,4 +1,5 @@
-/* The error law of scene%accuracy for loads on the surface of the ground (doc/accuracy.md, sections 2 and 3).
+/* The error law of scene%accuracy for loads on the surface of the ground (doc/verification/accuracy.md,
+ * sections 2 and 3).
  *
  * The error at a receiver has, at each frequency, three parts relative to the exact velocity (measured,
  * regress/studies/accuracy/law.sh): that of the load's own field, of the source and the surface, and of the way,

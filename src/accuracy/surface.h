@@ -1,5 +1,5 @@
 /* The error of the consistent method at a receiver under loads on the surface of the ground, for
- * scene%accuracy (surface.c; doc/accuracy.md, sections 2 and 3). */
+ * scene%accuracy (surface.c; doc/verification/accuracy.md, sections 2 and 3). */
 #ifndef SELAS_ACCURACY_SURFACE_H
 #define SELAS_ACCURACY_SURFACE_H
 

@@ -1,5 +1,5 @@
 /* What a scene may be wrong in without being refused: warnings in the plan and the report, each with what
- * would be right (doc/results.md). */
+ * would be right (doc/howto/troubleshooting.md). */
 #include "advice/parts.h"
 
 #include "exact/half_space.h"
@@ -74,7 +74,7 @@ static void look_at_cut_start(struct adviser *adviser)
 }
 
 /* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency
- * of a beam in plane strain, L = 5 W, 5 and 10 points across, against degree 4 (doc/results.md). */
+ * of a beam in plane strain, L = 5 W, 5 and 10 points across, against degree 4 (doc/howto/troubleshooting.md). */
 static void look_at_incompressible(struct adviser *adviser)
 {
     static const double nearly = 0.45;
@@ -96,7 +96,7 @@ static void look_at_incompressible(struct adviser *adviser)
 }
 
 /* A moment tensor pulls at one point's neighbours: by gradients of total-Lagrangian points it is coarse
- * (doc/sources.md). */
+ * (doc/theory/sources.md). */
 static void look_at_moments(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
@@ -179,7 +179,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     }
 }
 
-/* On the Mach lines of the Rayleigh wave displacements have kinks and velocities poles (doc/sources.md, Eq
+/* On the Mach lines of the Rayleigh wave displacements have kinks and velocities poles (doc/theory/sources.md, Eq
  * 11). */
 static void look_at_speed(struct adviser *adviser, size_t k)
 {

@@ -1,4 +1,4 @@
-/* What may be wrong in a scene without being refused (doc/results.md). */
+/* What may be wrong in a scene without being refused (doc/howto/troubleshooting.md). */
 #ifndef SELAS_ADVICE_ADVICE_H
 #define SELAS_ADVICE_ADVICE_H
 

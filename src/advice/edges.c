@@ -1,5 +1,5 @@
 /* Faces that meet in an edge and prescribe it differently: no body does both. Which of them has its way is
- * left to the method (doc/scene.md). */
+ * left to the method (doc/reference/scene.md). */
 #include "advice/parts.h"
 
 #include <math.h>

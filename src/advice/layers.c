@@ -3,7 +3,7 @@
  * Layers alone make the error
  *   e = .0011 exp(-.78 n) (lambda/h)^1.7,                                                               (1)
  * n the points, lambda the P wavelength at the mean frequency: measured at the worst of three receivers of a
- * half-space, n 4 to 12, lambda/h 50 to 100, within a factor of two (doc/accuracy.md, section 3). */
+ * half-space, n 4 to 12, lambda/h 50 to 100, within a factor of two (doc/verification/accuracy.md, section 3). */
 #include "accuracy/outlook.h"
 #include "advice/parts.h"
 #include "scene/absorbing_layers.h"

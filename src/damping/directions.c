@@ -1,4 +1,4 @@
-/* Weights of many materials along few directions (doc/damping.md, section 3). A modulus of a material, kappa
+/* Weights of many materials along few directions (doc/theory/damping.md, section 3). A modulus of a material, kappa
  * or mu, is a column of weights, one for each mechanism; a run needs an operator for each direction in which
  * columns lie apart. Weights for unlike Q are nearly a constant and one more direction times 1/Q: columns
  * are brought into the least affine space in which none of them moves by more than a small part of what

@@ -1,4 +1,4 @@
-/* Weights of mechanisms along few directions, so that a run needs few operators (doc/damping.md, section 3). */
+/* Weights of mechanisms along few directions, so that a run needs few operators (doc/theory/damping.md, section 3). */
 #ifndef SELAS_DAMPING_DIRECTIONS_H
 #define SELAS_DAMPING_DIRECTIONS_H
 

@@ -1,5 +1,5 @@
 /* The damping of a scene's materials: what is wanted, and the relaxation mechanisms that a run and an exact
- * solution take in its place (doc/damping.md, section 2). */
+ * solution take in its place (doc/theory/damping.md, section 2). */
 #ifndef SELAS_DAMPING_GROUND_H
 #define SELAS_DAMPING_GROUND_H
 

@@ -1,5 +1,5 @@
 /* Moduli of damped solids over the Laplace variable: constant Q, Q that is a power of the frequency, and
- * relaxation mechanisms (doc/damping.md, Eqs 1 to 4). */
+ * relaxation mechanisms (doc/theory/damping.md, Eqs 1 to 4). */
 #ifndef SELAS_MODULUS_H
 #define SELAS_MODULUS_H
 
@@ -15,7 +15,7 @@ struct modulus {
     double angular_frequency; /* reference: where constant Q has the size */
     size_t mechanisms;
     double rate[MOST_MECHANISMS], weight[MOST_MECHANISMS];
-    double step; /* of the leapfrog that takes the mechanisms on (doc/damping.md, Eq 15); 0: none */
+    double step; /* of the leapfrog that takes the mechanisms on (doc/theory/damping.md, Eq 15); 0: none */
 };
 
 /* The modulus that does not depend on frequency. */

@@ -1,4 +1,4 @@
-/* Relaxation mechanisms that stand for a wanted Q over the frequencies of a source (doc/damping.md, Eqs 5 to
+/* Relaxation mechanisms that stand for a wanted Q over the frequencies of a source (doc/theory/damping.md, Eqs 5 to
  * 8). */
 #ifndef SELAS_RELAXATION_H
 #define SELAS_RELAXATION_H

@@ -93,7 +93,7 @@ const char *deck_source(const struct deck *deck); /* the text as read, without o
 /* Gives a deck that was made from an echo the text that it came from. */
 selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages);
 
-/* Prints the tables of all groups and names in Markdown (the deck reference of doc/deck.md). */
+/* Prints the tables of all groups and names in Markdown (the deck reference of doc/reference/deck.md). */
 void deck_reference(FILE *file);
 
 /* Writes the echo: every group with every name that has a value, defaults included, reals to the last bit

@@ -1,4 +1,5 @@
-/* Frequencies along Re s = eta and their inverse transform (FFTW; doc/lamb.md, doc/seismograms.md, Eq 29). */
+/* Frequencies along Re s = eta and their inverse transform (FFTW; doc/theory/lamb.md,
+ * doc/theory/seismograms.md, Eq 29). */
 #include "exact/contour.h"
 
 #include "base/fft_room.h"

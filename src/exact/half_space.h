@@ -1,5 +1,5 @@
 /* The homogeneous elastic half-space z >= 0, z down, with tractions on its surface: compliances in
- * (wavenumber, Laplace) space. Formulas and their sources: half_space.c, doc/lamb.md. */
+ * (wavenumber, Laplace) space. Formulas and their sources: half_space.c, doc/theory/lamb.md. */
 #ifndef SELAS_HALF_SPACE_H
 #define SELAS_HALF_SPACE_H
 

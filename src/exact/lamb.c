@@ -289,11 +289,11 @@ static void describe(const struct exact *exact,
         }
     }
     char text[128];
-    tell(context, "exact", "infinite half-space under traction patches, by FFT (doc/lamb.md)");
+    tell(context, "exact", "infinite half-space under traction patches, by FFT (doc/theory/lamb.md)");
     if (lamb->problem.layers != NULL)
-        tell(context, "exact layers", "by reflections (doc/layered.md, doc/seismograms.md)");
+        tell(context, "exact layers", "by reflections (doc/theory/layered.md, doc/theory/seismograms.md)");
     if (lamb->patches > 0)
-        tell(context, "exact moving patches", "by wavenumbers and directions (doc/sources.md)");
+        tell(context, "exact moving patches", "by wavenumbers and directions (doc/theory/sources.md)");
     if (lamb->signals == 0 || lamb->problem.loads == 0) return;
     (void)snprintf(text, sizeof text, "%.1e", fmax(effort.estimate, 5e-7));
     tell(context, "exact accuracy (L2 of velocity, estimated)", text);

@@ -1,5 +1,5 @@
 /* Moving patches on the half-space. A patch X(x - V t) f(t) has the transform X(k) f^(s + i k.V), so that
- * (doc/sources.md, Eqs 8-10)
+ * (doc/theory/sources.md, Eqs 8-10)
  *   u(x, s) = 1/(4 pi^2) int int G(k, s) X(k) f^(s + i k.V) exp(i k.x) k dk dphi :
  * wavenumbers by Gauss panels, directions by the trapezoidal rule, which is exact once it resolves k times
  * the farthest distance, frequencies by FFT along Re s = eta as in lamb_fft.c. Along one (k, phi) all
@@ -122,7 +122,7 @@ static void add_line(struct span span, const double complex *line, double comple
     }
 }
 
-/* Fades a direction out, `along` = V.n (doc/sources.md, Eq 10). */
+/* Fades a direction out, `along` = V.n (doc/theory/sources.md, Eq 10). */
 static double taper(const struct job *job, double k, double along)
 {
     const double gap = fabs(job->slowest + along);

@@ -1,4 +1,4 @@
-/* Sum over the wavenumbers k at one complex frequency s = eta + i w (doc/lamb.md, Eq 7):
+/* Sum over the wavenumbers k at one complex frequency s = eta + i w (doc/theory/lamb.md, Eq 7):
  *   u = sum over the nodes of coefficient(k) * (compliance(k, s) - static compliance(k)),
  * where the coefficients hold the quadrature weight, the load's direction and the direction averages of its
  * transform at the receiver. Poles and branch points lie eta/c off the real axis at k = w/c: there panels are

@@ -1,5 +1,5 @@
 /* Sum over the wavenumbers of the half-space's compliance times a load's transform, at complex frequencies
- * (doc/lamb.md, Eq 7). */
+ * (doc/theory/lamb.md, Eq 7). */
 #ifndef SELAS_LAMB_SUM_H
 #define SELAS_LAMB_SUM_H
 

@@ -1,5 +1,5 @@
 /* Layers over a half-space under tractions on the surface: the compliances of exact/strata.c with the source there, in
- * the form in which the half-space has them (doc/layered.md). */
+ * the form in which the half-space has them (doc/theory/layered.md). */
 #include "exact/layered.h"
 
 #include "base/memory.h"

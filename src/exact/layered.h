@@ -1,5 +1,5 @@
 /* Layers over a half-space with tractions on the surface: what they add to the compliances of a half-space of
- * the uppermost material. Formulas and sources: layered.c, doc/layered.md. */
+ * the uppermost material. Formulas and sources: layered.c, doc/theory/layered.md. */
 #ifndef SELAS_LAYERED_H
 #define SELAS_LAYERED_H
 

@@ -1,5 +1,5 @@
 /* Reference 'layered': horizontally layered, damped ground under patches, point forces and moment tensors at
- * any depth (doc/seismograms.md), computed by exact/seismogram.c. This file turns the scene into that
+ * any depth (doc/theory/seismograms.md), computed by exact/seismogram.c. This file turns the scene into that
  * problem: the body's frame, mirror images at symmetry planes, damping; and refuses what has no such
  * solution. */
 #include "exact/layered_ground.h"
@@ -344,7 +344,7 @@ static void describe(const struct exact *exact,
     struct seismogram_effort worst = {0};
     for (size_t i = 0; i < ground->seismograms; i++)
         if (ground->seismogram[i].effort.reached >= worst.reached) worst = ground->seismogram[i].effort;
-    tell(context, "exact", "layered ground by wavenumbers and FFT (doc/seismograms.md)");
+    tell(context, "exact", "layered ground by wavenumbers and FFT (doc/theory/seismograms.md)");
     describe_damping(ground, tell, context);
     if (ground->seismograms == 0) return;
     tell_number(tell, context, "exact accuracy (L2 of velocity, estimated)", worst.reached);

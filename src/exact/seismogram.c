@@ -1,4 +1,4 @@
-/* Seismograms by FFT over frequencies s = eta + 2 pi i j / T (doc/seismograms.md, Eqs 29-36). Frequencies are
+/* Seismograms by FFT over frequencies s = eta + 2 pi i j / T (doc/theory/seismograms.md, Eqs 29-36). Frequencies are
  * worked off in bands of half an octave, each with its own wavenumbers. Some frequencies of every band are
  * computed once more with narrower panels and a larger range: what differs bounds the error of the sums, and
  * where it is too large the band is made anew. The bands end when what is to come is below the tolerance. */

@@ -1,5 +1,5 @@
 /* Seismograms of plane, damped strata over a half-space: sources and receivers at any depth
- * (doc/seismograms.md). Coordinates: depth z down from the free surface z = 0. */
+ * (doc/theory/seismograms.md). Coordinates: depth z down from the free surface z = 0. */
 #ifndef SELAS_SEISMOGRAM_H
 #define SELAS_SEISMOGRAM_H
 

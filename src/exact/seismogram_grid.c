@@ -1,4 +1,4 @@
-/* Wavenumbers of a band of frequencies (doc/seismograms.md, Eqs 32-35). All poles and branch points lie on
+/* Wavenumbers of a band of frequencies (doc/theory/seismograms.md, Eqs 32-35). All poles and branch points lie on
  * k = -i s/c, a ray that leaves the real axis at the angle eta/omega, or farther from it where the ground is
  * damped. Gauss panels of half width b at the distance b/x from them err by rho^-24, rho = x + sqrt(1 + x^2).
  */

@@ -1,4 +1,4 @@
-/* Sums over the wavenumbers of a band of frequencies (doc/seismograms.md, Eqs 19, 20): blocks of wavenumbers one
+/* Sums over the wavenumbers of a band of frequencies (doc/theory/seismograms.md, Eqs 19, 20): blocks of wavenumbers one
  * after the other, whose weights serve all frequencies, and responses all paths between two depths. */
 #include "base/memory.h"
 #include "exact/half_space.h"

@@ -1,4 +1,4 @@
-/* Strata by one-way motions (doc/seismograms.md, Eqs 1-13), a form of the reflectivity recursion of Kennett
+/* Strata by one-way motions (doc/theory/seismograms.md, Eqs 1-13), a form of the reflectivity recursion of Kennett
  * (1983) in which motions, not potentials, are the unknowns.
  *
  * In (k, s) space u_n = i U, u_z = W, and traction on the ground below a level is tau_n = i Q, tau_z = Z.

@@ -1,6 +1,6 @@
 /* Plane strata over a half-space in (wavenumber, Laplace) space with sources and receivers at any of their
  * levels: what a jump of motion or traction at one level moves at the others. Formulas and sources: strata.c,
- * doc/seismograms.md (Eqs 1-13). */
+ * doc/theory/seismograms.md (Eqs 1-13). */
 #ifndef SELAS_STRATA_H
 #define SELAS_STRATA_H
 

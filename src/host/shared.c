@@ -1,4 +1,4 @@
-/* A simulation that ranks share (doc/ranks.md): what they are told, and what runs on one rank alone. */
+/* A simulation that ranks share (doc/howto/ranks.md): what they are told, and what runs on one rank alone. */
 #include "host/simulation.h"
 #include "parallel/ranks.h"
 

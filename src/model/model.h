@@ -145,7 +145,7 @@ struct model_operator {
 enum { MODEL_MECHANISMS = 8 };
 
 /* Relaxation mechanisms, D_l' = v - rate_l D_l: the stiffness of the model of each part p acts on
- * e_p = given_p u + sum over l of weight_pl D_l (doc/damping.md, Eqs 11, 12). The extra part of the state,
+ * e_p = given_p u + sum over l of weight_pl D_l (doc/theory/damping.md, Eqs 11, 12). The extra part of the state,
  * `extra` numbers, begins with the D_l, [mechanisms][unknowns]; that of part p is at `extra` of the part. */
 struct relaxing {
     size_t mechanisms, parts, extra;

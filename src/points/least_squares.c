@@ -4,7 +4,7 @@
  *
  * so the weights of coefficient k are sqrt(w_j) (Q R^-T e_k)_j. Lancaster & Salkauskas 1981 (moving least
  * squares); the through-centre form with a linear basis and w = V |W'| / r is the corrected kernel gradient
- * of He & Seaid 2016, before Eq 4 (shown in doc/sph-total-lagrangian.md). */
+ * of He & Seaid 2016, before Eq 4 (shown in doc/theory/sph-total-lagrangian.md). */
 #include "points/least_squares.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* `selas check --echo`: what the faces of the box send back, measured. The scene is run twice with coarse
- * points, in its own box and in one twice as large (doc/absorbing-faces.md, section 7), and the velocities at
+ * points, in its own box and in one twice as large (doc/theory/absorbing-faces.md, section 7), and the velocities at
  * the receivers are compared. */
 #include "program/commands.h"
 

@@ -110,7 +110,7 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
 }
 
 /* What rounding of the state adds: each step rounds u and the sums of a anew, and the weights in single
- * precision are those of a ground whose waves are a little faster or slower (doc/performance.md, F3); each
+ * precision are those of a ground whose waves are a little faster or slower (doc/developers/performance.md, F3); each
  * operator of damped ground adds as much. */
 static void write_precision(FILE *out, const struct recorder *recorder)
 {

@@ -16,7 +16,7 @@
  * (leapfrog: by up to 1 / (1 - (omega dt / 2)^2), 5 at nine tenths of the limit): growth beyond ten times the
  * work is no rounding and no such difference. */
 static const double growth_allowed = 10.0;
-/* Energy gained without being given, over what was given: a few per cent is usual at 15^3 (doc/results.md).
+/* Energy gained without being given, over what was given: a few per cent is usual at 15^3 (doc/reference/results.md).
  */
 static const double growth_noted = 0.5;
 /* In fewer steps the trapezoid of the work of a load that just begins is itself half wrong. */
@@ -141,7 +141,7 @@ selas_status watch_sound(const struct recorder *recorder, const struct state *st
 }
 
 /* What can have grown by itself. To what does not move an absorbing layer is all but soft, so that a static
- * field has strain energy there that nobody gave it (doc/absorbing-faces.md, section 3). Beside layers only
+ * field has strain energy there that nobody gave it (doc/theory/absorbing-faces.md, section 3). Beside layers only
  * what moves counts: twice the kinetic energy, for waves have as much strain energy in the mean; and that of
  * leapfrog's half-step velocities w = v + dt/2 a, for at the shortest period, 2 dt, v is 0. */
 static double energy_of_waves(const struct recorder *recorder, const struct state *state,

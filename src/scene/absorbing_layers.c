@@ -1,5 +1,5 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
- * (doc/absorbing-faces.md, sections 3, 6 and 7). */
+ * (doc/theory/absorbing-faces.md, sections 3, 6 and 7). */
 #include "scene/absorbing_layers.h"
 
 #include "scene/echo.h"
@@ -75,6 +75,38 @@ bool layer_anywhere(const struct scene *scene)
     for (int face = 0; face < 2 * scene->dimension; face++)
         if (layer_points(scene, face) > 0) return true;
     return false;
+}
+
+/* Does the rock change within the layer behind a face, as far out as it may go? (A surface is level there.) */
+static bool ground_changes_behind(const struct scene *scene, int face)
+{
+    const struct body *body = &scene->body;
+    const int axis = face / 2, sign = face_sign((enum face)face);
+    const bool across_depth = axis == scene->dimension - 1;
+    const bool model =
+        scene->deck != NULL && deck_count(scene->deck, "model") > 0; /* known before the box is */
+    if (model || (body_is_layered(body) && !across_depth)) return true;
+    for (size_t i = 0; i < body->layers; i++)
+        if (body->layer[i].slope[0] != 0 || body->layer[i].slope[1] != 0 ||
+            (sign > 0 && body->layer[i].top > body->high[axis] - body->low[axis]))
+            return true;
+    for (size_t i = 0; i < body->blocks; i++)
+        if (sign * body->block[i].centre[axis] + body->block[i].half[axis] >
+            sign * face_plane(body, (enum face)face))
+            return true;
+    return false;
+}
+
+double layer_drag(const struct scene *scene, int face)
+{
+    static const double plate = .3, ground = .1; /* measured */
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
+        if (!boundary_absorbs(low) && !boundary_absorbs(high) &&
+            !(boundary_slides(low) && boundary_slides(high)))
+            return plate; /* no way out, and waves that are not plane ones */
+    }
+    return ground_changes_behind(scene, face) ? ground : 0;
 }
 
 bool layer_left_out(const struct scene *scene, int face)

@@ -1,4 +1,4 @@
-/* Absorbing layers as the scene asks for them (doc/absorbing-faces.md, sections 3, 5 and 6). */
+/* Absorbing layers as the scene asks for them (doc/theory/absorbing-faces.md, sections 3, 5 and 6). */
 #ifndef SELAS_SCENE_ABSORBING_LAYERS_H
 #define SELAS_SCENE_ABSORBING_LAYERS_H
 
@@ -10,7 +10,8 @@ const char *layers_refusal(const struct scene *scene);
 
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
-/* What a layer point costs against one of the body (regress/studies/layer-cost; doc/performance.md, section 6). */
+/* What a layer point costs against one of the body (regress/studies/layer-cost;
+ * doc/developers/performance.md, section 6). */
 #define LAYER_COST 2.8
 
 /* Points of the absorbing layer behind a face, 0 if it has none. */
@@ -21,6 +22,9 @@ bool layer_anywhere(const struct scene *scene);
  * the one to be expected by measurement. */
 double layer_profile_reflection(size_t points);
 double layer_expected_reflection(size_t points);
+/* Waves guided along a layer, whose phase and group velocities may be opposite, would grow in it: velocities there
+ * are damped besides, at this share of the layer's own damping d times (d / largest d)^2 (Eq 11); 0: none are. */
+double layer_drag(const struct scene *scene, int face);
 /* Is an absorbing layer that the scene asks for left out, since no wave that the face sends back is seen by
  * receivers and profiles within end_time? */
 bool layer_left_out(const struct scene *scene, int face);

@@ -4,6 +4,7 @@
  * distances from the face. A box has few faces, extents and pairs of them: all pairs are looked at. */
 #include "scene/echo.h"
 
+#include "scene/absorbing_layers.h"
 #include "scene/extent.h"
 
 #include <math.h>
@@ -44,15 +45,21 @@ bool echo_seen(const struct scene *scene, int face, double less)
 /* What a layer of n points sends back, over the velocity at the place that is looked at,
  *   e = A (exp(-.7 n) (Lambda/h)^1.65 max(1, r/d)^1.6 + .4 exp(-.2 n) (c_p/c_s / sqrt(3))^2.6),            (15)
  * Lambda the P wavelength, h the spacing, r the way along the face, d the way to it and back; measured
- * (regress/studies/echo; doc/absorbing-faces.md, section 7). In the plane waves do not spread out. */
+ * (regress/studies/echo; doc/theory/absorbing-faces.md, section 7). In the plane waves do not spread out. */
 static const double decay = .7, wavelength_power = 1.65, grazing_power = 1.6;
 static const double late_part = .4, late_decay = .2, late_power = 2.6;
 static const double in_plane = .012, in_space = .0025;
+/* And where velocities in the layer are damped besides, at the share s against guided waves,
+ *   e = B s max(1, r/d)^1.6 Lambda / (h n^2) min(1, Lambda / (h n)):                                        (16)
+ * what weak damping scatters back within a stretched coordinate, B by measurement. */
+static const double dragged_in_plane = .7, dragged_in_space = .2;
 /* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
 static const double static_reach = 4;
 /* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
  * spacing, so this falls too, and a finer scene is never a worse one. */
 static const double most_wanted = 1e-3, coarse = 12;
+/* Of the part (16), which a few points more hardly lessen. */
+static const double most_dragged = 2e-3;
 enum { MOST = 40 };
 
 /* Longest distance between two extents along the face, as far as the box goes. */
@@ -79,7 +86,8 @@ static double wavelength_between(const struct scene *scene, const struct extent 
 }
 
 struct echo {
-    double early, late, wavelength; /* the factor of exp(-.7 n) and .4 (...)^2.6 in (15); the longest wave */
+    double early, late, grazing, wavelength; /* the factor of exp(-.7 n), .4 (...)^2.6 and max(1, r/d)^1.6 in
+                                                (15); the longest wave */
 };
 
 static void take_worst(const struct scene *scene, int face, const struct extent *acts,
@@ -90,8 +98,9 @@ static void take_worst(const struct scene *scene, int face, const struct extent 
     const double across = fmax(distance(scene, face, acts) + distance(scene, face, seen), h);
     const double wavelength = wavelength_between(scene, acts, fmax(way, across));
     worst->wavelength = fmax(worst->wavelength, wavelength);
-    worst->early = fmax(worst->early, pow(fmax(1, wavelength / h), wavelength_power) *
-                                          pow(fmax(1, way / across), grazing_power));
+    const double grazing = pow(fmax(1, way / across), grazing_power);
+    worst->grazing = fmax(worst->grazing, grazing);
+    worst->early = fmax(worst->early, pow(fmax(1, wavelength / h), wavelength_power) * grazing);
 }
 
 static struct echo worst_echo(const struct scene *scene, int face)
@@ -115,10 +124,18 @@ static double of_points(const struct scene *scene, const struct echo *echo, size
            (echo->early * exp(-decay * n) + echo->late * exp(-late_decay * n));
 }
 
+/* (16) */
+static double of_drag(const struct scene *scene, int face, const struct echo *echo, size_t points)
+{
+    const double n = fmax(1, (double)points), waves = echo->wavelength / (n * scene->body.spacing);
+    return (scene->dimension == 3 ? dragged_in_space : dragged_in_plane) * layer_drag(scene, face) *
+           echo->grazing * waves / n * fmin(1, waves);
+}
+
 double echo_of_layer(const struct scene *scene, int face, size_t points)
 {
     const struct echo echo = worst_echo(scene, face);
-    return of_points(scene, &echo, points);
+    return of_points(scene, &echo, points) + of_drag(scene, face, &echo, points);
 }
 
 size_t echo_points(const struct scene *scene, int face)
@@ -127,7 +144,8 @@ size_t echo_points(const struct scene *scene, int face)
     const double finer = coarse * scene->body.spacing / fmax(echo.wavelength, scene->body.spacing);
     const double wanted = most_wanted * fmin(1, finer);
     size_t points = 0;
-    while (points < MOST && of_points(scene, &echo, points) > wanted)
+    while (points < MOST &&
+           (of_points(scene, &echo, points) > wanted || of_drag(scene, face, &echo, points) > most_dragged))
         points++;
     return points;
 }

@@ -1,5 +1,5 @@
 /* What the faces of a box send back: when it can be seen, and how much it is expected to be
- * (doc/absorbing-faces.md, sections 6 and 7). */
+ * (doc/theory/absorbing-faces.md, sections 6 and 7). */
 #ifndef SELAS_SCENE_ECHO_H
 #define SELAS_SCENE_ECHO_H
 

@@ -274,6 +274,16 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
     return true;
 }
 
+/* Where layers of rock begin: beside them absorbing layers are thicker (echo.c). */
+static void sketch_layers(struct builder *drawing)
+{
+    struct body *body = &drawing->scene->body;
+    const size_t count = deck_count(drawing->deck, "layer");
+    if (count == 0 || (body->layer = scene_array(drawing, count, sizeof *body->layer)) == NULL) return;
+    for (body->layers = 0; body->layers < count; body->layers++)
+        body->layer[body->layers].top = deck_real(deck_get(drawing->deck, "layer", body->layers), "top", 0);
+}
+
 /* The scene as far as it can be read without its box: what acts, what is looked at, what faces do. */
 static bool sketch_scene(const struct builder *builder, struct scene *sketch)
 {
@@ -297,6 +307,7 @@ static bool sketch_scene(const struct builder *builder, struct scene *sketch)
     build_boundaries(&drawing);
     for (int face = 0; face < FACES; face++) /* those that nobody named are opened when the box is known */
         if (!sketch->boundary[face].given) sketch->boundary[face].kind = BOUNDARY_FREE;
+    sketch_layers(&drawing);
     build_blocks(&drawing);
     build_topography(&drawing);
     build_loads(&drawing);

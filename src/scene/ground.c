@@ -1,4 +1,4 @@
-/* The ground as a field (doc/general-ground.md, section 4): layers, each from its upper face down, over them the
+/* The ground as a field (doc/theory/general-ground.md, section 4): layers, each from its upper face down, over them the
  * blocks in the deck's order. */
 #include "scene/ground.h"
 

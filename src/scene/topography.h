@@ -1,5 +1,5 @@
-/* The surface of the ground (doc/general-ground.md, section 9): how far it lies below the plane of face z-, and the
- * map of a lattice that follows it,
+/* The surface of the ground (doc/theory/general-ground.md, section 9): how far it lies below the plane of
+ * face z-, and the map of a lattice that follows it,
  *
  *   z = zeta + s(x, y) f(zeta),   f from 1 at the plane to 0 at a depth,                                 (G16)
  *

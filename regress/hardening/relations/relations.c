@@ -1,6 +1,6 @@
 /* Relations that every run keeps, on scenes drawn by chance: methods, schemes, faces, loads, initial states,
  * layers. Whatever is true of the equations and of their discrete form must be true of the program, in
- * whatever corner of it a scene ends (doc/robustness.md):
+ * whatever corner of it a scene ends (doc/developers/robustness.md):
  *
  *   quiet      parts at rest left out or not: the same but for rounding
  *   symmetry   halves computed or the whole body: the same but for rounding

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The coefficients of the beam's law in src/accuracy/beam.c (doc/accuracy.md, Eq 11), anew: frequencies of beams by splines of degree 1, 2, 3 and
+# The coefficients of the beam's law in src/accuracy/beam.c (doc/verification/accuracy.md, Eq 11), anew: frequencies of beams by splines of degree 1, 2, 3 and
 # by particles, errors against two-dimensional elasticity (a fine run with splines of degree 3), least squares of the logarithms; and how a large swing
 # changes the frequency. Usage: sh regress/studies/accuracy/beams.sh [BUILD] (two minutes of one core). Leaves output/accuracy-beams/.
 set -eu

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The coefficients of plane pulses in src/accuracy/lattice.c (doc/accuracy.md, Eqs 7, 9, 10, and the steps of the four settings), anew. Bars in which
+# The coefficients of plane pulses in src/accuracy/lattice.c (doc/verification/accuracy.md, Eqs 7, 9, 10, and the steps of the four settings), anew. Bars in which
 # P waves have speed 1; pulses u = exp(-x^2 / 2), whose velocity has the spectrum omega exp(-omega^2 / 2), so that |omega^k V| / |V| is the square root of
 # 1.5 2.5 ... (k factors): 1.936, 3.623, 7.685 for k = 2, 3, 4. Usage: sh regress/studies/accuracy/ends.sh [BUILD] (seconds). Leaves output/accuracy-ends/.
 set -eu

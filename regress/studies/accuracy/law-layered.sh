@@ -1,5 +1,5 @@
 #!/bin/sh
-# The coefficients of the error law of layered ground with tuned splines in src/accuracy/surface.c (doc/accuracy.md, section 3), anew: as law.sh,
+# The coefficients of the error law of layered ground with tuned splines in src/accuracy/surface.c (doc/verification/accuracy.md, section 3), anew: as law.sh,
 # on a soft layer over rock. Usage: sh regress/studies/accuracy/law-layered.sh [BUILD] (two minutes of one core). Leaves output/accuracy-layered/.
 set -eu
 build=${1:-build}

@@ -1,4 +1,4 @@
-# Least squares of the logarithm of Eq 5 of doc/accuracy.md over runs, receivers and pulses; see law.sh and law-layered.sh. Variables: scale, of the
+# Least squares of the logarithm of Eq 5 of doc/verification/accuracy.md over runs, receivers and pulses; see law.sh and law-layered.sh. Variables: scale, of the
 # pulses' times; felt, wavelengths down to which a surface wave feels the ground; together, the near part too is less between the axes; start.
 function speed(s, w,    mean, round, depth) { # of the surface wave of a frequency: src/accuracy/surface.c
     mean = 1 / sc[s]

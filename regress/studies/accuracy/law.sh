@@ -1,5 +1,5 @@
 #!/bin/sh
-# The coefficients of the error law in src/accuracy/surface.c (doc/accuracy.md, section 3), anew: runs of the default method under a pulse
+# The coefficients of the error law in src/accuracy/surface.c (doc/verification/accuracy.md, section 3), anew: runs of the default method under a pulse
 # that is short against the lattice, spectra of error and exact velocity, least squares. Usage: sh regress/studies/accuracy/law.sh [BUILD]
 # (some three minutes of one core). Leaves output/accuracy-law/; prints coefficients and how well they predict.
 set -eu

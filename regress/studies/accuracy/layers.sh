@@ -1,5 +1,5 @@
 #!/bin/sh
-# What absorbing layers of n points leave (doc/accuracy.md, Eq 5a; src/advice/layers.c, the points of src/accuracy/ground.c), and how much less
+# What absorbing layers of n points leave (doc/verification/accuracy.md, Eq 5a; src/advice/layers.c, the points of src/accuracy/ground.c), and how much less
 # receivers in the ground err (BURIED of src/accuracy/surface.c), anew. Usage: sh regress/studies/accuracy/layers.sh [BUILD] (a minute or two of one core).
 # Leaves output/accuracy-layers/.
 set -eu

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The coefficients of the plate's law in src/accuracy/plate.c (doc/accuracy.md, Eq 12), anew: the settled plate with a hole of radius .3 pulled by
+# The coefficients of the plate's law in src/accuracy/plate.c (doc/verification/accuracy.md, Eq 12), anew: the settled plate with a hole of radius .3 pulled by
 # its edge and under a traction, errors of the stress along the ligament, least squares of the logarithms.
 # Usage: sh regress/studies/accuracy/plates.sh [BUILD] (a minute of one core). Leaves output/accuracy-plates/.
 set -eu

@@ -8,6 +8,7 @@
 #include "method/consistent/galerkin/hform.h"
 #include "peak.h"
 #include "plain_scene.h"
+#include "scene/topography.h"
 #include "stepping/schemes.h"
 
 #include <math.h>
@@ -85,16 +86,21 @@ struct timing {
 };
 
 /* `apart`: updates and operator one after the other; `step`: as the program does it. */
-static struct timing measure(const size_t n[3], bool exact, bool unfused, bool single)
+static struct timing measure(const size_t n[3], const struct consistent_options *options, bool hilly)
 {
     struct plain_scene plain;
+    struct topography hill = {.shape = TOPOGRAPHY_GAUSSIAN, .across = {1, 0}, .axis = 2};
     struct messages messages = {0};
     struct model *model = NULL;
     const double size[3] = {(double)n[0] - 2, (double)n[1] - 2, (double)n[2] - 2};
     plain_box(&plain, 3, size, 1);
-    const struct consistent_options options = {
-        .degree = 2, .sweeps = 3, .depth_exact = exact, .unfused = unfused, .single = single};
-    if (consistent_create_with(&plain.scene, &options, &model, &messages) != SELAS_OK) {
+    hill.width = size[0] / 6;
+    hill.height = hill.width / 2;
+    hill.depth = 2 * floor(size[2] / 2);
+    hill.centre[0] = size[0] / 2;
+    hill.centre[1] = size[1] / 2;
+    if (hilly) plain.scene.body.topography = &hill;
+    if (consistent_create_with(&plain.scene, options, &model, &messages) != SELAS_OK) {
         fputs(messages.text, stderr);
         exit(1);
     }
@@ -160,17 +166,29 @@ int main(int count, char **word)
     for (int i = 1; i + 2 < count; i += 3) {
         const size_t n[3] = {strtoul(word[i], NULL, 10), strtoul(word[i + 1], NULL, 10),
                              strtoul(word[i + 2], NULL, 10)};
-        for (int row = 0; row < 6; row++) {
-            const bool exact = row % 2 == 1, unfused = row >= 4, single = row / 2 == 1;
-            if (unfused && n[0] * n[1] * n[2] > 1000000) continue;
-            const struct timing t = measure(n, exact, unfused, single);
-            printf("| %zu x %zu x %zu | %s | %s | ", n[0], n[1], n[2], exact ? "exact" : "same",
+        for (int row = 0; row < 12; row++) {
+            const bool general = row >= 6, hilly = general && row % 2 == 1, exact = row % 2 == 1 || general;
+            const int way = row % 6 / 2; /* fused, single, one by one */
+            const bool unfused = way == 2, single = way == 1;
+            const struct consistent_options options = {.degree = 2,
+                                                       .sweeps = 3,
+                                                       .depth_exact = exact,
+                                                       .unfused = unfused,
+                                                       .single = single,
+                                                       .general = general};
+            if (n[0] * n[1] * n[2] > (general ? 3000000 : unfused ? 1000000 : SIZE_MAX)) continue;
+            const struct timing t = measure(n, &options, hilly);
+            printf("| %zu x %zu x %zu | %s | %s | ", n[0], n[1], n[2],
+                   hilly     ? "general, a hill"
+                   : general ? "general, level"
+                   : exact   ? "exact"
+                             : "same",
                    unfused  ? "one by one"
                    : single ? "single"
                             : "fused");
             if (single)
-                printf("| | %.1f | %.0f | | %.0f |\n", t.step, t.fma, t.bytes);
-            else if (unfused)
+                printf("| | %.1f | | | %.0f |\n", t.step, t.bytes);
+            else if (unfused || general)
                 printf("%.1f | %.1f | %.1f | | | %.0f |\n", t.call, t.apart, t.step, t.bytes);
             else
                 printf("%.1f | %.1f | %.1f | %.0f | %.0f %% | %.0f |\n", t.call, t.apart, t.step, t.fma,

@@ -1,4 +1,4 @@
-/* Holds the half-space's FFT against the closed form on the surface (doc/lamb.md, "What it was checked
+/* Holds the half-space's FFT against the closed form on the surface (doc/theory/lamb.md, "What it was checked
  * against"): ten receivers under the load, at and near its edges and corners and far away, Poisson ratios and
  * pulses given by name. Prints the L2 error of a velocity component over the L2 of the largest component, all
  * receivers of a row computed at once, and the seconds that the FFT took.

@@ -1,4 +1,4 @@
-/* Energy of a run over time (doc/absorbing-faces.md, section 5): a deck and overrides as for selas; prints,
+/* Energy of a run over time (doc/theory/absorbing-faces.md, section 5): a deck and overrides as for selas; prints,
  * for the windows of time ending at 10, 30, 100, 300 and 1000, the largest kinetic plus strain energy. */
 #include "selas.h"
 

@@ -1,4 +1,4 @@
-/* Smoothed points on clouds (doc/cloud-method.md): the forces of the total-Lagrangian model with Hooke's law
+/* Smoothed points on clouds (doc/theory/cloud-method.md): the forces of the total-Lagrangian model with Hooke's law
  * on gradients that sum by parts. */
 #include "method/cloud/cloud.h"
 
@@ -17,7 +17,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     const struct deck_group *group = scene->method.group;
     options.form = &cloud_form;
     options.law = LAW_LINEAR;
-    options.hourglass = 1; /* doc/cloud-method.md, section 4 */
+    options.hourglass = 1; /* doc/theory/cloud-method.md, section 4 */
     if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
     if (deck_values(group, "smoothing_length") > 0)
         options.smoothing_length = deck_real(group, "smoothing_length", 0);

@@ -1,4 +1,4 @@
-/* Smoothed points on clouds (doc/cloud-method.md): what its files share with the total-Lagrangian model that
+/* Smoothed points on clouds (doc/theory/cloud-method.md): what its files share with the total-Lagrangian model that
  * carries it (struct tl_form).
  *
  * Points lie in the body and on its faces. Gradients G_ij = Q_ij / V_i with Q_ij + Q_ji = n_i A_i (i = j) or

@@ -2,7 +2,7 @@
  * of the points that lie on it, then the smallest relative change that makes the sums exact for polynomials.
  *
  * Gradients that sum by parts and are exact for linear fields exist only if the discrete divergence theorem
- * holds for quadratic functions (doc/cloud-method.md, Eq 5): volumes exact for linear functions and areas for
+ * holds for quadratic functions (doc/theory/cloud-method.md, Eq 5): volumes exact for linear functions and areas for
  * quadratic ones are enough. */
 #include "method/cloud/cloud.h"
 

@@ -1,4 +1,4 @@
-/* The consistent smoothed point method (manual, doc/consistent-method.md): Ding et al. (2006), Eq 14, with
+/* The consistent smoothed point method (manual, doc/theory/consistent-method.md): Ding et al. (2006), Eq 14, with
  * the smoothing kept on both sides, which is Galerkin's method with tensor-product B-splines:
  *
  *   M a + C v + K u = F.
@@ -9,6 +9,7 @@
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/moving_load.h"
 #include "method/consistent/general/general.h"
+#include "method/consistent/general/sweep.h"
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
@@ -23,6 +24,7 @@ static void destroy(struct model *model)
     general_free(c);
     pml_free(c);
     fused_free(c->fused);
+    watch_free(&c->watch);
     hform_free(c);
     forces_free(c);
     mass_free(c);
@@ -172,6 +174,9 @@ static void describe(const struct model *model,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
     const struct consistent *c = (const struct consistent *)model;
+    const char *step = model->single ? "leapfrog's is one pass with the operator, in single precision"
+                       : model->one_pass != NULL ? "leapfrog's is one pass with the operator"
+                                                 : "apart from the operator";
     char text[160];
     snprintf(text, sizeof text, "B-splines of degree %d, %s ends", c->options.degree,
              c->options.mapped ? "mapped" : "open");
@@ -181,6 +186,7 @@ static void describe(const struct model *model,
     if (c->options.tuned) tell(context, "splines along the surface", "tuned for short waves");
     if (c->general != NULL) {
         tell(context, "operator", "general: three points of quadrature a control value");
+        tell(context, "step", step);
         snprintf(text, sizeof text, "van Cittert, %d sweeps tuned for the points, between two diagonals",
                  c->options.sweeps);
     }
@@ -189,10 +195,7 @@ static void describe(const struct model *model,
         snprintf(text, sizeof text, "fused, %d planes at a time in strips of %d rows", FUSED_PLANES,
                  FUSED_STRIP);
         tell(context, "operator", text);
-        tell(context, "step",
-             model->single             ? "leapfrog's is one pass with the operator, in single precision"
-             : model->one_pass != NULL ? "leapfrog's is one pass with the operator"
-                                       : "apart from the operator");
+        tell(context, "step", step);
         snprintf(text, sizeof text, "what is below %g of the largest displacement moves nothing",
                  c->fused->quiet);
         tell(context, "quiet parts", c->fused->quiet > 0 ? text : "all are computed");
@@ -288,7 +291,8 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     if (c->pml != NULL) c->model.memory = &memory;
     c->model.layers = c->pml != NULL;
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
-    if (status == SELAS_OK) status = fused_steps_create(c, messages);
+    if (status == SELAS_OK)
+        status = (c->general != NULL ? general_steps_create : fused_steps_create)(c, messages);
     if (status != SELAS_OK) {
         destroy(&c->model);
         return status;

@@ -1,4 +1,4 @@
-/* The consistent smoothed point method (doc/consistent-method.md). */
+/* The consistent smoothed point method (doc/theory/consistent-method.md). */
 #ifndef SELAS_METHOD_CONSISTENT_CONSISTENT_H
 #define SELAS_METHOD_CONSISTENT_CONSISTENT_H
 

@@ -2,7 +2,6 @@
  * de-convolution, Eq 38, done exactly), fields stand at the lattice points, initial states are interpolated
  * at the Greville points of the control values (manual, section 6). */
 #include "method/consistent/consistent.h"
-#include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"
@@ -139,7 +138,7 @@ static bool watch_place(struct consistent *c, const double place[3])
         for (size_t w = 0; c->dimension == 3 && w < local * local * local; w++) {
             const size_t seen = at[0].index[w % local] + c->n[0] * at[1].index[w / local % local] +
                                 c->plane * (at[2].index[w / (local * local)] - c->part.first);
-            if (!fused_watch(c, 1, &seen)) return false;
+            if (!watch_places(c, 1, &seen)) return false;
         }
     }
     return true;

@@ -1,5 +1,5 @@
 /* Options of the consistent smoothed point method: what the deck says, what it leaves open, what cannot be
- * (manual, doc/consistent-method.md). */
+ * (manual, doc/theory/consistent-method.md). */
 #include "method/consistent/consistent.h"
 #include "method/consistent/galerkin/galerkin.h"
 #include "scene/absorbing_layers.h"
@@ -13,7 +13,7 @@ static bool tunable(const struct scene *scene, const struct consistent_options *
            scene->initial.kind == INITIAL_REST;
 }
 
-/* Loads whose integrals know nothing of the map (doc/general-ground.md, section 9). */
+/* Loads whose integrals know nothing of the map (doc/theory/general-ground.md, section 9). */
 static selas_status check_surface(const struct scene *scene, struct messages *messages)
 {
     for (size_t k = 0; scene->body.topography != NULL && k < scene->loads; k++) {
@@ -114,7 +114,7 @@ static bool given(const struct deck_group *group, const char *word)
 
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4 and the
  * exact mass where no C-PML stands beside it (that is built on sweeps only): waves in a soft layer are short
- * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/layered.md). Then
+ * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/theory/layered.md). Then
  * splines are tuned, too. */
 struct consistent_options consistent_options_of(const struct scene *scene)
 {

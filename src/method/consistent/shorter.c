@@ -1,5 +1,5 @@
 /* The same operator on a shorter body, on which its largest frequency is found: axes of many equal cells keep
- * their ends and their spacing and lose cells from the middle (manual, doc/stepping.md, "The time step",
+ * their ends and their spacing and lose cells from the middle (manual, doc/theory/stepping.md, "The time step",
  * where the numbers below are measured).
  *
  * Windows w_s over the control values of an axis with sum w_s^2 = 1 take any vector of the long body apart

@@ -1,4 +1,4 @@
-/* The step of a damped model (doc/damping.md, section 4):
+/* The step of a damped model (doc/theory/damping.md, section 4):
  *
  *   D_l(n+1) = a_l D_l(n) + b_l w(n+1/2),  a_l = (1 - h_l/2)/(1 + h_l/2),  b_l = dt/(1 + h_l/2),  h_l = r_l dt.
  */

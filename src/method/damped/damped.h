@@ -1,4 +1,4 @@
-/* Damped materials for linear methods (doc/damping.md): relaxation mechanisms as displacement-like memory
+/* Damped materials for linear methods (doc/theory/damping.md): relaxation mechanisms as displacement-like memory
  * variables on a model of the method, which itself knows nothing of damping.
  *
  * With unrelaxed moduli in K and D_l' = v - r_l D_l,

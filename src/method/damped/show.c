@@ -1,5 +1,5 @@
 /* What users see of a damped model: strain and motion are those of u, stress is that of all parts,
- * sigma = sum over parts of C_p grad e_p, energies are quadratic forms of u and D_l (doc/damping.md, Eq 16). */
+ * sigma = sum over parts of C_p grad e_p, energies are quadratic forms of u and D_l (doc/theory/damping.md, Eq 16). */
 #include "method/damped/damped.h"
 
 #include "base/memory.h"

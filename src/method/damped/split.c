@@ -1,4 +1,4 @@
-/* Weights of mechanisms by parts (doc/damping.md, section 3). A modulus of a material, kappa or mu, is a
+/* Weights of mechanisms by parts (doc/theory/damping.md, section 3). A modulus of a material, kappa or mu, is a
  * column of weights Y; with a reference column Y_0, and y_1, y_2, ... an orthonormal basis of all Y - Y_0,
  *
  *   Y = Y_0 + sum over p of b_p y_p:   moduli of part p: b_p times the unrelaxed ones,

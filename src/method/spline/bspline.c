@@ -1,7 +1,7 @@
 /* B-splines on one axis: values and integrals (knots.c lays the knots).
  *
  * Values by the recurrence of Cox and de Boor; integrals by Gauss quadrature, exact for polynomials; the
- * rational integrands of mapped ends get enough points for rounding (doc/consistent-method.md, section 2). */
+ * rational integrands of mapped ends get enough points for rounding (doc/theory/consistent-method.md, section 2). */
 #include "method/spline/bspline.h"
 
 #include <math.h>

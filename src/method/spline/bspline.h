@@ -1,5 +1,5 @@
 /* B-splines of degree 1 to 4 on one axis: knots, ends, values, and the 1-D matrices of the consistent
- * smoothed point method (doc/consistent-method.md, section 2).
+ * smoothed point method (doc/theory/consistent-method.md, section 2).
  *
  * Ends. Open: the knot at the end is repeated, the first function is 1 at the end and all others 0. Mapped:
  * open knots in a parameter t with uniformly spaced control points, x(t) = sum_j N_j(t) x_j. Mirror: a

@@ -1,5 +1,5 @@
 /* B-splines on one axis: knots, ends, elements and points of quadrature (bspline.c: values and integrals;
- * doc/consistent-method.md, section 2). */
+ * doc/theory/consistent-method.md, section 2). */
 #include "method/spline/bspline.h"
 
 #include "base/gsl_errors.h"

@@ -1,4 +1,4 @@
-/* Sources at a point (doc/consistent-method.md, section 15). The functions at x, N_b(x), have the transform
+/* Sources at a point (doc/theory/consistent-splines.md, section 15). The functions at x, N_b(x), have the transform
  *
  *   sum over b of N_b(x) exp(-i k (x_b - x)) = sum over n of N^(k + 2 pi n / h) exp(2 pi i n x / h),          (V1)
  *

@@ -1,4 +1,4 @@
-/* Sums of Kronecker products applied plane by plane (doc/consistent-method.md, section 3). */
+/* Sums of Kronecker products applied plane by plane (doc/theory/consistent-method.md, section 3). */
 #include "method/spline/tensor.h"
 
 #include "base/memory.h"

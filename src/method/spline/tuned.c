@@ -1,4 +1,4 @@
-/* Tuned splines (doc/consistent-method.md, section 14): with t = (2 sin(theta / 2))^2, theta = k dx,
+/* Tuned splines (doc/theory/consistent-splines.md, section 14): with t = (2 sin(theta / 2))^2, theta = k dx,
  *
  *   M' = dx [M + sum over q of m_q B_q^T B_q],
  *   S' = [S + sum of s_q B_q^T B_q] / dx,                                                               (U1)

@@ -1,6 +1,6 @@
 /* Tuned splines: B-splines of an axis along which the ground does not vary, whose mass and stiffness are
  * changed by a few high differences of the control values so that short waves keep their speed, and whose
- * loads and read-out are filtered to match (doc/consistent-method.md, section 14).
+ * loads and read-out are filtered to match (doc/theory/consistent-splines.md, section 14).
  *
  * The functions below do what their namesakes in bspline.h do, and the same where the spline is not tuned. */
 #ifndef SELAS_METHOD_SPLINE_TUNED_H

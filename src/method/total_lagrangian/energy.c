@@ -1,5 +1,5 @@
 /* Total-Lagrangian SPH: forces of the loads, energies, and the power of loads, moving faces, dampers and
- * viscosity (doc/sph-total-lagrangian.md). */
+ * viscosity (doc/theory/sph-total-lagrangian.md). */
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include <string.h>

@@ -4,7 +4,7 @@
  * the reference configuration, the forces are minus its exact derivatives (force.c), the
  * mass is rho V_i. So M u'' + dE/du = F with M diagonal and E bounded below: in the linear regime the
  * spectrum is imaginary whatever the points and weights. Vignjevic, Reveles & Campbell 2006 for the
- * reference-configuration form, doc/sph-total-lagrangian.md for the derivation. */
+ * reference-configuration form, doc/theory/sph-total-lagrangian.md for the derivation. */
 #include "method/total_lagrangian/run_loops.h"
 
 #include "base/memory.h"
@@ -295,7 +295,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     if (deck_values(group, "gradient") > 0)
         options.degree = deck_chosen(group, "gradient", "quadratic") ? 2 : 1;
     options.central = deck_chosen(group, "gradient", "central");
-    if (options.central) options.hourglass = 0.5; /* doc/sph-total-lagrangian.md, section 11 */
+    if (options.central) options.hourglass = 0.5; /* doc/theory/sph-total-lagrangian.md, section 11 */
     if (deck_values(group, "law") > 0) options.law = (enum elastic_law)deck_choice(group, "law", 0);
     read_real(group, "smoothing_length", &options.smoothing_length);
     read_real(group, "hourglass", &options.hourglass);

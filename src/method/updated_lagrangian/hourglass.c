@@ -1,4 +1,4 @@
-/* Hourglass control of updated-Lagrangian SPH (derived: Eq 4 of doc/sph-total-lagrangian.md with the
+/* Hourglass control of updated-Lagrangian SPH (derived: Eq 4 of doc/theory/sph-total-lagrangian.md with the
  * neighbours of now).
  *
  * The velocity gradient of Eq 12 does not see motions that alternate from particle to particle, so that no
@@ -15,7 +15,7 @@
  *   B_i = k sum_j V_j w_ij e_ij d_ij^T L_i^-1,    k = xi (lambda + 2 mu)
  *
  * With forces = 'adjoint' B_i takes -2 s_i L_i^-1 too: the stresses then act by the adjoint of grad v (U12 of
- * doc/sph-updated-lagrangian.md), and updated_rate leaves them out of Eq 19. Ghosts of walls count, those of
+ * doc/theory/sph-updated-lagrangian.md), and updated_rate leaves them out of Eq 19. Ghosts of walls count, those of
  * tractions do not deform. */
 #include "base/machine.h"
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 /* Rates of updated-Lagrangian SPH (He & Seaid 2016, Eqs 12-19, with the corrections of
- * doc/sph-updated-lagrangian.md):
+ * doc/theory/sph-updated-lagrangian.md):
  *
  *   d rho_i / dt = -rho_i tr(grad v_i)
  *   d v_i / dt   = sum_j m_j (s_j/rho_j^2 + s_i/rho_i^2 - Pi_ij I + f_ij^4 (R_i + R_j)) . L_i^-1 grad W_ij

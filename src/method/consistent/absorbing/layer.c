@@ -8,9 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What the damping against guided waves sends back, times the points squared, per share (measured). */
-static const double dragged_part = .9;
-
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -31,14 +28,12 @@ void layers_describe(const struct consistent *c,
             used += snprintf(text + used, sizeof text - (size_t)used,
                              " = %.2g P wavelengths at the source's cutoff",
                              thickness * cutoff / (two_pi * consistent_fastest(c, face)));
-        const double drag = c->pml == NULL ? 0 : c->pml->drag, points = (double)c->layer[face];
         const double expected =
             fmax(echo_of_layer(scene, face, c->layer[face]), layer_expected_reflection(c->layer[face]));
         snprintf(text + used, sizeof text - (size_t)used,
                  ", expected reflection %.1g %% of the velocity at the worst place looked at%s%s",
-                 100 * fmin(1, expected + dragged_part * drag / (points * points)),
-                 ground_is_general(scene) ? " if the ground were level" : "",
-                 drag > 0 ? ", damped against guided waves" : "");
+                 100 * fmin(1, expected), ground_is_general(scene) ? " if the ground were level" : "",
+                 layer_drag(scene, face) > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
     }
     if (c->pml == NULL || c->part.ranks != NULL) return;

@@ -1,4 +1,4 @@
-/* The step of the absorbing layers (doc/absorbing-faces.md, section 4): f' = -(alpha + d) f - d g by the
+/* The step of the absorbing layers (doc/theory/absorbing-faces.md, section 4): f' = -(alpha + d) f - d g by the
  * trapezoidal rule,
  *
  *   (f(n+1) - f(n)) / dt = -(alpha + d) m - d g(n+1/2),   m = (f(n) + f(n+1)) / 2,                       (11)

@@ -1,5 +1,5 @@
 /* Absorbing layers of the consistent method: convolutional perfectly matched layers on the control values of
- * the H-form (doc/absorbing-faces.md).
+ * the H-form (doc/theory/absorbing-faces.md).
  *
  * The body goes on behind a face for some points; along the axis j across the face d/dx_j becomes
  *

@@ -1,5 +1,5 @@
 /* The step of the absorbing layers on one kind of ground in three dimensions, with the passes of a slab
- * shared (doc/absorbing-faces.md, section 4). It serves where the fused operator (fused.h) does.
+ * shared (doc/theory/absorbing-faces.md, section 4). It serves where the fused operator (fused.h) does.
  *
  * A slab is worked on in rows along an axis f (x, or y where the slab lies across x), row after row along
  * the third axis, b (y for slabs across depth, else z). Along the axis s across the face there are few rows,

@@ -1,41 +1,19 @@
-/* Building the absorbing layers: slabs, damping profiles, matrices (doc/absorbing-faces.md, sections 2 and
+/* Building the absorbing layers: slabs, damping profiles, matrices (doc/theory/absorbing-faces.md, sections 2 and
  * 3). The matrices of the axis across the face are cut to the slab's region; nothing outside is touched. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/absorbing/pml_terms.h"
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
-#include "scene/ground.h"
 
 #include <math.h>
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
 static const double layer_relaxation = .1;
 
-/* Waves along a layered face whose phase and group velocities are opposite would grow in the layer: plates,
- * that is an axis along which neither end lets waves out (between two symmetry planes or rollers all waves
- * are plane ones), and ground that varies over depth. There velocities are damped at the rate share * d(x) *
- * (d(x) / largest d)^2 (Eq 11; shares by measurement). */
-static double drag_share(const struct consistent *c)
-{
-    static const double plate = .3, ground = .1;
-    for (int axis = 0; axis < c->dimension; axis++) {
-        int mirrors = 0, ways_out = 0;
-        for (int end = 0; end < 2; end++) {
-            const struct boundary *boundary = &c->model.scene->boundary[2 * axis + end];
-            mirrors += boundary_slides(boundary);
-            ways_out += boundary_absorbs(boundary);
-        }
-        if (ways_out == 0 && mirrors < 2) return plate;
-    }
-    return c->weighted[WEIGHT_DENSITY] != NULL || body_is_layered(&c->model.scene->body) ||
-                   ground_is_general(c->model.scene)
-               ? ground
-               : 0;
-}
-
 static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count, double most)
 {
-    const double share = c->pml->drag = drag_share(c);
+    const double share = layer_drag(c->model.scene, 2 * slab->axis + slab->end);
+    c->pml->drag = fmax(c->pml->drag, share);
     if (share == 0) return true;
     slab->drag = array_new(count, sizeof *slab->drag);
     slab->kept = array_new(count, sizeof *slab->kept);

@@ -1,4 +1,4 @@
-/* The terms of the absorbing layers (doc/absorbing-faces.md, section 2): sums of products of matrices, those
+/* The terms of the absorbing layers (doc/theory/absorbing-faces.md, section 2): sums of products of matrices, those
  * of the axis across the face cut to the slab's region. */
 #include "method/consistent/absorbing/pml_terms.h"
 

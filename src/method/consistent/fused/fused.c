@@ -73,8 +73,7 @@ static struct band *depth_matrix(struct consistent *c, int in, enum fused_depth 
     return product;
 }
 
-/* Weights of each row, `taps` a row; rows up to `rows` are 0. */
-static double *by_rows(const struct band *band, double factor, int taps, size_t rows)
+double *fused_by_rows(const struct band *band, double factor, int taps, size_t rows)
 {
     double *table = array_new(rows * (size_t)taps, sizeof *table);
     for (size_t i = 0; table != NULL && i < band->n; i++)
@@ -84,10 +83,9 @@ static double *by_rows(const struct band *band, double factor, int taps, size_t 
     return table;
 }
 
-/* The same by vectors: [width / vector][taps][vector]. */
-static double *by_vectors(const struct band *band, double factor, int taps, size_t width, size_t vector)
+double *fused_by_vectors(const struct band *band, double factor, int taps, size_t width, size_t vector)
 {
-    double *rows = by_rows(band, factor, taps, band->n);
+    double *rows = fused_by_rows(band, factor, taps, band->n);
     double *table = rows == NULL ? NULL : array_new((size_t)taps * width, sizeof *table);
     for (size_t i = 0; table != NULL && i < band->n; i++)
         for (size_t t = 0; t < (size_t)taps; t++)
@@ -108,8 +106,8 @@ static bool lay_side(struct consistent *c, struct fused *f, int axis)
         const int taps = inverse ? f->wide : f->narrow;
         void **table = axis == 0 ? &f->x[which] : &f->y[which];
         if (band != NULL)
-            *table = axis == 0 ? by_vectors(band, factor, taps, f->width, FUSED_VECTOR / f->number)
-                               : by_rows(band, factor, taps, rounded(f->n[1], FUSED_ROWS));
+            *table = axis == 0 ? fused_by_vectors(band, factor, taps, f->width, FUSED_VECTOR / f->number)
+                               : fused_by_rows(band, factor, taps, rounded(f->n[1], FUSED_ROWS));
         band_free(made);
         if (*table == NULL) return false;
     }
@@ -125,32 +123,35 @@ static bool lay_depth(struct consistent *c, struct fused *f)
             struct band *band = whole == NULL ? NULL : band_cut(whole, c->part.first, f->n[DEPTH]);
             band_free(whole);
             if (band != NULL)
-                f->z[component][which] = by_rows(band, factor, f->deep, rounded(f->n[2], FUSED_PLANES));
+                f->z[component][which] = fused_by_rows(band, factor, f->deep, rounded(f->n[2], FUSED_PLANES));
             band_free(band);
             if (f->z[component][which] == NULL) return false;
         }
     return true;
 }
 
-/* Groups of rows whose weights over y are all the same, but for the rounding of positions up to n spacings.
- */
-static bool find_plain(struct fused *f)
+void fused_find_plain(const double *table, size_t taps, size_t n, bool *plain)
+{
+    const double rounding = 2 * DBL_EPSILON * (double)n;
+    for (size_t group = 0; group < rounded(n, FUSED_ROWS) / FUSED_ROWS; group++) {
+        const double *row = table + group * FUSED_ROWS * taps;
+        double largest = 0;
+        for (size_t i = 0; i < taps; i++)
+            largest = fmax(largest, fabs(row[i]));
+        for (size_t i = taps; i < FUSED_ROWS * taps; i++)
+            plain[group] = plain[group] && fabs(row[i] - row[i - taps]) <= rounding * largest;
+    }
+}
+
+static bool lay_plain(struct fused *f)
 {
     const size_t groups = rounded(f->n[1], FUSED_ROWS) / FUSED_ROWS;
-    const double rounding = 2 * DBL_EPSILON * (double)f->n[1];
     f->plain = array_new(groups, sizeof *f->plain);
     if (f->plain == NULL) return false;
-    for (size_t group = 0; group < groups; group++) {
-        f->plain[group] = true;
-        for (int which = 0; which < SIDE_MATRICES; which++) {
-            const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
-            const double *row = (const double *)f->y[which] + group * FUSED_ROWS * taps;
-            double largest = 0;
-            for (size_t i = 0; i < taps; i++)
-                largest = fmax(largest, fabs(row[i]));
-            for (size_t i = taps; i < FUSED_ROWS * taps; i++)
-                f->plain[group] = f->plain[group] && fabs(row[i] - row[i - taps]) <= rounding * largest;
-        }
+    memset(f->plain, true, groups * sizeof *f->plain);
+    for (int which = 0; which < SIDE_MATRICES; which++) {
+        const bool inverse = which == SIDE_N_EVEN || which == SIDE_N_ODD;
+        fused_find_plain(f->y[which], (size_t)(inverse ? f->wide : f->narrow), f->n[1], f->plain);
     }
     return true;
 }
@@ -228,8 +229,7 @@ static bool shares_masses(const struct consistent *c)
     return true;
 }
 
-/* Numbers of a table in single precision, in place. */
-static void shorten(void *table, size_t n)
+void fused_shorten(void *table, size_t n)
 {
     const double *long_one = table;
     float *single = table;
@@ -243,12 +243,12 @@ static void shorten_all(struct fused *f)
 {
     for (int which = 0; which < SIDE_MATRICES; which++) {
         const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
-        shorten(f->x[which], taps * f->width);
-        shorten(f->y[which], taps * rounded(f->n[1], FUSED_ROWS));
+        fused_shorten(f->x[which], taps * f->width);
+        fused_shorten(f->y[which], taps * rounded(f->n[1], FUSED_ROWS));
     }
     for (int component = 0; component < 3; component++)
         for (int which = 0; which < OVER_DEPTH_MATRICES; which++)
-            shorten(f->z[component][which], (size_t)f->deep * rounded(f->n[2], FUSED_PLANES));
+            fused_shorten(f->z[component][which], (size_t)f->deep * rounded(f->n[2], FUSED_PLANES));
 }
 
 /* Tables and rings for numbers of so many bytes; NULL: no memory. */
@@ -274,7 +274,7 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->late[0] = rounded(degree, FUSED_ROWS);
     f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
     lay_rings(f);
-    const bool good = lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && find_plain(f) &&
+    const bool good = lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && lay_plain(f) &&
                       lay_buffers(f) && lay_windows(c, f);
     if (good && number == sizeof(float)) shorten_all(f);
     if (good) return f;
@@ -331,8 +331,6 @@ void fused_free(struct fused *fused)
     array_free(fused->buffer);
     array_free(fused->kept);
     array_free(fused->relaxing);
-    array_free(fused->watch.entry);
-    array_free(fused->watch.before);
     array_free(fused->plain);
     array_free(fused->size);
     array_free(fused->column);

@@ -1,4 +1,4 @@
-/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/performance.md).
+/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/developers/performance.md).
  *
  * With b = B_z u (N M over depth, or the identity), each line one pass over rows that stay in the cache,
  *
@@ -49,13 +49,6 @@ enum fused_side {
 };
 enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_MATRICES };
 
-/* Entries of u that someone looks at after every step, in all components. */
-struct fused_watch {
-    size_t count, room, *entry;
-    bool sorted;
-    double *before;
-};
-
 /* How displacements e_p that relax go on with their memory (model.h, relaxing), in a step of dt:
  * D_l := kept_l D_l + taken_l w, e_p += given_p dt w + sum over l of weight_pl (change of D_l). One kind of
  * ground has not more than two parts. */
@@ -94,7 +87,6 @@ struct fused {
     size_t points, skipped;    /* of all calls so far */
     size_t number;             /* bytes of a number in tables and rings */
     struct fused *single;      /* the same in floats, if the scene's steps are */
-    struct fused_watch watch;  /* of both */
     void *kept;                /* what steps in one pass go on from: the velocity half a step ahead, ... */
     size_t kept_bytes;         /* ... the e_p behind it if they relax; in single precision u or e_0 before it
                                  and all memory, then e_1, behind it */
@@ -122,6 +114,15 @@ struct fused_fields {
  */
 bool fused_create(struct consistent *c);
 void fused_free(struct fused *fused);
+/* Tables of weights: of each row, `taps` a row, rows up to `rows` being 0; the same by vectors, [width / vector][taps]
+ * [vector]. NULL: no memory. */
+double *fused_by_rows(const struct band *band, double factor, int taps, size_t rows);
+double *fused_by_vectors(const struct band *band, double factor, int taps, size_t width, size_t vector);
+/* plain[group] stays true for groups of rows whose weights are all the same, but for the rounding of positions up to n
+ * spacings. */
+void fused_find_plain(const double *table, size_t taps, size_t n, bool *plain);
+/* Numbers of a table in single precision, in place. */
+void fused_shorten(void *table, size_t n);
 /* (F1) in the window computed[] of the planes first .. first + FUSED_PLANES - 1 (those that are there), first
  * a multiple of FUSED_PLANES; an acceleration is 0 outside. */
 void fused_planes_double(const struct fused *fused, int thread, size_t first,
@@ -171,8 +172,5 @@ void fused_settle_single(const struct consistent *c, const struct drive *drive, 
 /* one_pass.c: if the scene's steps of leapfrog can be made in one pass, takes what that needs and puts it
  * into the model's class; SELAS_UNSUPPORTED: options.single, but they cannot. Needs model.state_size. */
 selas_status fused_steps_create(struct consistent *c, struct messages *messages);
-/* Keeps v and a (and y, if the state is kept apart) right at these control values, in all components. False:
- * no memory. */
-bool fused_watch(struct consistent *c, size_t count, const size_t *place);
 
 #endif

@@ -9,6 +9,7 @@
 #include "base/machine.h"
 #include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/fused/fused.h"
+#include "method/consistent/fused/settled.h"
 #include "method/spline/passes.h"
 
 #include <string.h>
@@ -235,7 +236,7 @@ static void accelerate(const struct consistent *c, const struct drive *drive,
 void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
                        const struct NAME(step_fields) * step, double *a)
 {
-    const struct fused_watch *watch = &c->fused->watch;
+    const struct watch *watch = &c->watch;
     FUSED(c)->known = false;
     accelerate(c, drive, step, step->work);
     for (size_t i = 0; i < c->model.unknowns; i++)
@@ -291,7 +292,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
                          const struct NAME(step_fields) * step, double *y, double *a)
 {
     struct fused *f = FUSED(c);
-    const struct fused_watch *watch = &c->fused->watch;
+    const struct watch *watch = &c->watch;
     REAL *u = step->part[0].u;
     const struct fused_fields fields = {.u = u,
                                         .a = step->w,
@@ -330,32 +331,11 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     fused_count(f);
 }
 
-/* y[i] = value[i], i < count, unless it is that already: what was never written to takes no memory. */
-static void put(size_t count, const double *value, double *y)
-{
-    if (memcmp(y, value, count * sizeof *y) != 0) memcpy(y, value, count * sizeof *y);
-}
-
 void NAME(fused_settle)(const struct consistent *c, const struct drive *drive, double dt,
                         const struct NAME(step_fields) * step, double *y, double *a)
 {
-    enum { PAGE = 512 };
-    const size_t n = c->model.unknowns;
-    const REAL *u = step->part[0].u;
-    const bool apart = (const void *)u != (const void *)y;
+    const struct NAME(settled)
+        settled = {c->model.unknowns, c->threads, step->part[0].u, step->w, step->work};
     accelerate(c, drive, step, step->work);
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t from = 0; from < n; from += PAGE) {
-        const size_t count = n - from < PAGE ? n - from : PAGE;
-        double value[PAGE] = {0};
-        for (size_t i = 0; i < count; i++)
-            value[i] = step->w[from + i] - dt / 2 * step->work[from + i];
-        put(count, value, y + n + from);
-        for (size_t i = 0; i < count && apart; i++)
-            value[i] = u[from + i];
-        if (apart) put(count, value, y + from);
-        for (size_t i = 0; i < count && a != NULL; i++)
-            value[i] = step->work[from + i];
-        if (a != NULL) put(count, value, a + from);
-    }
+    NAME(settle)(&settled, dt, y, a);
 }

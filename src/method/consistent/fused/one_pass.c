@@ -5,66 +5,9 @@
 
 #include "base/memory.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static const struct model_one_pass one_pass;
-
-static int by_place(const void *one, const void *other)
-{
-    const size_t a = *(const size_t *)one, b = *(const size_t *)other;
-    return a < b ? -1 : a > b;
-}
-
-/* Each entry once, in the order of memory. */
-static void sort_watched(struct fused_watch *watch)
-{
-    if (watch->sorted || watch->count == 0) return;
-    qsort(watch->entry, watch->count, sizeof *watch->entry, by_place);
-    size_t kept = 1;
-    for (size_t i = 1; i < watch->count; i++)
-        if (watch->entry[i] != watch->entry[kept - 1]) watch->entry[kept++] = watch->entry[i];
-    watch->count = kept;
-    watch->sorted = true;
-}
-
-bool fused_watch(struct consistent *c, size_t count, const size_t *place)
-{
-    if (c->model.one_pass == NULL) return true;
-    struct fused_watch *watch = &c->fused->watch;
-    if (watch->room < watch->count + 3 * count) {
-        sort_watched(watch);
-        const size_t room = 2 * watch->count + 3 * count;
-        size_t *entry = array_new(room, sizeof *entry);
-        double *before = array_new(room, sizeof *before);
-        if (entry != NULL && watch->count > 0) memcpy(entry, watch->entry, watch->count * sizeof *entry);
-        array_free(watch->entry);
-        array_free(watch->before);
-        watch->entry = entry;
-        watch->before = before;
-        watch->room = room;
-        if (entry == NULL || before == NULL) return false;
-    }
-    for (size_t component = 0; component < 3; component++)
-        for (size_t i = 0; i < count; i++)
-            watch->entry[watch->count++] = component * c->volume + place[i];
-    watch->sorted = false;
-    return true;
-}
-
-/* The power of a load is that of the velocities it touches. */
-static bool watch_loads(struct consistent *c)
-{
-    for (size_t l = 0; l < c->model.scene->loads; l++) {
-        const struct sparse *load = &c->load[l];
-        for (size_t at = 0; at < 3 * c->n[DEPTH]; at++)
-            for (size_t e = load->start[at]; e < load->start[at + 1]; e++) {
-                const size_t place = at % c->n[DEPTH] * c->plane + load->index[e];
-                if (!fused_watch(c, 1, &place)) return false;
-            }
-    }
-    return true;
-}
 
 /* Factors of a step of dt. */
 static struct fused_relax relax_of(const struct consistent *c, double dt)
@@ -159,7 +102,7 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
     const struct fused_relax factors = relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
     const struct fused_relax *relax = relaxing != NULL ? &factors : NULL;
     const size_t n = model->unknowns;
-    sort_watched(&c->fused->watch);
+    watch_sort(&c->watch);
     model->evaluations++;
     if (model->single) {
         const struct step_fields_single fields = fields_single(c, relax);

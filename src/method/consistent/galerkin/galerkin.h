@@ -1,4 +1,4 @@
-/* The consistent smoothed point method: inside of the model (doc/consistent-method.md).
+/* The consistent smoothed point method: inside of the model (doc/theory/consistent-method.md).
  *
  * Unknowns are control values of tensor-product B-splines in the body's own frame, component c of control
  * value (i, j, k) at c * volume + i + n[0] * (j + n[1] * k). The scene's axes lie in the slots x, y, z of
@@ -52,6 +52,13 @@ struct mass_factors {
     double *(*side)[3][2]; /* [class][component][slot] */
 };
 
+/* Entries of u that someone looks at after every step in one pass, in all components. */
+struct watch {
+    size_t count, room, *entry;
+    bool sorted;
+    double *before; /* [count] room for the velocities before a step */
+};
+
 struct consistent {
     struct model model;
     struct consistent_options options;
@@ -92,7 +99,8 @@ struct consistent {
     double *face_buffer;     /* [dimension * plane] */
     struct hform *hform;     /* NULL: exact mass */
     struct general *general; /* NULL: the H-form or the exact mass */
-    struct fused *fused;     /* NULL: the scene is none for it, or it is not wanted */
+    struct watch watch;
+    struct fused *fused; /* NULL: the scene is none for it, or it is not wanted */
     int threads;
     struct tuned_point *lattice[3][2]; /* [axis][odd]: functions at the lattice points of an axis */
     struct band *collocation[3][2];    /* [axis][odd]: LU factors of the values at the Greville points */
@@ -121,6 +129,13 @@ static inline struct consistent *consistent_of(struct model *model)
 const struct band *consistent_matrix(struct consistent *c, int axis, int test_slope, bool test_odd,
                                      int trial_slope, bool trial_odd, enum weighting weight);
 bool consistent_plans(struct consistent *c);
+
+/* watch.c: keeps v and a (and y, if the state is kept apart) right at these control values, in all components; the same
+ * where loads act, whose power is that of the velocities there. False: no memory. */
+bool watch_places(struct consistent *c, size_t count, const size_t *place);
+bool watch_loads(struct consistent *c);
+void watch_sort(struct watch *watch); /* each entry once, in the order of memory */
+void watch_free(struct watch *watch);
 
 /* mass.c */
 bool mass_allocate(struct consistent *c);

@@ -1,5 +1,5 @@
 /* Patches that move along a face at constant velocity, in the consistent method: vectors that follow the
- * time (doc/sources.md). Nothing is allocated after creation. */
+ * time (doc/theory/sources.md). Nothing is allocated after creation. */
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_MOVING_LOAD_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_MOVING_LOAD_H
 

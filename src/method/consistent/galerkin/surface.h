@@ -1,4 +1,4 @@
-/* The map of a lattice below a surface that is not level, and its metric (doc/general-ground.md, section 9). */
+/* The map of a lattice below a surface that is not level, and its metric (doc/theory/general-ground.md, section 9). */
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
 

@@ -1,12 +1,11 @@
 /* Corners where three free faces meet: the points of the three families see nothing of one motion of each
- * component there (doc/general-ground.md, section 2). One more point on each corner, of the weight that it has
+ * component there (doc/theory/general-ground.md, section 2). One more point on each corner, of the weight that it has
  * in Simpson's rule, sees them. */
 #include "method/consistent/general/general.h"
 
 static const double simpson = 1. / 216;
 
-/* Control values that the point sees: on the corner, and the next one along each axis. */
-static size_t seen(const struct consistent *c, const struct corner *corner, int slot, int next)
+size_t general_corner_seen(const struct consistent *c, const struct corner *corner, int slot, int next)
 {
     const size_t stride[3] = {1, c->n[0], c->plane};
     size_t index = 0;
@@ -48,31 +47,37 @@ void general_lay_corners(struct consistent *c)
     }
 }
 
+void general_corner_pull(const struct corner *corner, double slope[3][3], int component, double pull[3])
+{
+    double pressure = 0;
+    for (int i = 0; i < 3; i++)
+        metric_tilt(&corner->metric, slope[i]);
+    for (int i = 0; i < 3; i++)
+        pressure += corner->lambda * slope[i][i];
+    for (int slot = 0; slot < 3; slot++)
+        pull[slot] = corner->mu * (slope[component][slot] + slope[slot][component]) +
+                     (component == slot ? pressure : 0);
+    pull[DEPTH] = metric_pull(&corner->metric, pull);
+    for (int slot = 0; slot < 3; slot++)
+        pull[slot] *= corner->slope[slot];
+}
+
 void general_corners(const struct consistent *c, const double *u, double *force)
 {
     for (size_t n = 0; n < c->general->corners; n++) {
         const struct corner *corner = &c->general->corner[n];
-        const struct metric *metric = &corner->metric;
-        double slope[3][3], pressure = 0;
-        for (int component = 0; component < 3; component++)
-            for (int slot = 0; slot < 3; slot++) {
-                const double *field = u + (size_t)component * c->volume;
-                slope[component][slot] =
-                    corner->slope[slot] * (field[seen(c, corner, slot, 1)] - field[seen(c, corner, slot, 0)]);
-            }
-        for (int component = 0; component < 3; component++)
-            metric_tilt(metric, slope[component]);
-        for (int i = 0; i < 3; i++)
-            pressure += corner->lambda * slope[i][i];
         for (int component = 0; component < 3; component++) {
-            double *field = force + (size_t)component * c->volume, stress[3];
-            for (int slot = 0; slot < 3; slot++)
-                stress[slot] = corner->mu * (slope[component][slot] + slope[slot][component]) +
-                               (component == slot ? pressure : 0);
-            stress[DEPTH] = metric_pull(metric, stress);
+            double *field = force + (size_t)component * c->volume, slope[3][3], pull[3];
+            for (int of = 0; of < 3; of++)
+                for (int slot = 0; slot < 3; slot++) {
+                    const double *at = u + (size_t)of * c->volume;
+                    slope[of][slot] = corner->slope[slot] * (at[general_corner_seen(c, corner, slot, 1)] -
+                                                             at[general_corner_seen(c, corner, slot, 0)]);
+                }
+            general_corner_pull(corner, slope, component, pull);
             for (int slot = 0; slot < 3; slot++) {
-                field[seen(c, corner, slot, 1)] -= corner->slope[slot] * stress[slot];
-                field[seen(c, corner, slot, 0)] += corner->slope[slot] * stress[slot];
+                field[general_corner_seen(c, corner, slot, 1)] -= pull[slot];
+                field[general_corner_seen(c, corner, slot, 0)] += pull[slot];
             }
         }
     }

@@ -1,5 +1,5 @@
 /* Forces of the general operator: planes of points across depth, one after the other, each pulling at the
- * planes of control values next to it (doc/general-ground.md, section 2).
+ * planes of control values next to it (doc/theory/general-ground.md, section 2).
  *
  * A thread makes the forces of some planes of control values, from all points that reach them, in the same
  * order whatever the threads: the same bits. */

@@ -1,5 +1,6 @@
-/* The general operator: making, acceleration, M v and energies (doc/general-ground.md). */
+/* The general operator: making, acceleration, M v and energies (doc/theory/general-ground.md). */
 #include "method/consistent/general/general.h"
+#include "method/consistent/general/sweep.h"
 
 #include "base/memory.h"
 #include "base/sums.h"
@@ -147,6 +148,7 @@ void general_free(struct consistent *c)
     struct general *g = c->general;
     if (g == NULL) return;
     general_layers_free(c);
+    sweep_free(g->sweep);
     general_free_hill(c);
     for (int slot = 0; slot < 3; slot++)
         for (int odd = 0; odd < 2; odd++)

@@ -1,5 +1,5 @@
 /* The general operator of the consistent method: material that varies in all directions
- * (doc/general-ground.md).
+ * (doc/theory/general-ground.md).
  *
  * The strain energy is taken at three families of points, on the knots of one axis and in the middles of the
  * cells of the others (G1), for splines of degree 2; the mass inverse is that of an even ground between two
@@ -43,6 +43,7 @@ struct general {
     size_t corners;
     struct corner corner[8];
     struct hill *hill;           /* NULL: the surface is level */
+    struct sweep *sweep;         /* NULL: steps are made with the operator */
     struct general_layer *layer; /* [layers] */
     size_t layers;
     double *middle;              /* memory of slopes at the middle of a step, as in extra */
@@ -93,7 +94,7 @@ bool general_row_is_loud(const struct consistent *c, const struct taps *y, const
 /* Does a plane of points reach planes from .. end - 1, and does it move anything? */
 bool general_plane_counts(const struct consistent *c, enum at at, size_t m, size_t from, size_t end);
 
-/* layers.c: absorbing layers (doc/general-ground.md, section 5). */
+/* layers.c: absorbing layers (doc/theory/general-ground.md, section 5). */
 selas_status general_layers_create(struct consistent *c, struct messages *messages);
 void general_layers_free(struct consistent *c);
 /* Adds their memory to the slopes of points from .. end - 1 of row j in plane m. */
@@ -109,6 +110,10 @@ void general_layers_remember(struct consistent *c, double dt, double to_middle, 
 /* corners.c: lays the corners; adds -K u of their points. */
 void general_lay_corners(struct consistent *c);
 void general_corners(const struct consistent *c, const double *u, double *force);
+/* Control values that the point of a corner sees: on the corner, and the next one along each axis. */
+size_t general_corner_seen(const struct consistent *c, const struct corner *corner, int slot, int next);
+/* What the stresses of a component pull at along each slot, from the slopes along the lattice; these are spoiled. */
+void general_corner_pull(const struct corner *corner, double slope[3][3], int component, double pull[3]);
 
 /* material.c: lays moduli at the points, and the mass of each control value. SELAS_NO_MEMORY. */
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages);

@@ -1,5 +1,5 @@
 /* Loops over a row of points of the general operator: slopes of u, stresses, and what they pull at
- * (doc/general-ground.md, G1 to G3). */
+ * (doc/theory/general-ground.md, G1 to G3). */
 #include "method/consistent/general/points.h"
 
 #include "base/machine.h"

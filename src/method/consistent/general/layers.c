@@ -1,12 +1,13 @@
 /* Absorbing layers of the general operator: convolutional perfectly matched layers at its points
- * (doc/general-ground.md, section 5). Along the axis j across the face the layer keeps
+ * (doc/theory/general-ground.md, section 5). Along the axis j across the face the layer keeps
  *
  *   psi_ij = F_j[d_j u_i]  at the points,   phi_ij = F_j[f_ij]  at the control values,                  (G13)
  *
- * f_ij the forces of the stresses along j, made with d_j u_i + psi_ij for every slope; steps by the trapezoidal
- * rule as in absorbing/pml.c. */
+ * f_ij the forces of the stresses along j, made with d_j u_i + psi_ij for every slope, F_j of them as of moments
+ * (moments.h); steps by the trapezoidal rule as in absorbing/pml.c. */
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/general/general.h"
+#include "method/consistent/general/moments.h"
 
 #include "base/memory.h"
 
@@ -22,6 +23,7 @@ struct general_layer {
     size_t at[3][3], n[3][3]; /* [family][slot] of its points */
     double *damping[2];       /* [at] at its points along the slot */
     size_t psi[3], points[3]; /* [family] place in extra; points */
+    struct moment_rows rows;
 };
 
 /* Points of a layer along its slot: those of its cells, the knot of the face not among them. */
@@ -63,7 +65,7 @@ static bool lay_layer(struct consistent *c, const struct slab *slab, struct gene
         layer->psi[f] = *extra;
         *extra += (size_t)c->dimension * layer->points[f];
     }
-    return true;
+    return moment_rows_lay(&layer->rows, c, slab);
 }
 
 selas_status general_layers_create(struct consistent *c, struct messages *messages)
@@ -75,14 +77,14 @@ selas_status general_layers_create(struct consistent *c, struct messages *messag
     size_t extra = 0;
     for (size_t l = 0; good && l < g->layers; l++)
         good = lay_layer(c, &c->pml->slab[l], &g->layer[l], &extra);
-    g->middle = array_new(extra, sizeof *g->middle);
-    c->pml->bytes += extra * sizeof *g->middle;
     for (size_t l = 0; l < g->layers; l++) { /* what looks for spoiled places reads phi in both */
         struct slab *slab = &c->pml->slab[l];
         slab->psi = slab->phi = extra;
         extra += (size_t)c->dimension * slab->inner;
     }
     c->pml->extra = extra;
+    g->middle = array_new(extra, sizeof *g->middle);
+    c->pml->bytes += extra * sizeof *g->middle;
     if (good && g->middle != NULL) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
 }
@@ -90,9 +92,11 @@ selas_status general_layers_create(struct consistent *c, struct messages *messag
 void general_layers_free(struct consistent *c)
 {
     struct general *g = c->general;
-    for (size_t l = 0; g->layer != NULL && l < g->layers; l++)
+    for (size_t l = 0; g->layer != NULL && l < g->layers; l++) {
         for (int at = 0; at < 2; at++)
             array_free(g->layer[l].damping[at]);
+        moment_rows_free(&g->layer[l].rows);
+    }
     array_free(g->layer);
     array_free(g->middle);
 }
@@ -284,26 +288,6 @@ static void layer_forces(const struct consistent *c, const struct general_layer 
     }
 }
 
-static void move_forces(const struct consistent *c, const struct general_layer *layer, double dt,
-                        const double *force, double *extra)
-{
-    const struct slab *slab = layer->slab;
-    const struct block *in = &slab->inside;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < in->n[2]; k++)
-        for (size_t component = 0; component < (size_t)c->dimension; component++)
-            for (size_t j = 0; j < in->n[1]; j++) {
-                const double *row = force + component * c->volume + (k + in->at[2]) * c->plane +
-                                    (j + in->at[1]) * c->n[0] + in->at[0];
-                double *phi = extra + slab->phi + component * slab->inner + (k * in->n[1] + j) * in->n[0];
-                for (size_t i = 0; i < in->n[0]; i++) {
-                    double middle;
-                    const size_t along = layer->slot == 0 ? i : layer->slot == 1 ? j : k;
-                    move(dt, slab->damping[along], slab->relaxation, row[i], &phi[i], &middle);
-                }
-            }
-}
-
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
                              const double *v, double *extra)
 {
@@ -316,6 +300,6 @@ void general_layers_remember(struct consistent *c, double dt, double to_middle, 
         move_all_slopes(c, &g->layer[l], dt, g->work, extra);
     for (size_t l = 0; l < g->layers; l++) {
         layer_forces(c, &g->layer[l], g->work, g->force);
-        move_forces(c, &g->layer[l], dt, g->force, extra);
+        moment_rows_move(c, &g->layer[l].rows, g->layer[l].slab, dt, g->force, extra);
     }
 }

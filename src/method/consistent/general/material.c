@@ -1,4 +1,4 @@
-/* What the ground is at the points of the general operator (doc/general-ground.md, sections 1, 3 and 4). */
+/* What the ground is at the points of the general operator (doc/theory/general-ground.md, sections 1, 3 and 4). */
 #include "method/consistent/general/medium.h"
 
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 /* Averages of the ground about the points of the general operator: Backus's quantities with kernels of zero
- * second moment (doc/general-ground.md, section 4). Along depth between the places where the rock jumps, so
+ * second moment (doc/theory/general-ground.md, section 4). Along depth between the places where the rock jumps, so
  * exact for layers; along the axes of the surface, where the ground varies along them, over columns of a
  * fraction of the spacing. */
 #include "method/consistent/general/medium.h"

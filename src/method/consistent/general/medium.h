@@ -1,4 +1,4 @@
-/* The effective medium at the points of the general operator (doc/general-ground.md, section 4). */
+/* The effective medium at the points of the general operator (doc/theory/general-ground.md, section 4). */
 #ifndef SELAS_METHOD_CONSISTENT_GENERAL_MEDIUM_H
 #define SELAS_METHOD_CONSISTENT_GENERAL_MEDIUM_H
 

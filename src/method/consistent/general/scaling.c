@@ -1,4 +1,4 @@
-/* The mass of the general operator (doc/general-ground.md, section 3): M_R = R^1/2 N^-1 R^1/2, R such that an
+/* The mass of the general operator (doc/theory/general-ground.md, section 3): M_R = R^1/2 N^-1 R^1/2, R such that an
  * exact M in the place of N^-1 has the row sums of the mass of the ground,
  *
  *   R^1/2 M R^1/2 1 = m,                                                                              (G5)

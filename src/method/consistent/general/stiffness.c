@@ -1,5 +1,5 @@
 /* Stiffness of the effective medium of Backus (1962): transversely isotropic about the normal n of the layering
- * (doc/general-ground.md, G10 and G12). */
+ * (doc/theory/general-ground.md, G10 and G12). */
 #include "method/consistent/general/medium.h"
 
 #include <math.h>

@@ -1,0 +1,195 @@
+/* Steps of leapfrog of the general operator by sweeps (method/consistent/general/sweep.h) against drift, operator and
+ * kick one by one: whole states and what is looked at after each step, threads, what is kept, what is refused. */
+#include "stepped.h"
+
+#include "method/consistent/general/sweep.h"
+#include "scene/topography.h"
+
+static struct consistent_options general(void)
+{
+    return (struct consistent_options){
+        .degree = 2, .sweeps = 3, .depth_exact = true, .general = true, .quiet = 1e-12};
+}
+
+/* A box with faces drawn by chance, of one rock or of two that meet at a tilted face, below a hill or not, and a load that
+ * begins at t = 0. */
+static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks)
+{
+    static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
+                                               BOUNDARY_SYMMETRY};
+    const double spacing = .3;
+    double size[3];
+    for (int axis = 0; axis < 3; axis++)
+        size[axis] = spacing * (double)(17 + chance(10)); /* single precision takes 16 at least */
+    size[2] += spacing * 4;
+    plain_box(plain, 3, size, spacing);
+    for (int face = 0; face < 6; face++)
+        plain->scene.boundary[face].kind = kinds[chance(4)];
+    plain->scene.boundary[4].kind = chance(3) == 0 ? BOUNDARY_SYMMETRY : BOUNDARY_FREE;
+    if (hilly) plain->scene.boundary[4].kind = BOUNDARY_FREE;
+    plain->scene.body.layers = rocks ? 2 : 0;
+    plain->layer[0] = (struct layer){.material = 0};
+    plain->layer[1] = (struct layer){.material = 1, .top = .8, .slope = {.2, .1}};
+    *hill = (struct topography){.shape = TOPOGRAPHY_GAUSSIAN, .width = .8, .height = .5, .across = {1, 0}};
+    hill->axis = 2;
+    hill->centre[0] = hill->centre[1] = 1.6;
+    hill->depth = 12 * spacing;
+    if (hilly) plain->scene.body.topography = hill;
+    struct load *load = plain_face_load(plain, FACE_Z_LOW, (double[]){.3, .5, 1});
+    load->shape = LOAD_SQUARE;
+    load->centre[0] = load->centre[1] = 1.4;
+    load->size[0] = 1.3;
+    load->size[1] = .9;
+    load->history = (struct history){.kind = HISTORY_STEP};
+}
+
+/* u, v and a of two settled states. */
+static void compare(const struct stepped *one, const struct stepped *other, double worst[3])
+{
+    const size_t n = one->model->unknowns;
+    for (size_t part = 0; part < 3; part++)
+        worst[part] = fmax(worst[part], difference(n, part == 2 ? one->state.a : one->state.y + part * n,
+                                                   part == 2 ? other->state.a : other->state.y + part * n));
+}
+
+static void test_one_by_one(void **unused)
+{
+    (void)unused;
+    double worst[3] = {0}, seen = 0, watched = 0;
+    const int scenes = few_of(8, 2);
+    for (int i = 0; i < scenes; i++) {
+        struct plain_scene plain;
+        struct topography hill;
+        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3);
+        struct consistent_options options = general();
+        options.quiet = i % 4 < 2 ? 0 : 1e-15; /* what is left out differs: rows within reach of others */
+        struct stepped one = begin(&plain, options, true, i % 3 != 0);
+        struct stepped other = begin(&plain, options, false, i % 3 != 0);
+        for (int count = 0; count < 40; count++) {
+            double a[VALUES], b[VALUES], settled[VALUES];
+            observed(&one, a);
+            observed(&other, b);
+            for (size_t k = 0; k < 3 * PLACES && options.quiet == 0;
+                 k++) /* before waves come they may be all quiet */
+                seen = fmax(seen, difference(3, a + 3 * k, b + 3 * k));
+            if (count % 8 == 5) {
+                state_settle(one.stepper, &one.state, true);
+                observed(&one, settled);
+                for (size_t k = 0; k < 3 * PLACES; k++)
+                    watched = fmax(watched, difference(3, settled + 3 * k, a + 3 * k));
+                compare(&one, &other, worst);
+            }
+            step(&one);
+            step(&other);
+        }
+        end(&one);
+        end(&other);
+    }
+    print_message("# %d scenes, 40 steps: u %.1e, v %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
+                  worst[0], worst[1], worst[2], seen, watched);
+    for (size_t part = 0; part < 3; part++)
+        assert_true(worst[part] < 1e-12);
+    assert_true(seen < 1e-11);
+    assert_true(watched < 1e-11);
+}
+
+/* Single precision against double: rounding of u, w and the operator's sums, and no more. */
+static void test_single(void **unused)
+{
+    (void)unused;
+    double worst[3] = {0}, watched = 0;
+    const int scenes = few_of(4, 2);
+    for (int i = 0; i < scenes; i++) {
+        struct plain_scene plain;
+        struct topography hill;
+        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3);
+        struct consistent_options options = general();
+        struct stepped exact = begin(&plain, options, true, i % 3 != 0);
+        options.single = true;
+        struct stepped s = begin(&plain, options, true, i % 3 != 0);
+        assert_true(s.model->single && !exact.model->single);
+        double seen[VALUES], settled[VALUES];
+        for (int count = 0; count < 60; count++) {
+            step(&s);
+            step(&exact);
+        }
+        observed(&s, seen);
+        state_settle(s.stepper, &s.state, true);
+        state_settle(exact.stepper, &exact.state, true);
+        observed(&s, settled);
+        for (size_t k = 0; k < 3 * PLACES; k++)
+            if (k % 3 != 2) watched = fmax(watched, difference(3, seen + 3 * k, settled + 3 * k));
+        const double before = worst[2];
+        compare(&s, &exact, worst);
+        if (i % 3 == 0)
+            worst[2] = before; /* a is small beside the frequencies that round u: waves are long */
+        end(&s);
+        end(&exact);
+    }
+    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, a %.1e; settled %.1e\n", scenes, worst[0], worst[1],
+                  worst[2], watched);
+    assert_true(worst[0] > 1e-8 && worst[0] < 1e-5); /* as the fused operator's (test_fused_step) */
+    assert_true(worst[1] < 2e-5);
+    assert_true(worst[2] < 2e-5);
+    assert_true(watched < 1e-6);
+}
+
+static void test_bits(void **unused)
+{
+    (void)unused;
+    for (int single = 0; single < 2; single++) {
+        struct plain_scene plain;
+        struct topography hill;
+        struct consistent_options options = general();
+        drawn_scene(&plain, &hill, single == 0, false);
+        plain.scene.body.high[2] = 40 * .3;
+        options.single = single == 1;
+        assert_same_bits(&plain, options, NULL);
+    }
+}
+
+static void test_kept(void **unused)
+{
+    (void)unused;
+    for (int single = 0; single < 2; single++) {
+        struct plain_scene plain;
+        struct topography hill;
+        struct consistent_options options = general();
+        drawn_scene(&plain, &hill, true, false);
+        options.single = single == 1;
+        assert_goes_on(&plain, options);
+    }
+}
+
+/* What a sweep cannot do goes the old way, and in single precision not at all. */
+static void test_refused(void **unused)
+{
+    (void)unused;
+    for (int kind = 0; kind < 4; kind++) {
+        struct plain_scene plain;
+        struct consistent_options options = general();
+        plain_box(&plain, kind == 0 ? 2 : 3, (double[3]){16, 16, kind == 1 ? 4 : 16}, 1);
+        if (kind == 2) plain.scene.boundary[1].kind = BOUNDARY_TRANSMITTING;
+        options.unfused = kind == 3;
+        struct model *model = make(&plain, options);
+        assert_null(model->one_pass);
+        model_free(&model);
+        struct messages messages = {0};
+        options.single = true;
+        assert_int_equal(consistent_create_with(&plain.scene, &options, &model, &messages),
+                         SELAS_UNSUPPORTED);
+        assert_non_null(strstr(messages.text, "precision"));
+        messages_free(&messages);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_single),  cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_kept),       cmocka_unit_test(test_refused),
+    };
+    omp_set_num_threads(1);
+    seed_begin(5);
+    return cmocka_run_group_tests_name("steps of the general operator", tests, NULL, NULL);
+}

@@ -1,0 +1,67 @@
+/* What is looked at after each step in one pass. */
+#include "method/consistent/galerkin/galerkin.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int by_place(const void *one, const void *other)
+{
+    const size_t a = *(const size_t *)one, b = *(const size_t *)other;
+    return a < b ? -1 : a > b;
+}
+
+void watch_sort(struct watch *watch)
+{
+    if (watch->sorted || watch->count == 0) return;
+    qsort(watch->entry, watch->count, sizeof *watch->entry, by_place);
+    size_t kept = 1;
+    for (size_t i = 1; i < watch->count; i++)
+        if (watch->entry[i] != watch->entry[kept - 1]) watch->entry[kept++] = watch->entry[i];
+    watch->count = kept;
+    watch->sorted = true;
+}
+
+bool watch_places(struct consistent *c, size_t count, const size_t *place)
+{
+    if (c->model.one_pass == NULL) return true;
+    struct watch *watch = &c->watch;
+    if (watch->room < watch->count + 3 * count) {
+        watch_sort(watch);
+        const size_t room = 2 * watch->count + 3 * count;
+        size_t *entry = array_new(room, sizeof *entry);
+        double *before = array_new(room, sizeof *before);
+        if (entry != NULL && watch->count > 0) memcpy(entry, watch->entry, watch->count * sizeof *entry);
+        array_free(watch->entry);
+        array_free(watch->before);
+        watch->entry = entry;
+        watch->before = before;
+        watch->room = room;
+        if (entry == NULL || before == NULL) return false;
+    }
+    for (size_t component = 0; component < 3; component++)
+        for (size_t i = 0; i < count; i++)
+            watch->entry[watch->count++] = component * c->volume + place[i];
+    watch->sorted = false;
+    return true;
+}
+
+bool watch_loads(struct consistent *c)
+{
+    for (size_t l = 0; l < c->model.scene->loads; l++) {
+        const struct sparse *load = &c->load[l];
+        for (size_t at = 0; at < 3 * c->n[DEPTH]; at++)
+            for (size_t e = load->start[at]; e < load->start[at + 1]; e++) {
+                const size_t place = at % c->n[DEPTH] * c->plane + load->index[e];
+                if (!watch_places(c, 1, &place)) return false;
+            }
+    }
+    return true;
+}
+
+void watch_free(struct watch *watch)
+{
+    array_free(watch->entry);
+    array_free(watch->before);
+}

@@ -1,0 +1,107 @@
+/* Memory of forces in absorbing layers (see the header). */
+#include "method/consistent/general/moments.h"
+#include "method/consistent/general/general.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+/* Row i of (G13a): d = a x^2 at x beyond the face. Next to the face the difference goes outwards alone, since the
+ * forces within it are not the layer's. The last two splines reach the held end and are others: d_i alone. */
+static void lay_row(struct moment_rows *rows, size_t i, bool high, double a, double x, double h)
+{
+    const size_t from_face = high ? i : rows->count - 1 - i;
+    double *outer = high ? rows->above : rows->below, *inner = high ? rows->below : rows->above;
+    rows->own[i] = a * x * x;
+    if (from_face + 2 >= rows->count) return;
+    const double slope = a * x * h / 4;
+    rows->own[i] += a * h * h / 4;
+    if (from_face == 0) {
+        rows->own[i] -= 2 * slope;
+        outer[i] = 2 * slope;
+    } else {
+        outer[i] = slope;
+        inner[i] = -slope;
+    }
+}
+
+bool moment_rows_lay(struct moment_rows *rows, const struct consistent *c, const struct slab *slab)
+{
+    const struct spline *spline = c->spline[slab->axis];
+    const double thickness = slab->end == 0 ? slab->edge - spline->low : spline->high - slab->edge;
+    const double h = thickness / (double)c->layer[2 * slab->axis + slab->end];
+    double **const all[] = {&rows->below, &rows->own, &rows->above, &rows->left, &rows->pivot};
+    rows->count = slab->inside.n[c->slot[slab->axis]];
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if ((*all[k] = array_new(rows->count, sizeof(double))) == NULL) return false;
+    for (size_t i = 0; i < rows->count; i++)
+        lay_row(rows, i, slab->end == 1, slab->most / (thickness * thickness),
+                thickness * sqrt(slab->damping[i] / slab->most), h);
+    return true;
+}
+
+void moment_rows_free(struct moment_rows *rows)
+{
+    array_free(rows->below);
+    array_free(rows->own);
+    array_free(rows->above);
+    array_free(rows->left);
+    array_free(rows->pivot);
+}
+
+/* 1 + dt/2 (alpha + D) = L U. */
+static void eliminate(struct moment_rows *rows, double relaxation, double dt)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        rows->pivot[i] = 1 + dt / 2 * (relaxation + rows->own[i]);
+        if (i == 0) continue;
+        rows->left[i] = dt / 2 * rows->below[i] / rows->pivot[i - 1];
+        rows->pivot[i] -= rows->left[i] * dt / 2 * rows->above[i - 1];
+    }
+}
+
+/* Lanes side by side, count values each, `step` apart among the forces, `own` apart among phi:
+ * (1 + dt/2 (alpha + D)) middle = phi - dt/2 D f,  phi := 2 middle - phi. */
+static void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, const double *force,
+                       size_t step, double *phi, double *middle, size_t own)
+{
+    const size_t count = rows->count;
+    for (size_t i = 0; i < count; i++) {
+        const double *f = force + i * step, *before = i > 0 ? f - step : f,
+                     *after = i + 1 < count ? f + step : f;
+        double *m = middle + i * own;
+        for (size_t k = 0; k < lanes; k++)
+            m[k] = phi[i * own + k] -
+                   dt / 2 * (rows->below[i] * before[k] + rows->own[i] * f[k] + rows->above[i] * after[k]);
+        for (size_t k = 0; i > 0 && k < lanes; k++)
+            m[k] -= rows->left[i] * m[k - own];
+    }
+    for (size_t i = count; i-- > 0;) {
+        double *m = middle + i * own;
+        for (size_t k = 0; i + 1 < count && k < lanes; k++)
+            m[k] -= dt / 2 * rows->above[i] * m[k + own];
+        for (size_t k = 0; k < lanes; k++) {
+            m[k] /= rows->pivot[i];
+            phi[i * own + k] = 2 * m[k] - phi[i * own + k];
+        }
+    }
+}
+
+void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
+                      const double *force, double *extra)
+{
+    const struct block *in = &slab->inside;
+    const int slot = c->slot[slab->axis];
+    const size_t stride[3] = {1, c->n[0], c->plane}, own[3] = {1, in->n[0], in->n[0] * in->n[1]};
+    const size_t lanes = slot == 0 ? 1 : in->n[0];
+    const size_t rows_y = slot == 1 ? 1 : in->n[1], planes = slot == 2 ? 1 : in->n[2];
+    const size_t first = in->at[2] * c->plane + in->at[1] * c->n[0] + in->at[0];
+    eliminate(rows, slab->relaxation, dt);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t line = 0; line < (size_t)c->dimension * planes * rows_y; line++) {
+        const size_t component = line / (planes * rows_y), k = line / rows_y % planes, j = line % rows_y;
+        const size_t phi = slab->phi + component * slab->inner + k * own[2] + j * own[1];
+        move_lanes(rows, dt, lanes, force + component * c->volume + first + k * c->plane + j * c->n[0],
+                   stride[slot], extra + phi, c->general->middle + phi, own[slot]);
+    }
+}

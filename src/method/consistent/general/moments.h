@@ -1,0 +1,27 @@
+/* The memory phi_ij of absorbing layers of the general operator (doc/general-ground.md, section 5): forces are
+ * moments of the field with the splines, f_i = sum of N_i(q) g(q), and the moments of d g are
+ *
+ *   (D f)_i = (d_i + d''_i h^2/8) f_i + d'_i h/8 (f_(i+1) - f_(i-1))                                       (G13a)
+ *
+ * up to h^4, h^2/4 being the variance of a spline of degree 2. Then phi' = -alpha phi - D (f + phi). */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_MOMENTS_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_MOMENTS_H
+
+#include "method/consistent/absorbing/pml.h"
+
+/* D of one layer, row by row along the axis across its face. */
+struct moment_rows {
+    size_t count;
+    double *below, *own, *above; /* [count] D_(i,i-1), D_ii, D_(i,i+1) */
+    double *left, *pivot;        /* [count] of the step's elimination (Thomas) */
+};
+
+bool moment_rows_lay(struct moment_rows *rows, const struct consistent *c, const struct slab *slab);
+void moment_rows_free(struct moment_rows *rows);
+
+/* Moves phi of a slab on by a step of the trapezoidal rule; force: f in the middle of the step, [dimension *
+ * volume]; phi in the middle goes to c->general->middle. */
+void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
+                      const double *force, double *extra);
+
+#endif

@@ -1,0 +1,130 @@
+/* Steps of leapfrog of the general operator in one pass over the fields, in three dimensions
+ * (doc/general-ground.md, section 2).
+ *
+ * Control values are those of the unclamped splines along x and y, c~ of (G5); over depth the weights of the ends say
+ * the same. A plane of points on the knots of depth and the plane of middles below it are made together, row after
+ * row: values and slopes over depth, along y, along x, stresses, and back the same way. Forces of a plane that is
+ * done go through N along x and y; N over depth and the update follow four planes at a time. */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_SWEEP_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_SWEEP_H
+
+#include "base/processor.h"
+#include "method/consistent/fused/kernels.h"
+#include "method/consistent/general/general.h"
+
+/* Fields over depth: values and slopes at the middles, then at the knots. Taps of N; planes whose update is made
+ * together, and those that N reaches beyond them. */
+enum sweep_field { VALUE_MIDDLES, SLOPE_MIDDLES, VALUE_KNOTS, SLOPE_KNOTS, DEPTH_FIELDS };
+enum { SWEEP_TAPS = 13, SWEEP_REACH = SWEEP_TAPS / 2, SWEEP_PLANES = 4, SPAN = 3 };
+/* Rows of stresses of a family: the six, then what pulls along depth below a hill. */
+enum { STRESS_ROOM = STRESSES + 3 };
+
+/* Rows from .. end - 1. */
+struct rows {
+    size_t from, end;
+};
+
+/* Weights over depth of a pair of planes of points: control planes base .. base + 2. */
+struct over_depth {
+    size_t base;
+    void *weight[2]; /* [odd]: [DEPTH_FIELDS][SPAN] */
+};
+
+struct sweep {
+    size_t n[3], plane, volume; /* of the fields */
+    size_t cells[3], low[3];    /* control values beyond a symmetry plane at the low end: 0 or 1 */
+    bool mirror[3][2];
+    size_t number;        /* bytes of a number */
+    size_t width, stride; /* numbers of a row, from row to row */
+    size_t rows;          /* of a plane that is ready */
+    struct over_depth *pair;
+    void *weights;            /* of all pairs */
+    void *x[3], *y[3], *z[3]; /* [component]: N by vectors, by rows, by planes */
+    bool *plain;              /* groups of rows of y with the same weights */
+    void *lambda[3], *mu[3];  /* [family]: rows of `width` numbers */
+    size_t points[3][2];      /* [family]: rows and planes */
+    double factor[3][3];      /* [family]: of slopes along x, y and depth */
+    void *hill[3][3];         /* [family]: s and its slopes, rows of `width` numbers */
+    void *root;               /* [volume] */
+    void *ready;              /* [component][planes][rows][stride]: N along x and y of the forces */
+    double quiet, largest;
+    double *size;         /* [planes * n[1]]: largest displacement of each row */
+    struct rows *reached; /* [planes]: u and w are 0 in other rows */
+    struct rows *loaded;  /* [planes]: rows where loads act */
+    struct rows *filled;  /* [planes]: rows of `ready` that are not 0 */
+    bool known;           /* `reached` and `largest` are right */
+    void *kept;           /* w, and in single precision u before it */
+    size_t kept_bytes;
+    int threads;
+    size_t *bound; /* [threads + 1] planes where those of a thread begin */
+    void **buffer; /* [threads] */
+    size_t bytes;
+};
+
+/* s and its slopes along x and y at the points of a row, f and its slope over depth (G16). */
+#define SWEEP_KERNELS(real, precision)                                                                            \
+    struct sweep_hill_##precision {                                                                               \
+        const real *drop, *slope[2];                                                                              \
+        real share, fall;                                                                                         \
+    };                                                                                                            \
+    /* A row of points of a family: moduli, factors of slopes along x, y and depth; y_knots, x_knots: where  \
+     * its points are; hill NULL: level. Runs as in points.h. */    \
+    struct sweep_row_##precision {                                                                                \
+        bool x_knots, y_knots;                                                                                    \
+        size_t width, stride;                                                                                     \
+        real factor[3];                                                                                           \
+        const real *lambda, *mu;                                                                                  \
+        const struct sweep_hill_##precision *hill;                                                                \
+        const struct run_of_points *run;                                                                          \
+        size_t runs;                                                                                              \
+        const double *stiffness;                                                                                  \
+        const real *value[3][SPAN], *slope[3][SPAN]; /* [component] over depth, rows of control values */         \
+        real *pull[3][SPAN], *slope_pull[3][SPAN];   /* the last of them is set, the others grow */               \
+        real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */       \
+    };                                                                                                            \
+    struct sweep_kernels_##precision {                                                                            \
+        /* u += dt w, n numbers; gives the largest |u| */                                                         \
+        real (*bring)(size_t n, real dt, const real *w, real *u);                                                 \
+        /* out[q][i] := sum over d of weight[q][d] in[d][i], i < n */                                             \
+        void (*depth)(size_t n, const real *const in[SPAN], const real weight[DEPTH_FIELDS][SPAN],                \
+                      real *const out[DEPTH_FIELDS]);                                                             \
+        void (*points)(const struct sweep_row_##precision *row);                                                  \
+        /* out[d][i] -= sum over q of weight[q][d] in[q][i], i < width */                                         \
+        void (*pulls)(size_t width, const real *const in[DEPTH_FIELDS],                                           \
+                      const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                              \
+        /* out[i] := factor[i] in[i], i < n */                                                                    \
+        void (*scale)(size_t n, const real *factor, const real *in, real *out);                                   \
+        /* out[p][i] += factor root[p][i] sum over t of weight[p][t] in[p + t][i], p < planes, i < n; what is   \
+         * `ahead` numbers on, the next row, is asked for */ \
+        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,          \
+                       real factor, const real *const *root, real *const *out);                                   \
+    };                                                                                                            \
+    EACH_PROCESSOR(struct sweep_kernels_##precision, sweep_kernels_##precision)
+SWEEP_KERNELS(double, double)
+SWEEP_KERNELS(float, single)
+#undef SWEEP_KERNELS
+
+/* sweep.c: builds general->sweep if the scene is one for it; false: no memory. */
+bool sweep_create(struct consistent *c);
+void sweep_free(struct sweep *sweep);
+
+/* sweep_step.h. w := v + dt/2 a from w = v; a in `work`. */
+void sweep_begin_double(struct consistent *c, const struct drive *drive, double dt, const double *u,
+                        double *w, double *work);
+void sweep_begin_single(struct consistent *c, const struct drive *drive, double dt, const float *u, float *w,
+                        float *work);
+/* u += dt w, w += dt a at the new u, with the loads of the drive; entries of y and a that are watched. */
+void sweep_advance_double(struct consistent *c, const struct drive *drive, double dt, double *u, double *w,
+                          double *y, double *a);
+void sweep_advance_single(struct consistent *c, const struct drive *drive, double dt, float *u, float *w,
+                          double *y, double *a);
+/* u and v = w - dt/2 a in y; a if it is not NULL. */
+void sweep_settle_double(struct consistent *c, const struct drive *drive, double dt, double *u, double *w,
+                         double *work, double *y, double *a);
+void sweep_settle_single(struct consistent *c, const struct drive *drive, double dt, float *u, float *w,
+                         float *work, double *y, double *a);
+
+/* one_pass.c: as fused_steps_create(). */
+selas_status general_steps_create(struct consistent *c, struct messages *messages);
+
+#endif

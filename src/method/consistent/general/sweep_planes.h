@@ -1,0 +1,161 @@
+/* What a sweep does with the forces of a plane that is complete (sweep.h), for numbers of type REAL; included by
+ * sweep_double.c and sweep_single.c: ends, corners, loads, N and the update. */
+
+/* Forces of unclamped splines to those of the open ends, along y. */
+static void clamp_rows(const struct sweep *s, const struct rings *r, size_t k, size_t component)
+{
+    for (int high = 0; high < 2; high++) {
+        const size_t row = high ? unclamped(s, 1) - 1 : 0, next = high ? row - 1 : 1;
+        REAL *at = force_row(s, r, k, component, row), *to = force_row(s, r, k, component, next);
+        mix(s->width, 1, !s->mirror[1][high] ? -1 : component == 1 ? -1 : 1, at, to);
+        for (size_t i = 0; i < s->width && !s->mirror[1][high]; i++)
+            at[i] *= 2;
+    }
+}
+
+/* The same along x, times root: a row of control values. */
+static void scale_row(const struct sweep *s, size_t component, const REAL *root, REAL *row, REAL *out)
+{
+    const size_t last = s->cells[0] + 1;
+    const REAL sign = component == 0 ? -1 : 1;
+    row[1] += (s->mirror[0][0] ? sign : -1) * row[0];
+    row[last - 1] += (s->mirror[0][1] ? sign : -1) * row[last];
+    if (!s->mirror[0][0]) row[0] *= 2;
+    if (!s->mirror[0][1]) row[last] *= 2;
+    NAME(taken_sweep_kernels)()->scale(s->n[0], root, row + s->low[0], out);
+}
+
+/* Corners (corners.c) that act on plane k. */
+static void add_corners(const struct pass *pass, const struct rings *r, size_t k, size_t component,
+                        const struct rows *rows)
+{
+    const struct sweep *s = pass->s;
+    const struct general *g = pass->c->general;
+    for (size_t n = 0; n < g->corners; n++) {
+        const struct corner *corner = &g->corner[n];
+        const size_t end = corner->high[2] ? s->n[2] - 1 : 0, beside = corner->high[2] ? end - 1 : 1;
+        if (k != end && k != beside) continue;
+        double slope[3][3], pull[3];
+        for (size_t of = 0; of < 3; of++)
+            for (int slot = 0; slot < 3; slot++) {
+                const REAL *u = pass->u + of * s->volume;
+                slope[of][slot] =
+                    corner->slope[slot] * ((double)u[general_corner_seen(pass->c, corner, slot, 1)] -
+                                           (double)u[general_corner_seen(pass->c, corner, slot, 0)]);
+            }
+        general_corner_pull(corner, slope, (int)component, pull);
+        for (int slot = 0; slot < 3; slot++)
+            for (int next = 0; next < 2; next++) {
+                const size_t at = general_corner_seen(pass->c, corner, slot, next);
+                const size_t j = at % s->plane / s->n[0], i = at % s->n[0];
+                if (at / s->plane != k || j < rows->from || j >= rows->end) continue;
+                r->scaled[j * s->stride + i] +=
+                    ((const REAL *)s->root)[at] * (REAL)(next == 1 ? -pull[slot] : pull[slot]);
+            }
+    }
+}
+
+static void add_loads(const struct pass *pass, const struct rings *r, size_t k, size_t component)
+{
+    const struct sweep *s = pass->s;
+    const struct drive *drive = pass->drive;
+    const REAL *root = (const REAL *)s->root + k * s->plane;
+    for (size_t l = 0; drive->load != NULL && l < pass->c->model.scene->loads; l++) {
+        const struct sparse *load = &pass->c->load[l];
+        const double amplitude = drive->load[l] * pass->c->model.scene->load[l].amplitude;
+        const size_t at = component * s->n[2] + k;
+        for (size_t e = load->start[at]; amplitude != 0 && e < load->start[at + 1]; e++) {
+            const size_t index = load->index[e];
+            r->scaled[index / s->n[0] * s->stride + index % s->n[0]] +=
+                root[index] * (REAL)(amplitude * load->value[e]);
+        }
+    }
+}
+
+static REAL *ready_row(const struct sweep *s, size_t component, size_t k, size_t j)
+{
+    return (REAL *)s->ready + GROUP + ((component * s->n[2] + k) * s->rows + j) * s->stride;
+}
+
+/* N along y and x of rows `rows` of `scaled`, for rows `filled`. */
+static void pass_along(const struct sweep *s, const struct rings *r, size_t component, size_t k,
+                       const struct rows *rows, const struct rows *filled)
+{
+    const struct NAME(fused_kernels) *kernels = NAME(taken_fused_kernels)();
+    enum { WIDE = 2 };
+    for (size_t j = filled->from; j < filled->end; j += FUSED_ROWS) {
+        const REAL *in[SWEEP_TAPS + FUSED_ROWS - 1];
+        for (size_t t = 0; t < SWEEP_TAPS + FUSED_ROWS - 1; t++) {
+            const size_t row = j + t - SWEEP_REACH; /* wraps round below 0 */
+            in[t] = row >= rows->from && row < rows->end ? r->scaled + row * s->stride : r->zero;
+        }
+        const REAL *weight = (const REAL *)s->y[component] + j * SWEEP_TAPS;
+        (s->plain[j / FUSED_ROWS] ? kernels->of[WIDE].y : kernels->of[WIDE].y_ends)(
+            weight, in, r->zero, s->width, s->stride, r->passed);
+        kernels->of[WIDE].x(s->x[component], r->passed, r->zero, s->width, s->stride,
+                            ready_row(s, component, k, j));
+    }
+}
+
+static void forget_plane(const struct sweep *s, struct rings *r, size_t k)
+{
+    memset(force_row(s, r, k, 0, 0), 0, 3 * unclamped(s, 1) * s->stride * sizeof(REAL));
+    r->touched[k % SPAN] = (struct rows){0, 0};
+}
+
+/* The forces of plane k are complete. */
+static void plane_done(const struct pass *pass, struct rings *r, size_t k)
+{
+    struct sweep *s = pass->s;
+    struct rows *touched = &r->touched[k % SPAN], rows = {0, 0};
+    if (touched->from < touched->end) {
+        rows.from = less(touched->from, s->low[1]);
+        rows.end = touched->end - s->low[1] < s->n[1] ? touched->end - s->low[1] : s->n[1];
+    }
+    if (pass->drive->load != NULL) join(&rows, s->loaded[k].from, s->loaded[k].end);
+    struct rows *filled = &s->filled[k];
+    *filled = (struct rows){0, 0};
+    if (rows.from >= rows.end) return;
+    filled->from = less(rows.from, SWEEP_REACH) / FUSED_ROWS * FUSED_ROWS;
+    filled->end = rows.end + SWEEP_REACH < s->n[1] ? rows.end + SWEEP_REACH : s->n[1];
+    for (size_t component = 0; component < 3; component++) {
+        clamp_rows(s, r, k, component);
+        for (size_t j = rows.from; j < rows.end; j++)
+            scale_row(s, component, (const REAL *)s->root + k * s->plane + j * s->n[0],
+                      force_row(s, r, k, component, j + s->low[1]), r->scaled + j * s->stride);
+        add_corners(pass, r, k, component, &rows);
+        add_loads(pass, r, k, component);
+        pass_along(s, r, component, k, &rows, filled);
+    }
+    forget_plane(s, r, k);
+}
+
+/* N over depth and the update of planes first .. first + SWEEP_PLANES - 1. */
+static void finish_planes(const struct pass *pass, const struct rings *r, size_t first)
+{
+    struct sweep *s = pass->s;
+    const size_t planes = s->n[2] - first < SWEEP_PLANES ? s->n[2] - first : SWEEP_PLANES;
+    struct rows rows = {0, 0};
+    for (size_t k = less(first, SWEEP_REACH); k < first + planes + SWEEP_REACH && k < s->n[2]; k++)
+        join(&rows, s->filled[k].from, s->filled[k].end);
+    for (size_t component = 0; component < 3; component++)
+        for (size_t j = rows.from; j < rows.end; j++) {
+            const REAL *in[SWEEP_TAPS + SWEEP_PLANES - 1], *root[SWEEP_PLANES];
+            REAL *out[SWEEP_PLANES];
+            for (size_t t = 0; t < SWEEP_TAPS + SWEEP_PLANES - 1; t++) {
+                const size_t k = first + t - SWEEP_REACH; /* wraps round below 0 */
+                const bool there = k < s->n[2] && j >= s->filled[k].from && j < s->filled[k].end;
+                in[t] = there ? ready_row(s, component, k, j) : r->zero;
+            }
+            for (size_t p = 0; p < planes; p++) {
+                const size_t at = (first + p) * s->plane + j * s->n[0];
+                root[p] = (const REAL *)s->root + at;
+                out[p] = pass->out + component * s->volume + at;
+            }
+            NAME(taken_sweep_kernels)
+            ()->finish(s->n[0], planes, (const REAL *)s->z[component] + first * SWEEP_TAPS, in, s->stride,
+                       pass->factor, root, out);
+        }
+    for (size_t k = first; pass->moving && k < first + planes; k++)
+        join(&s->reached[k], rows.from, rows.end);
+}

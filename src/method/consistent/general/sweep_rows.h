@@ -1,0 +1,231 @@
+/* What a sweep does row by row (sweep.h), for numbers of type REAL; included by sweep_double.c and sweep_single.c:
+ * displacements brought on, points and what they pull at. */
+#include "method/consistent/general/sweep.h"
+#include "method/spline/passes.h"
+
+#include <string.h>
+
+enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS };
+
+/* Rows of a thread's buffer, each with room before it. */
+struct rings {
+    REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS] */
+    REAL *scratch;
+    REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
+    REAL *scaled, *passed, *zero;
+    struct rows touched[SPAN]; /* of `force` */
+};
+
+struct pass {
+    struct consistent *c;
+    struct sweep *s;
+    const struct drive *drive;
+    REAL *u, *out; /* out += factor a; with `moving` u += dt w before, w being out */
+    REAL factor;
+    bool moving;
+    double level; /* smaller displacements move nothing */
+};
+
+static size_t unclamped(const struct sweep *s, int slot)
+{
+    return s->cells[slot] + 2;
+}
+
+static struct rings rings_of(const struct sweep *s, REAL *buffer)
+{
+    struct rings r = {.value = buffer + GROUP};
+    r.pull = r.value + (size_t)(SPAN * V_ROWS) * s->stride;
+    r.scratch = r.pull + (size_t)(SPAN * V_ROWS) * s->stride;
+    r.force = r.scratch + (size_t)(9 + STRESS_ROOM) * s->stride;
+    r.scaled = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
+    r.passed = r.scaled + s->n[1] * s->stride;
+    r.zero = r.passed + FUSED_ROWS * s->stride;
+    return r;
+}
+
+static void join(struct rows *rows, size_t from, size_t end)
+{
+    if (from >= end) return;
+    if (rows->from >= rows->end) *rows = (struct rows){from, end};
+    if (from < rows->from) rows->from = from;
+    if (end > rows->end) rows->end = end;
+}
+
+static size_t less(size_t a, size_t b)
+{
+    return a > b ? a - b : 0;
+}
+
+/* Largest |u| of each row of plane k, those of u brought on. */
+static void bring_plane(const struct pass *pass, size_t k)
+{
+    const struct sweep *s = pass->s;
+    const struct rows *reached = &s->reached[k];
+    const REAL dt = pass->moving ? pass->factor : 0;
+    for (size_t j = 0; j < s->n[1]; j++) {
+        double *size = &s->size[k * s->n[1] + j];
+        *size = 0;
+        if (pass->moving && (j < reached->from || j >= reached->end)) continue;
+        for (size_t component = 0; component < 3; component++) {
+            const size_t at = component * s->volume + k * s->plane + j * s->n[0];
+            REAL most;
+            if (pass->moving)
+                most = NAME(taken_sweep_kernels)()->bring(s->n[0], dt, pass->out + at, pass->u + at);
+            else
+                most = taken_passes()->NAME(largest_size)(pass->u + at, s->n[0]);
+            if (!(most <= *size)) *size = most;
+        }
+    }
+}
+
+/* Rows that move anything in the planes of a pair. */
+static struct rows loud_rows(const struct pass *pass, size_t m)
+{
+    const struct sweep *s = pass->s;
+    struct rows loud = {0, 0};
+    for (size_t k = s->pair[m].base; k < s->pair[m].base + SPAN; k++)
+        for (size_t j = 0; j < s->n[1]; j++)
+            if (!(s->size[k * s->n[1] + j] <= pass->level)) join(&loud, j, j + 1);
+    return loud;
+}
+
+/* --- Points ---------------------------------------------------------------------------------------------- */
+
+static REAL *ring_row(const struct sweep *s, REAL *ring, size_t row, int component, int field)
+{
+    return ring + (row % SPAN * V_ROWS + (size_t)(component * DEPTH_FIELDS + field)) * s->stride;
+}
+
+/* out := a out + b in */
+static void mix(size_t n, REAL a, REAL b, const REAL *restrict in, REAL *restrict out)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        out[i] = a * out[i] + b * in[i];
+}
+
+/* The row of the unclamped splines at an end of y from that next to it (G5). */
+static void end_row(const struct sweep *s, const struct rings *r, bool high)
+{
+    const size_t row = high ? unclamped(s, 1) - 1 : 0, next = high ? row - 1 : 1;
+    for (int component = 0; component < 3; component++)
+        for (int field = 0; field < DEPTH_FIELDS; field++) {
+            const REAL *in = ring_row(s, r->value, next, component, field);
+            REAL *out = ring_row(s, r->value, row, component, field);
+            if (s->mirror[1][high])
+                mix(s->width, 0, component == 1 ? -1 : 1, in, out);
+            else
+                mix(s->width, 2, -1, in, out);
+        }
+}
+
+/* Values and slopes over depth of row `row` of the unclamped splines. */
+static void read_row(const struct pass *pass, const struct rings *r, size_t m, size_t row)
+{
+    const struct sweep *s = pass->s;
+    const size_t last = s->cells[0] + 1;
+    const bool ghost = row < s->low[1] || row - s->low[1] >= s->n[1];
+    for (int component = 0; component < 3 && !ghost; component++) {
+        const REAL *in[SPAN];
+        REAL *out[DEPTH_FIELDS];
+        for (size_t d = 0; d < SPAN; d++)
+            in[d] = pass->u + (size_t)component * s->volume + (s->pair[m].base + d) * s->plane +
+                    (row - s->low[1]) * s->n[0];
+        for (int field = 0; field < DEPTH_FIELDS; field++)
+            out[field] = ring_row(s, r->value, row, component, field) + s->low[0];
+        NAME(taken_sweep_kernels)()->depth(s->n[0], in, s->pair[m].weight[component == DEPTH], out);
+        for (int field = 0; field < DEPTH_FIELDS; field++) {
+            REAL *to = ring_row(s, r->value, row, component, field);
+            const REAL sign = component == 0 ? -1 : 1;
+            to[0] = s->mirror[0][0] ? sign * to[1] : 2 * to[0] - to[1];
+            to[last] = s->mirror[0][1] ? sign * to[last - 1] : 2 * to[last] - to[last - 1];
+        }
+    }
+    if (row == 1) end_row(s, r, false);
+    if (row == s->cells[1] + 1) end_row(s, r, true);
+}
+
+/* Row j of the points of a family. */
+static void point_row(const struct pass *pass, const struct rings *r, int f, size_t m, size_t j)
+{
+    const struct sweep *s = pass->s;
+    const struct family *family = &pass->c->general->family[f];
+    const size_t at = m * s->points[f][0] + j, row = m * family->n[1] + j;
+    const enum sweep_field value = family->at[DEPTH] == AT_KNOTS ? VALUE_KNOTS : VALUE_MIDDLES;
+    struct NAME(sweep_row) points = {.x_knots = family->at[0] == AT_KNOTS,
+                                     .y_knots = family->at[1] == AT_KNOTS,
+                                     .width = s->width,
+                                     .stride = s->stride,
+                                     .lambda = (const REAL *)s->lambda[f] + at * s->width,
+                                     .mu = (const REAL *)s->mu[f] + at * s->width,
+                                     .scratch = r->scratch};
+    for (int slot = 0; slot < 3; slot++)
+        points.factor[slot] = (REAL)s->factor[f][slot];
+    if (family->runs > 0) {
+        points.run = family->run + family->first_run[row];
+        points.runs = family->first_run[row + 1] - family->first_run[row];
+        points.stiffness = family->stiffness;
+    }
+    struct hill_row level;
+    struct NAME(sweep_hill) hill;
+    if (general_hill_row(pass->c, family, j, m, &level)) {
+        hill = (struct NAME(sweep_hill)){.share = (REAL)level.share, .fall = (REAL)level.fall};
+        hill.drop = (const REAL *)s->hill[f][0] + j * s->width;
+        for (int slot = 0; slot < 2; slot++)
+            hill.slope[slot] = (const REAL *)s->hill[f][1 + slot] + j * s->width;
+        points.hill = &hill;
+    }
+    for (int component = 0; component < 3; component++)
+        for (size_t d = 0; d < SPAN; d++) {
+            points.value[component][d] = ring_row(s, r->value, j + d, component, (int)value);
+            points.slope[component][d] = ring_row(s, r->value, j + d, component, (int)value + 1);
+            points.pull[component][d] = ring_row(s, r->pull, j + d, component, (int)value);
+            points.slope_pull[component][d] = ring_row(s, r->pull, j + d, component, (int)value + 1);
+        }
+    NAME(taken_sweep_kernels)()->points(&points);
+}
+
+static REAL *force_row(const struct sweep *s, const struct rings *r, size_t k, size_t component, size_t row)
+{
+    return r->force + ((k % SPAN * 3 + component) * unclamped(s, 1) + row) * s->stride;
+}
+
+/* Takes the pulls at a row that is done off the forces. */
+static void write_row(const struct pass *pass, const struct rings *r, size_t m, size_t row)
+{
+    const struct sweep *s = pass->s;
+    for (int component = 0; component < 3; component++) {
+        const REAL *in[DEPTH_FIELDS];
+        REAL *out[SPAN];
+        for (int field = 0; field < DEPTH_FIELDS; field++)
+            in[field] = ring_row(s, r->pull, row, component, field);
+        for (size_t d = 0; d < SPAN; d++)
+            out[d] = force_row(s, r, s->pair[m].base + d, (size_t)component, row);
+        NAME(taken_sweep_kernels)()->pulls(s->width, in, s->pair[m].weight[component == DEPTH], out);
+    }
+}
+
+/* All points of pair m that move anything. */
+static void point_planes(const struct pass *pass, struct rings *r, size_t m)
+{
+    struct sweep *s = pass->s;
+    const struct rows loud = loud_rows(pass, m);
+    if (loud.from >= loud.end) return;
+    const size_t from = less(loud.from + s->low[1], 2);
+    const size_t most = s->cells[1] + 1, after = loud.end + s->low[1] + 1;
+    const size_t end = after < most ? after : most;
+    for (size_t slot = 0; slot < SPAN; slot++) /* the first two rows; what no point of a plane sets */
+        memset(ring_row(s, r->pull, slot, 0, 0), 0, (size_t)V_ROWS * s->stride * sizeof(REAL));
+    for (size_t row = from; row < from + 2; row++)
+        read_row(pass, r, m, row);
+    for (size_t j = from; j < end; j++) {
+        if (j + 2 < unclamped(s, 1)) read_row(pass, r, m, j + 2);
+        for (int f = 0; f < 3; f++)
+            if (m < s->points[f][1] && j < s->points[f][0]) point_row(pass, r, f, m, j);
+        write_row(pass, r, m, j);
+    }
+    for (size_t row = end; row < end + 2 && row < unclamped(s, 1); row++)
+        write_row(pass, r, m, row);
+    for (size_t k = s->pair[m].base; k < s->pair[m].base + SPAN; k++)
+        join(&r->touched[k % SPAN], from, end + 2 < unclamped(s, 1) ? end + 2 : unclamped(s, 1));
+}

@@ -1,0 +1,171 @@
+/* The order of a sweep (sweep.h) for numbers of type REAL; included by sweep_double.c and sweep_single.c.
+ *
+ * A thread has planes of its own. What its neighbours read of the displacements is brought on first (stage 0); then
+ * come its points and the update of those planes whose neighbours are its own (1), last the others (2); all threads
+ * wait in between. Each sum is taken in one order: the same bits with any number of threads. */
+#include "base/machine.h"
+#include "method/consistent/fused/settled.h"
+
+enum { STAGES = 3 };
+
+/* Are all planes that the update of these reads those of the thread? */
+static bool own(const struct sweep *s, size_t first, size_t from, size_t end)
+{
+    const size_t after = first + SWEEP_PLANES + SWEEP_REACH;
+    return (from == 0 || first >= from + SWEEP_REACH) && (end == s->n[2] || after <= end);
+}
+
+/* Planes from `from` to `end`. */
+static void sweep_points(const struct pass *pass, struct rings *r, size_t from, size_t end)
+{
+    const struct sweep *s = pass->s;
+    size_t next = from + 2, done = from, finished = from;
+    for (size_t slot = 0; slot < SPAN; slot++)
+        r->touched[slot] = (struct rows){0, 0};
+    memset(r->force, 0, 3 * SPAN * unclamped(s, 1) * s->stride * sizeof(REAL));
+    for (size_t m = less(from + s->low[2], 2); done < end; m++) {
+        if (m <= s->cells[2]) {
+            for (; pass->moving && next < s->pair[m].base + SPAN && next + 2 < end; next++)
+                bring_plane(pass, next);
+            point_planes(pass, r, m);
+        }
+        if (m >= s->low[2] && m - s->low[2] < from) forget_plane(s, r, m - s->low[2]);
+        if (m >= done + s->low[2]) plane_done(pass, r, done++);
+        for (; finished < end && own(s, finished, from, end); finished += SWEEP_PLANES) {
+            const size_t after = finished + SWEEP_PLANES + SWEEP_REACH;
+            if (done < (after < end ? after : end)) break;
+            finish_planes(pass, r, finished);
+        }
+        while (finished < end && !own(s, finished, from, end) && finished < from + SWEEP_REACH)
+            finished += SWEEP_PLANES;
+    }
+}
+
+static void sweep_stage(const struct pass *pass, int thread, int stage)
+{
+    const struct sweep *s = pass->s;
+    const size_t from = s->bound[thread], end = s->bound[thread + 1];
+    struct rings r = rings_of(s, s->buffer[thread]);
+    if (from >= end) return;
+    if (stage == 0)
+        for (size_t k = from; k < end; k++) {
+            if (!pass->moving || k < from + 2 || k + 2 >= end) bring_plane(pass, k);
+        }
+    else if (stage == 1)
+        sweep_points(pass, &r, from, end);
+    else
+        for (size_t first = from; first < end; first += SWEEP_PLANES)
+            if (!own(s, first, from, end)) finish_planes(pass, &r, first);
+}
+
+/* Largest displacement of all rows. */
+static double largest_size(const struct sweep *s)
+{
+    double largest = 0;
+    for (size_t row = 0; row < s->n[1] * s->n[2]; row++)
+        if (s->size[row] > largest) largest = s->size[row];
+    return largest;
+}
+
+/* Where the planes of each thread begin: about as many rows of points for each in the step before. What is computed
+ * does not depend on it. */
+static void lay_bounds(struct sweep *s, size_t threads)
+{
+    const size_t blocks = (s->n[2] + SWEEP_PLANES - 1) / SWEEP_PLANES;
+    size_t all = 0, done = 0, thread = 1;
+    for (int turn = 0; turn < 2; turn++)
+        for (size_t block = 0; block < blocks; block++) {
+            while (turn == 1 && thread < threads && done * threads >= all * thread)
+                s->bound[thread++] = block * SWEEP_PLANES;
+            for (size_t k = block * SWEEP_PLANES; k < (block + 1) * SWEEP_PLANES && k < s->n[2]; k++)
+                *(turn == 0 ? &all : &done) += 1 + s->filled[k].end - s->filled[k].from;
+        }
+    while (thread <= threads)
+        s->bound[thread++] = s->n[2];
+}
+
+static void sweep_over(struct pass *pass)
+{
+    struct sweep *s = pass->s;
+    const int threads = pass->c->threads;
+    lay_bounds(s, (size_t)threads);
+    for (int stage = 0; stage < STAGES; stage++) {
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+        for (int thread = 0; thread < threads; thread++) {
+            const unsigned before = tiny_as_zero();
+            sweep_stage(pass, thread, stage);
+            tiny_as_before(before);
+        }
+        if (stage == 0 && !pass->moving) pass->level = s->quiet * largest_size(s);
+    }
+    s->largest = largest_size(s);
+}
+
+static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, REAL *work)
+{
+    struct pass pass = {.c = c, .s = c->general->sweep, .drive = drive, .factor = 1, .out = work};
+    pass.u = (REAL *)u; /* stands still */
+    memset(work, 0, c->model.unknowns * sizeof *work);
+    sweep_over(&pass);
+}
+
+/* Rows where u or w is not 0, and the largest u. */
+static void find_reached(struct sweep *s, const REAL *u, const REAL *w)
+{
+    s->largest = 0;
+    for (size_t k = 0; k < s->n[2]; k++) {
+        s->reached[k] = (struct rows){0, 0};
+        for (size_t component = 0; component < 3; component++)
+            for (size_t j = 0; j < s->n[1]; j++) {
+                const size_t at = component * s->volume + k * s->plane + j * s->n[0];
+                const double size = taken_passes()->NAME(largest_size)(u + at, s->n[0]);
+                if (size > s->largest) s->largest = size;
+                if (size != 0 || taken_passes()->NAME(largest_size)(w + at, s->n[0]) != 0)
+                    join(&s->reached[k], j, j + 1);
+            }
+    }
+    s->known = true;
+}
+
+void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt, const REAL *u, REAL *w,
+                       REAL *work)
+{
+    c->general->sweep->known = false;
+    accelerate(c, drive, u, work);
+    for (size_t i = 0; i < c->model.unknowns; i++)
+        w[i] += (REAL)(dt / 2) * work[i];
+}
+
+void NAME(sweep_settle)(struct consistent *c, const struct drive *drive, double dt, REAL *u, REAL *w,
+                        REAL *work, double *y, double *a)
+{
+    const struct NAME(settled) settled = {c->model.unknowns, c->threads, u, w, work};
+    accelerate(c, drive, u, work);
+    NAME(settle)(&settled, dt, y, a);
+}
+
+void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double dt, REAL *u, REAL *w,
+                         double *y, double *a)
+{
+    struct sweep *s = c->general->sweep;
+    const struct watch *watch = &c->watch;
+    for (size_t i = 0; i < watch->count; i++)
+        watch->before[i] = w[watch->entry[i]];
+    if (!s->known) find_reached(s, u, w);
+    struct pass pass = {.c = c,
+                        .s = s,
+                        .drive = drive,
+                        .u = u,
+                        .out = w,
+                        .factor = (REAL)dt,
+                        .moving = true,
+                        .level = s->quiet * s->largest};
+    sweep_over(&pass);
+    for (size_t i = 0; i < watch->count; i++) {
+        const size_t at = watch->entry[i];
+        const double before = watch->before[i], after = w[at];
+        y[at] = u[at];
+        y[c->model.unknowns + at] = (before + after) / 2;
+        a[at] = (after - before) / dt;
+    }
+}
