@@ -295,8 +295,9 @@ struct height_map *height_map_sample(double (*height)(const struct ground_model 
     for (int axis = 0; axis < 2; axis++)
         n[axis] = (size_t)fmax(ceil((high[axis] - low[axis]) / step), 1) + 1;
     for (size_t i = 0; i < n[0] * n[1] && room; i++) {
-        const double x = low[0] + (high[0] - low[0]) * (double)(i / n[1]) / (double)(n[0] - 1);
-        const double y = low[1] + (high[1] - low[1]) * (double)(i % n[1]) / (double)(n[1] - 1);
+        const size_t row = i / n[1], column = i % n[1];
+        const double x = low[0] + (high[0] - low[0]) * (double)row / (double)(n[0] - 1);
+        const double y = low[1] + (high[1] - low[1]) * (double)column / (double)(n[1] - 1);
         room = keep(&rows, (double[]){x, y, height(of, (double[]){x, y})}, 2);
     }
     struct height_map *map = NULL;

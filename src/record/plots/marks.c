@@ -58,8 +58,8 @@ static struct label place_label(const struct page *page, size_t c, const struct 
     struct label found = {{0}, {half_letter * (double)strlen(page->scene->receiver[r].name), line / 2}};
     bool free = false;
     for (int attempt = 0; attempt < 4 * NAMED && !free; attempt++) {
-        const int where = attempt % 4;
-        const double away = line * (where == 0 || where == 3 ? 1.1 + attempt / 4 : attempt / 4);
+        const int where = attempt % 4, ring = attempt / 4;
+        const double away = line * (where == 0 || where == 3 ? 1.1 + ring : ring);
         const double aside = where == 1   ? 1
                              : where == 2 ? -1
                                           : 0,
