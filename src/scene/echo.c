@@ -50,16 +50,16 @@ static const double decay = .7, wavelength_power = 1.65, grazing_power = 1.6;
 static const double late_part = .4, late_decay = .2, late_power = 2.6;
 static const double in_plane = .012, in_space = .0025;
 /* And where velocities in the layer are damped besides, at the share s against guided waves,
- *   e = B s max(1, r/d)^1.6 Lambda / (h n^2) min(1, Lambda / (h n)):                                        (16)
+ *   e = B s max(1, r/d)^.6 Lambda / (h n^2) min(1, Lambda / (h n)):                                        (16)
  * what weak damping scatters back within a stretched coordinate, B by measurement. */
-static const double dragged_in_plane = .7, dragged_in_space = .2;
+static const double dragged_in_plane = .7, dragged_in_space = .2, dragged_grazing = .6;
 /* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
 static const double static_reach = 4;
 /* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
  * spacing, so this falls too, and a finer scene is never a worse one. */
 static const double most_wanted = 1e-3, coarse = 12;
 /* Of the part (16), which a few points more hardly lessen. */
-static const double most_dragged = 2e-3;
+static const double most_dragged = 4e-3;
 enum { MOST = 40 };
 
 /* Longest distance between two extents along the face, as far as the box goes. */
@@ -86,8 +86,9 @@ static double wavelength_between(const struct scene *scene, const struct extent 
 }
 
 struct echo {
-    double early, late, grazing, wavelength; /* the factor of exp(-.7 n), .4 (...)^2.6 and max(1, r/d)^1.6 in
-                                                (15); the longest wave */
+    double early, late; /* the factor of exp(-.7 n) and .4 (...)^2.6 in (15) */
+    double grazing;     /* max(1, r/d) */
+    double wavelength;  /* the longest */
 };
 
 static void take_worst(const struct scene *scene, int face, const struct extent *acts,
@@ -98,9 +99,10 @@ static void take_worst(const struct scene *scene, int face, const struct extent 
     const double across = fmax(distance(scene, face, acts) + distance(scene, face, seen), h);
     const double wavelength = wavelength_between(scene, acts, fmax(way, across));
     worst->wavelength = fmax(worst->wavelength, wavelength);
-    const double grazing = pow(fmax(1, way / across), grazing_power);
+    const double grazing = fmax(1, way / across);
     worst->grazing = fmax(worst->grazing, grazing);
-    worst->early = fmax(worst->early, pow(fmax(1, wavelength / h), wavelength_power) * grazing);
+    worst->early =
+        fmax(worst->early, pow(fmax(1, wavelength / h), wavelength_power) * pow(grazing, grazing_power));
 }
 
 static struct echo worst_echo(const struct scene *scene, int face)
@@ -129,7 +131,7 @@ static double of_drag(const struct scene *scene, int face, const struct echo *ec
 {
     const double n = fmax(1, (double)points), waves = echo->wavelength / (n * scene->body.spacing);
     return (scene->dimension == 3 ? dragged_in_space : dragged_in_plane) * layer_drag(scene, face) *
-           echo->grazing * waves / n * fmin(1, waves);
+           pow(echo->grazing, dragged_grazing) * waves / n * fmin(1, waves);
 }
 
 double echo_of_layer(const struct scene *scene, int face, size_t points)
