@@ -6,7 +6,8 @@ PREFIX  ?= /usr/local
 BUILD   ?= build
 CFLAGS  ?= -O3 -g
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow $(if $(WERROR),-Werror)
-PKGS     = gsl fftw3 hdf5
+# The serial HDF5, also where `hdf5` is that of MPI.
+PKGS    := gsl fftw3 $(shell pkg-config --exists hdf5-serial 2>/dev/null && echo hdf5-serial || echo hdf5)
 Q        = $(if $(V),,@)
 # errno of libm and floating-point traps are not used: without them loops with sqrt and choices run in vectors
 ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-math-errno -fno-trapping-math \
