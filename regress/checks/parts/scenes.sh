@@ -5,6 +5,11 @@ rock="&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /"
 steel="&material name = 'steel', density = 7800.0, young = 2e11, poisson = 0.3 /"
 marks="&snapshot every = 0.4, fields = 'velocity', 'stress' /
 &output plots = .false. /"
+# looked at in boxes with steps of .25 and .5
+watched="&receiver name = 'r1', position = 2, 1.5, 0 /
+&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
+&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
+$marks"
 
 # steps in one pass beside layers, but for the rock
 fine="&scene dimension = 3, end_time = 4.0 /
@@ -12,10 +17,7 @@ fine="&scene dimension = 3, end_time = 4.0 /
 &boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
 &load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks"
+$watched"
 
 # closed boxes
 closed="&scene dimension = 3, end_time = 4.0 /
@@ -24,10 +26,7 @@ closed="&scene dimension = 3, end_time = 4.0 /
 &boundary face = 'z+', kind = 'roller' /
 &load face = 'z-', shape = 'square', centre = 1.3, 1.5, depth = 0.0, size = 1, 1, direction = 0, 0.3, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks"
+$watched"
 
 scene() {
     case $1 in
@@ -38,10 +37,7 @@ $rock
 &boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
 &load face = 'z-', shape = 'square', centre = 1.5, 1.5, 0, size = 1, 1, direction = 0, 0, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks
+$watched
 END
     damped) cat <<END ;; # relaxation mechanisms of three operators, C-PML beside them
 &scene dimension = 3, end_time = 4.0 /
@@ -54,10 +50,7 @@ END
 &boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
 &load face = 'z-', shape = 'square', centre = 1.5, 1.5, 0, size = 1, 1, direction = 0, 0, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
-&receiver name = 'r1', position = 2, 1.5, 0 /
-&receiver name = 'r2', position = 1.2, 1.1, 0.7 /
-&profile name = 'depth', from = 1.5, 1.5, 0, to = 1.5, 1.5, 2, points = 7, times = 1.03, 2.51, 3.9, fields = 'velocity', 'stress' /
-$marks
+$watched
 END
     relaxing) cat <<END ;; # relaxation mechanisms of two operators in steps in one pass, with layers
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0, q_p = 30, q_s = 20 /
