@@ -109,13 +109,6 @@ static double quiet_spacing(const struct scene *scene, const struct surface_plac
     return h;
 }
 
-static bool has_points(const struct scene *scene)
-{
-    for (size_t k = 0; k < scene->loads; k++)
-        if (scene->load[k].shape == LOAD_POINT) return true;
-    return false;
-}
-
 /* What the law was measured for (section 3): beyond, only a trial can tell. NULL, or what lies outside. */
 static const char *range_refusal(const struct scene *scene)
 {
@@ -126,7 +119,7 @@ static const char *range_refusal(const struct scene *scene)
         const double nu = (ratio - 2) / (2 * ratio - 2);
         if (nu < low - 1e-6 || nu > high + 1e-6) return "Poisson's ratios of .1 to .4";
     }
-    return has_points(scene) ? "loads on a square or a disc" : NULL;
+    return points_act(scene) ? "loads on a square or a disc" : NULL;
 }
 
 static selas_status check_range(const struct scene *scene, double h, struct messages *messages)
@@ -278,7 +271,7 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
         struct surface_place *place = &task->place[i];
         place->tried = 0;
         place->factor *= fmax(error[i], 1e-9) / surface_error(place, h, task->scene->end_time, ground);
-        if (!has_points(task->scene)) continue;
+        if (!points_act(task->scene)) continue;
         place->tried = h;
         place->reached = error[i];
     }

@@ -92,12 +92,16 @@ void end_task(struct task *task)
     array_free(task->power);
 }
 
+bool points_act(const struct scene *scene)
+{
+    for (size_t k = 0; k < scene->loads; k++)
+        if (scene->load[k].shape == LOAD_POINT) return true;
+    return false;
+}
+
 selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages)
 {
-    bool patches = true;
     *task = (struct task){.scene = scene, .longer = *scene};
-    for (size_t k = 0; k < scene->loads; k++)
-        patches = patches && scene->load[k].shape != LOAD_POINT;
     task->longer.end_time *= 1.25;
     task->longer.reference.tolerance = 1e-3;
     task->longer.reference.scheme = false;
@@ -105,7 +109,7 @@ selas_status begin_task(const struct scene *scene, struct task *task, struct mes
     task->power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *task->power);
     if (task->place == NULL || task->power == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
-    selas_status status = exact_find(patches && !ground_is_damped(scene) ? "lamb" : "layered")
+    selas_status status = exact_find(!points_act(scene) && !ground_is_damped(scene) ? "lamb" : "layered")
                               ->create(&task->longer, &task->exact, messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
         struct surface_place *place = &task->place[i];

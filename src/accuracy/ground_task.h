@@ -15,6 +15,9 @@ struct task {
     double accuracy, aim;
 };
 
+/* Does a force or a moment tensor act at a point? */
+bool points_act(const struct scene *scene);
+
 /* Places and spectra of all receivers, from the reference 'lamb' or, with points that act or damping (constant
  * Q), 'layered'. To be ended whatever comes back. */
 selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages);

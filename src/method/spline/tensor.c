@@ -7,7 +7,7 @@
 #include <omp.h>
 #include <string.h>
 
-enum { ALIGN = 8, MAX_TAPS = 64 }; /* doubles a cache line */
+enum { ALIGN = 8, MAX_TAPS = 2 * TENSOR_MOST_HALF + 1 }; /* doubles a cache line */
 
 struct z_item {
     int in;
@@ -112,10 +112,15 @@ struct tensor_plan *tensor_plan_new(const size_t n[3], int components, const str
     plan->y = array_new(count, sizeof *plan->y);
     plan->x = array_new(count, sizeof *plan->x);
     if (plan->z != NULL && plan->y != NULL && plan->x != NULL) {
-        for (size_t i = 0; i < count; i++)
+        bool narrow = true;
+        for (size_t i = 0; i < count; i++) {
             add_term(plan, &terms[i]);
+            for (int slot = 0; slot < 3; slot++)
+                narrow = narrow &&
+                         (terms[i].matrix[slot] == NULL || terms[i].matrix[slot]->half <= TENSOR_MOST_HALF);
+        }
         sort_by_target(plan);
-        if (lay_buffers(plan)) return plan;
+        if (narrow && lay_buffers(plan)) return plan;
     }
     tensor_plan_free(plan);
     return NULL;

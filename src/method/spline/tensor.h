@@ -17,8 +17,10 @@ struct tensor_term {
 
 struct tensor_plan;
 
+enum { TENSOR_MOST_HALF = 63 }; /* entries that a matrix may have on each side of its diagonal */
+
 /* Plan for fields of n[0] x n[1] x n[2] values a component (x fastest, component stride = their product);
- * keeps the pointers to the matrices. NULL: no memory. */
+ * keeps the pointers to the matrices. NULL: no memory, or a matrix wider than TENSOR_MOST_HALF. */
 struct tensor_plan *tensor_plan_new(const size_t n[3], int components, const struct tensor_term *terms,
                                     size_t count, int threads);
 void tensor_plan_free(struct tensor_plan *plan);
