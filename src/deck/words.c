@@ -345,9 +345,12 @@ static const struct word reference_words[] = {
      "write histories of stress too (layered, point sources)"},
 };
 
+/* doc/NEWS.md: a word that goes has a line here, {group, old, now, version}. */
+static const struct retired_word retired[] = {{NULL, NULL, NULL, NULL}};
+
 #define GROUP(name, occurrence, gloss)                                                                       \
     {                                                                                                        \
-#name, occurrence, gloss, name##_words, COUNT(name##_words)                                          \
+#name, occurrence, gloss, name##_words, COUNT(name##_words), retired                                 \
     }
 static const struct word_group groups[] = {
     GROUP(scene, GROUP_ALWAYS, "what is computed"),
