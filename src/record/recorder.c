@@ -132,7 +132,6 @@ static selas_status write_deck(const struct recorder *recorder, struct messages 
     struct safe_file file;
     selas_status status = safe_file_open(scene->output.directory, "deck.nml", &file, messages);
     if (status != SELAS_OK) return status;
-    fprintf(file.file, "! selas %s\n", selas_version());
     status = deck_write(scene->deck, file.file, messages);
     return safe_file_close(&file, status, messages);
 }

@@ -97,8 +97,7 @@ static selas_status write_group(const struct recorder *recorder, size_t group, s
     const selas_status status = safe_file_open(recorder->scene->output.directory, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
-    fprintf(out, "<?xml version=\"1.0\" ?>\n<!-- selas " SELAS_VERSION
-                 " -->\n<Xdmf Version=\"2.0\">\n <Domain>\n  <Grid Name=\"");
+    fprintf(out, "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n <Domain>\n  <Grid Name=\"");
     write_escaped(out, recorder->scene->title[0] != '\0' ? recorder->scene->title : "selas");
     fprintf(out, "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
     for (size_t k = 0; k < recorder->entries; k++) {
