@@ -151,7 +151,7 @@ fuzz-replay: $(FUZZED:%=$(BUILD)/replay/%) # on the inputs that are kept, with a
 
 # Studies: tables and figures of the manual
 
-.PHONY: absorption damping quiet paper-figures sph-figures consistent-tables tables stability accuracy bench bench-all bench-sph bench-host lamb-check
+.PHONY: absorption damping quiet paper-figures sph-figures gallery consistent-tables tables stability accuracy bench bench-all bench-sph bench-host lamb-check
 absorption: $(BUILD)/selas ## table of doc/theory/absorbing-faces.md: what comes back from transmitting faces
 	@sh regress/studies/absorption $(BUILD)
 
@@ -166,6 +166,9 @@ paper-figures: $(BUILD)/selas ## Figs 2-5 of Ding et al. (2006) with their error
 
 sph-figures: $(BUILD)/selas ## Figs 4-13 and 15-19 of He & Seaid (2016), in output/sph-figures/ (about a minute)
 	@sh regress/studies/sph-figures/run $(BUILD)
+
+gallery: $(BUILD)/selas ## a picture of each kind of scene: doc/gallery.md
+	@sh regress/studies/gallery $(BUILD)
 
 consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/consistent-tables.md
 	@sh regress/studies/consistent-tables $(BUILD)

@@ -34,3 +34,14 @@ function Header(header)
     if mode == 'book' then header.identifier = header.level == 1 and name(page) or name(page) .. '--' .. header.identifier end
     return header
 end
+-- Display equations: the number of \tag stands beside, as not every writer of equations has it
+local function numbered(text)
+    local number = text:match('\\tag{(.-)}')
+    local shown = pandoc.Math('DisplayMath', (text:gsub('\\tag{.-}', '')))
+    return number and { shown, pandoc.Span('(' .. number .. ')', { class = 'number' }) } or { shown }
+end
+function Math(math) return math.mathtype == 'DisplayMath' and numbered(math.text) or nil end
+function CodeBlock(block)
+    if not block.classes:includes('math') then return nil end
+    return pandoc.Div(pandoc.Para(numbered(block.text)), { class = 'equation' })
+end

@@ -408,7 +408,7 @@ static void suggestions(void **state)
     static const struct word words[] = {{"quiet", WORD_REAL, 1, NULL, NULL, EXPERT, ""},
                                         {"quint", WORD_REAL, 1, NULL, NULL, OPTIONAL, ""},
                                         {"force", WORD_CHOICE, 1, NULL, "push|pull", EXPERT, ""}};
-    static const struct word_group group = {"group", GROUP_ONCE, "", words, 3};
+    static const struct word_group group = {"group", GROUP_ONCE, "", words, 3, NULL};
     static const struct word_table table = {&group, 1};
     char text[SUGGESTION_SIZE];
     assert_string_equal(suggest_word(&group, "quit", text), "; did you mean 'quint'?");  /* both 1 away */

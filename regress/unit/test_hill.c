@@ -1,5 +1,5 @@
 /* The general operator below a surface that is not level: the map, rigid motions, symmetry, the largest step, energy,
- * symmetry planes, absorbing layers, threads, moment tensors (doc/theory/general-ground.md, section 9). */
+ * symmetry planes, absorbing layers, threads, moment tensors (doc/theory/topography.md). */
 #include "general_run.h"
 
 #include "method/consistent/galerkin/surface.h"

@@ -1,4 +1,4 @@
-/* Models of the ground in each format that is read, and wrong files (doc/theory/general-ground.md, section 4). */
+/* Models of the ground in each format that is read, and wrong files (doc/reference/models.md). */
 #include "from_deck.h"
 #include "model_writers.h"
 #include "scene/topography.h"

@@ -1,6 +1,7 @@
 /* Namelist reading: places of values, what a group is and is not, and going on after an error. That values
  * are gfortran's is shown by regress/checks/namelist.sh. */
 #include "deck/namelist.h"
+#include "selas.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,9 +16,14 @@ static const struct word words[] = {
     {"text", WORD_TEXT, 2, "'default'", NULL, OPTIONAL, ""},
     {"flag", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL, ""},
 };
+static const struct retired_word retired[] = {
+    {"one", "row", "list", SELAS_VERSION},
+    {"one", "ex", "x", "0.0.1"},
+    {NULL, NULL, NULL, NULL},
+};
 static const struct word_group groups[] = {
-    {"one", GROUP_MANY, "", words, 4},
-    {"two", GROUP_MANY, "", words, 1},
+    {"one", GROUP_MANY, "", words, 4, retired},
+    {"two", GROUP_MANY, "", words, 1, retired},
 };
 static const struct word_table table = {groups, 2};
 
@@ -129,6 +135,24 @@ static void assignments_replace_values(void **state)
     release(&r);
 }
 
+static void words_that_go_warn_for_one_version(void **state)
+{
+    (void)state;
+    struct reading r = read_text("&one ROW(2) = 5, x = 1 /\n");
+    assert_int_equal(r.status, SELAS_OK);
+    assert_string_equal(r.messages.text,
+                        "f:1:6: warning: 'row' in &one is for the last time in version " SELAS_VERSION
+                        "; write 'list'\n");
+    assert_true(r.list.group[0].item[1].value[1].as.real == 5.0);
+    release(&r);
+    expect("&one row = 1, list = 2 /\n",
+           "f:1:6: warning: 'row' in &one is for the last time in version " SELAS_VERSION "; write 'list'\n"
+           "f:1:15: error: 'list' is given twice in one group (first on line 1)\n");
+    expect("&one ex = 1 /\n",
+           "f:1:6: error: 'ex' in &one was for the last time in version 0.0.1; write 'x'\n");
+    expect("&two row = 1 /\n", "f:1:6: error: unknown name 'row' in &two\n"); /* of another group */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -137,6 +161,7 @@ int main(void)
         cmocka_unit_test(groups_that_nobody_knows_are_errors),
         cmocka_unit_test(reading_goes_on_after_errors),
         cmocka_unit_test(assignments_replace_values),
+        cmocka_unit_test(words_that_go_warn_for_one_version),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

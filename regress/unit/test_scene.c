@@ -1,6 +1,7 @@
 /* The scene: what a right deck becomes, and that overrides reach it. */
 #include "accuracy/accuracy.h"
 #include "from_deck.h"
+#include "scene/units.h"
 
 #include <glob.h>
 #include <stdlib.h>
@@ -389,6 +390,39 @@ static void overrides_reach_the_scene(void **unused)
     from_deck_free(&d);
 }
 
+static void names_of_units(void **unused)
+{
+    (void)unused;
+    char text[UNIT_TEXT];
+    struct from_deck d = right_scene(BOX "&output length_unit='km', time_unit='s' /\n");
+    const struct output_choice *output = &d.scene->output;
+    assert_string_equal(unit_text(output, 1, 0, "", text), " (km)");
+    assert_string_equal(unit_text(output, 0, 1, "", text), " (s)");
+    assert_string_equal(unit_text(output, 0, -1, "", text), " (1/s)");
+    assert_string_equal(unit_text(output, 1, -1, "", text), " (km/s)");
+    assert_string_equal(unit_text(output, 1, -2, "", text), " (km/s^2)");
+    assert_string_equal(units_told(output, text), "lengths in km, times in s");
+    from_deck_free(&d);
+    d = right_scene(BOX "&output time_unit='ms' /\n");
+    assert_string_equal(unit_text(&d.scene->output, 1, -1, UNITS_OF_DECK, text), UNITS_OF_DECK);
+    assert_string_equal(unit_text(&d.scene->output, 0, 1, UNITS_OF_DECK, text), " (ms)");
+    assert_string_equal(units_told(&d.scene->output, text), "times in ms");
+    from_deck_free(&d);
+    d = right_scene(BOX);
+    assert_string_equal(units_told(&d.scene->output, text), "the deck's own");
+    from_deck_free(&d);
+    static const char *const wrong[] = {"length_unit=\"m'\"", "length_unit=''", "time_unit='{s}'",
+                                        "time_unit='microseconds of the clock'"};
+    for (size_t i = 0; i < 4; i++) {
+        char deck[512];
+        snprintf(deck, sizeof deck, BOX "&output %s /\n", wrong[i]);
+        d = from_text(deck, 0, NULL);
+        assert_int_equal(d.status, SELAS_BAD_DECK);
+        assert_non_null(strstr(d.messages.text, "is no name of a unit"));
+        from_deck_free(&d);
+    }
+}
+
 /* The decks of input/ are right, and so are their echoes, which have every default written out. */
 static void decks_and_their_echoes(void **unused)
 {
@@ -439,6 +473,7 @@ int main(void)
         cmocka_unit_test(choices_are_the_enums),
         cmocka_unit_test(warnings),
         cmocka_unit_test(overrides_reach_the_scene),
+        cmocka_unit_test(names_of_units),
         cmocka_unit_test(decks_and_their_echoes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

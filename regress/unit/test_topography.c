@@ -1,5 +1,5 @@
 /* The surface of the ground from the deck: shapes, heights from files, what is refused, places by their
- * depth, boxes and mirror planes, who takes it (doc/theory/general-ground.md, section 9). */
+ * depth, boxes and mirror planes, who takes it (doc/theory/topography.md). */
 #include "from_deck.h"
 
 #include "method/methods.h"

@@ -129,10 +129,10 @@ void gnuplot_range(FILE *script, double low, double high, int tics)
             gnuplot_tic_step(high - low + 2.0 * room, tics));
 }
 
-void gnuplot_time_axis(FILE *script, bool last)
+void gnuplot_time_axis(FILE *script, bool last, const char *unit)
 {
     if (last)
-        fprintf(script, "set xlabel 'time (units of the deck)'\nset format x '%%g'\n");
+        fprintf(script, "set xlabel 'time%s'\nset format x '%%g'\n", unit);
     else
         fprintf(script, "unset xlabel\nset format x ''\n");
 }

@@ -25,11 +25,11 @@ void gnuplot_discard(struct gnuplot *plot);
 void gnuplot_quote(FILE *script, const char *text);
 /* Plots of panels one below the other, lengths in pixels from above: a page with its title (centred in the
  * `top` highest pixels) and common style; where the next panel lies; its range of values (flat ones get a
- * range too) with about `tics` tics; the axis of time below the last panel only. */
+ * range too) with about `tics` tics; the axis of time below the last panel only (unit: " (s)"). */
 void gnuplot_page(FILE *script, int width, int height, int top, const char *title);
 void gnuplot_panel(FILE *script, int width, int height, int top, int bottom);
 void gnuplot_range(FILE *script, double low, double high, int tics);
-void gnuplot_time_axis(FILE *script, bool last);
+void gnuplot_time_axis(FILE *script, bool last, const char *unit);
 
 /* Step between tics: 1, 2 or 5 times a power of ten, about `wanted` of them in a range > 0. */
 double gnuplot_tic_step(double range, double wanted);

@@ -60,7 +60,7 @@ static void plot_channel(FILE *script, const char *folder, const char *receiver,
     if (pair->rows > 1)
         fprintf(script, "set xrange [%.9g:%.9g]\n", pair->time[0], pair->time[pair->rows - 1]);
     gnuplot_panel(script, WIDTH, HEIGHT, TOP, TOP + MAIN);
-    gnuplot_time_axis(script, false);
+    gnuplot_time_axis(script, false, "");
     gnuplot_range(script, traces[0], traces[1], TICS);
     fprintf(script, "set ylabel '{/:Italic %c_%c} (units of the deck)'\n", diff_channel[channel][0],
             diff_channel[channel][1]);
@@ -70,7 +70,7 @@ static void plot_channel(FILE *script, const char *folder, const char *receiver,
     gnuplot_quote(script, label[1]);
     fprintf(script, " noenhanced\nunset label 1\n"); /* the title is drawn once */
     gnuplot_panel(script, WIDTH, HEIGHT, TOP + MAIN + GAP, TOP + MAIN + GAP + DIFFERENCE);
-    gnuplot_time_axis(script, true);
+    gnuplot_time_axis(script, true, " (units of the deck)");
     gnuplot_range(script, difference[0], difference[1], TICS / 2);
     fprintf(script, "set ylabel 'difference' offset 1,0\nplot $both u 1:4 w l lc rgb '#b3202c' lw 1.4 t ");
     if (isfinite(d->excess) && d->excess > 1.0)

@@ -1,6 +1,7 @@
 /* Assignments of namelist text: the name, its subscript and the values, stored in the group's items. */
 #include "deck/assignment.h"
 #include "base/memory.h"
+#include "selas.h"
 
 #include <string.h>
 
@@ -157,9 +158,26 @@ static bool read_subscripts(struct scanner *scanner, struct target *target)
     return true;
 }
 
-static void unknown_word(struct scanner *scanner, const struct word_group *kind, size_t at, size_t length)
+/* Index of the word that took the place of one that goes, with a warning; else the number of words. */
+static size_t successor(struct scanner *scanner, const struct word_group *kind, size_t at,
+                        const struct retired_word *retired)
+{
+    if (retired == NULL || strcmp(retired->until, SELAS_VERSION) != 0) return kind->words;
+    namelist_message(scanner->messages, scanner->name, scan_place(scanner, at), false,
+                     "'%s' in &%s is for the last time in version %s; write '%s'", retired->old, kind->name,
+                     retired->until, retired->now);
+    return words_find(kind, retired->now, strlen(retired->now));
+}
+
+static void unknown_word(struct scanner *scanner, const struct word_group *kind, size_t at, size_t length,
+                         const struct retired_word *retired)
 {
     char quoted[QUOTED_SIZE], suggestion[SUGGESTION_SIZE];
+    if (retired != NULL) {
+        scan_error(scanner, at, "'%s' in &%s was for the last time in version %s; write '%s'", retired->old,
+                   kind->name, retired->until, retired->now);
+        return;
+    }
     scan_quote(scanner, at, length, quoted);
     scan_error(scanner, at, "unknown name '%s' in &%s%s", quoted, kind->name,
                suggest_word(kind, quoted, suggestion));
@@ -184,9 +202,11 @@ bool scan_assignment(struct scanner *scanner, struct deck_group *group)
     }
     scanner->full = NULL;
     scanner->at = at + length;
-    const size_t index = words_find(group->kind, scanner->text + at, length);
+    size_t index = words_find(group->kind, scanner->text + at, length);
+    const struct retired_word *retired = words_find_retired(group->kind, scanner->text + at, length);
+    if (index == group->kind->words) index = successor(scanner, group->kind, at, retired);
     if (index == group->kind->words) {
-        unknown_word(scanner, group->kind, at, length);
+        unknown_word(scanner, group->kind, at, length, retired);
         return false;
     }
     struct target target = {.word = &group->kind->word[index],

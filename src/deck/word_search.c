@@ -26,6 +26,15 @@ size_t words_find(const struct word_group *group, const char *name, size_t lengt
     return i;
 }
 
+const struct retired_word *words_find_retired(const struct word_group *group, const char *name, size_t length)
+{
+    for (const struct retired_word *word = group->retired; word != NULL && word->group != NULL; word++)
+        if (strcasecmp(word->group, group->name) == 0 && strlen(word->old) == length &&
+            strncasecmp(word->old, name, length) == 0)
+            return word;
+    return NULL;
+}
+
 size_t word_choices(const struct word *word)
 {
     size_t count = 1;

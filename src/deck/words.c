@@ -324,6 +324,9 @@ static const struct word output_words[] = {
     {"checkpoint_minutes", WORD_REAL, 1, "30", NOT_NEGATIVE, OPTIONAL,
      "minutes by the clock between checkpoints; 0: none"},
     {"plots", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL, "draw the PNGs"},
+    {"length_unit", WORD_TEXT, 1, NULL, NULL, OPTIONAL,
+     "what the deck's lengths are in, as axes and report name it: 'm', 'km'; nothing is converted"},
+    {"time_unit", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "the same of times: 's', 'ms'"},
     {"history_step", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "time between rows of the histories [time]; 0: every step"},
     {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
@@ -345,9 +348,12 @@ static const struct word reference_words[] = {
      "write histories of stress too (layered, point sources)"},
 };
 
+/* doc/NEWS.md: a word that goes has a line here, {group, old, now, version}. */
+static const struct retired_word retired[] = {{NULL, NULL, NULL, NULL}};
+
 #define GROUP(name, occurrence, gloss)                                                                       \
     {                                                                                                        \
-#name, occurrence, gloss, name##_words, COUNT(name##_words)                                          \
+#name, occurrence, gloss, name##_words, COUNT(name##_words), retired                                 \
     }
 static const struct word_group groups[] = {
     GROUP(scene, GROUP_ALWAYS, "what is computed"),

@@ -43,12 +43,19 @@ enum occurrence {
     GROUP_MANY    /* each occurrence is another thing */
 };
 
+/* A word that goes: in version `until` (as in SELAS_VERSION: 1.1.0) it is read as `now` of the same group, with a
+ * warning; in any other version it is refused with the same advice. */
+struct retired_word {
+    const char *group, *old, *now, *until;
+};
+
 struct word_group {
     const char *name;
     enum occurrence occurrence;
     const char *gloss;
     const struct word *word;
     size_t words;
+    const struct retired_word *retired; /* of all groups, ends with one without a name; NULL: none */
 };
 
 /* A table of groups: the deck's own (deck_words()), or another one in tests. */
@@ -66,6 +73,9 @@ void words_write(const struct word_group *group, FILE *file);
 /* Index of a name (case-free, `length` bytes), or the number of groups or words if there is none. */
 size_t words_find_group(const struct word_table *table, const char *name, size_t length);
 size_t words_find(const struct word_group *group, const char *name, size_t length);
+/* The same among words that went; NULL if there is none. */
+const struct retired_word *words_find_retired(const struct word_group *group, const char *name,
+                                              size_t length);
 
 /* Number of choices; copies choice `index` (or "" beyond the last) into text[size]. */
 size_t word_choices(const struct word *word);

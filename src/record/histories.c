@@ -1,6 +1,7 @@
 /* NAME.dat and NAME.exact.dat: columns t ux uy uz vx vy vz with a header; NAME.exact.stress.dat: t sxx syy
  * szz sxy syz szx. Numbers have 17 digits: what is read back is what was written. */
 #include "record/results.h"
+#include "scene/units.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
@@ -38,8 +39,9 @@ static selas_status write_history(const struct scene *scene, const struct record
             kind == COMPUTED ? "history" : "exact history", place->name, place->position[0],
             place->position[1], place->position[2]);
     fprintf(out, "# %s\n", scene->title);
-    fprintf(out, "# deck %s, selas %s; units: the deck's own\n",
-            scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version());
+    char units[UNIT_TEXT];
+    fprintf(out, "# deck %s, selas %s; units: %s\n", scene->deck != NULL ? deck_name(scene->deck) : "(none)",
+            selas_version(), units_told(&scene->output, units));
     if (kind == COMPUTED && scene->output.low_pass > 0.0)
         fprintf(out, "# low-passed: spectrum times exp(-(omega/%.17g)^4), zero phase\n",
                 scene->output.low_pass);

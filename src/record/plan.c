@@ -7,6 +7,7 @@
 #include "scene/absorbing_layers.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
+#include "scene/units.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -161,6 +162,9 @@ void plan_tell(const struct recorder *recorder,
     if (scene->title[0] != '\0') say(&teller, "title", "%s", scene->title);
     if (scene->deck != NULL) say(&teller, "deck", "%s", deck_name(scene->deck));
     say(&teller, "dimension", "%d", scene->dimension);
+    char units[UNIT_TEXT];
+    if (scene->output.length_unit[0] != '\0' || scene->output.time_unit[0] != '\0')
+        say(&teller, "units", "%s", units_told(&scene->output, units));
     say(&teller, "method", "%s", model->method->name);
     say(&teller, "variant", "%s", model->method->variant);
     say(&teller, "processor", "%s (vectors of %d bytes)", processor_name(processor_taken()),

@@ -3,6 +3,7 @@
  * A time between steps is interpolated by Lagrange's cubic through the four nearest steps, for every field
  * alike: error of the order dt^4 where the field is smooth in time. */
 #include "record/parts.h"
+#include "scene/units.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
@@ -130,8 +131,10 @@ static void write_header(FILE *out, const struct recorder *recorder, const struc
     fprintf(out, "# profile %s from %.17g %.17g %.17g to %.17g %.17g %.17g\n", profile->name,
             profile->from[0], profile->from[1], profile->from[2], profile->to[0], profile->to[1],
             profile->to[2]);
-    fprintf(out, "# %s\n# deck %s, selas %s; units: the deck's own\n", scene->title,
-            scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version());
+    char units[UNIT_TEXT];
+    fprintf(out, "# %s\n# deck %s, selas %s; units: %s\n", scene->title,
+            scene->deck != NULL ? deck_name(scene->deck) : "(none)", selas_version(),
+            units_told(&scene->output, units));
     if (recorder->stepper->unwarp)
         fprintf(out, "# mid-run values: they keep the time error of the scheme, which only receivers lose\n");
     histories_note(out, recorder);

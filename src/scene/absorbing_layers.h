@@ -11,7 +11,7 @@ const char *layers_refusal(const struct scene *scene);
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
 /* What a layer point costs against one of the body, by the mass that the deck asks for (regress/studies/layer-cost;
- * doc/developers/performance.md, section 6). */
+ * doc/developers/performance.md, section 5). */
 double layer_cost(const struct scene *scene);
 
 /* Points of the absorbing layer behind a face, 0 if it has none. */

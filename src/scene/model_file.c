@@ -1,4 +1,4 @@
-/* The ground from a file (doc/theory/general-ground.md, section 4): which format it has, where the body lies in it,
+/* The ground from a file (doc/reference/models.md): which format it has, where the body lies in it,
  * whether its values are rock. */
 #include "scene/model_file.h"
 

@@ -1,4 +1,4 @@
-/* Inside of reading a model of the ground from a file (doc/theory/general-ground.md, section 4): model_file.c (which
+/* Inside of reading a model of the ground from a file (doc/reference/models.md): model_file.c (which
  * format, where the deck's place is, what is checked), model_grid.c (values between those of a grid),
  * model_plain.c, model_text.c, model_rfile.c, model_sfile.c, model_blocks.c (the formats), model_set.c (what
  * those in HDF5 share). */

@@ -1,4 +1,4 @@
-/* Values between those of a model's grids (doc/theory/general-ground.md, section 4). */
+/* Values between those of a model's grids (doc/reference/models.md). */
 #include "base/memory.h"
 #include "scene/model_file.h"
 

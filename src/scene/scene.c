@@ -5,6 +5,7 @@
 #include "scene/ground.h"
 #include "scene/topography.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -118,6 +119,23 @@ static void build_stepping(struct builder *builder)
                  stepping->time_step, builder->scene->end_time);
 }
 
+/* A name that can stand in a plot's text: letters (UTF-8), digits, no more than fit. */
+static void build_unit(struct builder *builder, const struct deck_group *group, const char *name,
+                       char unit[UNIT_SIZE])
+{
+    if (deck_values(group, name) == 0) return;
+    const char *given = deck_text(group, name, 0);
+    bool plain = given[0] != '\0' && strlen(given) < UNIT_SIZE;
+    for (const char *c = given; *c != '\0'; c++)
+        plain = plain && ((unsigned char)*c >= 128 || isalnum((unsigned char)*c));
+    if (plain)
+        snprintf(unit, UNIT_SIZE, "%s", given);
+    else
+        complain(builder, group, name,
+                 "'%.40s' is no name of a unit; expected up to %d letters and digits, like 'km'", given,
+                 UNIT_SIZE - 1);
+}
+
 /* Results go where the user stands, not where the deck lies. */
 static void build_output(struct builder *builder)
 {
@@ -130,6 +148,8 @@ static void build_output(struct builder *builder)
     output->directory = scene_array(builder, room, 1);
     if (output->directory != NULL) snprintf(output->directory, room, "%s%s", given ? "" : "output/", name);
     output->plots = deck_logical(group, "plots", 0);
+    build_unit(builder, group, "length_unit", output->length_unit);
+    build_unit(builder, group, "time_unit", output->time_unit);
     output->history_step = deck_real(group, "history_step", 0);
     output->low_pass = deck_real(group, "low_pass", 0);
     output->balance = deck_values(group, "balance") > 0 && deck_logical(group, "balance", 0);

@@ -189,10 +189,12 @@ struct stepping_choice {
     bool unwarp, unwarp_given, force;
 };
 
+enum { UNIT_SIZE = 16 };
 struct output_choice {
     char *directory; /* resolved: output/DECKNAME or as given */
     bool plots;
-    double history_step;       /* 0: every step */
+    char length_unit[UNIT_SIZE], time_unit[UNIT_SIZE]; /* their names, "" if the deck has none */
+    double history_step;                               /* 0: every step */
     double low_pass;           /* angular frequency of the zero-phase low-pass, 0: none */
     bool balance;              /* what damped materials take is measured */
     long checkpoint_every;     /* steps between checkpoints; 0: none */

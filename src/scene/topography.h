@@ -1,4 +1,4 @@
-/* The surface of the ground (doc/theory/general-ground.md, section 9): how far it lies below the plane of
+/* The surface of the ground (doc/theory/topography.md): how far it lies below the plane of
  * face z-, and the map of a lattice that follows it,
  *
  *   z = zeta + s(x, y) f(zeta),   f from 1 at the plane to 0 at a depth,                                 (G16)

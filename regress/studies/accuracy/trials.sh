@@ -21,15 +21,12 @@ all_trials() {
     echo b1:.03 b1:.01 b2:.03 b2:.01 b3:.02 b3:.001 b4:.1 b4:.03 b5:.035 b5:.006 b6:.025 b6:.001 p1:.04 p1:.015 p2:.04 p2:.015 p3:.04 p3:.015
 }
 quick_trials() { echo 1:.02 5:.03 9:.01 12:.01 l3:.05 w2:.01 w9:.01 b1:.03 b3:.001 p2:.04; }
-trials_page() { # the table of doc/verification/accuracy-tables.md
+trials_page() { # the table doc/verification/tables/trials.txt
     {
         echo '| scene | wanted | chosen | reached | reached / wanted |'
         echo '|---|---|---|---|---|'
         sed 's/leapfrog with the time-dispersion transform/leapfrog transformed/' "$out/trials.txt"
-    } >"$out/trials.md"
-    awk -v file="$out/trials.md" '$0 == "<!-- trials -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
-        $0 == "<!-- end trials -->" { skip = 0 }
-        !skip' doc/verification/accuracy-tables.md >"$out/page.md" && mv "$out/page.md" doc/verification/accuracy-tables.md
+    } >doc/verification/tables/trials.txt
 }
 trials() { # trials [NUMBER:ERROR ...]
     : >"$out/trials.txt"

@@ -16,7 +16,7 @@ static bool tunable(const struct scene *scene, const struct consistent_options *
            scene->initial.kind == INITIAL_REST;
 }
 
-/* Loads whose integrals know nothing of the map (doc/theory/general-ground.md, section 9). */
+/* Loads whose integrals know nothing of the map (doc/theory/topography.md). */
 static selas_status check_surface(const struct scene *scene, struct messages *messages)
 {
     for (size_t k = 0; scene->body.topography != NULL && k < scene->loads; k++) {

@@ -3,6 +3,7 @@
 #include "base/gnuplot.h"
 #include "damping/ground.h"
 #include "record/parts.h"
+#include "scene/units.h"
 
 #include <math.h>
 
@@ -51,12 +52,15 @@ static void plot_materials(FILE *script, const struct recorder *recorder,
     const struct scene *scene = recorder->scene;
     int top = TOP;
     for (size_t i = 0; i < scene->materials; i++) {
-        char unit[NAME_SIZE + 32];
+        char unit[NAME_SIZE + UNIT_TEXT], text[UNIT_TEXT];
         if (!(scene->material[i].q_p > 0)) continue;
         write_data(script, damping, i, scene->material[i].density);
         for (int speeds = 0; speeds < 2; speeds++) {
             gnuplot_panel(script, WIDTH, height, top, top + PANEL);
-            snprintf(unit, sizeof unit, speeds ? "phase speed" : "1/Q of %s", scene->material[i].name);
+            if (speeds)
+                snprintf(unit, sizeof unit, "phase speed%s", unit_text(&scene->output, 1, -1, "", text));
+            else
+                snprintf(unit, sizeof unit, "1/Q of %s", scene->material[i].name);
             plot_panel(script, unit, i, speeds ? 6 : 2, speeds != 0);
             fprintf(script, "unset label 1\n");
             top += PANEL + GAP;
@@ -82,9 +86,11 @@ void plot_damping(struct recorder *recorder, struct messages *messages)
     const int height = TOP + panels * (PANEL + GAP) + BOTTOM;
     gnuplot_page(plot.script, WIDTH, height, TOP, scene->title);
     gnuplot_output(plot.script, recorder->folder, "damping.png");
-    fprintf(plot.script, "set multiplot\nset logscale x\nset xlabel 'frequency (1/unit of time of the "
-                         "deck)'\nset y2range [0:1.2]\nset "
-                         "key inside right center vertical maxrows 5 samplen 2\n");
+    char text[UNIT_TEXT];
+    fprintf(plot.script,
+            "set multiplot\nset logscale x\nset xlabel 'frequency%s'\nset y2range [0:1.2]\nset "
+            "key inside right center vertical maxrows 5 samplen 2\n",
+            unit_text(&scene->output, 0, -1, " (1/unit of time of the deck)", text));
     plot_materials(plot.script, recorder, damping, height);
     fprintf(plot.script, "unset multiplot\nunset output\n");
     gnuplot_keep(recorder->folder, "damping.png", gnuplot_run(&plot, "damping", messages), messages);

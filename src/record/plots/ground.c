@@ -7,6 +7,7 @@
 #include "record/parts.h"
 #include "record/plots/marks.h"
 #include "record/results.h"
+#include "scene/units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,6 +30,8 @@ static const char picture[] = "ground.png";
 static void set_panel(const struct page *page, const struct cut *cut, int left, int top, const int size[2])
 {
     FILE *script = page->script;
+    char unit[UNIT_TEXT];
+    unit_text(&page->scene->output, 1, 0, UNITS_OF_DECK, unit);
     fprintf(script, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)left / page->width,
             (double)(left + size[0]) / page->width);
     fprintf(script, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n",
@@ -36,10 +39,10 @@ static void set_panel(const struct page *page, const struct cut *cut, int left, 
     for (int side = 0; side < 2; side++) {
         const bool down = side == 1 && cut->downwards;
         const double length = cut->high[side] - cut->low[side];
-        fprintf(script, "set %crange [%.9g:%.9g]\nset %ctics %.9g\nset %clabel '%s (units of the deck)'\n",
-                "xy"[side], down ? cut->high[side] : cut->low[side], down ? cut->low[side] : cut->high[side],
-                "xy"[side], gnuplot_tic_step(length, size[side] / (side == 0 ? 100. : 65.)), "xy"[side],
-                cut -> name[side]);
+        fprintf(script, "set %crange [%.9g:%.9g]\nset %ctics %.9g\nset %clabel '%s%s'\n", "xy"[side],
+                down ? cut->high[side] : cut->low[side], down ? cut->low[side] : cut->high[side], "xy"[side],
+                gnuplot_tic_step(length, size[side] / (side == 0 ? 100. : 65.)), "xy"[side],
+                cut -> name[side], unit);
     }
 }
 
@@ -119,9 +122,10 @@ static void set_scale(const struct page *page, int which)
 {
     const double low = page->least[which], high = page->greatest[which];
     const double room = high - low > 1e-6 * high ? 0 : .1 * high;
-    fprintf(page->script,
-            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset cblabel '%c speed (units of the deck)'\n",
-            low - room, high + room, gnuplot_tic_step(high - low + 2 * room, 5), "SP"[which]);
+    char unit[UNIT_TEXT];
+    fprintf(page->script, "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset cblabel '%c speed%s'\n", low - room,
+            high + room, gnuplot_tic_step(high - low + 2 * room, 5), "SP"[which],
+            unit_text(&page->scene->output, 1, -1, UNITS_OF_DECK, unit));
 }
 
 static void draw_sections(const struct page *page, int left, const size_t skip[2])

@@ -4,6 +4,7 @@
 #include "base/safe_file.h"
 #include "compare/misfit.h"
 #include "record/parts.h"
+#include "scene/units.h"
 
 #include <math.h>
 
@@ -94,12 +95,16 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     static const char *const name[6] = {"", "", "", "v_x", "v_y", "v_z"};
     const double *value = recorder->trace[receiver].value;
     const double *exact = recorder->exact != NULL ? recorder->exact + receiver * recorder->rows * 6 : NULL;
+    const struct output_choice *output = &recorder->scene->output;
     double range[2];
+    char time_unit[UNIT_TEXT], unit[UNIT_TEXT];
+    unit_text(output, 0, 1, UNITS_OF_DECK, time_unit);
     range_of(value, exact, recorder->rows, column, false, range);
     gnuplot_panel(script, WIDTH, height, *top, *top + MAIN);
-    gnuplot_time_axis(script, last && exact == NULL);
+    gnuplot_time_axis(script, last && exact == NULL, time_unit);
     gnuplot_range(script, range[0], range[1], MAIN_TICS);
-    fprintf(script, "set ylabel '{/:Italic %s} (units of the deck)'\n", name[column]);
+    fprintf(script, "set ylabel '{/:Italic %s}%s'\n", name[column],
+            unit_text(output, 1, -1, UNITS_OF_DECK, unit));
     const size_t c = column - 3;
     if (exact != NULL)
         fprintf(script,
@@ -115,7 +120,7 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     write_error(recorder, value, exact, column, error, sizeof error);
     range_of(value, exact, recorder->rows, column, true, range);
     gnuplot_panel(script, WIDTH, height, *top, *top + DIFFERENCE);
-    gnuplot_time_axis(script, last);
+    gnuplot_time_axis(script, last, time_unit);
     gnuplot_range(script, range[0], range[1], DIFFERENCE_TICS);
     fprintf(script, "set ylabel 'difference'\n");
     fprintf(script, "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t 'computed - exact: %s'\n", 6 + 2 * c,

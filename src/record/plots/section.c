@@ -260,7 +260,7 @@ static bool make_room(struct film *film)
 
 bool film_create(const struct recorder *recorder, size_t group, struct film *film, struct messages *messages)
 {
-    *film = (struct film){.group = group};
+    *film = (struct film){.group = group, .output = &recorder->scene->output};
     if (!choose_field(recorder->scene->snapshot[group].fields, &film->field)) return false;
     film->frame = array_new(recorder->entries, sizeof *film->frame);
     for (size_t k = 0; film->frame != NULL && k < recorder->entries; k++)

@@ -29,6 +29,7 @@ struct frame {
 
 /* All snapshots of one group. */
 struct film {
+    const struct output_choice *output; /* the scene's, for names of units */
     size_t group;
     selas_field field;
     size_t component;

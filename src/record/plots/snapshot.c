@@ -4,6 +4,7 @@
  * side; two: a map; one: a curve. The values come back from run.h5. */
 #include "base/gnuplot.h"
 #include "record/plots/section.h"
+#include "scene/units.h"
 
 #include <math.h>
 #include <unistd.h>
@@ -46,6 +47,13 @@ static void label_of(const struct film *film, char *text, size_t size)
         snprintf(text, size, "%c_%s", letter[film->field], component);
     else
         snprintf(text, size, "%s", field_name(film->field));
+}
+
+/* Displacement, velocity, acceleration: length / time^0, 1, 2. */
+static const char *unit_of(const struct film *film, char text[UNIT_TEXT])
+{
+    if (film->field > SELAS_ACCELERATION) return UNITS_OF_DECK;
+    return unit_text(film->output, 1, -(int)film->field, UNITS_OF_DECK, text);
 }
 
 static void set_range(FILE *script, const char *axis, double low, double high, bool reversed)
@@ -100,12 +108,13 @@ static void draw_map(FILE *script, const struct film *film, size_t s, size_t sec
 {
     static const char axis_name[3] = {'x', 'y', 'z'};
     const struct section *section = &film->section[s];
-    char label[64];
+    char label[64], unit[UNIT_TEXT];
     label_of(film, label, sizeof label);
-    fprintf(script, "set xlabel '%c'\nset ylabel '%c'\n", axis_name[section->axis[0]],
-            axis_name[section->axis[1]]);
-    fprintf(script, "set title '%s%s%s (units of the deck)'\n", label, section->title[0] != '\0' ? ", " : "",
-            section->title);
+    unit_text(film->output, 1, 0, "", unit);
+    fprintf(script, "set xlabel '%c%s'\nset ylabel '%c%s'\n", axis_name[section->axis[0]], unit,
+            axis_name[section->axis[1]], unit);
+    fprintf(script, "set title '%s%s%s%s'\n", label, section->title[0] != '\0' ? ", " : "", section->title,
+            unit_of(film, unit));
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", section->low[1], section->high[1], section->downwards);
     set_scale(script, film, largest);
@@ -137,10 +146,11 @@ static void draw_map(FILE *script, const struct film *film, size_t s, size_t sec
 static void draw_curve(FILE *script, const struct film *film, const struct frame *frame, double largest)
 {
     const struct section *section = &film->section[0];
-    char label[64];
+    char label[64], unit[UNIT_TEXT], along[UNIT_TEXT];
     label_of(film, label, sizeof label);
     const double size = largest > 0.0 ? 1.08 * largest : 1.0;
-    fprintf(script, "unset colorbox\nset xlabel 'x'\nset ylabel '%s (units of the deck)'\nset grid\n", label);
+    fprintf(script, "unset colorbox\nset xlabel 'x%s'\nset ylabel '%s%s'\nset grid\n",
+            unit_text(film->output, 1, 0, "", along), label, unit_of(film, unit));
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", film->field == SELAS_ENERGY ? 0.0 : -size, size, false);
     fprintf(script,
@@ -152,7 +162,8 @@ static void draw_curve(FILE *script, const struct film *film, const struct frame
 static void frame_title(FILE *script, const struct recorder *recorder, const struct frame *frame, int height)
 {
     char title[400];
-    snprintf(title, sizeof title, "%s    t = %.4g", recorder->scene->title, frame->time);
+    snprintf(title, sizeof title, "%s    t = %.4g %s", recorder->scene->title, frame->time,
+             recorder->scene->output.time_unit);
     fprintf(script, "set label 1 ");
     gnuplot_quote(script, title);
     fprintf(script, " at screen 0.5, screen %.4f center noenhanced\n", 1.0 - 22.0 / height);

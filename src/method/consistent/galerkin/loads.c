@@ -222,7 +222,7 @@ static void body_force(struct consistent *c, const struct load *load, const doub
     }
 }
 
-/* M in the body's frame; below a surface that is not level what it pulls at along the lattice (G15). */
+/* M in the body's frame; below a surface that is not level what it pulls at along the lattice (G17). */
 static void own_moment(const struct consistent *c, const struct load *load, const double centre[3],
                        double moment[3][3])
 {

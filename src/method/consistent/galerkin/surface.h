@@ -1,10 +1,10 @@
-/* The map of a lattice below a surface that is not level, and its metric (doc/theory/general-ground.md, section 9). */
+/* The map of a lattice below a surface that is not level, and its metric (doc/theory/topography.md). */
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
 
 #include "method/consistent/galerkin/galerkin.h"
 
-/* The metric of the map at a place (G15): slopes along the axes are g_s - tilt_s g_z for the slots of the surface and
+/* The metric of the map at a place (G17): slopes along the axes are g_s - tilt_s g_z for the slots of the surface and
  * `inverse` g_z along depth, g along the lattice; a cell has `jacobian` times its volume. */
 struct metric {
     double tilt[2], inverse, jacobian;

@@ -1,5 +1,5 @@
-/* The map of the general operator below a surface that is not level (doc/theory/general-ground.md, section
- * 9): s and f as splines of the displacements, so that rotations are among these and move nothing. */
+/* The map of the general operator below a surface that is not level (doc/theory/topography.md): s and f
+ * as splines of the displacements, so that rotations are among these and move nothing. */
 #include "method/consistent/general/general.h"
 
 #include "base/memory.h"
