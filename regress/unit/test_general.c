@@ -287,6 +287,54 @@ static double sent_back(size_t layers)
     return sqrt(off / norm);
 }
 
+/* Forces along the layers in the middle of a step, half the sum of those at its ends (G13b), against those of the means;
+ * the acceleration at the end from the forces made for them. */
+static void test_layers_forces(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct plain_scene plain;
+        plain_box(&plain, dimension, (double[]){2, 2, 2}, .25);
+        for (int face = 1; face < 2 * dimension; face++)
+            plain.scene.boundary[face] = (struct boundary){
+                .kind = BOUNDARY_TRANSMITTING, .absorber = ABSORBER_PML, .layer_points = 6, .always = true};
+        struct run run = run_new(&plain, quick());
+        struct model *model = run.model;
+        const struct general *g = consistent_of(model)->general;
+        const size_t n = run.n, all = model->state_size;
+        double *start = calloc(all, sizeof *start), *mean = calloc(all, sizeof *mean);
+        double *again = calloc(n, sizeof *again), *pulled = calloc(g->moments, sizeof *pulled);
+        noise(all, start);
+        model->memory->start(model, start, start + 2 * n);
+        free(run.y);
+        run.y = calloc(all, sizeof *run.y);
+        memcpy(run.y, start, all * sizeof *start);
+        const double dt = .04;
+        for (size_t i = 0; i < n; i++)
+            run.y[i] += dt * run.y[n + i];
+        const struct drive drive = {.extra = run.y + 2 * n};
+        model->memory->remember(model, dt, run.y, run.y + n, run.y + 2 * n);
+        memcpy(pulled, g->pulled, g->moments * sizeof *pulled);
+        model->spatial->accelerate(model, &drive, 0, run.y, NULL, run.a);
+        model->spatial->accelerate(model, &drive, 0, run.y, NULL, again);
+        assert_memory_equal(run.a, again, n * sizeof *again);
+        for (size_t i = 0; i < all; i++)
+            mean[i] = (start[i] + run.y[i]) / 2;
+        general_forces(consistent_of(model), mean, mean + 2 * n, again);
+        double off = 0, largest = 0;
+        for (size_t i = 0; i < g->moments; i++) {
+            off = fmax(off, fabs(pulled[i] - g->pulled[i]));
+            largest = fmax(largest, fabs(pulled[i]));
+        }
+        assert_true(largest > 0 && off < 1e-13 * largest);
+        free(start);
+        free(mean);
+        free(again);
+        free(pulled);
+        run_free(&run);
+    }
+}
+
 static void test_layers_absorb(void **state)
 {
     (void)state;
@@ -321,6 +369,7 @@ int main(void)
         cmocka_unit_test(test_quarter),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_layers_are_quiet),
+        cmocka_unit_test(test_layers_forces),
         cmocka_unit_test(test_layers_absorb),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

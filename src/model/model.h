@@ -188,9 +188,11 @@ struct model_one_pass {
 
 /* Memory of linear models (absorbing layers, damped materials). */
 struct model_memory {
+    /* Fits memory to the displacements that time stepping starts with. */
+    void (*start)(struct model *model, const double *u, double *extra);
     /* Brings the extra part of the state over a step dt. On entry u is that of the end of the step, v the
      * mean velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
-     * acceleration at the end, which gets it in drive->extra. */
+     * acceleration at the end, which gets it in drive->extra, and the same u. */
     void (*remember)(struct model *model, double dt, const double *u, const double *v, double *extra);
     /* Damps that velocity besides, after remember(). */
     void (*drag)(struct model *model, double dt, double *v);

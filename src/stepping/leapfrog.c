@@ -32,7 +32,11 @@ static void start(struct stepper *stepper, struct state *state)
         model->one_pass->begin(model, &drive, stepper->dt, state->y, state->a);
         return;
     }
-    if (model->memory != NULL) drive.extra = state->y + 2 * model->unknowns;
+    if (model->memory != NULL) {
+        double *extra = state->y + 2 * model->unknowns;
+        model->memory->start(model, state->y, extra);
+        drive.extra = extra;
+    }
     model->spatial->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 

@@ -247,6 +247,13 @@ static selas_status build(struct consistent *c, struct messages *messages)
     return status;
 }
 
+/* Layers of even and of layered ground keep nothing of u. */
+static void start(struct model *model, const double *u, double *extra)
+{
+    struct consistent *c = consistent_of(model);
+    if (c->general != NULL) general_layers_start(c, u, extra);
+}
+
 static void remember(struct model *model, double dt, const double *u, const double *v, double *extra)
 {
     struct consistent *c = consistent_of(model);
@@ -276,7 +283,7 @@ static const struct model_operator spatial = {
     .weigh = weigh,
     .shorten = consistent_shorten,
 };
-static const struct model_memory memory = {remember, drag};
+static const struct model_memory memory = {start, remember, drag};
 
 selas_status consistent_create_with(const struct scene *scene, const struct consistent_options *options,
                                     struct model **model, struct messages *messages)

@@ -112,6 +112,20 @@ static void part_moves(const struct damped *d, const struct damped_part *part, c
     }
 }
 
+static void start(struct model *model, const double *u, double *extra)
+{
+    struct damped *d = damped_of(model);
+    struct update none = {{0}, {0}};
+    for (size_t l = 0; l < mechanisms_of(d); l++)
+        none.kept[l] = 1;
+    for (size_t p = 0; p < d->parts; p++) {
+        struct model *part = d->part[p].model;
+        if (part->memory == NULL) continue;
+        part_moves(d, &d->part[p], &none, 1, u, u, extra);
+        part->memory->start(part, d->effective, extra + d->part[p].extra);
+    }
+}
+
 static void remember(struct model *model, double dt, const double *u, const double *v, double *extra)
 {
     struct damped *d = damped_of(model);
@@ -204,7 +218,7 @@ static selas_status relax(struct damped *d, size_t extra)
 static const struct model_one_pass one_pass = {
     .begin = begin, .advance = advance, .settle = settle, .kept = kept, .share = share};
 static const struct model_operator spatial = {.accelerate = accelerate, .weigh = weigh, .shorten = shorten};
-static const struct model_memory memory = {remember, drag};
+static const struct model_memory memory = {start, remember, drag};
 
 /* What the whole shows of part 0; its state has the mechanisms' memory behind v, then that of the parts. */
 static selas_status fill(struct damped *d, const struct scene *scene, struct messages *messages)

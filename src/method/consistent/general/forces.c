@@ -10,8 +10,10 @@
 #include <omp.h>
 #include <string.h>
 
-/* Rows of the buffers: values, slopes, pulls of values and of slopes, of each component. */
-enum field { VALUE, SLOPE, PULL_VALUE, PULL_SLOPE, FIELDS };
+/* Rows of the buffers: values, slopes, pulls of values and of slopes, and where layers keep forces (general.h) those of
+ * stresses along y apart, of each component. */
+enum field { VALUE, SLOPE, PULL_VALUE, PULL_SLOPE, PULL_ACROSS, FIELDS };
+_Static_assert(3 * FIELDS == PLANE_ROWS, "rows of the buffers");
 
 static double *field_of(const struct consistent *c, double *buffer, enum field field, int slot)
 {
@@ -98,13 +100,14 @@ void general_read(const struct consistent *c, enum at at, size_t m, const struct
             unclamp(c->layout[0], slot == 0, g->cells[0], part, value + ROW_ROOM);
             unclamp(c->layout[0], slot == 0, g->cells[0], part, slope + ROW_ROOM);
         }
-        for (int f = PULL_VALUE; f <= PULL_SLOPE; f++)
+        for (int f = PULL_VALUE; f < FIELDS; f++)
             memset(field_of(c, buffer, (enum field)f, slot) + part->row * g->pitch, 0,
                    (part->row_end - part->row) * g->pitch * sizeof *buffer);
     }
 }
 
-struct point_plane general_plane(const struct consistent *c, const struct family *family, double *buffer)
+struct point_plane general_plane(const struct consistent *c, const struct family *family, bool apart,
+                                 double *buffer)
 {
     const struct general *g = c->general;
     struct point_plane plane = {.flat = c->dimension == 2,
@@ -120,6 +123,7 @@ struct point_plane general_plane(const struct consistent *c, const struct family
         plane.slope[slot] = field_of(c, buffer, SLOPE, slot);
         plane.pull_value[slot] = field_of(c, buffer, PULL_VALUE, slot);
         plane.pull_slope[slot] = field_of(c, buffer, PULL_SLOPE, slot);
+        plane.pull_across[slot] = apart ? field_of(c, buffer, PULL_ACROSS, slot) : NULL;
     }
     return plane;
 }
@@ -129,7 +133,7 @@ static void rows_of(const struct consistent *c, const struct family *family, siz
                     double *buffer)
 {
     const struct point_kernels *kernels = taken_point_kernels();
-    const struct point_plane plane = general_plane(c, family, buffer);
+    const struct point_plane plane = general_plane(c, family, extra != NULL, buffer);
     const struct taps *z = taps_at(c, DEPTH, false, family->at[DEPTH], m);
     for (size_t j = 0; j < family->n[1]; j++) {
         if (!general_row_is_loud(c, taps_at(c, 1, false, family->at[1], j), z)) continue;
@@ -147,32 +151,39 @@ static void rows_of(const struct consistent *c, const struct family *family, siz
         if (extra != NULL) general_layers_add(c, &plane, family, j, m, 0, family->n[0], extra);
         if (tilted) kernels->tilt(&plane, &hill, 0, family->n[0]);
         kernels->pulls(&plane, j, 0, family->n[0], family->lambda + from, family->mu + from,
-                       family->run + run, runs, family->stiffness, 7, tilted);
+                       family->run + run, runs, family->stiffness, tilted);
     }
 }
 
-void general_write(const struct consistent *c, enum at at, size_t m, const struct part *part, size_t from,
-                   size_t end, double *buffer, double *force)
+/* Takes the pulls of a plane off the forces of planes from .. end - 1; `apart`: as general_plane(). */
+static void write_pulls(const struct consistent *c, enum at at, size_t m, size_t from, size_t end, bool apart,
+                        double *buffer, double *force)
 {
     const struct general *g = c->general;
-    size_t first, last;
-    control_range(c, part, &first, &last);
+    const struct part whole = general_whole(c);
     const struct point_kernels *kernels = taken_point_kernels();
     const size_t shift = ROW_ROOM + (c->layout[0]->mirror[0] ? 1 : 0);
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
         const struct taps *z = taps_at(c, DEPTH, slot == DEPTH, at, m);
-        for (size_t j = part->row; j < part->row_end; j++) {
-            double *value = field_of(c, buffer, PULL_VALUE, slot) + j * g->pitch;
-            double *slope = field_of(c, buffer, PULL_SLOPE, slot) + j * g->pitch;
-            clamp(c->layout[0], slot == 0, g->cells[0], part, value + ROW_ROOM);
-            clamp(c->layout[0], slot == 0, g->cells[0], part, slope + ROW_ROOM);
+        for (size_t j = 0; j < c->n[1]; j++) {
+            double *pull[FIELDS];
+            for (int f = PULL_VALUE; f <= (apart ? PULL_ACROSS : PULL_SLOPE); f++) {
+                pull[f] = field_of(c, buffer, (enum field)f, slot) + j * g->pitch;
+                clamp(c->layout[0], slot == 0, g->cells[0], &whole, pull[f] + ROW_ROOM);
+                pull[f] += shift;
+            }
+            const double *const along[3] = {pull[PULL_VALUE], apart ? pull[PULL_ACROSS] : NULL,
+                                            pull[PULL_SLOPE]};
+            for (size_t d = 0; apart && d < z->count; d++)
+                if (z->first + d >= from && z->first + d < end)
+                    general_layers_keep(c, (size_t)axis, j, z->first + d, z->value[d], z->slope[d], along);
+            if (apart) kernels->add(c->n[0], 1, pull[PULL_ACROSS], 0, pull[PULL_ACROSS], pull[PULL_VALUE]);
             for (size_t d = 0; d < z->count; d++) {
                 const size_t k = z->first + d;
                 if (k < from || k >= end) continue;
-                kernels->add(last - first, -z->value[d], value + shift + first, -z->slope[d],
-                             slope + shift + first,
-                             force + (size_t)axis * c->volume + k * c->plane + j * c->n[0] + first);
+                kernels->add(c->n[0], -z->value[d], pull[PULL_VALUE], -z->slope[d], pull[PULL_SLOPE],
+                             force + (size_t)axis * c->volume + k * c->plane + j * c->n[0]);
             }
         }
     }
@@ -200,6 +211,7 @@ static void make_planes(const struct consistent *c, int thread, size_t from, siz
     for (int axis = 0; axis < c->dimension; axis++)
         memset(force + (size_t)axis * c->volume + from * c->plane, 0,
                (end - from) * c->plane * sizeof *force);
+    if (extra != NULL) general_layers_forget(c, from, end);
     for (size_t m = 0; m <= g->cells[DEPTH]; m++)
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++) {
             if (m == g->cells[DEPTH] && at == AT_MIDDLES) continue;
@@ -207,7 +219,7 @@ static void make_planes(const struct consistent *c, int thread, size_t from, siz
             general_read(c, (enum at)at, m, &whole, u, buffer);
             for (int f = 0; f < 3; f++)
                 if (g->family[f].at[DEPTH] == (enum at)at) rows_of(c, &g->family[f], m, extra, buffer);
-            general_write(c, (enum at)at, m, &whole, from, end, buffer, force);
+            write_pulls(c, (enum at)at, m, from, end, extra != NULL, buffer, force);
         }
 }
 
@@ -233,6 +245,7 @@ void general_look(struct consistent *c, const double *u)
 
 void general_forces(struct consistent *c, const double *u, const double *extra, double *force)
 {
+    c->general->made = false;
     general_look(c, u);
     const size_t block = (c->n[DEPTH] + (size_t)c->threads - 1) / (size_t)c->threads;
 #pragma omp parallel for num_threads(c->threads) schedule(static)

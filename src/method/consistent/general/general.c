@@ -99,7 +99,7 @@ static bool lay_buffers(struct consistent *c)
 {
     struct general *g = c->general;
     g->pitch = (g->cells[0] + 2 + ALIGN - 1) / ALIGN * ALIGN + 2 * ROW_ROOM;
-    g->buffer_size = g->pitch * (12 * c->n[1] + SCRATCH_ROWS);
+    g->buffer_size = g->pitch * (PLANE_ROWS * c->n[1] + SCRATCH_ROWS);
     g->buffer = array_new((size_t)c->threads, sizeof *g->buffer);
     for (int thread = 0; g->buffer != NULL && thread < c->threads; thread++) {
         g->buffer[thread] = array_new(g->buffer_size, sizeof **g->buffer);
@@ -201,7 +201,8 @@ void general_accelerate(struct consistent *c, const struct drive *drive, double 
 {
     struct general *g = c->general;
     const double *extra = c->pml != NULL ? drive->extra : NULL;
-    general_forces(c, u, extra, g->force);
+    if (extra == NULL || !g->made) general_forces(c, u, extra, g->force);
+    g->made = false;
     if (extra != NULL) general_layers_pull(c, extra, g->force);
     for (int component = 0; component < c->dimension; component++)
         for (size_t k = 0; k < c->n[DEPTH]; k++) {

@@ -46,8 +46,10 @@ struct general {
     struct sweep *sweep;         /* NULL: steps are made with the operator */
     struct general_layer *layer; /* [layers] */
     size_t layers;
-    double *middle;              /* memory of slopes at the middle of a step, as in extra */
-    double *root;                /* 1 / sqrt(R) at the control values (G4, G5) */
+    size_t moments; /* numbers of phi of all layers; behind them in extra, as many forces along the layers */
+    double *pulled, *middle; /* [moments] those of the last general_forces(); phi in the middle of a step */
+    bool made;               /* `force` is that of the state that memory has been brought to */
+    double *root;            /* 1 / sqrt(R) at the control values (G4, G5) */
     struct tensor_plan *inverse; /* N */
     double *force;               /* [unknowns] F - K u, times root */
     double *work;                /* [unknowns] */
@@ -71,7 +73,8 @@ void general_weigh(struct consistent *c, const double *v, double *product); /* M
 void general_energy(struct consistent *c, const double *y, struct energy *energy);
 double general_damper_power(struct consistent *c, const double *v);
 
-/* forces.c: force := -K u, with the memory of absorbing layers if extra is not NULL. */
+/* forces.c: force := -K u, with the memory of absorbing layers if extra is not NULL, which then keep the forces of
+ * stresses along them. */
 void general_forces(struct consistent *c, const double *u, const double *extra, double *force);
 
 /* Part of a plane: rows of control values row .. row_end - 1, numbers from .. end - 1 of the unclamped splines
@@ -83,10 +86,9 @@ struct part general_whole(const struct consistent *c);
 /* Values and slopes over depth of a part of plane m of points into a buffer; no pulls there. */
 void general_read(const struct consistent *c, enum at at, size_t m, const struct part *part, const double *u,
                   double *buffer);
-/* Takes the pulls of a part off the forces of planes from .. end - 1. */
-void general_write(const struct consistent *c, enum at at, size_t m, const struct part *part, size_t from,
-                   size_t end, double *buffer, double *force);
-struct point_plane general_plane(const struct consistent *c, const struct family *family, double *buffer);
+/* apart: pulls along y are kept apart. */
+struct point_plane general_plane(const struct consistent *c, const struct family *family, bool apart,
+                                 double *buffer);
 /* Rows of control values whose displacements are not below `quiet` times the largest: c->general->loud. */
 void general_look(struct consistent *c, const double *u);
 /* Does any of the rows of control values that a row of points reads move anything? */
@@ -101,9 +103,16 @@ void general_layers_free(struct consistent *c);
 void general_layers_add(const struct consistent *c, const struct point_plane *plane,
                         const struct family *family, size_t j, size_t m, size_t from, size_t end,
                         const double *extra);
+/* Forces of stresses along the layers in planes from .. end - 1 := 0; less what rows of pulls along each slot make of
+ * them in row j of plane k, with the weights of value and slope over depth. */
+void general_layers_forget(const struct consistent *c, size_t from, size_t end);
+void general_layers_keep(const struct consistent *c, size_t component, size_t j, size_t k, double value,
+                         double slope, const double *const pull[3]);
 /* Their own part of the forces. */
 void general_layers_pull(const struct consistent *c, const double *extra, double *force);
-/* As pml_remember(). */
+/* Memory at the start: of the forces of u. */
+void general_layers_start(struct consistent *c, const double *u, double *extra);
+/* As pml_remember(); leaves the forces at the step's end (made). */
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
                              const double *v, double *extra);
 

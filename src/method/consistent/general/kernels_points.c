@@ -117,16 +117,18 @@ INLINED void run_stresses(const bool flat, const bool knots, const struct run_of
 #define PULL_SLOPE(row)                                                                                      \
     (knots ? (row)[(ptrdiff_t)i - 1] - (row)[i] : .5 * ((row)[(ptrdiff_t)i - 2] - (row)[i]))
 
-/* Transpose of across(), of a component with the stresses along x, y and depth. */
-INLINED void pull(const int count, const bool knots, const struct taps *t, double scale, size_t n,
-                  size_t pitch, const double *restrict x, const double *restrict y, const double *restrict z,
-                  double *restrict value, double *restrict slope)
+/* Transpose of across(), of a component with the stresses along x, y and depth; `apart`: those of y go elsewhere. */
+INLINED void pull(const int count, const bool apart, const bool knots, const struct taps *t, double scale,
+                  size_t n, size_t pitch, const double *restrict x, const double *restrict y,
+                  const double *restrict z, double *restrict value, double *restrict elsewhere,
+                  double *restrict slope)
 {
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         const double one = scale * PULL_SLOPE(x), two = PULL_VALUE(y), three = PULL_VALUE(z);
         for (int d = 0; d < count; d++) {
-            value[(size_t)d * pitch + i] += t->value[d] * one + t->slope[d] * two;
+            value[(size_t)d * pitch + i] += apart ? t->value[d] * one : t->value[d] * one + t->slope[d] * two;
+            if (apart) elsewhere[(size_t)d * pitch + i] += t->slope[d] * two;
             slope[(size_t)d * pitch + i] += t->value[d] * three;
         }
     }
@@ -174,9 +176,9 @@ INLINED void row_of(const bool flat, const bool knots, const struct point_plane 
         const struct taps *t = &plane->y[s == 1][j];
         const size_t from = t->first * pitch + ROW_ROOM;
 #define PULL(count)                                                                                          \
-    pull(count, knots, t, plane->scale, width, pitch, out + (size_t)place[s][0] * pitch,                     \
+    pull(count, false, knots, t, plane->scale, width, pitch, out + (size_t)place[s][0] * pitch,              \
          out + (size_t)place[s][1] * pitch, out + (size_t)place[s][2] * pitch, plane->pull_value[s] + from,  \
-         plane->pull_slope[s] + from)
+         NULL, plane->pull_slope[s] + from)
         BY_COUNT(PULL)
     }
 }
@@ -247,7 +249,7 @@ static double *free_row(const struct point_plane *plane, int row)
 {
     return plane->scratch + ROW_ROOM + (size_t)row * plane->pitch;
 }
-enum { NO_ROW, DEPTH_ROWS = 3, METRIC_ROWS = 6 };
+enum { DEPTH_ROWS = 3, METRIC_ROWS = 6 };
 
 static void tilt(const struct point_plane *plane, const struct hill_row *hill, size_t first, size_t end)
 {
@@ -293,12 +295,11 @@ static void tilted_back(const struct point_plane *plane, int s, const double *re
 
 INLINED void pulls_of(const bool flat, const bool knots, const struct point_plane *plane, size_t j,
                       size_t first, size_t end, const double *lambda, const double *mu,
-                      const struct run_of_points *run, size_t runs, const double *stiffness,
-                      unsigned directions, bool tilted)
+                      const struct run_of_points *run, size_t runs, const double *stiffness, bool tilted)
 {
     static const int place[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
     const size_t pitch = plane->pitch;
-    double *out = plane->scratch + ROW_ROOM + 9 * pitch, *none = free_row(plane, NO_ROW);
+    double *out = plane->scratch + ROW_ROOM + 9 * pitch;
     SLOPE_ROWS
     stresses(plane, first, end, lambda, mu, out);
     for (size_t r = 0; r < runs; r++)
@@ -314,38 +315,42 @@ INLINED void pulls_of(const bool flat, const bool knots, const struct point_plan
             out[(size_t)p * pitch + end + (size_t)i] = 0;
             *(out + (size_t)p * pitch + first - 1 - i) = 0;
         }
-    memset(none + (ptrdiff_t)first - 2, 0, (end - first + 4) * sizeof *none);
     for (int s = 0; s < 3; s += flat ? 2 : 1) {
         const struct taps *t = &plane->y[s == 1][j];
         const size_t from = t->first * pitch + ROW_ROOM + first;
-        const double *row[3], *along[3];
+        const double *row[3];
         for (int slot = 0; slot < 3; slot++)
-            row[slot] = out + (size_t)place[s][slot] * pitch;
+            row[slot] = out + (size_t)place[s][slot] * pitch + first;
         if (tilted) {
-            tilted_back(plane, s, row[0], row[1], row[2], first, end);
-            row[2] = free_row(plane, DEPTH_ROWS + s);
+            tilted_back(plane, s, row[0] - first, row[1] - first, row[2] - first, first, end);
+            row[2] = free_row(plane, DEPTH_ROWS + s) + first;
         }
-        for (int slot = 0; slot < 3; slot++)
-            along[slot] = (directions >> slot & 1U ? row[slot] : none) + first;
-#define PULL_ALONG(count)                                                                                    \
-    pull(count, knots, t, plane->scale, end - first + 2, pitch, along[0], along[1], along[2],                \
-         plane->pull_value[s] + from, plane->pull_slope[s] + from)
-        BY_COUNT(PULL_ALONG)
+#define PULL_ROWS(count, apart)                                                                              \
+    pull(count, apart, knots, t, plane->scale, end - first + 2, pitch, row[0], row[1], row[2],               \
+         plane->pull_value[s] + from, (apart) ? plane->pull_across[s] + from : NULL,                         \
+         plane->pull_slope[s] + from)
+#define PULL_ALONG(count) PULL_ROWS(count, false)
+#define PULL_APART(count) PULL_ROWS(count, true)
+        if (plane->pull_across[s] != NULL) {
+            BY_COUNT(PULL_APART)
+        } else {
+            BY_COUNT(PULL_ALONG)
+        }
     }
 }
 
 static void pulls(const struct point_plane *plane, size_t j, size_t from, size_t end, const double *lambda,
                   const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
-                  unsigned directions, bool tilted)
+                  bool tilted)
 {
     if (plane->flat && plane->knots)
-        pulls_of(true, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
+        pulls_of(true, true, plane, j, from, end, lambda, mu, run, runs, stiffness, tilted);
     else if (plane->flat)
-        pulls_of(true, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
+        pulls_of(true, false, plane, j, from, end, lambda, mu, run, runs, stiffness, tilted);
     else if (plane->knots)
-        pulls_of(false, true, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
+        pulls_of(false, true, plane, j, from, end, lambda, mu, run, runs, stiffness, tilted);
     else
-        pulls_of(false, false, plane, j, from, end, lambda, mu, run, runs, stiffness, directions, tilted);
+        pulls_of(false, false, plane, j, from, end, lambda, mu, run, runs, stiffness, tilted);
 }
 
 static void row(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,

@@ -81,11 +81,13 @@ selas_status general_layers_create(struct consistent *c, struct messages *messag
         struct slab *slab = &c->pml->slab[l];
         slab->psi = slab->phi = extra;
         extra += (size_t)c->dimension * slab->inner;
+        g->moments += (size_t)c->dimension * slab->inner;
     }
-    c->pml->extra = extra;
-    g->middle = array_new(extra, sizeof *g->middle);
-    c->pml->bytes += extra * sizeof *g->middle;
-    if (good && g->middle != NULL) return SELAS_OK;
+    c->pml->extra = extra + g->moments;
+    g->pulled = array_new(g->moments, sizeof *g->pulled);
+    g->middle = array_new(g->moments, sizeof *g->middle);
+    c->pml->bytes += 2 * g->moments * sizeof *g->middle;
+    if (good && g->pulled != NULL && g->middle != NULL) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
 }
 
@@ -98,6 +100,7 @@ void general_layers_free(struct consistent *c)
         moment_rows_free(&g->layer[l].rows);
     }
     array_free(g->layer);
+    array_free(g->pulled);
     array_free(g->middle);
 }
 
@@ -156,12 +159,11 @@ void general_layers_pull(const struct consistent *c, const double *extra, double
     }
 }
 
-/* f at the end and in the middle of a step (Eq 11 of absorbing-faces.md). */
-static void move(double dt, double damping, double relaxation, double g, double *memory, double *middle)
+/* f at the end of a step, g in its middle (Eq 11 of absorbing-faces.md). */
+static void move(double dt, double damping, double relaxation, double g, double *memory)
 {
-    const double q = damping * dt / 2;
-    *middle = (*memory - q * g) / (1 + q + relaxation * dt / 2);
-    *memory = 2 * *middle - *memory;
+    const double q = damping * dt / 2, middle = (*memory - q * g) / (1 + q + relaxation * dt / 2);
+    *memory = 2 * middle - *memory;
 }
 
 /* What a layer must read for points first .. end - 1 along each slot: control values, unclamped along x. */
@@ -182,7 +184,7 @@ static void move_slopes(const struct consistent *c, const struct general_layer *
 {
     const struct general *g = c->general;
     const struct family *family = &g->family[f];
-    const struct point_plane plane = general_plane(c, family, buffer);
+    const struct point_plane plane = general_plane(c, family, false, buffer);
     const size_t *at = layer->at[f], *n = layer->n[f];
     const double *damping = layer->damping[family->at[layer->slot]];
     for (size_t j = at[1]; j < at[1] + n[1]; j++) {
@@ -194,8 +196,7 @@ static void move_slopes(const struct consistent *c, const struct general_layer *
             const size_t first = layer->psi[f] + memory_at(layer, f, axis, at[0], j, m);
             for (size_t i = 0; i < n[0]; i++) {
                 const size_t along = layer->slot == 0 ? i : layer->slot == 1 ? j - at[1] : m - at[2];
-                move(dt, damping[along], layer->slab->relaxation, slope[i], &extra[first + i],
-                     &g->middle[first + i]);
+                move(dt, damping[along], layer->slab->relaxation, slope[i], &extra[first + i]);
             }
         }
     }
@@ -219,73 +220,54 @@ static void move_all_slopes(struct consistent *c, const struct general_layer *la
     }
 }
 
-/* Pulls along the layer's slot at the points that its control values see, of plane m. */
-static void pull_rows(const struct consistent *c, const struct general_layer *layer, int f, size_t m,
-                      const size_t first[3], const size_t end[3], double *buffer)
+/* Where row j of plane k stands in the numbers of a component of a slab; false: not there. */
+static bool slab_row(const struct slab *slab, size_t j, size_t k, size_t *at)
 {
-    const struct general *g = c->general;
-    const struct family *family = &g->family[f];
-    const struct point_plane plane = general_plane(c, family, buffer);
-    const struct point_kernels *kernels = taken_point_kernels();
-    for (size_t j = first[1]; j < end[1]; j++) {
-        if (!general_row_is_loud(c, &g->taps[1][0][family->at[1]][j], &g->taps[2][0][family->at[2]][m]))
-            continue;
-        const size_t row = m * family->n[1] + j, from = row * family->n[0];
-        const size_t run = family->runs > 0 ? family->first_run[row] : 0;
-        const size_t runs = family->runs > 0 ? family->first_run[row + 1] - run : 0;
-        kernels->slopes(&plane, j, first[0], end[0]);
-        general_layers_add(c, &plane, family, j, m, first[0], end[0], g->middle);
-        struct hill_row hill;
-        const bool tilted = general_hill_row(c, family, j, m, &hill);
-        if (tilted) kernels->tilt(&plane, &hill, first[0], end[0]);
-        kernels->pulls(&plane, j, first[0], end[0], family->lambda + from, family->mu + from,
-                       family->run + run, runs, family->stiffness, 1U << layer->slot, tilted);
+    const struct block *in = &slab->inside;
+    if (j < in->at[1] || j >= in->at[1] + in->n[1] || k < in->at[2] || k >= in->at[2] + in->n[2])
+        return false;
+    *at = ((k - in->at[2]) * in->n[1] + j - in->at[1]) * in->n[0];
+    return true;
+}
+
+/* Where the numbers of a slab begin in g->pulled and g->middle. */
+static size_t moments_of(const struct consistent *c, const struct slab *slab)
+{
+    return slab->phi - c->pml->slab[0].phi;
+}
+
+void general_layers_forget(const struct consistent *c, size_t from, size_t end)
+{
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        const size_t plane = slab->inside.n[0] * slab->inside.n[1];
+        for (size_t component = 0; component < (size_t)c->dimension; component++)
+            for (size_t k = from, at; k < end; k++)
+                if (slab_row(slab, slab->inside.at[1], k, &at))
+                    memset(c->general->pulled + moments_of(c, slab) + component * slab->inner + at, 0,
+                           plane * sizeof(double));
     }
 }
 
-/* Points that the control values of a layer see: one further along its slot than its own. */
-static void seen_points(const struct general_layer *layer, const struct family *family, int f,
-                        size_t first[3], size_t end[3])
+void general_layers_keep(const struct consistent *c, size_t component, size_t j, size_t k, double value,
+                         double slope, const double *const pull[3])
 {
-    for (int slot = 0; slot < 3; slot++) {
-        first[slot] = layer->at[f][slot];
-        end[slot] = first[slot] + layer->n[f][slot];
-        if (slot != layer->slot) continue;
-        if (layer->high)
-            first[slot] -= first[slot] > 1 ? 2 : first[slot];
-        else
-            end[slot] = end[slot] + 2 < family->n[slot] ? end[slot] + 2 : family->n[slot];
+    for (size_t s = 0, at; s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        if (!slab_row(slab, j, k, &at)) continue;
+        const int slot = c->slot[slab->axis];
+        const double *from = pull[slot] + slab->inside.at[0], weight = slot == DEPTH ? slope : value;
+        double *to = c->general->pulled + moments_of(c, slab) + component * slab->inner + at;
+        for (size_t i = 0; i < slab->inside.n[0]; i++)
+            to[i] -= weight * from[i];
     }
 }
 
-/* force := the forces of stresses along the layer's slot, right inside the layer. */
-static void layer_forces(const struct consistent *c, const struct general_layer *layer, const double *u,
-                         double *force)
+void general_layers_start(struct consistent *c, const double *u, double *extra)
 {
-    const struct general *g = c->general;
-    const struct block *in = &layer->slab->inside;
-    const size_t block = (in->n[2] + (size_t)c->threads - 1) / (size_t)c->threads;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (int thread = 0; thread < c->threads; thread++) {
-        const size_t from = in->at[2] + (size_t)thread * block, most = in->at[2] + in->n[2];
-        const size_t end_plane = from + block < most ? from + block : most;
-        double *buffer = g->buffer[omp_get_thread_num()];
-        for (int axis = 0; axis < c->dimension && from < end_plane; axis++)
-            memset(force + (size_t)axis * c->volume + from * c->plane, 0,
-                   (end_plane - from) * c->plane * sizeof *force);
-        for (size_t m = 0; m <= g->cells[DEPTH] && from < end_plane; m++)
-            for (int f = 0; f < 3; f++) {
-                const enum at depth = g->family[f].at[DEPTH];
-                size_t first[3], end[3];
-                seen_points(layer, &g->family[f], f, first, end);
-                if (m < first[2] || m >= end[2] || !general_plane_counts(c, depth, m, from, end_plane))
-                    continue;
-                const struct part part = part_of(c, first, end);
-                general_read(c, depth, m, &part, u, buffer);
-                pull_rows(c, layer, f, m, first, end, buffer);
-                general_write(c, depth, m, &part, from, end_plane, buffer, force);
-            }
-    }
+    struct general *g = c->general;
+    general_forces(c, u, extra, g->force);
+    memcpy(extra + c->pml->slab[0].phi + g->moments, g->pulled, g->moments * sizeof *extra);
 }
 
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
@@ -298,8 +280,15 @@ void general_layers_remember(struct consistent *c, double dt, double to_middle, 
         g->work[i] = u[i] + to_middle * v[i];
     for (size_t l = 0; l < g->layers; l++)
         move_all_slopes(c, &g->layer[l], dt, g->work, extra);
-    for (size_t l = 0; l < g->layers; l++) {
-        layer_forces(c, &g->layer[l], g->work, g->force);
-        moment_rows_move(c, &g->layer[l].rows, g->layer[l].slab, dt, g->force, extra);
+    general_forces(c, u, extra, g->force);
+    double *forces = extra + c->pml->slab[0].phi + g->moments;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < g->moments; i++) { /* (G13b) */
+        const double end = g->pulled[i];
+        g->pulled[i] = (forces[i] + end) / 2;
+        forces[i] = end;
     }
+    for (size_t l = 0; l < g->layers; l++)
+        moment_rows_move(c, &g->layer[l].rows, g->layer[l].slab, dt, moments_of(c, g->layer[l].slab), extra);
+    g->made = true;
 }

@@ -60,15 +60,15 @@ static void eliminate(struct moment_rows *rows, double relaxation, double dt)
     }
 }
 
-/* Lanes side by side, count values each, `step` apart among the forces, `own` apart among phi:
+/* Lanes side by side, count values each, `own` apart:
  * (1 + dt/2 (alpha + D)) middle = phi - dt/2 D f,  phi := 2 middle - phi. */
 static void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, const double *force,
-                       size_t step, double *phi, double *middle, size_t own)
+                       double *phi, double *middle, size_t own)
 {
     const size_t count = rows->count;
     for (size_t i = 0; i < count; i++) {
-        const double *f = force + i * step, *before = i > 0 ? f - step : f,
-                     *after = i + 1 < count ? f + step : f;
+        const double *f = force + i * own, *before = i > 0 ? f - own : f,
+                     *after = i + 1 < count ? f + own : f;
         double *m = middle + i * own;
         for (size_t k = 0; k < lanes; k++)
             m[k] = phi[i * own + k] -
@@ -88,20 +88,19 @@ static void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, 
 }
 
 void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
-                      const double *force, double *extra)
+                      size_t moments, double *extra)
 {
     const struct block *in = &slab->inside;
     const int slot = c->slot[slab->axis];
-    const size_t stride[3] = {1, c->n[0], c->plane}, own[3] = {1, in->n[0], in->n[0] * in->n[1]};
+    const size_t own[3] = {1, in->n[0], in->n[0] * in->n[1]};
     const size_t lanes = slot == 0 ? 1 : in->n[0];
     const size_t rows_y = slot == 1 ? 1 : in->n[1], planes = slot == 2 ? 1 : in->n[2];
-    const size_t first = in->at[2] * c->plane + in->at[1] * c->n[0] + in->at[0];
     eliminate(rows, slab->relaxation, dt);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t line = 0; line < (size_t)c->dimension * planes * rows_y; line++) {
         const size_t component = line / (planes * rows_y), k = line / rows_y % planes, j = line % rows_y;
-        const size_t phi = slab->phi + component * slab->inner + k * own[2] + j * own[1];
-        move_lanes(rows, dt, lanes, force + component * c->volume + first + k * c->plane + j * c->n[0],
-                   stride[slot], extra + phi, c->general->middle + phi, own[slot]);
+        const size_t at = component * slab->inner + k * own[2] + j * own[1];
+        move_lanes(rows, dt, lanes, c->general->pulled + moments + at, extra + slab->phi + at,
+                   c->general->middle + moments + at, own[slot]);
     }
 }

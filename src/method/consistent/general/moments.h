@@ -19,9 +19,9 @@ struct moment_rows {
 bool moment_rows_lay(struct moment_rows *rows, const struct consistent *c, const struct slab *slab);
 void moment_rows_free(struct moment_rows *rows);
 
-/* Moves phi of a slab on by a step of the trapezoidal rule; force: f in the middle of the step, [dimension *
- * volume]; phi in the middle goes to c->general->middle. */
+/* Moves phi of a slab on by a step of the trapezoidal rule; f in the middle of the step stands in c->general->pulled
+ * from `moments` on, phi in the middle goes to c->general->middle. */
 void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
-                      const double *force, double *extra);
+                      size_t moments, double *extra);
 
 #endif

@@ -35,8 +35,10 @@ struct point_plane {
     const struct taps *y[2];           /* [odd][rows of points] */
     const double *value[3], *slope[3]; /* [component] rows of values and slopes along depth */
     double *pull_value[3], *pull_slope[3];
-    double *scratch; /* [SCRATCH_ROWS * pitch] zeros to begin with */
+    double *pull_across[3]; /* of stresses along y, which else go into pull_value; NULL: they do */
+    double *scratch;        /* [SCRATCH_ROWS * pitch] zeros to begin with */
 };
+enum { PLANE_ROWS = 15 }; /* of the buffers, for each row of control values (forces.c) */
 enum { SCRATCH_ROWS = 18 + STRESSES, ROW_ROOM = 8 }; /* numbers before the first of a row */
 
 /* Slopes of a component along a slot at the points of a row. */
@@ -57,11 +59,11 @@ struct point_kernels {
     void (*row)(const struct point_plane *plane, size_t j, const double *lambda, const double *mu,
                 const struct run_of_points *run, size_t runs, const double *stiffness);
     /* The same in two: slopes of points from .. end - 1 of row j into the scratch (slope_row()), where others may
-     * change them, and the pulls of their stresses, along the directions (bits 1 << slot) alone. */
+     * change them, and the pulls of their stresses. */
     void (*slopes)(const struct point_plane *plane, size_t j, size_t from, size_t end);
     void (*pulls)(const struct point_plane *plane, size_t j, size_t from, size_t end, const double *lambda,
                   const double *mu, const struct run_of_points *run, size_t runs, const double *stiffness,
-                  unsigned directions, bool tilted);
+                  bool tilted);
     /* Between the two, slopes along the lattice become those along the axes (G17); pulls() with `tilted` then takes the
      * transpose. */
     void (*tilt)(const struct point_plane *plane, const struct hill_row *hill, size_t from, size_t end);
