@@ -4,8 +4,8 @@
  * takes one call of the operator and one product with M a step; models that cannot tell M v give energies in
  * their place, alpha = q.Kq = 2 strain(q), beta^2 = r.Mr = 2 kinetic(r). The largest Ritz value theta is a
  * lower bound, and some eigenvalue lies within beta |last component of the Ritz vector| of it: that is the
- * error told. Ranks iterate together. Other models: power iteration in the Euclidean norm. Models that have a shorter one of the same
- * operator are measured on that. */
+ * error told. Other models: power iteration in the Euclidean norm. Models that have a shorter one of the same
+ * operator are measured on that. Ranks iterate together. */
 #include "stepping/stepping.h"
 
 #include "base/gsl_errors.h"
