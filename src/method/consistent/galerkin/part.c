@@ -39,7 +39,7 @@ static double cost_of(const struct consistent *c, size_t k)
     double plain = k >= c->layer[2 * last] && k + c->layer[2 * last + 1] < c->part.whole ? 1 : 0;
     for (int axis = 0; axis < last; axis++)
         plain *= 1 - (double)(c->layer[2 * axis] + c->layer[2 * axis + 1]) / (double)c->n[c->slot[axis]];
-    return plain + LAYER_COST * (1 - plain);
+    return plain + layer_cost(c->model.scene) * (1 - plain);
 }
 
 /* Bounds of so many ranks, of costs as even as can be; false: there are too many ranks. */
