@@ -56,7 +56,7 @@ define link
 endef
 
 .DEFAULT_GOAL := all
-.PHONY: all setup setup-mpi setup-manual manual mpi halfspace test regress nightly install uninstall clean help always
+.PHONY: all setup setup-mpi setup-manual manual mpi halfspace test regress nightly install install-mpi uninstall clean help always
 
 all: $(BUILD)/selas $(BUILD)/$(SONAME) $(BUILD)/whole/libselas.a $(BUILD)/libselas_fortran.a ## build the program build/selas and the libraries
 
@@ -211,8 +211,15 @@ install: all ## install program, libraries, header, module, manual and decks bel
 	for page in $$(cd doc && find . -name '*.md' -o -name '*.png'); do \
 	    install -D -m 644 "doc/$$page" '$(AT)/share/doc/selas/'"$$page" || exit 1; done
 
-uninstall: ## remove what install put there
-	rm -f '$(AT)/bin/selas' '$(AT)/lib/'libselas.so* '$(AT)/lib/libselas.a' '$(AT)/lib/libselas_fortran.a' \
+install-mpi: mpi install ## the same and selas-mpi, libselas-mpi and selas_mpi.h
+	install -D $(BUILD)/selas-mpi '$(AT)/bin/selas-mpi'
+	install -D $(BUILD)/$(MPI_SONAME) '$(AT)/lib/libselas-mpi.so.$(VERSION)'
+	ln -sf libselas-mpi.so.$(VERSION) '$(AT)/lib/$(MPI_SONAME)'
+	ln -sf $(MPI_SONAME) '$(AT)/lib/libselas-mpi.so'
+	install -D -m 644 -t '$(AT)/include' src/selas_mpi.h
+
+uninstall: ## remove what install and install-mpi put there
+	rm -f '$(AT)/bin/selas' '$(AT)/bin/selas-mpi' '$(AT)/lib/'libselas.so* '$(AT)/lib/'libselas-mpi.so* '$(AT)/include/selas_mpi.h' '$(AT)/lib/libselas.a' '$(AT)/lib/libselas_fortran.a' \
 	    '$(AT)/lib/pkgconfig/selas.pc' '$(AT)/lib/pkgconfig/selas-fortran.pc' '$(AT)/include/selas.h' '$(AT)/share/man/man1/selas.1'
 	rm -rf '$(AT)/include/selas' '$(AT)/share/selas' '$(AT)/share/doc/selas'
 

@@ -1,6 +1,10 @@
 # shellcheck shell=sh
-# Sets $mpirun: how tests start ranks, more than there are processors and as root if need be, one thread each.
-mpirun='mpirun --oversubscribe'
+# Sets $mpirun: how tests start ranks, more than there are processors and as root if need be, one thread each; $mpicc and
+# $mpifc: compilers of hosts. MPI=mpich: those of MPICH by Debian's names.
+mpirun='mpirun --oversubscribe' mpicc=mpicc mpifc=mpif90
+if [ "${MPI:-}" = mpich ]; then
+    mpirun=mpirun.mpich mpicc=mpicc.mpich mpifc=mpif90.mpich
+fi
 if [ "$(id -u)" = 0 ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi

@@ -45,3 +45,21 @@ selas_status shared_alone(selas_simulation *simulation, const char *what)
     if (ranks_count(simulation->ranks) == 1) return SELAS_OK;
     return fail(&simulation->messages, SELAS_UNSUPPORTED, "%s: on one rank only", what);
 }
+
+void shared_add_times(selas_simulation *simulation, double wall, double waited)
+{
+    simulation->figures.here.worked += wall - waited;
+    simulation->figures.here.waited += waited;
+}
+
+void shared_gather_times(selas_simulation *simulation)
+{
+    struct run_figures *figures = &simulation->figures;
+    const double count = ranks_count(simulation->ranks);
+    double sum[2] = {figures->here.worked, figures->here.waited}, longest[2] = {sum[0], sum[1]};
+    if (count == 1) return;
+    ranks_sum(simulation->ranks, 2, sum);
+    ranks_largest(simulation->ranks, 2, longest);
+    figures->mean = (struct rank_times){sum[0] / count, sum[1] / count};
+    figures->longest = (struct rank_times){longest[0], longest[1]};
+}

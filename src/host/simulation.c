@@ -280,6 +280,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
     const struct stopwatch begun = start_watch();
+    const double waited = ranks_waited(simulation->ranks);
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
         const double sent = ranks_sent(simulation->ranks);
         simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
@@ -292,6 +293,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     }
     if (status != SELAS_STOPPED) simulation_failed(simulation, status);
     add_elapsed(begun, &simulation->figures.wall_seconds, &simulation->figures.cpu_seconds);
+    shared_add_times(simulation, wall_seconds() - begun.wall, ranks_waited(simulation->ranks) - waited);
     return status;
 }
 
@@ -352,6 +354,8 @@ selas_status simulation_finish(selas_simulation *simulation)
     const unsigned long needed = simulation->stepper->steps + simulation->stepper->extra;
     if (simulation->state.step < needed) status = run_steps(simulation, needed - simulation->state.step);
     if (status == SELAS_OK) status = recorder_finish(simulation->recorder, &simulation->messages);
+    status = ranks_agree(simulation->ranks, status, &simulation->messages);
+    if (status == SELAS_OK) shared_gather_times(simulation);
     simulation->finished = status == SELAS_OK;
     return status;
 }

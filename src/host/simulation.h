@@ -115,6 +115,9 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 void simulation_share(selas_simulation *simulation, struct ranks *ranks);
 /* SELAS_UNSUPPORTED for what is not done on more than one rank. */
 selas_status shared_check(selas_simulation *simulation);
+/* Time of this rank in steps; together: that of all, for the report. */
+void shared_add_times(selas_simulation *simulation, double wall, double waited);
+void shared_gather_times(selas_simulation *simulation);
 /* The same for a call: "WHAT: on one rank only". */
 selas_status shared_alone(selas_simulation *simulation, const char *what);
 

@@ -13,7 +13,7 @@ struct ranks {
     MPI_Comm comm; /* MPI_COMM_NULL: idle */
     int me, count;
     bool fixed; /* the communicator is a host's */
-    double sent;
+    double sent, waited;
 };
 
 static int length_of(size_t left)
@@ -102,14 +102,22 @@ bool ranks_idle(const struct ranks *ranks)
     return ranks != NULL && ranks->comm == MPI_COMM_NULL;
 }
 
+static void reduce(struct ranks *ranks, size_t n, double *value, MPI_Op operation)
+{
+    if (ranks == NULL) return;
+    const double begun = MPI_Wtime();
+    MPI_Allreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, operation, ranks->comm);
+    ranks->waited += MPI_Wtime() - begun;
+}
+
 void ranks_largest(struct ranks *ranks, size_t n, double *value)
 {
-    if (ranks != NULL) MPI_Allreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, MPI_MAX, ranks->comm);
+    reduce(ranks, n, value, MPI_MAX);
 }
 
 void ranks_sum(struct ranks *ranks, size_t n, double *value)
 {
-    if (ranks != NULL) MPI_Allreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, MPI_SUM, ranks->comm);
+    reduce(ranks, n, value, MPI_SUM);
 }
 
 void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
@@ -122,6 +130,7 @@ void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
 struct requests {
     int count;
     MPI_Request request[MOST_REQUESTS];
+    MPI_Status status[MOST_REQUESTS]; /* not looked at: gcc warns of MPICH's MPI_STATUSES_IGNORE */
 };
 
 static MPI_Request *next(const struct ranks *ranks, struct requests *requests)
@@ -132,8 +141,10 @@ static MPI_Request *next(const struct ranks *ranks, struct requests *requests)
 
 void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
 {
-    struct requests requests = {0};
+    struct requests requests;
+    requests.count = 0;
     if (ranks == NULL) return;
+    const double begun = MPI_Wtime();
     for (size_t p = 0; p < pieces; p++)
         for (size_t at = 0; at < piece[p].receive_bytes; at += LONGEST)
             MPI_Irecv((char *)piece[p].receive + at, length_of(piece[p].receive_bytes - at), MPI_BYTE,
@@ -144,12 +155,18 @@ void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece
                       piece[p].with, 0, ranks->comm, next(ranks, &requests));
         ranks->sent += (double)piece[p].send_bytes;
     }
-    MPI_Waitall(requests.count, requests.request, MPI_STATUSES_IGNORE);
+    MPI_Waitall(requests.count, requests.request, requests.status);
+    ranks->waited += MPI_Wtime() - begun;
 }
 
 double ranks_sent(const struct ranks *ranks)
 {
     return ranks == NULL ? 0 : ranks->sent;
+}
+
+double ranks_waited(const struct ranks *ranks)
+{
+    return ranks == NULL ? 0 : ranks->waited;
 }
 
 /* The text of another rank's messages, for the first one. */

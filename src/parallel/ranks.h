@@ -65,7 +65,8 @@ static inline void ranks_give(struct ranks *ranks, int to, void *data, size_t by
     if (to > 0 && ranks_first(ranks)) ranks_exchange(ranks, 1, &give);
     if (to > 0 && ranks_me(ranks) == to) ranks_exchange(ranks, 1, &get);
 }
-double ranks_sent(const struct ranks *ranks); /* bytes, by this rank */
+double ranks_sent(const struct ranks *ranks);   /* bytes, by this rank */
+double ranks_waited(const struct ranks *ranks); /* seconds, for others and for what they send */
 
 /* Together: the first failure (by rank) is that of all, and its messages reach the first rank. */
 selas_status ranks_agree(struct ranks *ranks, selas_status status, struct messages *messages);

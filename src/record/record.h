@@ -17,6 +17,11 @@ struct history_rows {
     const double *value; /* [6 * rows]: ux uy uz vx vy vz, deck coordinates */
 };
 
+/* Wall seconds of a rank in steps since this process began: at work, and in exchanges with others. */
+struct rank_times {
+    double worked, waited;
+};
+
 /* What has to be known of the run for the report besides what the recorder saw. */
 struct run_figures {
     double wall_seconds, cpu_seconds;             /* stepping */
@@ -24,6 +29,7 @@ struct run_figures {
     double exact_cpu_seconds;
     int threads;
     double halo_bytes; /* that this rank sent in the last step */
+    struct rank_times here, mean, longest;
 };
 
 /* Prepares probes, buffers and the folder's name; writes nothing yet. */

@@ -71,6 +71,12 @@ static void write_cost(FILE *out, const struct recorder *recorder, const struct 
     }
     if (figures != NULL && figures->halo_bytes > 0)
         fprintf(out, "halo bytes sent in the last step: %.0f\n", figures->halo_bytes);
+    if (figures != NULL && figures->longest.worked > 0) {
+        fprintf(out, "load balance: %.3f (mean over longest time at work in steps, %.4g s)\n",
+                figures->mean.worked / figures->longest.worked, figures->longest.worked);
+        fprintf(out, "waiting in exchanges: %.4g s (mean of the ranks; longest %.4g s)\n",
+                figures->mean.waited, figures->longest.waited);
+    }
     fprintf(out, "operator calls: %lu\n", recorder->stepper->model->evaluations);
     const double memory = peak_memory();
     fprintf(out, "peak memory bytes: %.0f\nbytes per point: %.1f\n", memory,

@@ -5,11 +5,13 @@
  * their place, alpha = q.Kq = 2 strain(q), beta^2 = r.Mr = 2 kinetic(r). The largest Ritz value theta is a
  * lower bound, and some eigenvalue lies within beta |last component of the Ritz vector| of it: that is the
  * error told. Other models: power iteration in the Euclidean norm. Models that have a shorter one of the same
- * operator are measured on that. */
+ * operator are measured on that. Ranks iterate together. */
 #include "stepping/stepping.h"
 
 #include "base/gsl_errors.h"
 #include "base/memory.h"
+#include "model/spread.h"
+#include "parallel/ranks.h"
 
 #include <gsl/gsl_eigen.h>
 #include <math.h>
@@ -17,20 +19,55 @@
 
 enum { LANCZOS_STEPS = 120, LANCZOS_CHECK = 8, POWER_STEPS = 200, POWER_TAIL = 20 };
 
+static const uint64_t lcg_factor = 6364136223846793005u, lcg_term = 1442695040888963407u; /* Knuth's MMIX */
+
 /* Small reproducible numbers in [-1, 1). */
 static double noise(uint64_t *seed)
 {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    *seed = *seed * lcg_factor + lcg_term;
     return (double)(*seed >> 11) * 0x1p-52 - 1.0;
 }
 
+/* The seed after so many numbers. */
+static uint64_t seed_after(uint64_t seed, size_t numbers)
+{
+    uint64_t factor = lcg_factor, term = lcg_term;
+    for (; numbers > 0; numbers /= 2) {
+        if (numbers % 2 == 1) seed = seed * factor + term;
+        term *= factor + 1;
+        factor *= factor;
+    }
+    return seed;
+}
+
+/* Which of the unknowns of the whole body this rank has; alone, all. */
+static void find_shares(struct model *model, struct spread *shares)
+{
+    const size_t n = model->unknowns;
+    const struct spread_run all = {0, 0, n, 0, n};
+    *shares = (struct spread){0};
+    if (ranks_count(model->scene->ranks) > 1)
+        model->core->share(model, ARRAY_UNKNOWNS, shares);
+    else
+        spread_add(shares, n, n, &all);
+}
+
+/* Random numbers, the same for any number of ranks. */
+static void make_noise(const struct spread *shares, uint64_t first, double *x)
+{
+    for (size_t r = 0; r < shares->runs; r++) {
+        const struct spread_run *run = &shares->run[r];
+        uint64_t seed = seed_after(first, run->there);
+        for (size_t i = run->here; i < run->here + run->count; i++)
+            x[i] = noise(&seed);
+    }
+}
+
 /* y's u part := random, made admissible (prescribed components zero) by one call of the operator into a. */
-static void first_vector(struct model *model, double *y, double *a)
+static void first_vector(struct model *model, const struct spread *shares, double *y, double *a)
 {
     const struct drive quiet = {.time = 0.0};
-    uint64_t seed = 20061;
-    for (size_t i = 0; i < model->unknowns; i++)
-        y[i] = noise(&seed);
+    make_noise(shares, 20061, y);
     model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
 }
 
@@ -65,23 +102,44 @@ static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
     return true;
 }
 
-static double dot(size_t n, const double *x, const double *y)
+/* Together: x.y over the whole body, summed in its order from rank to rank: the same bits for any number of them. */
+static double dot(struct model *model, const struct spread *shares, const double *x, const double *y)
 {
+    struct ranks *ranks = model->scene->ranks;
+    const int me = ranks_me(ranks), last = ranks_count(ranks) - 1;
     double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] * y[i];
+    for (size_t r = 0; r < shares->runs; r++) {
+        const struct spread_run *run = &shares->run[r];
+        const struct ranks_piece get = {
+            .with = me > 0 ? me - 1 : last, .receive = &sum, .receive_bytes = sizeof sum};
+        const struct ranks_piece give = {
+            .with = me < last ? me + 1 : 0, .send = &sum, .send_bytes = sizeof sum};
+        if (last > 0 && (me > 0 || r > 0)) ranks_exchange(ranks, 1, &get);
+        for (size_t i = run->here + run->from; i < run->here + run->end; i++)
+            sum += x[i] * y[i];
+        if (last > 0 && (me < last || r + 1 < shares->runs)) ranks_exchange(ranks, 1, &give);
+    }
+    ranks_spread(ranks, last, &sum, sizeof sum);
     return sum;
 }
 
+/* Together: is it so on all ranks? */
+static bool everywhere(const struct model *model, bool here)
+{
+    double missing = here ? 0 : 1;
+    ranks_largest(model->scene->ranks, 1, &missing);
+    return missing == 0;
+}
+
 /* Norm of r; the v part of y gets M r where the model can tell it. */
-static double mass_norm(struct model *model, double *y, const double *r)
+static double mass_norm(struct model *model, const struct spread *shares, double *y, const double *r)
 {
     const size_t n = model->unknowns;
     struct energy energy;
     double *v = y + n;
     if (model->spatial->weigh != NULL) {
         model->spatial->weigh(model, r, v);
-        return sqrt(fmax(0.0, dot(n, r, v)));
+        return sqrt(fmax(0.0, dot(model, shares, r, v)));
     }
     for (size_t i = 0; i < n; i++)
         v[i] = r[i];
@@ -91,22 +149,23 @@ static double mass_norm(struct model *model, double *y, const double *r)
 
 /* a := -M^-1 K q, q in the u part of y; gives q.Kq. `norm`: that of the vector whose M times it is in the v
  * part, and q that vector over its norm. */
-static double rayleigh(struct model *model, double *y, double norm, double *a)
+static double rayleigh(struct model *model, const struct spread *shares, double *y, double norm, double *a)
 {
     const struct drive quiet = {.time = 0.0};
     struct energy energy = {0};
     if (model->spatial->weigh == NULL) model->core->energy(model, y, &energy);
     model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
     if (model->spatial->weigh == NULL) return 2.0 * energy.strain;
-    return -dot(model->unknowns, a, y + model->unknowns) / norm;
+    return -dot(model, shares, a, y + model->unknowns) / norm;
 }
 
-static bool lanczos(struct model *model, double *y, double *a, double *before, double *theta, double *bound)
+static bool lanczos(struct model *model, const struct spread *shares, double *y, double *a, double *before,
+                    double *theta, double *bound)
 {
     const size_t n = model->unknowns;
     struct tridiagonal t = {0};
-    first_vector(model, y, a);
-    double norm = mass_norm(model, y, a), beta = 0.0;
+    first_vector(model, shares, y, a);
+    double norm = mass_norm(model, shares, y, a), beta = 0.0;
     *theta = 0.0;
     *bound = 0.0;
     if (!(norm > 0.0)) return true; /* nothing moves: no stiffness */
@@ -115,15 +174,15 @@ static bool lanczos(struct model *model, double *y, double *a, double *before, d
         before[i] = 0.0;
     }
     while (t.n < LANCZOS_STEPS) {
-        const double alpha = rayleigh(model, y, norm, a);
+        const double alpha = rayleigh(model, shares, y, norm, a);
         for (size_t i = 0; i < n; i++)
             a[i] = -a[i] - alpha * y[i] - beta * before[i];
-        norm = beta = mass_norm(model, y, a);
+        norm = beta = mass_norm(model, shares, y, a);
         t.alpha[t.n] = alpha;
         t.beta[t.n++] = beta;
         const bool exhausted = !(beta > 1e-12 * fabs(t.alpha[0]));
         if (exhausted || t.n % LANCZOS_CHECK == 0) {
-            if (!ritz(&t, theta, bound)) return false;
+            if (!everywhere(model, ritz(&t, theta, bound))) return false;
             if (exhausted || *bound < 1e-3 * *theta) return true;
         }
         for (size_t i = 0; i < n; i++) {
@@ -134,28 +193,25 @@ static bool lanczos(struct model *model, double *y, double *a, double *before, d
     return true;
 }
 
-static double euclidean_norm(const double *x, size_t n)
+static double euclidean_norm(struct model *model, const struct spread *shares, const double *x)
 {
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] * x[i];
-    return sqrt(sum);
+    return sqrt(dot(model, shares, x, x));
 }
 
 /* Largest growth of the norm over the last steps; an eigenvalue pair that is complex only makes it larger. */
-static double power_iteration(struct model *model, double *y, double *a)
+static double power_iteration(struct model *model, const struct spread *shares, double *y, double *a)
 {
     const size_t n = model->unknowns;
     const struct drive quiet = {.time = 0.0};
     double theta = 0.0;
-    first_vector(model, y, a);
+    first_vector(model, shares, y, a);
     for (int j = 0; j < POWER_STEPS; j++) {
-        const double norm = euclidean_norm(a, n);
+        const double norm = euclidean_norm(model, shares, a);
         if (!(norm > 0.0)) return 0.0;
         for (size_t i = 0; i < n; i++)
             y[i] = a[i] / norm;
         model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
-        if (j >= POWER_STEPS - POWER_TAIL) theta = fmax(theta, euclidean_norm(a, n));
+        if (j >= POWER_STEPS - POWER_TAIL) theta = fmax(theta, euclidean_norm(model, shares, a));
     }
     return theta;
 }
@@ -166,12 +222,14 @@ static selas_status measure(struct model *model, double *omega, double *error, s
     double *y = array_new(model->state_size, sizeof *y);
     double *a = array_new(model->unknowns, sizeof *a);
     double *before = self_adjoint ? array_new(model->unknowns, sizeof *before) : NULL;
-    bool room = y != NULL && a != NULL && (before != NULL || !self_adjoint);
+    bool room = everywhere(model, y != NULL && a != NULL && (before != NULL || !self_adjoint));
+    struct spread shares;
+    find_shares(model, &shares);
     if (model->spatial->linearise != NULL) model->spatial->linearise(model, true);
     double theta = 0.0;
     double bound = 0.0;
-    if (room && self_adjoint) room = lanczos(model, y, a, before, &theta, &bound);
-    if (room && !self_adjoint) theta = power_iteration(model, y, a);
+    if (room && self_adjoint) room = lanczos(model, &shares, y, a, before, &theta, &bound);
+    if (room && !self_adjoint) theta = power_iteration(model, &shares, y, a);
     if (model->spatial->linearise != NULL) model->spatial->linearise(model, false);
     array_free(y);
     array_free(a);
@@ -204,14 +262,14 @@ selas_status largest_damping(struct model *model, double speed, double *rate, st
     double *u = array_new(n, sizeof *u);
     double *v = array_new(n, sizeof *v);
     double *a = array_new(n, sizeof *a);
-    const bool room = u != NULL && v != NULL && a != NULL;
+    const bool room = everywhere(model, u != NULL && v != NULL && a != NULL);
+    struct spread shares;
+    find_shares(model, &shares);
     *rate = 0.0;
     if (room) {
-        uint64_t seed = 20062;
-        for (size_t i = 0; i < n; i++)
-            a[i] = noise(&seed);
+        make_noise(&shares, 20062, a);
         for (int j = 0; j <= POWER_STEPS; j++) {
-            const double norm = euclidean_norm(a, n);
+            const double norm = euclidean_norm(model, &shares, a);
             if (j > POWER_STEPS - POWER_TAIL) *rate = fmax(*rate, norm / scale);
             for (size_t i = 0; i < n; i++)
                 v[i] = norm > 0.0 ? scale * a[i] / norm : 0.0;

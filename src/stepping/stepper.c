@@ -2,7 +2,6 @@
 #include "stepping/schemes.h"
 
 #include "base/memory.h"
-#include "parallel/ranks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,12 +19,6 @@ static selas_status measure_spectrum(struct stepper *stepper, struct messages *m
     spectrum->omega *= 1.0 + stepper->frequency_error;
     spectrum->dampers = model->damped;
     const bool explicit_damping = !stepper->scheme->needs_acceleration || spatial->linearise != NULL;
-    if (status == SELAS_OK && model->damped && explicit_damping && ranks_count(model->scene->ranks) > 1)
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "scheme '%s' beside dampers (layer = 'lysmer') runs on one rank: start it without mpirun, or "
-            "take scheme 'leapfrog'",
-            stepper->scheme->name);
     if (status == SELAS_OK && model->damped && explicit_damping)
         status = largest_damping(model, scene_fastest(model->scene), &spectrum->viscous, messages);
     spectrum->viscous += model->dissipation;

@@ -1,5 +1,4 @@
 /* The H-form (hform.c makes it): acceleration, M v and energies. */
-#include "base/sums.h"
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
@@ -78,18 +77,6 @@ static bool all_zero(const struct consistent *c, const double *x)
     return part_largest(c, i < c->model.unknowns ? 1 : 0) == 0;
 }
 
-/* x.y over own planes. */
-static double own_product(const struct consistent *c, const double *x, const double *y)
-{
-    double sum = 0;
-    if (c->part.ranks == NULL) return sum_of_products(c->model.unknowns, x, y, c->threads);
-    for (size_t component = 0; component < (size_t)c->dimension; component++) {
-        const size_t from = component * c->volume + c->part.own * c->plane;
-        sum += sum_of_products((c->part.end - c->part.own) * c->plane, x + from, y + from, c->threads);
-    }
-    return sum;
-}
-
 /* M v, M = rho H (x) H (x) H: mass_solve() with the factors of N gives H (x) H (x) H over the density. */
 void hform_weigh(struct consistent *c, const double *v, double *product)
 {
@@ -111,11 +98,11 @@ void hform_energy(struct consistent *c, const double *y, struct energy *energy)
     *energy = (struct energy){0};
     if (!all_zero(c, y + n)) {
         hform_weigh(c, y + n, work);
-        energy->kinetic = own_product(c, work, y + n) / 2;
+        energy->kinetic = part_product(c, work, y + n) / 2;
     }
     if (!all_zero(c, y)) {
         hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
         mass_solve(c, &c->hform->factors, work);
-        energy->strain = -scale * own_product(c, work, y) / 2;
+        energy->strain = -scale * part_product(c, work, y) / 2;
     }
 }

@@ -227,7 +227,7 @@ static void describe(const struct model *model,
     shared_describe(c, tell, context);
 }
 
-static selas_status build(struct consistent *c, struct messages *messages)
+static selas_status build_space(struct consistent *c, struct messages *messages)
 {
     selas_status status = consistent_lay(c, messages);
     if (status != SELAS_OK) return status;
@@ -235,12 +235,22 @@ static selas_status build(struct consistent *c, struct messages *messages)
         !collocation_create(c))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = forces_create(c, messages);
-    if (status == SELAS_OK && c->options.sweeps > 0) status = hform_create(c, messages);
-    if (status == SELAS_OK && c->options.general) {
-        status = general_create(c, messages);
-        if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
-        return status == SELAS_OK && c->pml != NULL ? general_layers_create(c, messages) : status;
-    }
+    return status == SELAS_OK && c->options.sweeps > 0 ? hform_create(c, messages) : status;
+}
+
+/* Ranks make the mass together: they agree before on what one of them alone has failed in, and at the end. */
+static selas_status build_general(struct consistent *c, struct messages *messages)
+{
+    selas_status status = ranks_agree(c->part.ranks, build_space(c, messages), messages);
+    if (status == SELAS_OK) status = general_create(c, messages);
+    if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
+    return status == SELAS_OK && c->pml != NULL ? general_layers_create(c, messages) : status;
+}
+
+static selas_status build(struct consistent *c, struct messages *messages)
+{
+    if (c->options.general) return build_general(c, messages);
+    selas_status status = build_space(c, messages);
     if (status == SELAS_OK && c->hform != NULL && !c->options.unfused && !fused_create(c))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the fused operator");
     if (status == SELAS_OK && layer_anywhere(c->model.scene)) status = pml_create(c, messages);
@@ -307,6 +317,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
     if (status == SELAS_OK)
         status = (c->general != NULL ? general_steps_create : fused_steps_create)(c, messages);
+    if (options->general) status = ranks_agree(c->part.ranks, status, messages);
     if (status != SELAS_OK) {
         destroy(&c->model);
         return status;

@@ -103,11 +103,6 @@ static selas_status check_layers(const struct scene *scene, const struct consist
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
                               struct messages *messages)
 {
-    if (options->general && ranks_count(scene->ranks) > 1)
-        return fail(messages, SELAS_UNSUPPORTED,
-                    "method%%operator = 'general' (&model, &block, &topography, tilted or graded &layer) "
-                    "runs on one rank: "
-                    "start it without mpirun");
     if (options->degree < 1 || options->degree > SPLINE_MAX_DEGREE)
         return fail(messages, SELAS_BAD_SCENE, "method%%degree = %d; expected 1 to %d", options->degree,
                     SPLINE_MAX_DEGREE);

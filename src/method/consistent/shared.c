@@ -1,6 +1,7 @@
 /* A consistent model's share of a body on ranks (galerkin/part.h): its arrays, what is told of it. */
 #include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/consistent.h"
+#include "method/consistent/general/general.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,31 @@ static void add_rows(const struct consistent *c, size_t row, struct spread *shar
     spread_add(shares, c->n[DEPTH] * row, part->whole * row, &run);
 }
 
+/* Memory at the points of general ground that the layer behind a face has of a family (general/layers.c). A rank's own
+ * points stand in the cells that begin with its own planes. */
+static void add_points(const struct consistent *c, int face, const struct family *family,
+                       struct spread *shares)
+{
+    const struct general *g = c->general;
+    const struct rank_part *part = &c->part;
+    const struct spline *spline = c->layout[DEPTH];
+    const int slot = c->slot[face / 2], me = ranks_me(part->ranks), last = ranks_count(part->ranks) - 1;
+    const size_t width = c->layer[face], here = family->n[DEPTH], low = spline->mirror[0] ? 1 : 0;
+    const size_t there = spline->cells + (family->at[DEPTH] == AT_KNOTS ? 1 : 0);
+    const size_t row = (slot == 0 ? width : family->n[0]) * (slot == 1 ? width : family->n[1]);
+    const size_t from = me == 0 ? 0 : part->first + part->own + low - g->first;
+    const size_t end = me == last ? here : part->first + part->end + low - g->first;
+    const struct spread_run rows = {0, g->first * row, here * row, from * row, end * row};
+    const size_t holds = me == (face % 2 == 0 ? 0 : last) ? width * row : 0;
+    const struct spread_run all = {0, 0, holds, 0, holds};
+    for (int component = 0; component < c->dimension; component++) {
+        if (slot == DEPTH)
+            spread_add(shares, holds, width * row, &all);
+        else
+            spread_add(shares, here * row, there * row, &rows);
+    }
+}
+
 /* Memory variables of the layers, face by face: those across the last axis are one rank's own, whole. */
 static void add_layers(const struct consistent *c, struct spread *shares)
 {
@@ -26,8 +52,12 @@ static void add_layers(const struct consistent *c, struct spread *shares)
         sizes[2 * slab->axis + slab->end] = (double)slab->inner;
     }
     ranks_largest(c->part.ranks, BOX_FACES, sizes);
+    for (int face = 0; c->general != NULL && face < 2 * c->dimension; face++)
+        for (int f = 0; sizes[face] > 0 && f < 3; f++)
+            add_points(c, face, &c->general->family[f], shares);
+    const int fields = c->general != NULL ? c->dimension : 2 * c->dimension;
     for (int face = 0; face < 2 * c->dimension; face++)
-        for (int i = 0; sizes[face] > 0 && i < 2 * c->dimension; i++) {
+        for (int i = 0; sizes[face] > 0 && i < fields; i++) {
             const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
             const struct spread_run all = {0, 0, here, 0, here};
             if (c->slot[face / 2] == DEPTH)

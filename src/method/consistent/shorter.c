@@ -72,7 +72,7 @@ selas_status consistent_cut(const struct consistent *c, size_t longest, struct m
     *cut = NULL;
     selas_status status = short_body_scene(c->model.scene, &scene, messages);
     if (status != SELAS_OK) return status;
-    if (longest > 0) cut_body(c, longest, scene);
+    cut_body(c, longest, scene);
     options.single = false;
     status = consistent_create_with(scene, &options, cut, messages);
     if (status == SELAS_OK)
@@ -97,7 +97,7 @@ selas_status consistent_shorten(const struct model *model, struct model **shorte
     *deficit = consistent_deficit(c, longest);
     if (!short_body_pays(c->dimension, cells.all, cells.lost)) {
         *deficit = 0;
-        return c->part.ranks != NULL ? consistent_cut(c, 0, shorter, messages) : SELAS_OK;
+        return SELAS_OK;
     }
     return consistent_cut(c, longest, shorter, messages);
 }

@@ -2,6 +2,8 @@
 #include "method/consistent/galerkin/galerkin.h"
 
 #include "base/memory.h"
+#include "base/sums.h"
+#include "scene/absorbing_layers.h"
 
 #include <string.h>
 
@@ -30,13 +32,32 @@ static size_t least_of(const struct consistent *c, int rank, int ranks)
     return rounded_up(c->part.halo + (layers > 0 ? layers + 1 : 0));
 }
 
-/* Bounds of so many ranks, as even as can be; false: there are too many ranks. */
+/* What a plane of the body costs; 1: no layers. */
+static double cost_of(const struct consistent *c, size_t k)
+{
+    const int last = c->dimension - 1;
+    double plain = k >= c->layer[2 * last] && k + c->layer[2 * last + 1] < c->part.whole ? 1 : 0;
+    for (int axis = 0; axis < last; axis++)
+        plain *= 1 - (double)(c->layer[2 * axis] + c->layer[2 * axis + 1]) / (double)c->n[c->slot[axis]];
+    return plain + layer_cost(c->model.scene) * (1 - plain);
+}
+
+/* Bounds of so many ranks, of costs as even as can be; false: there are too many ranks. */
 static bool share(const struct consistent *c, int ranks, size_t *bound)
 {
-    const size_t units = rounded_up(c->part.whole) / PART_UNIT, count = (size_t)ranks;
-    for (size_t r = 0; r < count; r++)
-        bound[r] = r * units / count * PART_UNIT;
-    bound[count] = c->part.whole;
+    const size_t count = (size_t)ranks;
+    double all = 0, done = 0;
+    for (size_t k = 0; k < c->part.whole; k++)
+        all += cost_of(c, k);
+    size_t rank = 0;
+    for (size_t k = 0; k < c->part.whole; k++) {
+        if (k % PART_UNIT == 0)
+            while (rank < count && done >= all * (double)rank / (double)count)
+                bound[rank++] = k;
+        done += cost_of(c, k);
+    }
+    while (rank <= count)
+        bound[rank++] = c->part.whole;
     for (int r = 0; r + 1 < ranks; r++)
         if (bound[r + 1] < bound[r] + least_of(c, r, ranks)) bound[r + 1] = bound[r] + least_of(c, r, ranks);
     for (int r = ranks - 1; r > 0; r--) {
@@ -185,6 +206,17 @@ double part_largest(const struct consistent *c, double value)
 {
     ranks_largest(c->part.ranks, 1, &value);
     return value;
+}
+
+double part_product(const struct consistent *c, const double *x, const double *y)
+{
+    double sum = 0;
+    if (c->part.ranks == NULL) return sum_of_products(c->model.unknowns, x, y, c->threads);
+    for (size_t component = 0; component < (size_t)c->dimension; component++) {
+        const size_t from = component * c->volume + c->part.own * c->plane;
+        sum += sum_of_products((c->part.end - c->part.own) * c->plane, x + from, y + from, c->threads);
+    }
+    return sum;
 }
 
 void part_sweep(const struct consistent *c, bool forward, size_t reach, double *field, size_t fields,

@@ -54,6 +54,8 @@ int part_holder(const struct consistent *c, size_t plane);
 void part_exchange(const struct consistent *c, void *field, size_t fields, size_t apart, size_t plane);
 /* Together: the largest of a number of each rank. */
 double part_largest(const struct consistent *c, double value);
+/* x.y of the own planes of two fields of unknowns. */
+double part_product(const struct consistent *c, const double *x, const double *y);
 
 /* Together: work that goes over the planes of the body in their order (or, not `forward`, the other way) and
  * reads `reach` planes before each, not more than the halo has: calls work(context, from, end) for the own planes once

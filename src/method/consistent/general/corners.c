@@ -16,11 +16,13 @@ size_t general_corner_seen(const struct consistent *c, const struct corner *corn
     return index;
 }
 
+/* A corner that the window has, slots being axes in three dimensions. */
 static bool free_corner(const struct consistent *c, unsigned number, struct corner *corner)
 {
     for (int slot = 0; slot < 3; slot++) {
         corner->high[slot] = (number >> slot & 1U) != 0;
         if (c->layout[slot]->mirror[corner->high[slot]]) return false;
+        if (part_face(c, 2 * slot + corner->high[slot]) == SIZE_MAX) return false;
     }
     return true;
 }
@@ -34,12 +36,13 @@ void general_lay_corners(struct consistent *c)
         if (!free_corner(c, number, &corner)) continue;
         double weight = simpson, place[3] = {0};
         for (int slot = 0; slot < 3; slot++) {
-            const double spacing = (c->layout[slot]->high - c->layout[slot]->low) / (double)g->cells[slot];
+            const struct spline *spline = c->layout[slot];
+            const double spacing = (spline->high - spline->low) / (double)spline->cells;
             weight *= spacing;
             corner.slope[slot] = (corner.high[slot] ? -2 : 2) / spacing;
             place[slot] = corner.high[slot] ? c->layout[slot]->high : c->layout[slot]->low;
         }
-        corner.metric = consistent_metric(c, place); /* slots are axes in three dimensions */
+        corner.metric = consistent_metric(c, place);
         weight *= corner.metric.jacobian;
         corner.lambda = weight * material->plane_lambda;
         corner.mu = weight * material->mu;

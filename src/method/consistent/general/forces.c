@@ -239,6 +239,7 @@ void general_look(struct consistent *c, const double *u)
         }
         largest = most[row] > largest ? most[row] : largest;
     }
+    largest = part_largest(c, largest);
     for (size_t row = 0; row < rows; row++)
         g->loud[row] = !(most[row] <= c->options.quiet * largest);
 }

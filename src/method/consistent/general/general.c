@@ -3,7 +3,6 @@
 #include "method/consistent/general/sweep.h"
 
 #include "base/memory.h"
-#include "base/sums.h"
 #include "method/consistent/galerkin/moving_load.h"
 
 #include <math.h>
@@ -38,19 +37,34 @@ static void lay_taps(const struct spline *spline, bool odd, double x, struct tap
     }
 }
 
+/* Cells over depth all of whose control values, three planes of them, the window has. */
+static void lay_cells(struct consistent *c)
+{
+    struct general *g = c->general;
+    const struct spline *spline = c->layout[DEPTH];
+    const size_t low = spline->mirror[0] ? 1 : 0, beyond = c->part.first + c->n[DEPTH];
+    g->first = c->part.first == 0 ? 0 : c->part.first + low;
+    g->cells[DEPTH] = (beyond == c->part.whole ? spline->cells : beyond + low - 2) - g->first;
+}
+
 static bool lay_axis(struct consistent *c, int slot)
 {
     struct general *g = c->general;
     const struct spline *spline = c->layout[slot];
-    g->cells[slot] = spline == NULL ? 0 : spline->cells;
+    if (slot == DEPTH)
+        lay_cells(c);
+    else
+        g->cells[slot] = spline == NULL ? 0 : spline->cells;
     for (int odd = 0; odd < 2; odd++)
         for (int at = 0; at < 2; at++) {
-            const size_t count = spline == NULL ? 1 : spline->cells + (at == AT_KNOTS ? 1 : 0);
+            const size_t count = spline == NULL ? 1 : g->cells[slot] + (at == AT_KNOTS ? 1 : 0);
             struct taps *taps = g->taps[slot][odd][at] = array_new(count, sizeof *taps);
             if (taps == NULL) return false;
             if (spline == NULL) taps[0] = (struct taps){.count = 1, .value = {1}};
-            for (size_t i = 0; spline != NULL && i < count; i++)
+            for (size_t i = 0; spline != NULL && i < count; i++) {
                 lay_taps(spline, odd, general_place(c, slot, (enum at)at, i), &taps[i]);
+                if (slot == DEPTH) taps[i].first -= c->part.first;
+            }
         }
     return true;
 }
@@ -59,6 +73,7 @@ double general_place(const struct consistent *c, int slot, enum at at, size_t i)
 {
     const struct spline *spline = c->layout[slot];
     if (spline == NULL) return 0;
+    if (slot == DEPTH) i += c->general->first;
     const struct spline_element *element = &spline->element[i < spline->cells ? i : spline->cells - 1];
     if (at == AT_KNOTS) return i < spline->cells ? element->x_from : element->x_to;
     return (element->x_from + element->x_to) / 2;
@@ -91,6 +106,7 @@ static bool lay_inverse(struct consistent *c)
         for (int axis = 0; axis < c->dimension; axis++)
             term[i].matrix[c->slot[axis]] = c->hform->inverse[i][axis];
     }
+    if (!part_terms(c, term, (size_t)c->dimension)) return false;
     c->general->inverse = tensor_plan_new(c->n, c->dimension, term, (size_t)c->dimension, c->threads);
     return c->general->inverse != NULL;
 }
@@ -116,8 +132,7 @@ static bool lay_buffers(struct consistent *c)
 selas_status general_create(struct consistent *c, struct messages *messages)
 {
     struct general *g = c->general = array_new(1, sizeof *g);
-    if (g == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
-    bool good = true;
+    bool good = g != NULL;
     for (int slot = 0; good && slot < 3; slot++)
         good = lay_axis(c, slot);
     double *mass = array_new(c->volume, sizeof *mass);
@@ -127,6 +142,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     if (status == SELAS_OK) status = general_part_material(c, mass, messages);
     if (status == SELAS_OK) general_lay_corners(c);
+    status = ranks_agree(c->part.ranks, status, messages);
     if (status == SELAS_OK && !general_scale(c, mass))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     array_free(mass);
@@ -238,9 +254,9 @@ void general_energy(struct consistent *c, const double *y, struct energy *energy
     struct general *g = c->general;
     const size_t n = c->model.unknowns;
     general_weigh(c, y + n, g->work);
-    energy->kinetic = sum_of_products(n, g->work, y + n, c->threads) / 2;
+    energy->kinetic = part_product(c, g->work, y + n) / 2;
     general_forces(c, y, NULL, g->force);
-    energy->strain = -sum_of_products(n, g->force, y, c->threads) / 2;
+    energy->strain = -part_product(c, g->force, y) / 2;
 }
 
 double general_damper_power(struct consistent *c, const double *v)

@@ -37,7 +37,8 @@ struct hill {
 };
 
 struct general {
-    size_t cells[3];            /* by slot */
+    size_t cells[3];            /* by slot; over depth those whose control values the window has */
+    size_t first;               /* over depth: the first of them in the body */
     struct taps *taps[3][2][2]; /* [slot][odd][at] */
     struct family family[3];
     size_t corners;
@@ -63,7 +64,7 @@ struct general {
 selas_status general_create(struct consistent *c, struct messages *messages);
 void general_free(struct consistent *c);
 
-/* Position of a point of an axis, by slot; 0 where there is no such axis. */
+/* Position of a point of an axis, by slot, over depth of the window's; 0 where there is no such axis. */
 double general_place(const struct consistent *c, int slot, enum at at, size_t i);
 
 /* a = M^-1 (F - K u - C v), as hform_accelerate(). */
@@ -141,7 +142,7 @@ struct metric general_metric_at(const struct consistent *c, const struct family 
 bool general_hill_row(const struct consistent *c, const struct family *family, size_t j, size_t k,
                       struct hill_row *row);
 
-/* scaling.c: R from the mass of each control value (G5); false: no memory. */
+/* scaling.c: R from the mass of each control value (G5), by all ranks together; false: no memory. */
 bool general_scale(struct consistent *c, const double *mass);
 
 #endif

@@ -11,6 +11,7 @@ static double weight_of(const struct consistent *c, int slot, enum at at, size_t
     const struct spline *spline = c->layout[slot];
     if (spline == NULL) return 1;
     const double spacing = (spline->high - spline->low) / (double)spline->cells;
+    if (slot == DEPTH) i += c->general->first;
     return at == AT_KNOTS && (i == 0 || i == spline->cells) ? spacing / 2 : spacing;
 }
 
@@ -139,7 +140,7 @@ static bool lay_family(struct consistent *c, struct family *family, struct mediu
 /* The integral of a control value's function. */
 static double integral(const struct consistent *c, const struct band *const mass[3], size_t i)
 {
-    const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
+    const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], c->part.first + i / c->plane};
     double product = 1;
     for (int slot = 0; slot < 3; slot++) {
         double sum = mass[slot] == NULL;

@@ -71,15 +71,21 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
     return SELAS_UNSUPPORTED;
 }
 
-/* Never on ranks. */
-static const struct model_one_pass one_pass = {begin, advance, settle, kept, NULL, relax};
+/* w, in single precision behind u. */
+static void share(struct model *model, struct spread *shares)
+{
+    for (int times = model->single ? 2 : 1; times > 0; times--)
+        model->core->share(model, ARRAY_UNKNOWNS, shares);
+}
+
+static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, relax};
 
 /* Why steps cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)
 {
     if (c->dimension != 3) return "three dimensions";
     for (int slot = 0; slot < 3; slot++)
-        if (c->n[slot] < (c->options.single ? 16 : 8))
+        if ((slot == DEPTH ? c->part.whole : c->n[slot]) < (c->options.single ? 16 : 8))
             return "8 control values along each axis, 16 in single precision";
     if (c->options.unfused) return "method%fused = .true.";
     if (c->moving_loads > 0) return "no moving loads";

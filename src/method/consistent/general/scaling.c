@@ -22,14 +22,14 @@ static struct tensor_plan *even_mass(struct consistent *c)
         term.matrix[c->slot[axis]] = consistent_matrix(c, axis, 0, false, 0, false, WEIGHT_NONE);
         if (term.matrix[c->slot[axis]] == NULL) return NULL;
     }
-    return tensor_plan_new(c->n, 1, &term, 1, 1);
+    return part_terms(c, &term, 1) ? tensor_plan_new(c->n, 1, &term, 1, 1) : NULL;
 }
 
 bool general_scale(struct consistent *c, const double *mass)
 {
     double *root = c->general->root, *product = array_new(c->volume, sizeof *product);
     struct tensor_plan *plan = even_mass(c);
-    const bool good = product != NULL && plan != NULL;
+    const bool good = part_largest(c, product != NULL && plan != NULL ? 0 : 1) == 0;
     double change = 1;
     for (size_t i = 0; i < c->volume; i++)
         root[i] = 1;
@@ -41,10 +41,13 @@ bool general_scale(struct consistent *c, const double *mass)
         }
         change = 0;
         for (size_t i = 0; i < c->volume; i++) {
+            const size_t k = i / c->plane;
             const double next = sqrt(root[i] * mass[i] / product[i]);
-            change = fmax(change, fabs(next / root[i] - 1));
+            if (k >= c->part.own && k < c->part.end) change = fmax(change, fabs(next / root[i] - 1));
             root[i] = next;
         }
+        part_exchange(c, root, 1, 0, c->plane * sizeof *root);
+        change = part_largest(c, change);
     }
     for (size_t i = 0; i < c->volume; i++)
         root[i] = 1 / root[i];

@@ -58,13 +58,14 @@ static void sweep_stage(const struct pass *pass, int thread, int stage)
             if (!own(s, first, from, end)) finish_planes(pass, &r, first);
 }
 
-/* Largest displacement of all rows. */
-static double largest_size(const struct sweep *s)
+/* Largest displacement of all rows of all ranks. */
+static double largest_size(const struct pass *pass)
 {
+    const struct sweep *s = pass->s;
     double largest = 0;
     for (size_t row = 0; row < s->n[1] * s->n[2]; row++)
         if (s->size[row] > largest) largest = s->size[row];
-    return largest;
+    return part_largest(pass->c, largest);
 }
 
 /* Where the planes of each thread begin: about as many rows of points for each in the step before. What is computed
@@ -96,9 +97,10 @@ static void sweep_over(struct pass *pass)
             sweep_stage(pass, thread, stage);
             tiny_as_before(before);
         }
-        if (stage == 0 && !pass->moving) pass->level = s->quiet * largest_size(s);
+        if (stage == 0 && !pass->moving) pass->level = s->quiet * largest_size(pass);
     }
-    s->largest = largest_size(s);
+    s->largest = largest_size(pass);
+    part_exchange(pass->c, pass->out, 3, s->volume * sizeof(REAL), s->plane * sizeof(REAL));
 }
 
 static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, REAL *work)
@@ -109,12 +111,14 @@ static void accelerate(struct consistent *c, const struct drive *drive, const RE
     sweep_over(&pass);
 }
 
-/* Rows where u or w is not 0, and the largest u. */
-static void find_reached(struct sweep *s, const REAL *u, const REAL *w)
+/* Rows where u or w is not 0, in the halo all, and the largest u. */
+static void find_reached(const struct consistent *c, const REAL *u, const REAL *w)
 {
+    struct sweep *s = c->general->sweep;
     s->largest = 0;
     for (size_t k = 0; k < s->n[2]; k++) {
-        s->reached[k] = (struct rows){0, 0};
+        const bool halo = k < c->part.own || k >= c->part.end;
+        s->reached[k] = (struct rows){0, halo ? s->n[1] : 0};
         for (size_t component = 0; component < 3; component++)
             for (size_t j = 0; j < s->n[1]; j++) {
                 const size_t at = component * s->volume + k * s->plane + j * s->n[0];
@@ -124,6 +128,7 @@ static void find_reached(struct sweep *s, const REAL *u, const REAL *w)
                     join(&s->reached[k], j, j + 1);
             }
     }
+    s->largest = part_largest(c, s->largest);
     s->known = true;
 }
 
@@ -151,7 +156,7 @@ void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double
     const struct watch *watch = &c->watch;
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = w[watch->entry[i]];
-    if (!s->known) find_reached(s, u, w);
+    if (!s->known) find_reached(c, u, w);
     struct pass pass = {.c = c,
                         .s = s,
                         .drive = drive,
