@@ -393,6 +393,56 @@ static void general_ground_is_passive(void **state)
     }
 }
 
+#define SAME                                                                                                 \
+    "&scene dimension = 3, end_time = 1.0 /\n&method operator = 'general', mechanisms = 2 /\n"               \
+    "&body name = 'b', material = 'm', low = 3*0.0, high = 5.0, 4.0, 4.0, spacing = 1.0 /\n"                 \
+    "&boundary face = 'x+', kind = 'transmitting', layer = 'lysmer' /\n" ROCK("m")
+#define ROCK(name)                                                                                           \
+    "&material name = '" name                                                                                \
+    "', density = 0.7, lambda = 1.0, mu = 0.5, q_p = 30, q_s = 20, q_frequency = 0.2 /\n"
+
+/* Graded ground and blocks of one rock by several names: forces, dampers and stress of even ground. */
+static void one_rock_by_many_names(void **state)
+{
+    (void)state;
+    struct damped_run even = run_of(SAME);
+    struct damped_run many =
+        run_of(SAME ROCK("n") ROCK("o") "&layer material = 'm', top = 0.0, bottom = 'n' /\n"
+                                        "&layer material = 'n', top = 3.0 /\n"
+                                        "&block material = 'o', shape = 'ellipsoid', "
+                                        "centre = 4.1, 2.2, 1.2, size = 2.4, 2.0, 1.5 /\n");
+    const size_t n = even.model->unknowns;
+    double *y = calloc(even.model->state_size, sizeof *y), *a = calloc(2 * n, sizeof *a);
+    const double places[2][3] = {{4.4, 2.2, 1.3}, {1.2, 1.3, 1.8}};
+    uint64_t bits = 7;
+    assert_true(damped_of(even.model)->parts > 1 && many.model->state_size == even.model->state_size);
+    for (size_t k = 0; k < even.model->state_size; k++)
+        y[k] = noise(&bits);
+    const struct drive drive = {.extra = y + 2 * n};
+    even.model->spatial->accelerate(even.model, &drive, .1, y, y + n, a);
+    many.model->spatial->accelerate(many.model, &drive, .1, y, y + n, a + n);
+    for (size_t i = 0; i < n; i++)
+        assert_near(a[i], a[n + i], 1e-11);
+    for (int i = 0; i < 2; i++) {
+        double stress[2][6] = {{0}};
+        for (int which = 0; which < 2; which++) {
+            struct damped_run *run = which == 0 ? &even : &many;
+            struct probe probe = {0};
+            assert_int_equal(run->model->core->probe(run->model, places[i], &probe, &run->from.messages),
+                             SELAS_OK);
+            model_observe(run->model, &probe, SELAS_STRESS, y, a, stress[which]);
+            probe_free(&probe);
+        }
+        for (int k = 0; k < 6; k++)
+            assert_near(stress[0][k], stress[1][k], 1e-11);
+        assert_true(fabs(stress[0][0]) > .01);
+    }
+    free(y);
+    free(a);
+    run_end(&even);
+    run_end(&many);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -401,6 +451,7 @@ int main(void)
         cmocka_unit_test(energy_falls_by_what_damping_takes),
         cmocka_unit_test(stress_is_that_of_the_moduli),
         cmocka_unit_test(general_ground_is_passive),
+        cmocka_unit_test(one_rock_by_many_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

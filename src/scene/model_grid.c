@@ -112,13 +112,27 @@ double ground_model_height(const struct ground_model *model, const double place[
     return model->shift - surface_at(model, model->depth == MODEL_STRETCHED ? model->surfaces - 1 : 0, there);
 }
 
-struct rock ground_model_at(const struct ground_model *model, const double place[3])
+/* The first `sets` values at a place of the body. */
+static void values_at(const struct ground_model *model, const double place[3], int sets, double *value)
 {
-    double there[3], value[MODEL_VALUES];
+    double there[3];
     const double z = fmin(model->sea ? place[2] : fmax(place[2], model->low[2]), model->high[2]);
     place_in(model, place, there);
     const struct model_grid *grid = grid_at(model, z - model->low[2], there);
-    model_grid_at(grid, there, MODEL_VALUES, value);
+    model_grid_at(grid, there, sets, value);
+}
+
+struct shares ground_model_shares(const struct ground_model *model, const double place[3])
+{
+    double value[MODEL_SETS];
+    values_at(model, place, MODEL_SETS, value);
+    return (struct shares){value[MODEL_VALUES], value[MODEL_VALUES + 1]};
+}
+
+struct rock ground_model_at(const struct ground_model *model, const double place[3])
+{
+    double value[MODEL_VALUES];
+    values_at(model, place, MODEL_VALUES, value);
     const double mu = value[0] * value[2] * value[2];
     return (struct rock){value[0], value[0] * value[1] * value[1] - 2 * mu, mu};
 }
@@ -128,7 +142,7 @@ static void free_grids(struct model_grid *grid, size_t count)
     for (size_t i = 0; grid != NULL && i < count; i++) {
         for (int axis = 0; axis < 3; axis++)
             array_free(grid[i].at[axis]);
-        for (int set = 0; set < MODEL_VALUES; set++)
+        for (int set = 0; set < MODEL_SETS; set++)
             array_free(grid[i].value[set]);
     }
     array_free(grid);

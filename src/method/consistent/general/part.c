@@ -22,40 +22,6 @@
 enum { SAMPLES = 4, SIDES = 2 }; /* along each axis of a cell */
 static const double little = 1e-4;
 
-/* Materials of the whole ground, with kappa 1 + `bulk` times, and so much of the part's moduli; graded ground takes
- * their speeds. */
-static void vary(const struct scene *scene, double bulk, double by, struct material *material,
-                 struct scene *varied)
-{
-    for (size_t i = 0; i < scene->materials; i++) {
-        const struct material *whole = &scene->whole[i], *part = &scene->material[i];
-        const double more = bulk * (whole->lambda + 2. / 3 * whole->mu) + by * part->lambda;
-        material[i] = *whole;
-        material[i].lambda += more;
-        material[i].mu += by * part->mu;
-        material[i].plane_lambda += more;
-        material[i].p_speed = sqrt((material[i].plane_lambda + 2 * material[i].mu) / material[i].density);
-        material[i].s_speed = sqrt(material[i].mu / material[i].density);
-    }
-    *varied = *scene;
-    varied->material = material;
-}
-
-/* --- Shares --------------------------------------------------------------------------------------------- */
-
-struct shares {
-    double bulk, shear;
-};
-
-/* Part's shares at a place, from the whole ground and from that with a little of the part. */
-static struct shares shares_at(const struct scene ground[2], const double place[3])
-{
-    const struct rock whole = ground_at(&ground[0], place), more = ground_at(&ground[1], place);
-    const double kappa = whole.lambda + 2. / 3 * whole.mu;
-    return (struct shares){(more.lambda + 2. / 3 * more.mu - kappa) / (little * kappa),
-                           (more.mu - whole.mu) / (little * whole.mu)};
-}
-
 /* The ground's place of a place of the lattice: below a surface that is not level another depth. */
 static void to_ground(const struct consistent *c, double place[3])
 {
@@ -66,10 +32,11 @@ static void to_ground(const struct consistent *c, double place[3])
 }
 
 /* Their mean over the cell about a point of a family. */
-static struct shares mean_shares(const struct consistent *c, const struct family *family,
-                                 const struct scene ground[2], const size_t at[3])
+static struct shares mean_shares(const struct consistent *c, const struct family *family, const size_t at[3])
 {
-    struct shares sum = {0};
+    const struct scene *scene = c->model.scene;
+    const int samples = scene->body.model != NULL && scene->body.blocks == 0 ? SAMPLES / 2 : SAMPLES;
+    struct shares sum = {0, 0};
     double middle[3] = {0}, spacing[3] = {0};
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
@@ -77,14 +44,14 @@ static struct shares mean_shares(const struct consistent *c, const struct family
         middle[axis] = general_place(c, slot, family->at[slot], at[slot]);
         spacing[axis] = (spline->high - spline->low) / (double)spline->cells;
     }
-    const int count = c->dimension == 3 ? SAMPLES * SAMPLES * SAMPLES : SAMPLES * SAMPLES;
+    const int count = c->dimension == 3 ? samples * samples * samples : samples * samples;
     for (int sample = 0; sample < count; sample++) {
-        const int step[3] = {sample % SAMPLES, sample / SAMPLES % SAMPLES, sample / SAMPLES / SAMPLES};
+        const int step[3] = {sample % samples, sample / samples % samples, sample / samples / samples};
         double place[3] = {0};
         for (int axis = 0; axis < c->dimension; axis++)
-            place[axis] = middle[axis] + ((step[axis] + .5) / SAMPLES - .5) * spacing[axis];
+            place[axis] = middle[axis] + ((step[axis] + .5) / samples - .5) * spacing[axis];
         to_ground(c, place);
-        const struct shares one = shares_at(ground, place);
+        const struct shares one = ground_shares_at(scene, place);
         sum.bulk += one.bulk / count;
         sum.shear += one.shear / count;
     }
@@ -185,7 +152,7 @@ static bool alike(const struct family *one, const struct family *other)
 }
 
 /* From the whole ground's numbers to the part's; `side`: families with kappa (1 +- little) times. */
-static bool turn_family(const struct consistent *c, struct eigen *eigen, const struct scene ground[2],
+static bool turn_family(const struct consistent *c, struct eigen *eigen,
                         const struct family *const side[SIDES], struct family *family)
 {
     const size_t *n = family->n;
@@ -196,7 +163,7 @@ static bool turn_family(const struct consistent *c, struct eigen *eigen, const s
         for (int axis = 0; axis < c->dimension; axis++)
             place[axis] = general_place(c, c->slot[axis], family->at[c->slot[axis]], at[c->slot[axis]]);
         to_ground(c, place);
-        const struct shares share = shares_at(ground, place);
+        const struct shares share = ground_shares_at(c->model.scene, place);
         const double kappa = family->lambda[point] + 2. / 3 * family->mu[point];
         family->mu[point] *= share.shear;
         family->lambda[point] = share.bulk * kappa - 2. / 3 * family->mu[point];
@@ -207,16 +174,19 @@ static bool turn_family(const struct consistent *c, struct eigen *eigen, const s
                 const size_t at[3] = {family->run[r].from + m, row % n[1], row / n[1]};
                 const size_t first = family->run[r].at + m;
                 const double *const sides[SIDES] = {side[0]->stiffness + first, side[1]->stiffness + first};
-                const struct shares share = mean_shares(c, family, ground, at);
+                const struct shares share = mean_shares(c, family, at);
                 set_point(eigen, family->stiffness + first, sides, family->run[r].count, &share);
             }
     return true;
 }
 
-/* New families in place of those there, which are kept elsewhere: of a scene. */
-static selas_status lay(struct consistent *c, const struct scene *scene, struct messages *messages)
+/* New families in place of those there, which are kept elsewhere: with kappa 1 + `bulk` times. */
+static selas_status lay(struct consistent *c, double bulk, struct messages *messages)
 {
     struct general *g = c->general;
+    const struct scene *scene = c->model.scene;
+    struct scene varied = *scene;
+    varied.more_bulk = bulk;
     double *mass = array_new(c->volume, sizeof *mass);
     bool good = mass != NULL;
     for (int f = 0; f < 3; f++) {
@@ -230,15 +200,15 @@ static selas_status lay(struct consistent *c, const struct scene *scene, struct 
         family->mu = array_new(points, sizeof(double));
         good = good && family->lambda != NULL && family->mu != NULL;
     }
-    c->model.scene = scene;
+    c->model.scene = &varied;
     const selas_status status = good ? general_material(c, mass, messages)
                                      : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
+    c->model.scene = scene;
     array_free(mass);
     return status;
 }
 
-static selas_status turn(struct consistent *c, const struct scene ground[2], struct family side[SIDES][3],
-                         struct messages *messages)
+static selas_status turn(struct consistent *c, struct family side[SIDES][3], struct messages *messages)
 {
     gsl_errors_returned();
     struct eigen eigen = {gsl_eigen_symmv_alloc(STRESSES), gsl_matrix_alloc(STRESSES, STRESSES),
@@ -247,7 +217,7 @@ static selas_status turn(struct consistent *c, const struct scene ground[2], str
     selas_status status = room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
     for (int f = 0; f < 3 && status == SELAS_OK; f++) {
         const struct family *const sides[SIDES] = {&side[0][f], &side[1][f]};
-        if (!turn_family(c, &eigen, ground, sides, &c->general->family[f]))
+        if (!turn_family(c, &eigen, sides, &c->general->family[f]))
             status =
                 fail(messages, SELAS_UNSUPPORTED, "damped ground whose averages differ in kind by kappa");
     }
@@ -260,21 +230,18 @@ static selas_status turn(struct consistent *c, const struct scene ground[2], str
 }
 
 /* Families of both sides, then of the part in place of the whole. */
-static selas_status lay_part(struct consistent *c, const struct scene ground[2], struct material *room,
-                             struct messages *messages)
+static selas_status lay_part(struct consistent *c, struct messages *messages)
 {
     struct family side[SIDES][3], whole[3];
-    struct scene varied;
     selas_status status = SELAS_OK;
     memcpy(whole, c->general->family, sizeof whole);
     memset(side, 0, sizeof side);
     for (int i = 0; i < SIDES && status == SELAS_OK; i++) {
-        vary(&ground[0], i == 0 ? little : -little, 0, room, &varied);
-        status = lay(c, &varied, messages);
+        status = lay(c, i == 0 ? little : -little, messages);
         memcpy(side[i], c->general->family, sizeof side[i]);
         memcpy(c->general->family, whole, sizeof whole);
     }
-    if (status == SELAS_OK) status = turn(c, ground, side, messages);
+    if (status == SELAS_OK) status = turn(c, side, messages);
     for (int i = 0; i < SIDES; i++)
         for (int f = 0; f < 3; f++)
             general_free_family(&side[i][f]);
@@ -284,17 +251,8 @@ static selas_status lay_part(struct consistent *c, const struct scene ground[2],
 selas_status general_part_material(struct consistent *c, double *mass, struct messages *messages)
 {
     const struct scene *scene = c->model.scene;
-    if (scene->whole == NULL) return general_material(c, mass, messages);
-    struct material *room = array_new(3 * scene->materials, sizeof *room);
-    struct scene ground[2];
-    if (room == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
-    vary(scene, 0, 0, room, &ground[0]);
-    vary(scene, 0, little, room + scene->materials, &ground[1]);
-    c->model.scene = &ground[0];
     selas_status status = general_material(c, mass, messages);
-    if (status == SELAS_OK && scene->whole != scene->material)
-        status = lay_part(c, ground, room + 2 * scene->materials, messages);
-    c->model.scene = scene;
-    array_free(room);
+    if (status == SELAS_OK && scene->whole != NULL && scene->whole != scene->material)
+        status = lay_part(c, messages);
     return status;
 }
