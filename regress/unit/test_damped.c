@@ -193,6 +193,36 @@ static void nothing_grows_below_the_limit(void **state)
     }
 }
 
+static double noise(uint64_t *bits)
+{
+    *bits = *bits * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*bits >> 11) * 0x1p-52 - 1;
+}
+
+/* A model whose speeds, Poisson's ratio (.2 to .45) and Q_s (3 to 1000) are drawn by chance at places half a spacing
+ * apart, Q_p up to the most that is passive; some values without Q. */
+static void write_noise(const char *path, uint64_t bits, bool all)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "0 0 -300 100 100 0\n50 50 50\n3 3 7\n1 9000 1 9000 1 9000\n");
+    for (int i = 0; i < 63; i++) {
+        const double s = 1000 * (1.2 + noise(&bits)), nu = .325 + .125 * noise(&bits);
+        const double ratio = sqrt((2 - 2 * nu) / (1 - 2 * nu));
+        const double q_s = 3 * pow(1000. / 3, .5 + .5 * noise(&bits));
+        const double q_p = q_s * .75 * ratio * ratio * (.75 + .25 * noise(&bits));
+        fprintf(file, "%d %d %d %.9g %.9g %.9g %.9g %.9g\n", i % 3 * 50, i / 3 % 3 * 50, i / 9 * 50 - 300,
+                ratio * s, s, 2000 + 500 * noise(&bits), q_p, !all && i % 11 == 5 ? 0 : q_s);
+    }
+    fclose(file);
+}
+
+static const char model_path[] = "build/test/model-noise";
+#define MODEL                                                                                                \
+    "&scene dimension = 3, end_time = 1.0 /\n&method mechanisms = 3 /\n"                                     \
+    "&body low = 3*0.0, high = 100.0, 100.0, 300.0, spacing = 100.0 /\n"                                     \
+    "&model file = 'build/test/model-noise', q_frequency = 3.0 /\n"
+
 /* --- Energy -------------------------------------------------------------------------------------------- */
 
 /* x.K_p x over all parts, each with its factor. */
@@ -264,12 +294,13 @@ static double taken_in_half(struct damped *d, double dt, const double *before, c
 static void energy_falls_by_what_damping_takes(void **state)
 {
     (void)state;
-    static const char *const mass[] = {"exact", "vc3"};
-    for (int i = 0; i < 2; i++) {
+    static const char *const mass[] = {"exact", "vc3", "general, a model"};
+    write_noise(model_path, 3, false);
+    for (int i = 0; i < 3; i++) {
         char deck[1024];
         const int at = snprintf(deck, sizeof deck, PILLAR, mass[i], 8., 6.);
         snprintf(deck + at, sizeof deck - (size_t)at, GROUND, 1., 40., 20.);
-        struct damped_run run = run_of(deck);
+        struct damped_run run = run_of(i < 2 ? deck : MODEL);
         struct damped *d = damped_of(run.model);
         const size_t size = run.model->state_size, n = run.model->unknowns;
         const double dt = .999 * run.limit;
@@ -348,49 +379,61 @@ static void stress_is_that_of_the_moduli(void **state)
 
 /* --- Ground that varies in all directions --------------------------------------------------------------- */
 
-static double noise(uint64_t *bits)
+/* Nothing grows below the limit, which is sharp, and what mechanisms take and leave is not negative, for any
+ * displacements. */
+static void assert_passive(const char *what, const char *deck)
 {
-    *bits = *bits * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*bits >> 11) * 0x1p-52 - 1;
+    struct damped_run run = run_of(deck);
+    struct damped *d = damped_of(run.model);
+    const size_t n = run.model->unknowns;
+    double *x = calloc(n, sizeof *x), given[1 + MOST_MECHANISMS], least = INFINITY;
+    uint64_t bits = 7;
+    assert_non_null(consistent_of(d->part[0].model)->general);
+    for (size_t p = 0; p < d->parts; p++)
+        given[p] = d->part[p].given;
+    for (int turn = 0; turn < 20; turn++) {
+        const double whole[1 + MOST_MECHANISMS] = {1};
+        for (size_t k = 0; k < n; k++)
+            x[k] = noise(&bits);
+        const double size = form(d, whole, x);
+        least = fmin(least, form(d, given, x) / size);
+        for (size_t l = 0; l < d->damping->mechanisms; l++)
+            least = fmin(least, form_of_memory(d, l, x) / size);
+    }
+    size_t count;
+    const double below = map_largest(run.model, .9999 * run.limit, NULL, &count);
+    const double above = map_largest(run.model, 1.002 * run.limit, NULL, &count);
+    print_message("%s, %zu parts: 1 %+.1e below, 1 %+.1e above the limit; least %.1e\n", what, d->parts,
+                  below - 1, above - 1, least);
+    assert_true(below < 1 + 2e-7 && above > 1 + 1e-4 && least > 0);
+    free(x);
+    run_end(&run);
 }
 
-/* Blocks with a Q of their own: nothing grows below the limit, and what mechanisms take and
- * leave is not negative, for any displacements. */
+/* Blocks with a Q of their own. */
 static void general_ground_is_passive(void **state)
 {
     (void)state;
     static const double q[][4] = {{7, 5, 40, 20}, {40, 20, 7, 5}, {3, 2, 1000, 900}, {40, 30, 300, 10}};
     for (size_t i = 0; i < sizeof q / sizeof *q; i++) {
-        char deck[2048];
+        char deck[2048], what[64];
         const int at = snprintf(deck, sizeof deck, BLOCKS, q[i][0], q[i][1]);
         snprintf(deck + at, sizeof deck - (size_t)at, GROUND, i == 3 ? 48. : 1., q[i][2], q[i][3]);
-        struct damped_run run = run_of(deck);
-        struct damped *d = damped_of(run.model);
-        const size_t n = run.model->unknowns;
-        double *x = calloc(n, sizeof *x), given[1 + MOST_MECHANISMS], least = INFINITY;
-        uint64_t bits = 7;
-        assert_non_null(consistent_of(d->part[0].model)->general);
-        for (size_t p = 0; p < d->parts; p++)
-            given[p] = d->part[p].given;
-        for (int turn = 0; turn < 20; turn++) {
-            const double whole[1 + MOST_MECHANISMS] = {1};
-            for (size_t k = 0; k < n; k++)
-                x[k] = noise(&bits);
-            const double size = form(d, whole, x);
-            least = fmin(least, form(d, given, x) / size);
-            for (size_t l = 0; l < d->damping->mechanisms; l++)
-                least = fmin(least, form_of_memory(d, l, x) / size);
-        }
-        size_t count;
-        const double below = map_largest(run.model, .9999 * run.limit, NULL, &count);
-        const double above = map_largest(run.model, 1.002 * run.limit, NULL, &count);
-        print_message(
-            "blocks, Q %g %g, %g %g, %zu parts: 1 %+.1e below, 1 %+.1e above the limit; least %.1e\n",
-            q[i][0], q[i][1], q[i][2], q[i][3], d->parts, below - 1, above - 1, least);
-        assert_true(below < 1 + 2e-7 && above > 1 + 1e-4 && least > 0);
-        free(x);
-        run_end(&run);
+        snprintf(what, sizeof what, "blocks, Q %g %g, %g %g", q[i][0], q[i][1], q[i][2], q[i][3]);
+        assert_passive(what, deck);
     }
+}
+
+static void ground_from_a_model_is_passive(void **state)
+{
+    (void)state;
+    for (int seed = 0; seed < 2; seed++) {
+        char what[64];
+        write_noise(model_path, 11 + (uint64_t)seed, seed % 2 == 0);
+        snprintf(what, sizeof what, "model %d by chance", seed);
+        assert_passive(what, MODEL);
+    }
+    remove(model_path);
 }
 
 #define SAME                                                                                                 \
@@ -451,6 +494,7 @@ int main(void)
         cmocka_unit_test(energy_falls_by_what_damping_takes),
         cmocka_unit_test(stress_is_that_of_the_moduli),
         cmocka_unit_test(general_ground_is_passive),
+        cmocka_unit_test(ground_from_a_model_is_passive),
         cmocka_unit_test(one_rock_by_many_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -145,7 +145,8 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
     const struct ground_model *model = scene->body.model;
     const struct found found = find(scene, place);
     if (scene->whole != NULL && !found.of_model) {
-        const struct material *one = &scene->material[found.material], *other = &scene->material[found.bottom];
+        const struct material *one = &scene->material[found.material],
+                              *other = &scene->material[found.bottom];
         speed[0] = one->p_speed + found.part * (other->p_speed - one->p_speed);
         speed[1] = one->s_speed + found.part * (other->s_speed - one->s_speed);
         return;

@@ -25,6 +25,9 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
 /* model_grid.c: even between the values of the grids, beyond the body as at its nearest face. */
 struct rock ground_model_at(const struct ground_model *model, const double place[3]);
 struct shares ground_model_shares(const struct ground_model *model, const double place[3]);
+/* A value of one of the model's grids, without a name. */
+struct material ground_model_material(const struct ground_model *model, const struct model_grid *grid,
+                                      size_t i);
 /* How far the ground of a model lies above the plane of face z-; of one with a surface of its own, read with depth =
  * 'sea'. */
 double ground_model_height(const struct ground_model *model, const double place[2]);

@@ -74,13 +74,13 @@ struct ground_model {
     double low[3], high[3];       /* the body's: beyond it the ground is that of its nearest face */
     double origin[2], turn[2][2]; /* place along the model's axes = origin + turn (x, y) */
     enum model_depth depth;
-    bool sea;             /* depth + shift is one below the sea, not below the model's ground */
-    double shift, bottom; /* bottom: of MODEL_STRETCHED, below the sea */
-    double detail[2];     /* least distance of values along x and y of the body */
-    bool damped;          /* by the file's Q */
-    double q_frequency, q_power; /* of all of it, as a material's */
-    double loss[2];              /* least (above 0) and largest 1/Q */
-    size_t undamped;             /* values without Q */
+    bool sea;                         /* depth + shift is one below the sea, not below the model's ground */
+    double shift, bottom;             /* bottom: of MODEL_STRETCHED, below the sea */
+    double detail[2];                 /* least distance of values along x and y of the body */
+    bool damped;                      /* by the file's Q */
+    double q_frequency, q_power;      /* of all of it, as a material's */
+    double loss[2];                   /* least (above 0) and largest 1/Q */
+    size_t undamped;                  /* values without Q */
     const struct ground_model *given; /* of a part of damped ground: the one in the file */
     size_t grids, surfaces;
     struct model_grid *grid, *surface; /* from the top down */
@@ -223,7 +223,7 @@ struct scene {
     size_t materials;
     struct material *material;
     const struct material
-        *whole; /* [materials] a part of damped ground (method/damped/damped.h): materials of the
+        *whole;       /* [materials] a part of damped ground (method/damped/damped.h): materials of the
                                      whole, whose moduli those of `material` are a part of; itself: all. NULL: no
                                      part */
     double more_bulk; /* kappa is 1 + this times that of the ground (method/consistent/general/part.c) */

@@ -144,6 +144,7 @@ void damped_free(struct model *model)
         model_free(&d->part[p].model);
         array_free(d->part[p].material);
     }
+    damped_field_free(d);
     ground_damping_free(d->damping);
     array_free(d->effective);
     array_free(d->sum);
