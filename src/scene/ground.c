@@ -105,13 +105,9 @@ struct rock ground_at(const struct scene *scene, const double place[3])
     const struct found found = find(scene, place);
     const struct material *list = scene->whole != NULL ? scene->whole : scene->material;
     const struct material *material = &list[found.material];
-    struct rock rock = {material->density, material->plane_lambda, material->mu};
-    if (found.of_model)
-        rock = ground_model_at(scene->body.model, place);
-    else if (found.bottom != found.material)
-        rock = between(material, &list[found.bottom], found.part);
-    if (scene->more_bulk != 0) rock.lambda += scene->more_bulk * (rock.lambda + 2. / 3 * rock.mu);
-    return rock;
+    if (found.of_model) return ground_model_at(scene->body.model, place);
+    if (found.bottom != found.material) return between(material, &list[found.bottom], found.part);
+    return (struct rock){material->density, material->plane_lambda, material->mu};
 }
 
 struct shares ground_shares_at(const struct scene *scene, const double place[3])

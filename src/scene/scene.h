@@ -223,10 +223,9 @@ struct scene {
     size_t materials;
     struct material *material;
     const struct material
-        *whole;       /* [materials] a part of damped ground (method/damped/damped.h): materials of the
+        *whole; /* [materials] a part of damped ground (method/damped/damped.h): materials of the
                                      whole, whose moduli those of `material` are a part of; itself: all. NULL: no
                                      part */
-    double more_bulk; /* kappa is 1 + this times that of the ground (method/consistent/general/part.c) */
     struct body body;
     struct boundary boundary[FACES];
     size_t loads;
