@@ -141,6 +141,9 @@ refused "compression that would gain energy" "q_p = 60 is too large beside q_s =
 refused "Q_s alone" "'q_p' is not given" material%q_p=
 refused "so low a Q" "cannot stand for so low a Q" material%q_p=0.05 material%q_s=0.05
 refused "points without order" "'cloud', has no damping by q_p and q_s" method%variant=cloud method%mechanisms=
+particles="method%name=sph method%variant=total-lagrangian"
+check "particles take Q by Hooke's law" sh -c "'$selas' check '$out/box.nml' $particles method%law=linear | grep -q 'damping adds: 2 operator calls'"
+check "and by no other" sh -c "'$selas' check '$out/box.nml' $particles 2>&1 | grep -q \"damping by q_p and q_s is linear; expected law = 'linear'\""
 refused "the modified equation" "need scheme 'leapfrog', not 'modified-equation'" stepping%scheme=modified-equation
 
 refused "an undamped reference" "reference 'lamb' is undamped" reference%kind=lamb reference%tolerance=

@@ -84,7 +84,7 @@ static const struct word method_words[] = {
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
      "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
     {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", OPTIONAL,
-     "relaxation mechanisms of damped materials (consistent, reference 'layered'); 3"},
+     "relaxation mechanisms of damped ground (consistent, total-lagrangian, reference 'layered'); 3"},
     {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 

@@ -23,6 +23,7 @@ struct damped_part {
 
 struct damped {
     struct model model;
+    struct model_core core; /* damped_core but for what part 0 does not have */
     struct ground_damping *damping;
     size_t parts;
     struct damped_part part[1 + MOST_MECHANISMS];
