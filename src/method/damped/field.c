@@ -197,35 +197,48 @@ void damped_field_free(struct damped *d)
     array_free(d->field);
 }
 
+/* What the parts' ground is made with; the modulus has no weights yet. */
+static struct fitting *fitting_new(const struct damped *d, const struct ground_model *given)
+{
+    struct fitting *fitting = array_new(1, sizeof *fitting);
+    if (fitting == NULL) return NULL;
+    fitting->d = d;
+    fitting->modulus =
+        (struct modulus){.size = 1, .mechanisms = d->damping->mechanisms, .step = d->damping->band.step};
+    memcpy(fitting->modulus.rate, d->damping->rate, sizeof fitting->modulus.rate);
+    fitting->angular_frequency =
+        given->q_frequency > 0 ? 2 * M_PI * given->q_frequency : d->damping->centroid;
+    set_inside(fitting);
+    return fitting;
+}
+
+static bool field_new(struct damped *d, const struct ground_model *given)
+{
+    d->field = array_new(d->parts, sizeof *d->field);
+    if (d->field == NULL || !share_model(given, 1, MODEL_VALUES, &d->field[0])) return false;
+    for (size_t p = 1; p < d->parts; p++)
+        if (!share_model(&d->field[0], MODEL_VALUES, MODEL_SETS, &d->field[p])) return false;
+    for (size_t p = 0; p < d->parts; p++)
+        d->field[p].given = given;
+    return true;
+}
+
 selas_status damped_field(struct damped *d, const struct scene *scene, struct messages *messages)
 {
     const struct ground_model *given = scene->body.model;
-    struct fitting *fitting = array_new(1, sizeof *fitting);
-    d->field = array_new(d->parts, sizeof *d->field);
-    bool room = fitting != NULL && d->field != NULL && share_model(given, 1, MODEL_VALUES, &d->field[0]);
-    for (size_t p = 1; p < d->parts && room; p++)
-        room = share_model(&d->field[0], MODEL_VALUES, MODEL_SETS, &d->field[p]);
-    selas_status status =
-        room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ground's damping");
-    if (status == SELAS_OK && given->damped)
-        status = damping_curve_set(d->damping, given, &fitting->curve, messages);
-    if (status == SELAS_OK) {
-        fitting->d = d;
-        fitting->modulus =
-            (struct modulus){.size = 1, .mechanisms = d->damping->mechanisms, .step = d->damping->band.step};
-        memcpy(fitting->modulus.rate, d->damping->rate, sizeof fitting->modulus.rate);
-        fitting->angular_frequency =
-            given->q_frequency > 0 ? 2 * M_PI * given->q_frequency : d->damping->centroid;
-        set_inside(fitting);
-        for (size_t i = 0; i < given->grids && status == SELAS_OK; i++)
-            if (!lay_grid(fitting, given, i, d->field))
-                status = fail(messages, SELAS_BAD_SCENE,
-                              "damping: %zu relaxation mechanisms cannot stand for the Q of the &model",
-                              d->damping->mechanisms);
-        refit_samples(fitting, scene);
+    struct fitting *fitting = fitting_new(d, given);
+    if (fitting == NULL || !field_new(d, given)) {
+        array_free(fitting);
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the ground's damping");
     }
-    for (size_t p = 0; p < d->parts && status == SELAS_OK; p++)
-        d->field[p].given = given;
+    selas_status status =
+        given->damped ? damping_curve_set(d->damping, given, &fitting->curve, messages) : SELAS_OK;
+    for (size_t i = 0; i < given->grids && status == SELAS_OK; i++)
+        if (!lay_grid(fitting, given, i, d->field))
+            status = fail(messages, SELAS_BAD_SCENE,
+                          "damping: %zu relaxation mechanisms cannot stand for the Q of the &model",
+                          d->damping->mechanisms);
+    if (status == SELAS_OK) refit_samples(fitting, scene);
     array_free(fitting);
     return status;
 }
