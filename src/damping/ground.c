@@ -137,7 +137,7 @@ selas_status ground_damping_new(const struct scene *scene, bool fitted, struct g
     if (!ground_is_damped(scene)) return SELAS_OK;
     struct ground_damping *damping = array_new(1, sizeof *damping);
     if (damping == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
-    struct material sample[MOST_SAMPLES];
+    struct material sample[MOST_SAMPLES] = {{.density = 0}};
     damping->materials = scene->materials;
     if (scene->body.model != NULL) damping->materials += damping_samples(scene->body.model, sample);
     damping->wanted = array_new(damping->materials, sizeof *damping->wanted);
