@@ -21,10 +21,12 @@ static bool held(struct model *model, size_t i)
     return false;
 }
 
+static const struct consistent_options standard = {.degree = 2, .sweeps = 3, .depth_exact = true};
+
 /* Layers behind the faces of the mask in a rectangle of so many cells, the other faces free but for a
  * symmetry plane x-. */
-static void judge(const char *name, unsigned layered, const size_t cells[2], long points, bool depth_exact,
-                  double nu)
+static void judge(const char *name, unsigned layered, const size_t cells[2], long points,
+                  struct consistent_options options, double nu)
 {
     struct plain_scene plain;
     plain_box(&plain, 2, (double[]){.25 * (double)cells[0], .25 * (double)cells[1], 0}, .25);
@@ -37,15 +39,15 @@ static void judge(const char *name, unsigned layered, const size_t cells[2], lon
         boundary->absorber = ABSORBER_PML;
         boundary->layer_points = points;
     }
-    struct model *model =
-        make(&plain, (struct consistent_options){.degree = 2, .sweeps = 3, .depth_exact = depth_exact});
+    struct model *model = make(&plain, options);
     double omega, error;
     struct messages messages = {0};
     assert_int_equal(largest_frequency(model, &omega, &error, &messages), SELAS_OK);
     size_t count;
     const double largest = map_largest(model, 1.8 / (omega * (1 + error)), held, &count);
-    print_message("# %s, nu %g, depth mass %s: %zu eigenvalues, largest modulus 1 %+.2e\n", name, nu,
-                  depth_exact ? "exact" : "same", count, largest - 1);
+    print_message("# %s, nu %g, degree %d, %s, depth mass %s: %zu eigenvalues, largest modulus 1 %+.2e\n",
+                  name, nu, options.degree, options.sweeps > 0 ? "sweeps" : "exact mass",
+                  options.depth_exact ? "exact" : "same", count, largest - 1);
     assert_true(largest < 1);
     model_free(&model);
 }
@@ -56,10 +58,15 @@ static void test_corner(void **state)
 {
     (void)state;
     static const double poisson[3] = {.25, .45, .49};
-    for (int material = few_of(0, 2); material < 3; material++)
+    for (int material = few_of(0, 2); material < 3; material++) {
         for (int exact = 0; exact < 2; exact++)
-            judge("corner", 1u << FACE_X_HIGH | 1u << FACE_Y_HIGH, (size_t[]){2, 2}, LEAST_POINTS, exact == 1,
+            judge("corner", 1u << FACE_X_HIGH | 1u << FACE_Y_HIGH, (size_t[]){2, 2}, LEAST_POINTS,
+                  (struct consistent_options){.degree = 2, .sweeps = 3, .depth_exact = exact == 1},
                   poisson[material]);
+        for (int degree = 2; degree <= few_of(4, 3); degree++)
+            judge("corner", 1u << FACE_X_HIGH | 1u << FACE_Y_HIGH, (size_t[]){2, 2}, LEAST_POINTS,
+                  (struct consistent_options){.degree = degree}, poisson[material]);
+    }
 }
 
 /* A thin body: layers on both sides under a free surface, and all around. */
@@ -67,9 +74,15 @@ static void test_thin(void **state)
 {
     (void)state;
     const unsigned half_space = 15 - (1u << FACE_Y_LOW);
-    if (few_of(1, 0)) judge("both sides", half_space, (size_t[]){4, 1}, LEAST_POINTS, true, .25);
-    if (few_of(1, 0)) judge("both sides", half_space, (size_t[]){4, 1}, LEAST_POINTS, true, .49);
-    judge("three sides and a symmetry plane", 14, (size_t[]){1, 1}, LEAST_POINTS, true, .49);
+    if (few_of(1, 0))
+        judge("both sides", half_space, (size_t[]){4, 4}, LEAST_POINTS,
+              (struct consistent_options){.degree = 3}, .49);
+    if (few_of(1, 0))
+        judge("both sides", half_space, (size_t[]){4, 4}, LEAST_POINTS,
+              (struct consistent_options){.degree = 4}, .49);
+    if (few_of(1, 0)) judge("both sides", half_space, (size_t[]){4, 1}, LEAST_POINTS, standard, .25);
+    if (few_of(1, 0)) judge("both sides", half_space, (size_t[]){4, 1}, LEAST_POINTS, standard, .49);
+    judge("three sides and a symmetry plane", 14, (size_t[]){1, 1}, LEAST_POINTS, standard, .49);
 }
 
 /* A plate, free above and below: waves with phase and group velocity of opposite sign, which grew by up to 1
@@ -78,8 +91,8 @@ static void test_plate(void **state)
 {
     (void)state;
     for (size_t cells = 1; cells <= (size_t)few_of(4, 1); cells *= 2) {
-        judge("plate", 1u << FACE_X_HIGH, (size_t[]){4, cells}, LAYER_POINTS, true, .25);
-        judge("plate", 1u << FACE_X_HIGH, (size_t[]){4, cells}, LAYER_POINTS, true, .45);
+        judge("plate", 1u << FACE_X_HIGH, (size_t[]){4, cells}, LAYER_POINTS, standard, .25);
+        judge("plate", 1u << FACE_X_HIGH, (size_t[]){4, cells}, LAYER_POINTS, standard, .45);
     }
 }
 

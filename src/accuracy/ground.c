@@ -109,6 +109,13 @@ static double quiet_spacing(const struct scene *scene, const struct surface_plac
     return h;
 }
 
+static bool has_points(const struct scene *scene)
+{
+    for (size_t k = 0; k < scene->loads; k++)
+        if (scene->load[k].shape == LOAD_POINT) return true;
+    return false;
+}
+
 /* What the law was measured for (section 3): beyond, only a trial can tell. NULL, or what lies outside. */
 static const char *range_refusal(const struct scene *scene)
 {
@@ -119,9 +126,7 @@ static const char *range_refusal(const struct scene *scene)
         const double nu = (ratio - 2) / (2 * ratio - 2);
         if (nu < low - 1e-6 || nu > high + 1e-6) return "Poisson's ratios of .1 to .4";
     }
-    for (size_t k = 0; k < scene->loads; k++)
-        if (scene->load[k].shape == LOAD_POINT) return "loads on a square or a disc";
-    return NULL;
+    return has_points(scene) ? "loads on a square or a disc" : NULL;
 }
 
 static selas_status check_range(const struct scene *scene, double h, struct messages *messages)
@@ -146,7 +151,7 @@ static double work_of(const struct scene *scene)
         points *= count;
         all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
     }
-    return (points + LAYER_COST * (all - points)) * scene_fastest(scene) * scene->end_time /
+    return (points + layer_cost(scene) * (all - points)) * scene_fastest(scene) * scene->end_time /
            (.35 * body->spacing);
 }
 
@@ -271,7 +276,11 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
     }
     for (size_t i = 0; i < task->scene->receivers && *made; i++) {
         struct surface_place *place = &task->place[i];
+        place->tried = 0;
         place->factor *= fmax(error[i], 1e-9) / surface_error(place, h, task->scene->end_time, ground);
+        if (!has_points(task->scene)) continue;
+        place->tried = h;
+        place->reached = error[i];
     }
     scene_free(&scene);
     messages_free(&unsaid);

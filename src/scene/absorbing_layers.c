@@ -27,13 +27,29 @@ static bool given(const struct scene *scene, const char *word)
     return scene->method.group != NULL && deck_given(scene->method.group, word);
 }
 
+static bool asks_exact(const struct scene *scene)
+{
+    return given(scene, "mass") && strcmp(deck_text(scene->method.group, "mass", 0), "exact") == 0;
+}
+
+static long degree_asked(const struct scene *scene)
+{
+    return given(scene, "degree") ? deck_integer(scene->method.group, "degree", 0) : 2;
+}
+
+double layer_cost(const struct scene *scene)
+{
+    static const double sweeps = 2.8, exact = 11; /* measured */
+    return asks_exact(scene) ? exact : sweeps;
+}
+
 const char *layers_refusal(const struct scene *scene)
 {
     if (strcmp(scene->method.variant, "consistent") != 0) return "this method has no absorbing layers";
     if (!body_is_box(&scene->body)) return "only boxes and half-spaces have absorbing layers";
     if (scene->dimension == 1) return "in one dimension they send nothing back";
-    if (given(scene, "mass") && strcmp(deck_text(scene->method.group, "mass", 0), "exact") == 0)
-        return "absorbing layers need method%mass = 'vc1', 'vc2' or 'vc3'";
+    if (!asks_exact(scene) && degree_asked(scene) > 2)
+        return "absorbing layers at degree 3 and more need method%mass = 'exact'";
     if (given(scene, "tuned") && deck_logical(scene->method.group, "tuned", 0))
         return "absorbing layers need splines that are not tuned";
     if (scene->stepping.scheme[0] != '\0' && strcmp(scene->stepping.scheme, "leapfrog") != 0)

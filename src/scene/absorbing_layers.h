@@ -10,9 +10,9 @@ const char *layers_refusal(const struct scene *scene);
 
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
-/* What a layer point costs against one of the body (regress/studies/layer-cost;
+/* What a layer point costs against one of the body, by the mass that the deck asks for (regress/studies/layer-cost;
  * doc/developers/performance.md, section 6). */
-#define LAYER_COST 2.8
+double layer_cost(const struct scene *scene);
 
 /* Points of the absorbing layer behind a face, 0 if it has none. */
 size_t layer_points(const struct scene *scene, int face);

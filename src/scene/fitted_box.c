@@ -167,7 +167,7 @@ static double cost(const struct scene *scene)
         points *= count;
         all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
     }
-    return all + (LAYER_COST - 1.0) * (all - points);
+    return all + (layer_cost(scene) - 1.0) * (all - points);
 }
 
 /* So large that nothing comes back: (X - load) + (X - seen) >= c_p (until - from) for all pairs. */

@@ -91,6 +91,11 @@ static void exact_accelerate(struct consistent *c, const struct drive *drive, do
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         residual_plane(c, drive, omp_get_thread_num(), k, u, v, a);
     mass_solve(c, factors, a);
+    if (drive->extra == NULL) return;
+    pml_accelerate(c, 1, drive->extra, a);
+    for (int component = 0; component < c->dimension; component++)
+        for (size_t k = 0; k < c->n[DEPTH]; k++)
+            consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
 }
 
 static void accelerate(struct model *model, const struct drive *drive, double half_step, const double *u,

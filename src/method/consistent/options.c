@@ -7,6 +7,9 @@
 
 #include <string.h>
 
+/* Cells between two layers, of degree 3 and more: thinner bodies grew (doc/theory/absorbing-faces.md, section 5). */
+enum { THINNEST = 4 };
+
 static bool tunable(const struct scene *scene, const struct consistent_options *options)
 {
     return options->degree == TUNED_DEGREE && options->sweeps == 0 && !options->mapped &&
@@ -64,6 +67,39 @@ static bool wants_general(const struct scene *scene)
     return deck_chosen(group, "operator", "general");
 }
 
+/* Layers beside this degree and mass (doc/theory/absorbing-faces.md, section 5: what grew). */
+static selas_status check_layers(const struct scene *scene, const struct consistent_options *options,
+                                 struct messages *messages)
+{
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        if (layer_points(scene, face) == 0) continue;
+        const char *missing = NULL;
+        if (options->tuned)
+            missing = "splines that are not tuned";
+        else if (options->sweeps > 0)
+            missing = options->degree > 2 ? "at degree 3 and more method%mass = 'exact'" : NULL;
+        else if (scene->dimension == 1)
+            missing = "in one dimension method%mass = 'vc1', 'vc2' or 'vc3'";
+        else if (ranks_count(scene->ranks) > 1)
+            missing = "on ranks method%mass = 'vc1', 'vc2' or 'vc3'";
+        if (missing != NULL)
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s: layer 'pml' needs %s; else take layer = 'lysmer'",
+                        face_name((enum face)face), missing);
+        const int axis = face / 2;
+        const double cells = (scene->body.high[axis] - scene->body.low[axis]) / scene->body.spacing;
+        if (options->degree > 2 && face % 2 == 1 && layer_points(scene, face - 1) > 0 &&
+            cells < THINNEST - 1e-6)
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "faces %s, %s: between two absorbing layers a body of degree %d is at least %d spacings "
+                "wide, this one %g",
+                face_name((enum face)(face - 1)), face_name((enum face)face), options->degree, THINNEST,
+                cells);
+    }
+    return SELAS_OK;
+}
+
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,
                               struct messages *messages)
 {
@@ -91,14 +127,8 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
         return fail(messages, SELAS_UNSUPPORTED,
                     "the consistent smoothed point method needs a box or a half-space; for other bodies take "
                     "method%%variant = 'paper' or method%%name = 'sph'");
-    for (int face = 0; face < 2 * scene->dimension; face++) {
-        if (layer_points(scene, face) == 0) continue;
-        if (options->sweeps == 0)
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "face %s: layer 'pml' needs method%%mass = 'vc1', 'vc2' or 'vc3'; with 'exact' take "
-                        "layer = 'lysmer'",
-                        face_name((enum face)face));
-    }
+    selas_status status = check_layers(scene, options, messages);
+    if (status != SELAS_OK) return status;
     if (!options->general && ground_is_general(scene))
         return fail(
             messages, SELAS_UNSUPPORTED,
@@ -140,7 +170,8 @@ struct consistent_options consistent_options_of(const struct scene *scene)
     options.single = deck_chosen(group, "precision", "single");
     if (given(group, "fused")) options.unfused = !deck_logical(group, "fused", 0);
     options.mapped = deck_chosen(group, "ends", "mapped");
-    options.tuned = !options.general && body_is_layered(&scene->body) && tunable(scene, &options);
+    options.tuned = !options.general && body_is_layered(&scene->body) && tunable(scene, &options) &&
+                    !layer_anywhere(scene);
     if (given(group, "tuned")) options.tuned = deck_logical(group, "tuned", 0);
     return options;
 }

@@ -50,6 +50,8 @@ struct slab {
 
 struct pml {
     size_t slabs, extra;
+    const struct band *inverse[3][3]; /* N [component][axis] */
+    struct band *own[3][3];           /* of them, those made here: exact masses */
     struct slab slab[BOX_FACES];
     double drag; /* share of d at which velocities are damped against guided waves; 0: none */
     struct pml_fast *fast,
@@ -69,7 +71,7 @@ void layers_fastest(struct model *model, const double *y, struct unseen *found);
 /* d at a place along the slab's axis. */
 double pml_damping_at(const struct consistent *c, const struct slab *slab, double x);
 
-/* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml; needs c->hform. With the general
+/* Builds the layers of the faces with c->layer[face] > 0 and sets c->pml. With the general
  * operator the slabs alone: it has memory and steps of its own. */
 selas_status pml_create(struct consistent *c, struct messages *messages);
 void pml_free(struct consistent *c);

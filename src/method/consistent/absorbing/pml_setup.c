@@ -7,6 +7,7 @@
 #include "scene/absorbing_layers.h"
 
 #include <math.h>
+#include <string.h>
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
 static const double layer_relaxation = .1;
 
@@ -65,7 +66,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
 static void lay_region(const struct consistent *c, struct slab *slab)
 {
     const int slot = c->slot[slab->axis];
-    const size_t reach = c->hform->inverse[slab->axis][slab->axis]->half + (size_t)c->options.degree;
+    const size_t reach = c->pml->inverse[slab->axis][slab->axis]->half + (size_t)c->options.degree;
     const size_t room = c->n[slot] - slab->inside.n[slot], wider = reach < room ? reach : room;
     slab->region = slab->inside;
     slab->region.n[slot] += wider;
@@ -118,11 +119,69 @@ static bool has_layer(const struct consistent *c, int face)
     return c->slot[face / 2] != DEPTH || rank == ranks_me(c->part.ranks);
 }
 
+/* A column of the inverse of an axis' mass, 0 at control values that are held. */
+static void inverse_column(struct consistent *c, int component, int axis, size_t column, double *x)
+{
+    const struct mass_factors *factors = mass_factors_for(c, 0);
+    const int slot = c->slot[axis];
+    const size_t n = c->spline[axis]->count;
+    const double *factor = slot == DEPTH ? factors->depth[component] : factors->side[0][component][slot];
+    const bool *held = &c->held[component][2 * axis];
+    memset(x, 0, n * sizeof *x);
+    if ((held[0] && column == 0) || (held[1] && column == n - 1)) return;
+    x[column] = 1;
+    band_forward(factor, n, factors->half[slot], x, 1, 1);
+    band_backward(factor, n, factors->half[slot], x, 1, 1);
+}
+
+/* The inverse of an exact mass as a band: its columns fall off by a factor an entry (.43, .54, .61 for degrees 2, 3, 4), and
+ * what is below `cut` of the largest is left out. NULL: no memory. */
+static struct band *exact_inverse(struct consistent *c, int component, int axis)
+{
+    const double cut = 1e-10;
+    const size_t n = c->spline[axis]->count;
+    double *x = array_new(n, sizeof *x);
+    size_t half = 0;
+    for (size_t j = 0; x != NULL && j < n; j++) {
+        double largest = 0;
+        inverse_column(c, component, axis, j, x);
+        for (size_t i = 0; i < n; i++)
+            largest = fmax(largest, fabs(x[i]));
+        for (size_t i = 0; i < n; i++) {
+            const size_t away = i > j ? i - j : j - i;
+            if (fabs(x[i]) > cut * largest && away > half) half = away;
+        }
+    }
+    struct band *inverse = x == NULL ? NULL : band_new(n, half);
+    for (size_t j = 0; inverse != NULL && j < n; j++) {
+        inverse_column(c, component, axis, j, x);
+        for (size_t i = j < half ? 0 : j - half; i < n && i <= j + half; i++)
+            band_add(inverse, i, j, x[i]);
+    }
+    array_free(x);
+    return inverse;
+}
+
+/* N of each component and axis: that of the sweeps, or the inverse of the exact mass. */
+static bool lay_inverses(struct consistent *c)
+{
+    struct pml *pml = c->pml;
+    for (int axis = 0; axis < c->dimension; axis++)
+        for (int component = 0; component < c->dimension; component++) {
+            if (c->hform == NULL) pml->own[component][axis] = exact_inverse(c, component, axis);
+            pml->inverse[component][axis] =
+                c->hform != NULL ? c->hform->inverse[component][axis] : pml->own[component][axis];
+            if (pml->inverse[component][axis] == NULL) return false;
+        }
+    return true;
+}
+
 selas_status pml_create(struct consistent *c, struct messages *messages)
 {
     bool good = true;
     c->pml = array_new(1, sizeof *c->pml);
     if (c->pml == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for absorbing layers");
+    good = lay_inverses(c);
     for (int face = 0; good && face < 2 * c->dimension; face++) {
         if (c->layer[face] == 0 || !has_layer(c, face)) continue;
         struct slab *slab = &c->pml->slab[c->pml->slabs++];
@@ -159,6 +218,9 @@ void pml_free(struct consistent *c)
         array_free(slab->kept);
         array_free(slab->middle);
     }
+    for (int component = 0; component < 3; component++)
+        for (int axis = 0; axis < 3; axis++)
+            band_free(c->pml->own[component][axis]);
     array_free(c->pml->in);
     array_free(c->pml->out);
     array_free(c->pml);

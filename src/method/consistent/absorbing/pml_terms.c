@@ -66,9 +66,9 @@ static bool bare_matrix(struct consistent *c, struct slab *slab, int out, struct
     const double *property = c->weighted[weight], *density = c->weighted[WEIGHT_DENSITY];
     *band = NULL;
     if (from.slope_axis != axis) {
-        if (property == NULL && !c->options.depth_exact) return true;
-        *band = matrix(c, slab, axis, c->hform->inverse[out][axis], (struct input){out, -1}, false, from,
-                       false, weight);
+        if (property == NULL && (c->hform == NULL || !c->options.depth_exact)) return true;
+        *band = matrix(c, slab, axis, c->pml->inverse[out][axis], (struct input){out, -1}, false, from, false,
+                       weight);
         return *band != NULL;
     }
     if (property == NULL) return true;
@@ -97,7 +97,7 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
         const struct band **band = &term->matrix[c->slot[axis]];
         if (axis == test || axis == trial) {
             /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
-            *band = matrix(c, t->slab, axis, c->hform->inverse[out][axis], (struct input){out, -1},
+            *band = matrix(c, t->slab, axis, c->pml->inverse[out][axis], (struct input){out, -1},
                            axis == test, from, axis == trial, weight);
             t->good = t->good && *band != NULL;
         } else if (c->slot[axis] == DEPTH)
@@ -117,7 +117,7 @@ static void add_pair(struct terms *t, int out, size_t in, struct input from, int
     const double density = c->property[WEIGHT_DENSITY], factor = c->property[trial] / density;
     struct tensor_term *term = &t->term[t->count++];
     *term = (struct tensor_term){.out = out, .in = (int)in, .factor = 1};
-    const struct band *inverse = c->hform->inverse[out][axis];
+    const struct band *inverse = c->pml->inverse[out][axis];
     const struct band *slope = consistent_matrix(c, axis, 0, odd(to, axis), 1, odd(from, axis), WEIGHT_NONE);
     const struct band *turned = consistent_matrix(c, axis, 1, odd(to, axis), 0, odd(from, axis), WEIGHT_NONE);
     struct band *scaled = slope == NULL ? NULL : band_sum(slope, factor - 1, slope);
@@ -132,7 +132,7 @@ static void add_pair(struct terms *t, int out, size_t in, struct input from, int
         const struct band **place = &term->matrix[c->slot[bare]];
         if (bare == other) {
             /* cppcheck-suppress arrayIndexOutOfBoundsCond ; bare is an axis, other may be none */
-            *place = matrix(c, t->slab, bare, c->hform->inverse[out][bare], to, false, from, true, trial);
+            *place = matrix(c, t->slab, bare, c->pml->inverse[out][bare], to, false, from, true, trial);
             t->good = t->good && *place != NULL;
         } else if (bare != axis && c->slot[bare] == DEPTH)
             t->good = t->good && bare_matrix(c, t->slab, out, from, trial, place);
@@ -152,8 +152,8 @@ bool far_end_out(const struct consistent *c, const struct slab *slab)
 static const struct band *slope_inverse(const struct consistent *c, struct slab *slab, int i)
 {
     const int j = slab->axis;
-    if (i != j) return c->hform->inverse[j][j];
-    if (c->dimension > 1) return c->hform->inverse[(j + 1) % c->dimension][j];
+    if (i != j) return c->pml->inverse[j][j];
+    if (c->dimension > 1) return c->pml->inverse[(j + 1) % c->dimension][j];
     return keep(slab, hform_inverse(c, 0, 0, false));
 }
 
