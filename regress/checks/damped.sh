@@ -83,6 +83,33 @@ sed 's/, q_p = .*0.5//; s/mechanisms = 3, //' "$out/general.nml" | sed "s/, spec
 one=$(sed -n 's/^error largest: \([^ ]*\).*/\1/p' "$out/general/report.txt") other=$(sed -n 's/^error largest: \([^ ]*\).*/\1/p' "$out/elastic/report.txt")
 check "general operator, damped layers: error $one, undamped $other" awk "BEGIN { exit !($one > 0 && $one < 1.2 * $other) }"
 
+# the same layers in a box by words, as a block of a model of rock, and as a model whose step is a ramp of 20
+awk 'BEGIN { print "-1000 -1000 -2000 2000 2000 0"; print "3000 3000 20"; print "2 2 101"; print "1 9999 1 9999 1 9999"
+    for (k = 0; k < 101; k++) for (j = 0; j < 2; j++) for (i = 0; i < 2; i++) { z = 2000 - 20 * k
+        print 3000 * i - 1000, 3000 * j - 1000, -z, z < 750 ? "1732.05081 1000 1000 20 12" : "2828.42712 1632.99316 1500 60 40" } }' >"$out/soil.xyz"
+sed 's/ 1732.05081 .*/ 2828.42712 1632.99316 1500 60 40/' "$out/soil.xyz" >"$out/rock.xyz"
+cat >"$out/box-model.nml" <<END
+&scene dimension = 3, end_time = 4.0 /
+&method mechanisms = 3, operator = 'general' /
+&body low = -1000, -1000, 0, high = 1000, 1000, 2000, spacing = 250 /
+&load face = 'z-', shape = 'square', centre = 3*0.0, size = 1000.0, 1000.0, direction = 0.0, 0.0, 1.0, history = 'gaussian', width = 0.6, delay = 2.4 /
+&receiver name = 'r', position = 600, 400, 0.0 /
+&stepping time_step = 0.03 /
+&output plots = .false. /
+END
+materials="&material name = 'rock', density = 1500, p_speed = 2828.42712, s_speed = 1632.99316, q_p = 60.0, q_s = 40.0, q_frequency = 0.5 /
+&material name = 'soil', density = 1000, p_speed = 1732.05081, s_speed = 1000, q_p = 20.0, q_s = 12.0, q_frequency = 0.5 /"
+{ cat "$out/box-model.nml"; echo "$materials"; } | sed "s/&body/\&layer material = 'soil', top = 0.0 \/\n\&layer material = 'rock', top = 750 \/\n&/" >"$out/box-words.nml"
+{ cat "$out/box-model.nml"; echo "$materials" | tail -1; echo "&model file = 'rock.xyz', q_frequency = 0.5, origin = 0, 0 /
+&block material = 'soil', shape = 'box', centre = 0, 0, -2125, size = 9999, 9999, 5750 /"; } >"$out/box-block.nml"
+echo "&model file = 'soil.xyz', q_frequency = 0.5, origin = 0, 0 /" >>"$out/box-model.nml"
+for ground in words block model; do
+    "$selas" -q "$out/box-$ground.nml" output%directory="$out/box-$ground" >"$out/log" 2>&1 || cat "$out/log"
+done
+off_words() { paste "$out/box-words/r.dat" "$out/$1/r.dat" | awk '!/^#/ { d += ($7 - $14)^2; s += $7^2 } END { printf "%.2e", sqrt(d / s) }'; }
+check "a block in a damped model: $(off_words box-block) off the layer" less "$(off_words box-block)" 1e-4
+check "a damped model: $(off_words box-model) off the layer" less "$(off_words box-model)" 6e-3
+
 # what damping takes, by the balance of energy and measured: errors fall as the square of the step
 cat >"$out/box.nml" <<END
 &scene dimension = 3, end_time = 6.0 /
@@ -114,6 +141,9 @@ refused "compression that would gain energy" "q_p = 60 is too large beside q_s =
 refused "Q_s alone" "'q_p' is not given" material%q_p=
 refused "so low a Q" "cannot stand for so low a Q" material%q_p=0.05 material%q_s=0.05
 refused "points without order" "'cloud', has no damping by q_p and q_s" method%variant=cloud method%mechanisms=
+particles="method%name=sph method%variant=total-lagrangian"
+check "particles take Q by Hooke's law" sh -c "'$selas' check '$out/box.nml' $particles method%law=linear | grep -q 'damping adds: 2 operator calls'"
+check "and by no other" sh -c "'$selas' check '$out/box.nml' $particles 2>&1 | grep -q \"damping by q_p and q_s is linear; expected law = 'linear'\""
 refused "the modified equation" "need scheme 'leapfrog', not 'modified-equation'" stepping%scheme=modified-equation
 
 refused "an undamped reference" "reference 'lamb' is undamped" reference%kind=lamb reference%tolerance=

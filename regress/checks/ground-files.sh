@@ -46,6 +46,21 @@ ok "an even model: the histories of an even body" test $? = 0
 ok "a run on ground from a file draws it" test -s "$out/model/ground.png"
 ok "the plan says how depth is taken" says "$out/model/report.txt" "depth 0 is its elevation 0"
 
+# the same with Q in columns 7 and 8
+model ""
+sed '5,$s/$/ 40 20/' "$out/m.xyz" >"$out/q.xyz" && sed '/^&model/d; s/&method /\&method mechanisms = 2, /' "$out/d.nml" >"$out/dq.nml"
+cp "$out/dq.nml" "$out/evenq.nml"
+echo "&model file = 'q.xyz', q_frequency = 3 /" >>"$out/dq.nml"
+echo "&material name = 'rock', density = 2500, p_speed = 3000, s_speed = 1700, q_p = 40, q_s = 20, q_frequency = 3 /" >>"$out/evenq.nml"
+"$build/selas" -q "$out/dq.nml" output%directory="$out/modelq" output%plots=F && "$build/selas" -q "$out/evenq.nml" body%material=rock output%directory="$out/evenq" output%plots=F
+"$build/selas" diff "$out/modelq/r.dat" "$out/evenq/r.dat" --rtol=1e-9 >"$out/log" 2>&1
+ok "an even damped model: the histories of an even damped body" test $? = 0
+"$build/selas" diff "$out/model/r.dat" "$out/evenq/r.dat" --rtol=1e-2 >"$out/log" 2>&1
+ok "which are not those without Q" test $? = 1
+"$build/selas" -q "$out/dq.nml" model%damped=F model%q_frequency= method%mechanisms= output%directory="$out/withoutq" output%plots=F
+"$build/selas" diff "$out/model/r.dat" "$out/withoutq/r.dat" --rtol=1e-12 >"$out/log" 2>&1
+ok "model%damped = .false.: those without Q" test $? = 0
+
 refused() { # refused TITLE TEXT...
     selas check "$out/d.nml"
     status=$?

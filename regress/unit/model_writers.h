@@ -9,9 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* density, p_speed, s_speed at a place along the model's axes, z downward. */
-static inline void field(double x, double y, double z, double value[3])
+/* density, p_speed, s_speed, q_p, q_s at a place along the model's axes, z downward. */
+static inline void field(double x, double y, double z, double value[5])
 {
+    value[3] = 100 + .05 * x + .02 * z;
+    value[4] = 60 + .02 * y + .01 * z;
     value[0] = 2000 + .1 * x - .05 * y + .02 * z;
     value[1] = 4000 + .3 * x + .1 * y + .2 * z;
     value[2] = 2000 + .05 * x - .1 * y + .1 * z;
@@ -85,7 +87,7 @@ static inline void write_rfile(const char *path, int swapped, int single, int ai
             for (int j = 0; j < n[b][2]; j++)
                 for (int k = 0; k < n[b][3]; k++) {
                     const double x = i * head[b][0], y = j * head[b][0], z = head[b][2] + k * head[b][1];
-                    double value[5] = {0, 0, 0, 100, 50};
+                    double value[5];
                     field(x, y, z, value);
                     for (int c = 0; c < 5 && air && z < -ground_of(x, y); c++)
                         value[c] = -999;
@@ -142,14 +144,14 @@ static inline double sfile_surface(int s, double x, double y)
 }
 static inline void write_sfile(const char *path, double lift)
 {
-    static const char *const names[] = {"Rho", "Cp", "Cs"};
+    static const char *const names[] = {"Rho", "Cp", "Cs", "Qp", "Qs"};
     static const hsize_t n[2][3] = {{5, 5, 4}, {3, 3, 3}}, surfaces[3][2] = {{5, 5}, {5, 5}, {3, 3}};
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     const hid_t all = H5Gcreate2(file, "Material_model", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                 interfaces = H5Gcreate2(file, "Z_interfaces", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    static double value[3][MOST_NUMBERS];
+    static double value[5][MOST_NUMBERS];
     put_numbers(file, "Origin longitude, latitude, azimuth", 3, (const double[]){-122, 37, 30});
-    put_one(file, "Attenuation", 0);
+    put_one(file, "Attenuation", 1);
     put_one(file, "ngrids", 2);
     char name[32];
     for (int s = 0; s < 3; s++) {
@@ -167,15 +169,15 @@ static inline void write_sfile(const char *path, double lift)
         const hid_t grid = H5Gcreate2(all, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
         put_one(grid, "Horizontal grid size", step);
         for (hsize_t i = 0; i < n[g][0] * n[g][1] * n[g][2]; i++) {
-            double here[3];
+            double here[5];
             const double x = (double)(i / n[g][2] / n[g][1]) * step,
                          y = (double)(i / n[g][2] % n[g][1]) * step;
             const double part = (double)(i % n[g][2]) / (double)(n[g][2] - 1);
             field(x, y, (1 - part) * sfile_surface(g, x, y) + part * sfile_surface(g + 1, x, y), here);
-            for (int c = 0; c < 3; c++)
+            for (int c = 0; c < 5; c++)
                 value[c][i] = here[c];
         }
-        for (int c = 0; c < 3; c++)
+        for (int c = 0; c < 5; c++)
             H5Dclose(put_set(grid, names[c], 3, n[g], value[c]));
         H5Gclose(grid);
     }
@@ -188,15 +190,16 @@ static inline void write_sfile(const char *path, double lift)
  * one by one. The values are linear in the blocks' own depth. */
 static inline void write_blocks(const char *path, int floor, const char *unit, double no_data)
 {
-    static const hsize_t n[2][4] = {{4, 3, 4, 4}, {2, 2, 3, 4}}, flat[3] = {2, 2, 1};
+    enum { VALUES = 5 };
+    static const hsize_t n[2][4] = {{4, 3, 4, VALUES}, {2, 2, 3, VALUES}}, flat[3] = {2, 2, 1};
     static const double x_of[2][4] = {{0, 200, 500, 1000}, {0, 1000}},
                         z_of[2][4] = {{0, 50, 200, 500}, {500, 1000, 1500}};
     static double value[MOST_NUMBERS];
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     const hid_t blocks = H5Gcreate2(file, "blocks", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                 surfaces = H5Gcreate2(file, "surfaces", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_words(file, "data_values", 4, (const char *const[]){"Vs", "Qp", "density", "vp"}, 1);
-    put_words(file, "data_units", 4, (const char *const[]){"m/s", "none", "g/cm**3", unit}, 0);
+    put_words(file, "data_values", VALUES, (const char *const[]){"Vs", "Qp", "density", "vp", "Qs"}, 1);
+    put_words(file, "data_units", VALUES, (const char *const[]){"m/s", "none", "g/cm**3", unit, "none"}, 0);
     put_words(file, "data_layout", 1, (const char *const[]){"vertex"}, 1);
     put_one(file, "origin_x", 500000);
     put_one(file, "origin_y", 4000000);
@@ -213,13 +216,14 @@ static inline void write_blocks(const char *path, int floor, const char *unit, d
     for (int b = 0; b < 2; b++) {
         const double step = 2000. / (double)(n[b][1] - 1);
         for (hsize_t i = 0; i < n[b][0] * n[b][1] * n[b][2]; i++) {
-            double here[3];
+            double here[5];
             field(x_of[b][i / n[b][2] / n[b][1]], (double)(i / n[b][2] % n[b][1]) * step,
                   z_of[b][i % n[b][2]], here);
-            value[4 * i] = b == 0 && i % n[b][2] == 0 && no_data != 0 ? no_data : here[2];
-            value[4 * i + 1] = 100;
-            value[4 * i + 2] = here[0] / 1000;
-            value[4 * i + 3] = here[1];
+            value[VALUES * i] = b == 0 && i % n[b][2] == 0 && no_data != 0 ? no_data : here[2];
+            value[VALUES * i + 1] = here[3];
+            value[VALUES * i + 2] = here[0] / 1000;
+            value[VALUES * i + 3] = here[1];
+            value[VALUES * i + 4] = here[4];
         }
         const hid_t set = put_set(blocks, b == 0 ? "upper" : "lower", 4, n[b], value);
         double up[4];
@@ -246,8 +250,9 @@ static inline void write_blocks(const char *path, int floor, const char *unit, d
 /* --- tomography_model.xyz --- */
 
 /* 3 x 4 x 5 values, 500 x 300 x 200 apart from (1000, 2000, -700) on, or downward from 100; line `wrong` (of the
- * values, from 1) is `text`; only the first `lines` values. */
-static inline void write_text(const char *path, int downward, int wrong, const char *text, int lines)
+ * values, from 1) is `text`; only the first `lines` values; `damped`: with Q, of the value of this number -999. */
+static inline void write_damped_text(const char *path, int downward, int wrong, const char *text, int lines,
+                                     int damped)
 {
     FILE *file = fopen(path, "w");
     const double from = downward ? 100 : -700, to = -600 - from, step = downward ? -200 : 200;
@@ -257,15 +262,43 @@ static inline void write_text(const char *path, int downward, int wrong, const c
             from, to, step);
     for (int i = 0; i < 60 && i < lines; i++) {
         const double x = i % 3 * 500, y = i / 3 % 4 * 300, z = from + i / 12 * step;
-        double value[3];
+        double value[5];
         field(x, y, -z, value);
         if (i + 1 == wrong)
             fputs(text, file);
         else
-            fprintf(file, "%.9g %.9g %.9g %.12g %.12g %.12g\n", 1000 + x, 2000 + y, z, value[1], value[2],
+            fprintf(file, "%.9g %.9g %.9g %.12g %.12g %.12g", 1000 + x, 2000 + y, z, value[1], value[2],
                     value[0]);
+        if (i + 1 != wrong && damped)
+            fprintf(file, " %.12g %.12g", i + 1 == damped ? -999 : value[3], value[4]);
+        if (i + 1 != wrong) fputs("\n", file);
     }
     fclose(file);
+}
+static inline void write_text(const char *path, int downward, int wrong, const char *text, int lines)
+{
+    write_damped_text(path, downward, wrong, text, lines, 0);
+}
+
+/* --- Plain grid --- */
+
+/* 3 x 2 x 4 values, 400 x 900 x 300 apart from 0 on; with Q times `q`, where that is not 0. */
+static inline void write_plain(const char *path, double q)
+{
+    static const char *const names[] = {"density", "p_speed", "s_speed", "q_p", "q_s"};
+    static double value[5][MOST_NUMBERS];
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    put_numbers(file, "origin", 3, (const double[]){0, 0, 0});
+    put_numbers(file, "spacing", 3, (const double[]){400, 900, 300});
+    for (int i = 0; i < 24; i++) {
+        double here[5];
+        field(i / 8 * 400, i / 4 % 2 * 900, i % 4 * 300, here);
+        for (int c = 0; c < 5; c++)
+            value[c][i] = c < 3 ? here[c] : q * here[c];
+    }
+    for (int c = 0; c < (q != 0 ? 5 : 3); c++)
+        H5Dclose(put_set(file, names[c], 3, (const hsize_t[]){3, 2, 4}, value[c]));
+    H5Fclose(file);
 }
 
 #endif

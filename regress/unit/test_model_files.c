@@ -1,4 +1,5 @@
 /* Models of the ground in each format that is read, and wrong files (doc/reference/models.md). */
+#include "damping/ground.h"
 #include "from_deck.h"
 #include "model_writers.h"
 #include "scene/topography.h"
@@ -20,9 +21,14 @@ static const char stored[] = "build/test/model";
 static void assert_field(const struct scene *scene, const double body[3], double x, double y, double z,
                          double tolerance)
 {
-    double value[3];
+    double value[5];
     field(x, y, z, value);
     const struct rock rock = ground_at(scene, body);
+    if (scene->body.model->damped) { /* Q stands where a part of damped ground has its shares */
+        const struct shares quality = ground_model_shares(scene->body.model, body);
+        assert_near(quality.bulk / value[3], 1, tolerance);
+        assert_near(quality.shear / value[4], 1, tolerance);
+    }
     assert_near(rock.density / value[0], 1, tolerance);
     assert_near(sqrt(rock.mu / rock.density) / value[2], 1, tolerance);
     assert_near(sqrt((rock.lambda + 2 * rock.mu) / rock.density) / value[1], 1, tolerance);
@@ -51,12 +57,13 @@ static void test_rfile(void **state)
             assert_field(made.scene, place[i], x, y, place[i][2] - ground_of(x, y), tolerance);
         }
         assert_field(made.scene, (double[]){-100, 3000, 100}, 200, 50, 100 - ground_of(200, 50), tolerance);
-        assert_text(&made, "depth 0 is its ground", "q_p and q_s are not used");
+        assert_text(&made, "depth 0 is its ground", NULL);
+        assert_true(made.scene->body.model->damped);
         from_deck_free(&made);
     }
     write_rfile(stored, 0, 0, 1);
     struct from_deck made = right_scene(DECK("800, 700, 900", ""));
-    assert_text(&made, "values of air or water are those of the rock below", "q_p");
+    assert_text(&made, "values of air or water are those of the rock below", NULL);
     assert_field(made.scene, (double[]){100, 200, 300}, 100, 200, 300 - ground_of(100, 200), 1e-12);
     assert_field(made.scene, (double[]){0, 0, 0}, 0, 0, -100, 1e-12);      /* a value at the ground itself */
     assert_field(made.scene, (double[]){500, 0, 10}, 500, 0, -100, 1e-12); /* the first rock is at -100 */
@@ -102,7 +109,8 @@ static void test_blocks(void **state)
             assert_field(made.scene, place[i], x, y, floor ? 1500 * (top - elevation) / (top + 1500) : depth,
                          1e-12);
         }
-        assert_text(&made, floor ? "solid ground" : "its top", "q_p and q_s are not used");
+        assert_text(&made, floor ? "solid ground" : "its top", NULL);
+        assert_true(made.scene->body.model->damped);
         from_deck_free(&made);
     }
     write_blocks(stored, 0, "m/s", -1e20);
@@ -110,7 +118,7 @@ static void test_blocks(void **state)
     const struct rock top = ground_at(made.scene, (double[]){400, 200, 10}),
                       rock = ground_at(made.scene, (double[]){400, 200, 50});
     assert_near(top.mu / top.density, rock.mu / rock.density, 1e-9 * top.mu / top.density);
-    assert_text(&made, "6 values of air or water", "q_p"); /* the top of 3 x 2 columns */
+    assert_text(&made, "6 values of air or water", NULL); /* the top of 3 x 2 columns */
     from_deck_free(&made);
     write_blocks(stored, 0, "ft/s", 0);
     assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"Vp is in 'ft/s'", NULL});
@@ -138,8 +146,7 @@ static void test_sea(void **state)
             const double x = place[i][1], y = place[i][0], top = water_of(x, y);
             if (form == 2) assert_field(made.scene, place[i], x, y, 1500 * (top + z) / (top + 1500), 1e-12);
         }
-        assert_text(&made, form < 2 ? "depth 0 is its elevation 20" : "depth 0 is its elevation 0",
-                    form == 1 ? NULL : "q_p");
+        assert_text(&made, form < 2 ? "depth 0 is its elevation 20" : "depth 0 is its elevation 0", NULL);
         from_deck_free(&made);
     }
     write_rfile(stored, 0, 0, 0);
@@ -273,6 +280,44 @@ static void test_cut_short(void **state)
     assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"No such file", NULL});
 }
 
+/* Q of the formats that the others leave out; Q that says there is none; the deck's words. */
+static void test_quality(void **state)
+{
+    (void)state;
+    write_plain(stored, 1);
+    struct from_deck made = right_scene(DECK("800, 700, 900", "q_frequency = 2, q_power = 0.3"));
+    const struct material *material = &made.scene->material[made.scene->body.material];
+    assert_field(made.scene, (double[]){123, 456, 78}, 123, 456, 78, 1e-12);
+    assert_true(made.scene->body.model->damped && material->q_p > 0 && material->q_frequency == 2 &&
+                material->q_power == .3);
+    from_deck_free(&made);
+    made = right_scene(DECK("800, 700, 900", "damped = .false."));
+    assert_true(!ground_is_damped(made.scene) && made.scene->body.model->grid[0].value[MODEL_VALUES] == NULL);
+    from_deck_free(&made);
+    write_plain(stored, -1);
+    made = right_scene(DECK("800, 700, 900", ""));
+    assert_text(&made, NULL, "24 of 24 values have no q_p or q_s above 0");
+    assert_true(!ground_is_damped(made.scene));
+    from_deck_free(&made);
+    write_plain(stored, 0);
+    made = right_scene(DECK("800, 700, 900", ""));
+    assert_text(&made, NULL, NULL);
+    assert_true(!ground_is_damped(made.scene));
+    from_deck_free(&made);
+    write_damped_text(stored, 0, 0, "", 60, 20);
+    made = right_scene(DECK("700, 800, 600", ""));
+    assert_text(&made, NULL, "1 of 60 values have no q_p or q_s above 0, the first one at (1500, 2600, 500)");
+    assert_field(made.scene, (double[]){700, 800, 10}, 800, 700, 10, 1e-12);
+    assert_true(made.scene->body.model->undamped == 1);
+    from_deck_free(&made);
+    write_damped_text(stored, 0, 5, "1500 2300 -700 4000 2000 2000 300 50\n", 60, 61);
+    assert_refused(
+        DECK("700, 800, 600", ""), "t.nml:4:",
+        (const char *[]){"q_p = 300 is too large beside q_s = 50 at (1500, 2300, 700)", "q_s = 150", NULL});
+    write_damped_text(stored, 0, 5, "1500 2300 -700 4000 2000 2000\n", 60, 61);
+    assert_refused(DECK("700, 800, 600", ""), "t.nml:4:", (const char *[]){"line 11", "6 numbers", NULL});
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,6 +325,7 @@ int main(void)
         cmocka_unit_test(test_blocks),     cmocka_unit_test(test_sea),
         cmocka_unit_test(test_text),       cmocka_unit_test(test_own_surface),
         cmocka_unit_test(test_wrong_text), cmocka_unit_test(test_cut_short),
+        cmocka_unit_test(test_quality),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@ bool ground_is_damped(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->materials; i++)
         if (scene->material[i].q_p > 0) return true;
-    return false;
+    return scene->body.model != NULL && scene->body.model->damped;
 }
 
 /* --- The source's spectrum ---------------------------------------------------------------------------- */
@@ -108,12 +108,13 @@ static selas_status choose_rates(struct ground_damping *damping, struct messages
     return status;
 }
 
-static selas_status set_wanted(const struct scene *scene, struct ground_damping *damping,
-                               struct messages *messages)
+static selas_status set_wanted(const struct scene *scene, const struct material *sample,
+                               struct ground_damping *damping, struct messages *messages)
 {
     const selas_status status = set_band(scene, damping, messages);
     for (size_t i = 0; i < damping->materials; i++)
-        damping->wanted[i] = damping->fitted[i] = wanted_of(&scene->material[i], damping->centroid);
+        damping->wanted[i] = damping->fitted[i] = wanted_of(
+            i < scene->materials ? &scene->material[i] : &sample[i - scene->materials], damping->centroid);
     return status;
 }
 
@@ -136,14 +137,16 @@ selas_status ground_damping_new(const struct scene *scene, bool fitted, struct g
     if (!ground_is_damped(scene)) return SELAS_OK;
     struct ground_damping *damping = array_new(1, sizeof *damping);
     if (damping == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
+    struct material sample[MOST_SAMPLES] = {{.density = 0}};
     damping->materials = scene->materials;
-    damping->wanted = array_new(scene->materials, sizeof *damping->wanted);
-    damping->fitted = array_new(scene->materials, sizeof *damping->fitted);
+    if (scene->body.model != NULL) damping->materials += damping_samples(scene->body.model, sample);
+    damping->wanted = array_new(damping->materials, sizeof *damping->wanted);
+    damping->fitted = array_new(damping->materials, sizeof *damping->fitted);
     if (damping->wanted == NULL || damping->fitted == NULL) {
         ground_damping_free(damping);
         return fail(messages, SELAS_NO_MEMORY, "no memory for the damping of the ground");
     }
-    selas_status status = set_wanted(scene, damping, messages);
+    selas_status status = set_wanted(scene, sample, damping, messages);
     if (status == SELAS_OK && fitted) status = fit(scene, damping, messages);
     if (status == SELAS_OK)
         *made = damping;

@@ -18,7 +18,7 @@ struct ground_damping {
     double rate[MOST_MECHANISMS]; /* angular frequencies */
     double
         misfit; /* root mean square of Q |M/M_wanted - 1| of the middle one of all Q, weighed by the band */
-    size_t materials;
+    size_t materials; /* the scene's; behind them some values of its model (damping/samples.c) */
     struct damped_moduli *wanted, *fitted; /* [materials]; equal where there is no damping */
 };
 
@@ -29,5 +29,21 @@ bool ground_is_damped(const struct scene *scene);
 selas_status ground_damping_new(const struct scene *scene, bool fitted, struct ground_damping **damping,
                                 struct messages *messages);
 void ground_damping_free(struct ground_damping *damping);
+
+/* samples.c: values of a model's ground that have, of all, the least and the largest loss in compression at some Q_s:
+ * at most MOST_SAMPLES; how many. Those without Q as one of them, undamped. */
+enum { SAMPLE_CLASSES = 8, MOST_SAMPLES = 2 * SAMPLE_CLASSES + 1 };
+size_t damping_samples(const struct ground_model *model, struct material sample[MOST_SAMPLES]);
+
+/* Weights for each Q between the least and the largest one of a model, over 1/Q. */
+enum { CURVE_NODES = 65 };
+struct damping_curve {
+    double from, step;
+    double weight[CURVE_NODES][MOST_MECHANISMS]; /* over 1/Q */
+};
+selas_status damping_curve_set(const struct ground_damping *damping, const struct ground_model *model,
+                               struct damping_curve *curve, struct messages *messages);
+/* weight[mechanisms] of a modulus with this Q. */
+void damping_curve_at(const struct damping_curve *curve, size_t mechanisms, double q, double *weight);
 
 #endif

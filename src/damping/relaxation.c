@@ -262,6 +262,32 @@ static bool keep_passive(const struct modulus *wanted, const struct modulus *she
     return relaxed > 0;
 }
 
+static selas_status too_low(size_t mechanisms, const struct modulus *wanted, struct messages *messages)
+{
+    return fail(
+        messages, SELAS_BAD_SCENE,
+        "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies (%.3g)",
+        mechanisms, 1 / modulus_loss(wanted, wanted->angular_frequency));
+}
+
+selas_status relaxation_weights(const struct relaxation_band *band, size_t mechanisms,
+                                const double rate[MOST_MECHANISMS], const struct modulus *wanted,
+                                double weight[MOST_MECHANISMS], struct messages *messages)
+{
+    struct squares squares;
+    double complex target[RELAXATION_SAMPLES];
+    double x[COLUMNS], sum = 0;
+    for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
+        target[k] = modulus_at(wanted, I * band->angular_frequency[k]);
+    gsl_errors_returned();
+    set_squares(band, mechanisms, rate, target, NULL, &squares);
+    not_negative(&squares, x);
+    gsl_errors_as_before();
+    for (size_t l = 0; l < mechanisms; l++)
+        sum += weight[l] = x[l + 1] / x[0];
+    return x[0] > 0 && sum < 1 ? SELAS_OK : too_low(mechanisms, wanted, messages);
+}
+
 selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanisms,
                             const double rate[MOST_MECHANISMS], struct modulus *axial, struct modulus *shear,
                             struct messages *messages)
@@ -297,9 +323,7 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
     keep_speed(reference_size(shear), shear->angular_frequency, &fitted[1]);
     if (!(s[0] > 0 && bulk[0] > 0 && sum[0] < 1 && sum[1] < 1) ||
         !keep_passive(axial, &fitted[1], &fitted[0]))
-        return fail(messages, SELAS_BAD_SCENE,
-                    "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies",
-                    mechanisms);
+        return too_low(mechanisms, axial, messages);
     *axial = fitted[0];
     *shear = fitted[1];
     return SELAS_OK;

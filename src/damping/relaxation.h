@@ -32,6 +32,12 @@ selas_status relaxation_rates(const struct relaxation_band *band, const struct m
                               size_t mechanisms, double rate[MOST_MECHANISMS], double *misfit,
                               struct messages *messages);
 
+/* Weights that stand for one wanted modulus (Eq 6), whatever the others. SELAS_BAD_SCENE where they leave
+ * nothing of it. */
+selas_status relaxation_weights(const struct relaxation_band *band, size_t mechanisms,
+                                const double rate[MOST_MECHANISMS], const struct modulus *wanted,
+                                double weight[MOST_MECHANISMS], struct messages *messages);
+
 /* Moduli with mechanisms of these rates in place of the wanted lambda + 2 mu and mu; the phase speeds are
  * kept at the angular frequency where those have their size. All weights, those of the bulk modulus too, are
  * >= 0. SELAS_BAD_SCENE where that is not possible. */

@@ -84,7 +84,7 @@ static const struct word method_words[] = {
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
      "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
     {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", OPTIONAL,
-     "relaxation mechanisms of damped materials (consistent, reference 'layered'); 3"},
+     "relaxation mechanisms of damped ground (consistent, total-lagrangian, reference 'layered'); 3"},
     {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 
@@ -230,6 +230,12 @@ static const struct word model_words[] = {
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
      "that is nearest to north"},
+    {"damped", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL,
+     "by the file's q_p and q_s, if it has them (consistent); .false.: without them"},
+    {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
+     "frequency at which speeds and Q of the file are meant [1/time]; centroid of the source's spectrum"},
+    {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL,
+     "the file's Q grows as this power of the frequency; without it Q is constant"},
 };
 
 static const struct word topography_words[] = {

@@ -74,11 +74,13 @@ static selas_status check_abilities(const struct method *method, const struct sc
     if (deck_chosen(group, "precision", "single") && !method->single)
         return deck_error(scene->deck, group, "precision", messages,
                           "%s has no state in single precision; expected 'double'", name);
-    for (size_t i = 0; i < scene->materials && !method->damping; i++)
+    for (size_t i = 0; i < deck_count(scene->deck, "material") && !method->damping; i++)
         if (scene->material[i].q_p > 0)
-            return deck_error(scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
-                              "%s has no damping by q_p and q_s; expected 'smoothed-point', 'consistent'",
-                              name);
+            return deck_error(
+                scene->deck, deck_get(scene->deck, "material", i), "q_p", messages,
+                "%s has no damping by q_p and q_s; expected 'smoothed-point', 'consistent' or 'sph', "
+                "'total-lagrangian'",
+                name);
     for (size_t i = 0; method_table[i] != NULL && !other->point_materials; i++)
         other = method_table[i];
     if (scene->body.given != NULL && scene->body.given->material != NULL && other != method)

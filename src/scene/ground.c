@@ -30,12 +30,24 @@ static bool inside(const struct scene *scene, const struct ground_block *block, 
     return (block->shape == BLOCK_BOX ? most : square) < 1;
 }
 
+/* From the moduli: speeds of damped materials are those at one frequency. */
+static double p_speed_of(const struct material *material)
+{
+    return sqrt((material->plane_lambda + 2 * material->mu) / material->density);
+}
+
+static double s_speed_of(const struct material *material)
+{
+    return sqrt(material->mu / material->density);
+}
+
 /* Speeds and density between those of two materials. */
 static struct rock between(const struct material *one, const struct material *other, double part)
 {
     const double density = one->density + part * (other->density - one->density);
-    const double p = one->p_speed + part * (other->p_speed - one->p_speed);
-    const double s = one->s_speed + part * (other->s_speed - one->s_speed);
+    const double from[2] = {p_speed_of(one), s_speed_of(one)};
+    const double p = from[0] + part * (p_speed_of(other) - from[0]);
+    const double s = from[1] + part * (s_speed_of(other) - from[1]);
     return (struct rock){density, density * (p * p - 2 * s * s), density * s * s};
 }
 
@@ -54,26 +66,91 @@ static size_t layer_at(const struct body *body, const double place[3], double de
     return found;
 }
 
-struct rock ground_at(const struct scene *scene, const double place[3])
+/* The material at a place, and that into which it goes over, `part` of the way on. */
+struct found {
+    size_t material, bottom;
+    double part;
+    bool of_model; /* the ground is that of the model instead */
+};
+
+static struct found find(const struct scene *scene, const double place[3])
 {
     const struct body *body = &scene->body;
     const double depth = fmax(0, depth_of(scene, place));
     const size_t layer = layer_at(body, place, depth);
-    const struct material *material =
-        &scene->material[layer < body->layers ? body->layer[layer].material : body->material];
+    struct found found = {.material = layer < body->layers ? body->layer[layer].material : body->material};
     bool in_block = false;
-    bool graded = layer + 1 < body->layers && body->layer[layer].graded;
     for (size_t i = 0; i < body->blocks; i++)
         if (inside(scene, &body->block[i], place)) {
-            material = &scene->material[body->block[i].material];
-            graded = false;
+            found.material = body->block[i].material;
             in_block = true;
         }
-    if (body->model != NULL && !in_block) return ground_model_at(body->model, place);
-    if (!graded) return (struct rock){material->density, material->plane_lambda, material->mu};
+    found.of_model = body->model != NULL && !in_block;
+    found.bottom = found.material;
+    if (in_block || layer + 1 >= body->layers || !body->layer[layer].graded) return found;
     const double top = top_at(&body->layer[layer], place), end = top_at(&body->layer[layer + 1], place);
     const double part = end > top ? (depth - top) / (end - top) : 0;
-    return between(material, &scene->material[body->layer[layer].bottom], fmin(fmax(part, 0), 1));
+    found.bottom = body->layer[layer].bottom;
+    found.part = fmin(fmax(part, 0), 1);
+    return found;
+}
+
+static double bulk_of(const struct material *material)
+{
+    return material->lambda + 2. / 3 * material->mu;
+}
+
+struct rock ground_at(const struct scene *scene, const double place[3])
+{
+    const struct found found = find(scene, place);
+    const struct material *list = scene->whole != NULL ? scene->whole : scene->material;
+    const struct material *material = &list[found.material];
+    if (found.of_model) return ground_model_at(scene->body.model, place);
+    if (found.bottom != found.material) return between(material, &list[found.bottom], found.part);
+    return (struct rock){material->density, material->plane_lambda, material->mu};
+}
+
+struct shares ground_shares_at(const struct scene *scene, const double place[3])
+{
+    const struct found found = find(scene, place);
+    const size_t index[2] = {found.material, found.bottom};
+    const double weight[2] = {1 - found.part, found.part};
+    struct shares sum = {0, 0};
+    if (found.of_model) return ground_model_shares(scene->body.model, place);
+    for (int i = 0; i < 2; i++) {
+        const struct material *whole = &scene->whole[index[i]], *part = &scene->material[index[i]];
+        sum.bulk += weight[i] * bulk_of(part) / bulk_of(whole);
+        sum.shear += weight[i] * part->mu / whole->mu;
+    }
+    return sum;
+}
+
+struct rock ground_part_at(const struct scene *scene, const double place[3])
+{
+    struct rock rock = ground_at(scene, place);
+    if (scene->whole == NULL || scene->whole == scene->material) return rock;
+    const struct shares share = ground_shares_at(scene, place);
+    const double bulk = share.bulk * (rock.lambda + 2. / 3 * rock.mu);
+    rock.mu *= share.shear;
+    rock.lambda = bulk - 2. / 3 * rock.mu;
+    return rock;
+}
+
+void ground_speeds_at(const struct scene *scene, const double place[3], double speed[2])
+{
+    const struct ground_model *model = scene->body.model;
+    const struct found found = find(scene, place);
+    if (scene->whole != NULL && !found.of_model) {
+        const struct material *one = &scene->material[found.material],
+                              *other = &scene->material[found.bottom];
+        speed[0] = one->p_speed + found.part * (other->p_speed - one->p_speed);
+        speed[1] = one->s_speed + found.part * (other->s_speed - one->s_speed);
+        return;
+    }
+    const struct rock rock = found.of_model && model->given != NULL ? ground_model_at(model->given, place)
+                                                                    : ground_at(scene, place);
+    speed[0] = sqrt((rock.lambda + 2 * rock.mu) / rock.density);
+    speed[1] = sqrt(rock.mu / rock.density);
 }
 
 /* --- Where a model changes much: its values may be much nearer than the points of the lattice --- */

@@ -8,10 +8,26 @@ struct rock {
     double density, lambda, mu; /* lambda: that of the scene's dimension and plane */
 };
 
-/* Rock at a place in the body's frame; outside the body that of its nearest face or beyond. */
+/* Of a part of damped ground (method/damped/damped.h): its bulk and shear modulus over those of the whole. */
+struct shares {
+    double bulk, shear;
+};
+
+/* Rock at a place in the body's frame; outside the body that of its nearest face or beyond. Of damped ground with
+ * unrelaxed moduli; of a part of it that of the whole. */
 struct rock ground_at(const struct scene *scene, const double place[3]);
+/* What a part of damped ground has of it, and what that leaves of the rock; graded ground has shares that go over
+ * evenly. ground_part_at(): of any other scene all. */
+struct shares ground_shares_at(const struct scene *scene, const double place[3]);
+struct rock ground_part_at(const struct scene *scene, const double place[3]);
+/* Speeds of P and S waves; in damped ground at the source's frequencies. */
+void ground_speeds_at(const struct scene *scene, const double place[3], double speed[2]);
 /* model_grid.c: even between the values of the grids, beyond the body as at its nearest face. */
 struct rock ground_model_at(const struct ground_model *model, const double place[3]);
+struct shares ground_model_shares(const struct ground_model *model, const double place[3]);
+/* A value of one of the model's grids, without a name. */
+struct material ground_model_material(const struct ground_model *model, const struct model_grid *grid,
+                                      size_t i);
 /* How far the ground of a model lies above the plane of face z-; of one with a surface of its own, read with depth =
  * 'sea'. */
 double ground_model_height(const struct ground_model *model, const double place[2]);

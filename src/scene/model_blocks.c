@@ -15,14 +15,15 @@
 #include <strings.h>
 
 enum { NAME = 64, MOST_BLOCKS = 100, MOST_VALUES = 50 };
-static const char *const wanted[MODEL_VALUES] = {"density", "Vp", "Vs"};
+static const char *const wanted[MODEL_SETS] = {"density", "Vp", "Vs", "Qp", "Qs"};
 
 struct blocks {
     struct model_source *source;
     hid_t group[2]; /* blocks, surfaces (or -1) */
-    size_t component[MODEL_VALUES];
-    double factor[MODEL_VALUES]; /* to m/s and kg/m^3 */
-    double bottom;               /* dim_z */
+    int sets;
+    size_t component[MODEL_SETS];
+    double factor[MODEL_SETS]; /* to m/s and kg/m^3; of Q 1 */
+    double bottom;             /* dim_z */
     size_t count;
     struct block {
         char name[NAME];
@@ -52,12 +53,11 @@ static bool read_units(struct blocks *blocks, hid_t file, int which)
 static bool find_values(struct blocks *blocks, hid_t file)
 {
     char word[NAME], all[300] = "";
-    for (int which = 0; which < MODEL_VALUES; which++)
+    for (int which = 0; which < MODEL_SETS; which++)
         blocks->component[which] = MOST_VALUES;
     for (size_t i = 0; i < MOST_VALUES && model_word(file, "data_values", i, word, sizeof word); i++) {
-        for (int which = 0; which < MODEL_VALUES; which++)
+        for (int which = 0; which < MODEL_SETS; which++)
             if (strcasecmp(word, wanted[which]) == 0) blocks->component[which] = i;
-        if (strcasecmp(word, "Qp") == 0 || strcasecmp(word, "Qs") == 0) blocks->source->damped = true;
         const size_t length = strlen(all);
         snprintf(all + length, sizeof all - length, "%s%s", i > 0 ? ", " : "", word);
     }
@@ -70,6 +70,12 @@ static bool find_values(struct blocks *blocks, hid_t file)
                 all[0] != '\0' ? all : "not named");
         else if (!read_units(blocks, file, which))
             return false;
+    const bool quality[2] = {blocks->component[MODEL_VALUES] < MOST_VALUES,
+                             blocks->component[MODEL_VALUES + 1] < MOST_VALUES};
+    if (quality[0] != quality[1])
+        return model_fault(blocks->source, "its values are %s; expected Qp and Qs, or neither", all);
+    blocks->sets = model_sets(blocks->source, quality[0]);
+    blocks->factor[MODEL_VALUES] = blocks->factor[MODEL_VALUES + 1] = 1;
     if (model_word(file, "data_layout", 0, word, sizeof word) && strcmp(word, "vertex") == 0) return true;
     return model_fault(blocks->source, "its data_layout is not 'vertex'");
 }
@@ -153,7 +159,7 @@ static bool lay_grid(const struct blocks *blocks, hid_t set, const char *name, i
     if (set < 0 || model_extent(set, extent) != axes + 1)
         return model_fault(blocks->source, "'%s' is missing, cut short or has not %d axes", name, axes + 1);
     if (axes == 3)
-        for (int which = 0; which < MODEL_VALUES; which++)
+        for (int which = 0; which < blocks->sets; which++)
             if (blocks->component[which] >= extent[3])
                 return model_fault(blocks->source, "block '%s' has %zu values each, fewer than are named",
                                    name, extent[3]);
@@ -163,7 +169,7 @@ static bool lay_grid(const struct blocks *blocks, hid_t set, const char *name, i
             !model_covers(blocks->source, axis, grid->at[axis][0], grid->at[axis][grid->n[axis] - 1]))
             return false;
     }
-    return model_room(blocks->source, grid, axes == 3 ? MODEL_VALUES : 1);
+    return model_room(blocks->source, grid, axes == 3 ? blocks->sets : 1);
 }
 
 static bool read_block(const struct blocks *blocks, size_t i)
@@ -175,7 +181,7 @@ static bool read_block(const struct blocks *blocks, size_t i)
     bool good = lay_grid(blocks, set, name, 3, blocks->block[i].top, grid, first) &&
                 model_meets(blocks->source, i) &&
                 (i > 0 || model_covers(blocks->source, 2, blocks->source->whole[2][0], blocks->bottom));
-    for (int which = 0; good && which < MODEL_VALUES; which++) {
+    for (int which = 0; good && which < blocks->sets; which++) {
         good = model_read_part(set, grid, first, blocks->component[which], grid->value[which]) ||
                model_fault(blocks->source, "cannot read block '%s'", name);
         for (size_t k = 0; good && k < grid->n[0] * grid->n[1] * grid->n[2]; k++)

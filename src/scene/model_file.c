@@ -117,19 +117,8 @@ static const char *fault_of(const struct model_source *source, double density, d
     return NULL;
 }
 
-static struct material material_of(const double value[MODEL_VALUES])
-{
-    struct material material = {.density = value[0], .p_speed = value[1], .s_speed = value[2]};
-    material.mu = material.density * material.s_speed * material.s_speed;
-    material.lambda = material.plane_lambda =
-        material.density * material.p_speed * material.p_speed - 2 * material.mu;
-    material.young = material.mu * (3 * material.lambda + 2 * material.mu) / (material.lambda + material.mu);
-    material.poisson = material.lambda / (2 * (material.lambda + material.mu));
-    return material;
-}
-
-static bool check_grid(const struct model_source *source, size_t number, double fastest[MODEL_VALUES],
-                       double slowest[MODEL_VALUES])
+static bool check_grid(const struct model_source *source, size_t number, struct material *fastest,
+                       struct material *slowest)
 {
     const struct model_grid *grid = &source->model->grid[number];
     for (size_t i = 0; i < grid->n[0] * grid->n[1] * grid->n[2]; i++) {
@@ -144,8 +133,8 @@ static bool check_grid(const struct model_source *source, size_t number, double 
                 grid->at[0][at[0]], grid->at[1][at[1]], grid->at[2][at[2]],
                 source->model->depth == MODEL_BETWEEN ? " (depth in parts of its grid)" : "", value[0],
                 value[1], value[2], fault);
-        if (value[1] > fastest[1]) memcpy(fastest, value, sizeof value);
-        if (value[2] < slowest[2]) memcpy(slowest, value, sizeof value);
+        if (value[1] > fastest->p_speed) *fastest = ground_model_material(source->model, grid, i);
+        if (value[2] < slowest->s_speed) *slowest = ground_model_material(source->model, grid, i);
     }
     return true;
 }
@@ -154,20 +143,20 @@ static bool check_grid(const struct model_source *source, size_t number, double 
 static bool check_values(struct model_source *source)
 {
     struct scene *scene = source->builder->scene;
-    double fastest[MODEL_VALUES] = {0}, slowest[MODEL_VALUES] = {0, 0, INFINITY};
+    struct material fastest = {.p_speed = 0}, slowest = {.s_speed = INFINITY};
+    if (!model_quality(source)) return false;
     for (size_t i = 0; i < source->model->grids; i++)
-        if (!check_grid(source, i, fastest, slowest)) return false;
+        if (!check_grid(source, i, &fastest, &slowest)) return false;
     scene->body.material = scene->materials;
-    scene->material[scene->materials++] = material_of(fastest);
-    scene->material[scene->materials++] = material_of(slowest);
-    if (fastest[1] * scene->end_time < scene->body.spacing)
+    snprintf(fastest.name, sizeof fastest.name, "the model's fastest value");
+    snprintf(slowest.name, sizeof slowest.name, "the model's slowest value");
+    scene->material[scene->materials++] = fastest;
+    scene->material[scene->materials++] = slowest;
+    if (fastest.p_speed * scene->end_time < scene->body.spacing)
         warn(source->builder->messages,
              "'%s': its fastest wave, %g, does not come as far as one spacing by end_time; are its speeds in "
              "the deck's units?",
-             source->path, fastest[1]);
-    if (source->damped)
-        warn(source->builder->messages,
-             "'%s': its q_p and q_s are not used, ground from a model is not damped", source->path);
+             source->path, fastest.p_speed);
     return true;
 }
 

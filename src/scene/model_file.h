@@ -1,7 +1,7 @@
 /* Inside of reading a model of the ground from a file (doc/reference/models.md): model_file.c (which
  * format, where the deck's place is, what is checked), model_grid.c (values between those of a grid),
  * model_plain.c, model_text.c, model_rfile.c, model_sfile.c, model_blocks.c (the formats), model_set.c (what
- * those in HDF5 share). */
+ * those in HDF5 share), model_quality.c (Q). */
 #ifndef SELAS_SCENE_MODEL_FILE_H
 #define SELAS_SCENE_MODEL_FILE_H
 
@@ -20,7 +20,6 @@ struct model_source {
     double range[3][2]; /* what the body needs along the model's own axes (model_place(), the reader) */
     bool si;            /* speeds in m/s and densities in kg/m^3, by the format */
     bool below_sea;     /* formats that know their ground: read it with depth = 'sea' */
-    bool damped;        /* the file has q_p, q_s */
     size_t filled;      /* values of air or water that took those of the rock below */
     double whole[3][2]; /* first and last place in the file along each axis of the last grid */
     double end;         /* model_meets() */
@@ -47,6 +46,11 @@ bool model_covers(const struct model_source *source, int axis, double low, doubl
 /* Complains unless grid i, the last one of which the places are known, begins at the end of grid i - 1. */
 bool model_meets(struct model_source *source, size_t i);
 
+/* Says whether the file has q_p and q_s (model_quality.c): how many sets of values are to be read of each grid. */
+int model_sets(struct model_source *source, bool damped);
+/* Brings Q below or without 0, which is none, to 0 in all grids; false after complaining. */
+bool model_quality(struct model_source *source);
+
 /* Adds `count` grids or surfaces; false after complaining. */
 bool model_grids(struct model_source *source, size_t grids, size_t surfaces);
 /* Places of a grid along an axis: those of `count` in the file that the range needs (rising; the first one's
@@ -55,7 +59,7 @@ bool model_part(struct model_source *source, struct model_grid *grid, int axis, 
                 size_t count, size_t *first);
 bool model_even_part(struct model_source *source, struct model_grid *grid, int axis, double from, double step,
                      size_t count, size_t *first);
-/* Room for the values when the places are known: the first `sets` of them. */
+/* Room for the values when the places are known: those of the first `sets` that have none. */
 bool model_room(struct model_source *source, struct model_grid *grid, int sets);
 /* In every column from the top values of air and water, whose s_speed is at most `none`, become those of the
  * first rock below, also in the grid below. */

@@ -112,15 +112,48 @@ double ground_model_height(const struct ground_model *model, const double place[
     return model->shift - surface_at(model, model->depth == MODEL_STRETCHED ? model->surfaces - 1 : 0, there);
 }
 
-struct rock ground_model_at(const struct ground_model *model, const double place[3])
+/* The first `sets` values at a place of the body. */
+static void values_at(const struct ground_model *model, const double place[3], int sets, double *value)
 {
-    double there[3], value[MODEL_VALUES];
+    double there[3];
     const double z = fmin(model->sea ? place[2] : fmax(place[2], model->low[2]), model->high[2]);
     place_in(model, place, there);
     const struct model_grid *grid = grid_at(model, z - model->low[2], there);
-    model_grid_at(grid, there, MODEL_VALUES, value);
+    model_grid_at(grid, there, sets, value);
+}
+
+struct shares ground_model_shares(const struct ground_model *model, const double place[3])
+{
+    double value[MODEL_SETS];
+    values_at(model, place, MODEL_SETS, value);
+    return (struct shares){value[MODEL_VALUES], value[MODEL_VALUES + 1]};
+}
+
+struct rock ground_model_at(const struct ground_model *model, const double place[3])
+{
+    double value[MODEL_VALUES];
+    values_at(model, place, MODEL_VALUES, value);
     const double mu = value[0] * value[2] * value[2];
     return (struct rock){value[0], value[0] * value[1] * value[1] - 2 * mu, mu};
+}
+
+struct material ground_model_material(const struct ground_model *model, const struct model_grid *grid,
+                                      size_t i)
+{
+    struct material material = {
+        .density = grid->value[0][i], .p_speed = grid->value[1][i], .s_speed = grid->value[2][i]};
+    if (model->damped) {
+        material.q_p = grid->value[MODEL_VALUES][i];
+        material.q_s = grid->value[MODEL_VALUES + 1][i];
+        material.q_frequency = model->q_frequency;
+        material.q_power = model->q_power;
+    }
+    material.mu = material.density * material.s_speed * material.s_speed;
+    material.lambda = material.plane_lambda =
+        material.density * material.p_speed * material.p_speed - 2 * material.mu;
+    material.young = material.mu * (3 * material.lambda + 2 * material.mu) / (material.lambda + material.mu);
+    material.poisson = material.lambda / (2 * (material.lambda + material.mu));
+    return material;
 }
 
 static void free_grids(struct model_grid *grid, size_t count)
@@ -128,7 +161,7 @@ static void free_grids(struct model_grid *grid, size_t count)
     for (size_t i = 0; grid != NULL && i < count; i++) {
         for (int axis = 0; axis < 3; axis++)
             array_free(grid[i].at[axis]);
-        for (int set = 0; set < MODEL_VALUES; set++)
+        for (int set = 0; set < MODEL_SETS; set++)
             array_free(grid[i].value[set]);
     }
     array_free(grid);
@@ -203,6 +236,7 @@ bool model_room(struct model_source *source, struct model_grid *grid, int sets)
     }
     const double count = (double)grid->n[0] * (double)grid->n[1] * (double)grid->n[2];
     for (int set = 0; set < sets; set++) {
+        if (grid->value[set] != NULL) continue;
         grid->value[set] = count < 1e15 ? array_new((size_t)count, sizeof(double)) : NULL;
         if (grid->value[set] != NULL) continue;
         complain_of_memory(source->builder);
@@ -232,28 +266,30 @@ void model_tell_depth(struct ground_model *model, const char *ground)
 }
 
 /* Rock for a column of grid i that has none: at the top of the grid below. */
-static bool rock_below(const struct ground_model *model, size_t i, size_t column, double value[MODEL_VALUES])
+static bool rock_below(const struct ground_model *model, size_t i, size_t column, int sets,
+                       double value[MODEL_SETS])
 {
     const struct model_grid *grid = &model->grid[i];
     if (i + 1 == model->grids) return false;
     const double place[3] = {grid->at[0][column / grid->n[1]], grid->at[1][column % grid->n[1]], -INFINITY};
-    model_grid_at(&model->grid[i + 1], place, MODEL_VALUES, value);
+    model_grid_at(&model->grid[i + 1], place, sets, value);
     return true;
 }
 
 void model_fill(struct model_source *source, double none)
 {
     struct ground_model *model = source->model;
+    const int sets = model->damped ? MODEL_SETS : MODEL_VALUES;
     for (size_t i = model->grids; i-- > 0;) {
         const struct model_grid *grid = &model->grid[i];
         for (size_t column = 0; column < grid->n[0] * grid->n[1]; column++) {
             const size_t top = column * grid->n[2];
-            double value[MODEL_VALUES];
+            double value[MODEL_SETS];
             size_t rock = 0;
             while (rock < grid->n[2] && grid->value[MODEL_VALUES - 1][top + rock] <= none)
                 rock++;
-            if (rock == 0 || (rock == grid->n[2] && !rock_below(model, i, column, value))) continue;
-            for (int set = 0; set < MODEL_VALUES; set++) {
+            if (rock == 0 || (rock == grid->n[2] && !rock_below(model, i, column, sets, value))) continue;
+            for (int set = 0; set < sets; set++) {
                 if (rock < grid->n[2]) value[set] = grid->value[set][top + rock];
                 for (size_t k = 0; k < rock; k++)
                     grid->value[set][top + k] = value[set];

@@ -1,9 +1,10 @@
 /* A plain grid: HDF5 data sets density, p_speed, s_speed [nx, ny, nz], z fastest and downward, and attributes
- * origin and spacing of the file itself, three numbers each: the place of the first value and the steps. */
+ * origin and spacing of the file itself, three numbers each: the place of the first value and the steps; where it is
+ * damped, q_p and q_s beside them. */
 #include "base/stored.h"
 #include "scene/model_file.h"
 
-static const char *const sets[MODEL_VALUES] = {"density", "p_speed", "s_speed"};
+static const char *const names[MODEL_SETS] = {"density", "p_speed", "s_speed", "q_p", "q_s"};
 
 static bool not_plain(const struct model_source *source, const char *what)
 {
@@ -15,12 +16,12 @@ static bool not_plain(const struct model_source *source, const char *what)
 }
 
 /* Reads a data set; the first one says how many values there are along each axis. */
-static bool read_set(struct model_source *source, hid_t file, int which, const double origin[3],
+static bool read_set(struct model_source *source, hid_t file, int which, int sets, const double origin[3],
                      const double spacing[3], size_t extent[4], size_t first[3])
 {
     struct model_grid *grid = &source->model->grid[0];
     size_t own[4];
-    const hid_t set = stored_set(file, sets[which]);
+    const hid_t set = stored_set(file, names[which]);
     bool good = set >= 0 && model_extent(set, own) == 3;
     for (int axis = 0; axis < 3 && good; axis++) {
         if (which == 0) extent[axis] = own[axis];
@@ -31,7 +32,7 @@ static bool read_set(struct model_source *source, hid_t file, int which, const d
         good = model_even_part(source, grid, axis, origin[axis], spacing[axis], extent[axis], &first[axis]) &&
                model_covers(source, axis, origin[axis],
                             origin[axis] + spacing[axis] * (double)(extent[axis] - 1));
-    if (good && which == 0) good = model_room(source, grid, MODEL_VALUES);
+    if (good && which == 0) good = model_room(source, grid, sets);
     if (good && !model_read_part(set, grid, first, 0, grid->value[which]))
         good = not_plain(source, "a data set cannot be read");
     if (set >= 0) H5Dclose(set);
@@ -51,9 +52,9 @@ bool model_read_plain(struct model_source *source, hid_t file)
     if (!model_grids(source, 1, 0) || !model_place(source, &axes)) return false;
     source->range[2][0] = model->shift;
     source->range[2][1] += model->shift;
-    for (int which = 0; which < MODEL_VALUES; which++)
-        if (!read_set(source, file, which, origin, spacing, extent, first)) return false;
-    source->damped = stored_here(file, "q_p") || stored_here(file, "q_s");
+    const int sets = model_sets(source, stored_here(file, "q_p") || stored_here(file, "q_s"));
+    for (int which = 0; which < sets; which++)
+        if (!read_set(source, file, which, sets, origin, spacing, extent, first)) return false;
     snprintf(model->text, sizeof model->text, "plain grid of %zu x %zu x %zu, %zu x %zu x %zu of them read",
              extent[0], extent[1], extent[2], model->grid[0].n[0], model->grid[0].n[1], model->grid[0].n[2]);
     return true;

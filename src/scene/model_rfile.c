@@ -26,6 +26,8 @@ struct rfile {
     bool swapped;
     size_t bytes; /* of a number */
     double azimuth;
+    bool damped; /* the file is; */
+    int sets;    /* are read */
     size_t blocks;
     struct block block[MOST_BLOCKS];
     unsigned char *row; /* of a column's numbers */
@@ -77,7 +79,8 @@ static bool read_head(struct rfile *rfile)
         return false;
     if ((start[1] != 4 && start[1] != 8) || blocks < 2 || blocks > MOST_BLOCKS) return false;
     rfile->bytes = (size_t)start[1];
-    rfile->source->damped = start[2] == 1;
+    rfile->sets = model_sets(rfile->source, start[2] == 1);
+    rfile->damped = start[2] == 1;
     rfile->azimuth = place[0];
     rfile->blocks = (size_t)blocks;
     return true;
@@ -92,10 +95,7 @@ static bool read_block_heads(struct rfile *rfile)
         double real[3];
         int n[4];
         if (!read_reals(rfile, real, 3) || !read_integers(rfile, n, 4)) return false;
-        if (n[0] != (b == 0                  ? 1
-                     : rfile->source->damped ? 5
-                                             : 3) ||
-            n[1] < 2 || n[2] < 2 || n[3] < (b == 0 ? 1 : 2))
+        if (n[0] != (b == 0 ? 1 : rfile->damped ? 5 : 3) || n[1] < 2 || n[2] < 2 || n[3] < (b == 0 ? 1 : 2))
             return model_fault(rfile->source,
                                "block %zu has %d components and %d x %d x %d values; expected 1 of the "
                                "elevation, then 3 or, with attenuation, 5, and at least 2 values along each "
@@ -135,7 +135,7 @@ static bool read_column(struct rfile *rfile, const struct block *block, struct m
 {
     const size_t components = (size_t)block->components, count = grid->n[2] * components;
     const size_t at = (((first[0] + i) * block->n[1] + first[1] + j) * block->n[2] + first[2]) * components;
-    const int sets = block->components == 1 ? 1 : MODEL_VALUES;
+    const int sets = block->components == 1 ? 1 : rfile->sets;
     if (fseeko(rfile->file, block->from + (off_t)(at * rfile->bytes), SEEK_SET) != 0 ||
         fread(rfile->row, rfile->bytes, count, rfile->file) != count)
         return model_fault(rfile->source, "cannot read values [%zu, %zu] of a block", first[0] + i,
@@ -158,7 +158,7 @@ static bool read_block(struct rfile *rfile, const struct block *block, struct mo
     const bool solid = block->components > 1;
     if (solid && !model_even_part(source, grid, 2, block->top, block->step[1], block->n[2], &first[2]))
         return false;
-    if (!model_room(source, grid, solid ? MODEL_VALUES : 1)) return false;
+    if (!model_room(source, grid, solid ? rfile->sets : 1)) return false;
     rfile->row = scene_array(source->builder, grid->n[2] * (size_t)block->components, rfile->bytes);
     bool good = rfile->row != NULL;
     for (size_t i = 0; i < grid->n[0] && good; i++)

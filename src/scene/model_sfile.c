@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-static const char *const sets[MODEL_VALUES] = {"Rho", "Cp", "Cs"};
+static const char *const names[MODEL_SETS] = {"Rho", "Cp", "Cs", "Qp", "Qs"};
 
 static bool not_sfile(const struct model_source *source, const char *name, size_t i, const char *why)
 {
@@ -27,6 +27,7 @@ static bool read_values(struct model_source *source, hid_t group, const char *na
                         const double length[2], int set)
 {
     size_t extent[4], first[3] = {0};
+    const struct ground_model *model = source->model;
     const hid_t data = stored_set(group, name);
     const int rank = data >= 0 ? model_extent(data, extent) : 0;
     const bool surface = rank == 2;
@@ -42,7 +43,8 @@ static bool read_values(struct model_source *source, hid_t group, const char *na
             first[axis] = (size_t)lround(grid->at[axis][0] / step);
         good = good && fabs(grid->at[axis][1] - grid->at[axis][0] - step) < 1e-6 * step;
     }
-    if (good && set == 0) good = model_room(source, grid, surface ? 1 : MODEL_VALUES);
+    if (good && set == 0)
+        good = model_room(source, grid, surface ? 1 : model->damped ? MODEL_SETS : MODEL_VALUES);
     good = good && model_read_part(data, grid, first, 0, grid->value[set]);
     if (data >= 0) H5Dclose(data);
     return good;
@@ -97,11 +99,12 @@ static bool read_grids(struct model_source *source, hid_t file, const double len
         char name[32];
         snprintf(name, sizeof name, "grid_%zu", i);
         const hid_t group = open_group(all, name);
-        for (int set = 0; set < MODEL_VALUES && good; set++)
-            good = group >= 0 && read_values(source, group, sets[set], &model->grid[i], length, set);
+        for (int set = 0; set < (model->damped ? MODEL_SETS : MODEL_VALUES) && good; set++)
+            good = group >= 0 && read_values(source, group, names[set], &model->grid[i], length, set);
         if (!good)
             not_sfile(source, "Material_model/grid_", i,
-                      "missing, cut short or not Rho, Cp, Cs [nx][ny][nz]");
+                      model->damped ? "missing, cut short or not Rho, Cp, Cs, Qp, Qs [nx][ny][nz]"
+                                    : "missing, cut short or not Rho, Cp, Cs [nx][ny][nz]");
         if (group >= 0) H5Gclose(group);
     }
     if (all >= 0) H5Gclose(all);
@@ -139,7 +142,7 @@ bool model_read_sfile(struct model_source *source, hid_t file)
                            "its group Material_model makes it SW4's sfile, but its attributes 'Origin "
                            "longitude, latitude, azimuth' or 'ngrids' (1 to 100) are missing");
     const struct model_axes axes = {.bearing = place[2], .coordinates = 2};
-    source->damped = model_numbers(file, "Attenuation", 1, &damped) && damped == 1;
+    model_sets(source, model_numbers(file, "Attenuation", 1, &damped) && damped == 1);
     model->depth = MODEL_BETWEEN;
     if (!find_length(source, file, length) || !model_grids(source, (size_t)grids, (size_t)grids + 1) ||
         !model_place(source, &axes) || !model_covers(source, 0, 0, length[0]) ||

@@ -109,7 +109,7 @@ static bool lay_grid(struct text *text)
             !model_covers(source, axis, from, from + length))
             return false;
     }
-    return model_room(source, &model->grid[0], MODEL_VALUES);
+    return true;
 }
 
 static double held(struct text *text, double value, const double bound[2])
@@ -133,6 +133,8 @@ static void keep(struct text *text, const size_t at[3], const double value[COLUM
     grid->value[0][index] = held(text, value[5], text->bound + 4);
     grid->value[1][index] = held(text, value[3], text->bound);
     grid->value[2][index] = held(text, value[4], text->bound + 2);
+    for (int set = MODEL_VALUES; set < MODEL_SETS && grid->value[set] != NULL; set++)
+        grid->value[set][index] = value[3 + set];
 }
 
 static bool read_value(struct text *text, const size_t at[3])
@@ -144,7 +146,12 @@ static bool read_value(struct text *text, const size_t at[3])
     if (count == 0)
         return model_fault(text->source, "it ends after %zu of %zu x %zu x %zu values, at line %zu", number,
                            text->n[0], text->n[1], text->n[2], text->line);
-    if (number == 0) text->columns = (size_t)count;
+    if (number == 0) {
+        text->columns = (size_t)count;
+        if (!model_room(text->source, &text->source->model->grid[0],
+                        model_sets(text->source, count == COLUMNS)))
+            return false;
+    }
     if ((count != 6 && count != 8) || (size_t)count != text->columns)
         return model_fault(text->source,
                            "line %zu: %d numbers; expected x y z p_speed s_speed density, or q_p q_s behind "
@@ -185,7 +192,6 @@ bool model_read_text(struct model_source *source, FILE *file)
              "'%s': %zu numbers lie beyond the bounds of its fourth line and are held to them, as the format "
              "says",
              source->path, text.clipped);
-    source->damped = text.columns == 8;
     snprintf(source->model->text, sizeof source->model->text,
              "tomography_model.xyz of %zu x %zu x %zu, depth 0 is its elevation %g", text.n[0], text.n[1],
              text.n[2], 0 - source->model->shift);

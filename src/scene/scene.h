@@ -50,13 +50,14 @@ struct ground_block {
     double centre[3], half[3]; /* half edges or axes */
 };
 
-/* Density, speeds of P and S waves between places along the axes of a model's file, z fastest; a surface has the
- * first alone, and one place along z. */
-enum { MODEL_VALUES = 3 };
+/* Density, speeds of P and S waves, and where they are damped Q_p and Q_s (0: not damped there), between places along
+ * the axes of a model's file, z fastest; a surface has the first alone, and one place along z. A part of damped ground
+ * has its shares of the bulk and shear modulus in the place of Q (method/damped/field.c). */
+enum { MODEL_VALUES = 3, MODEL_SETS = 5 };
 struct model_grid {
     size_t n[3];
     double *at[3]; /* [n] rising */
-    double *value[MODEL_VALUES];
+    double *value[MODEL_SETS];
 };
 
 /* How the third coordinate of a place in a grid, downward, comes from the depth below the body's z- face and the
@@ -73,9 +74,14 @@ struct ground_model {
     double low[3], high[3];       /* the body's: beyond it the ground is that of its nearest face */
     double origin[2], turn[2][2]; /* place along the model's axes = origin + turn (x, y) */
     enum model_depth depth;
-    bool sea;             /* depth + shift is one below the sea, not below the model's ground */
-    double shift, bottom; /* bottom: of MODEL_STRETCHED, below the sea */
-    double detail[2];     /* least distance of values along x and y of the body */
+    bool sea;                         /* depth + shift is one below the sea, not below the model's ground */
+    double shift, bottom;             /* bottom: of MODEL_STRETCHED, below the sea */
+    double detail[2];                 /* least distance of values along x and y of the body */
+    bool damped;                      /* by the file's Q */
+    double q_frequency, q_power;      /* of all of it, as a material's */
+    double loss[2];                   /* least (above 0) and largest 1/Q */
+    size_t undamped;                  /* values without Q */
+    const struct ground_model *given; /* of a part of damped ground: the one in the file */
     size_t grids, surfaces;
     struct model_grid *grid, *surface; /* from the top down */
     char text[400];                    /* for the plan */

@@ -1,6 +1,6 @@
 # Small scenes for restarts: every method, schemes of each kind, boundaries with memory. Sourced by
 # regress/checks/restart.sh and regress/hardening/kills. scene NAME writes NAME.nml; the names are in $scenes.
-scenes='layers damped relaxing relaxing-single pass sweep single modified paper plate bar flying moving'
+scenes='layers damped damped-particles relaxing relaxing-single pass sweep single modified paper plate bar flying moving'
 rock="&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /"
 steel="&material name = 'steel', density = 7800.0, young = 2e11, poisson = 0.3 /"
 marks="&snapshot every = 0.4, fields = 'velocity', 'stress' /
@@ -51,6 +51,16 @@ END
 &load face = 'z-', shape = 'square', centre = 1.5, 1.5, 0, size = 1, 1, direction = 0, 0, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
 $watched
+END
+    damped-particles) cat <<END ;; # particles with relaxation mechanisms of two operators, dampers
+&scene dimension = 2, end_time = 4.0 /
+&method name = 'sph', variant = 'total-lagrangian', law = 'linear', mechanisms = 2 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0, q_p = 30, q_s = 20 /
+&body material = 'rock', low = 0, 0, high = 3, 2, spacing = 0.25, jitter = 0.1 /
+&boundary face = 'x+', kind = 'transmitting' /
+&load face = 'x-', shape = 'face', direction = 1, 0.3, history = 'ricker', frequency = 0.4, delay = 2.5 /
+&receiver name = 'r1', position = 2, 1.5 /
+$marks
 END
     relaxing) cat <<END ;; # relaxation mechanisms of two operators in steps in one pass, with layers
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0, q_p = 30, q_s = 20 /

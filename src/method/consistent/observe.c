@@ -101,7 +101,7 @@ static const struct material *general_material_at(const struct consistent *c, co
     if (topography != NULL)
         real[topography->axis] =
             topography_real(topography, consistent_drop(c, place, NULL), place[topography->axis]);
-    const struct rock rock = ground_at(c->model.scene, real);
+    const struct rock rock = ground_part_at(c->model.scene, real);
     *material = (struct material){
         .density = rock.density, .lambda = rock.lambda, .plane_lambda = rock.lambda, .mu = rock.mu};
     return material;

@@ -55,16 +55,19 @@ static void add_layers(const struct consistent *c, struct spread *shares)
     for (int face = 0; c->general != NULL && face < 2 * c->dimension; face++)
         for (int f = 0; sizes[face] > 0 && f < 3; f++)
             add_points(c, face, &c->general->family[f], shares);
-    const int fields = c->general != NULL ? c->dimension : 2 * c->dimension;
-    for (int face = 0; face < 2 * c->dimension; face++)
-        for (int i = 0; sizes[face] > 0 && i < fields; i++) {
-            const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
-            const struct spread_run all = {0, 0, here, 0, here};
-            if (c->slot[face / 2] == DEPTH)
-                spread_add(shares, here, there, &all);
-            else
-                add_rows(c, here / c->n[DEPTH], shares);
-        }
+    /* psi and phi of each layer, or phi of all and then their forces (general/layers.c) */
+    const int fields = c->general != NULL ? c->dimension : 2 * c->dimension,
+              turns = c->general != NULL ? 2 : 1;
+    for (int i = 0; i < turns * 2 * c->dimension * fields; i++) {
+        const int face = i / fields % (2 * c->dimension);
+        if (sizes[face] == 0) continue;
+        const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
+        const struct spread_run all = {0, 0, here, 0, here};
+        if (c->slot[face / 2] == DEPTH)
+            spread_add(shares, here, there, &all);
+        else
+            add_rows(c, here / c->n[DEPTH], shares);
+    }
 }
 
 void consistent_share(struct model *model, enum model_array array, struct spread *shares)

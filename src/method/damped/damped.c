@@ -158,6 +158,7 @@ void damped_free(struct model *model)
         model_free(&d->part[p].model);
         array_free(d->part[p].material);
     }
+    damped_field_free(d);
     ground_damping_free(d->damping);
     array_free(d->effective);
     array_free(d->sum);
@@ -237,7 +238,10 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%precision = 'single' needs one damped material and no more");
     *model = *first;
-    model->core = &damped_core;
+    d->core = damped_core;
+    if (first->core->holder == NULL) d->core.holder = NULL;
+    if (first->core->share == NULL) d->core.share = NULL;
+    model->core = &d->core;
     model->parts = (unsigned)d->parts;
     model->energy_calls = (unsigned)(d->parts * (1 + mechanisms_of(d)));
     model->spatial = &spatial;

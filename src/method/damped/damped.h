@@ -23,9 +23,12 @@ struct damped_part {
 
 struct damped {
     struct model model;
+    struct model_core core; /* damped_core but for what part 0 does not have */
     struct ground_damping *damping;
     size_t parts;
     struct damped_part part[1 + MOST_MECHANISMS];
+    struct ground_model
+        *field;        /* [parts] of a model: with unrelaxed speeds and the part's shares; NULL: none */
     double *effective; /* [2 * unknowns]: e_p, and what else stands behind u in a state */
     double *sum;       /* [unknowns]: accelerations of one part; NULL: there is only part 0 */
 };
@@ -44,6 +47,11 @@ void damped_free(struct model *model); /* the model_core's destroy */
 
 /* split.c: the parts' materials and factors; SELAS_UNSUPPORTED in plane stress with Q_p other than Q_s. */
 selas_status damped_split(struct damped *d, const struct scene *scene, struct messages *messages);
+
+/* field.c: the parts' ground where it is that of a model; the samples in d->damping become what its values are fitted
+ * with. SELAS_BAD_SCENE where no passive solid has the Q. */
+selas_status damped_field(struct damped *d, const struct scene *scene, struct messages *messages);
+void damped_field_free(struct damped *d);
 
 /* effective[0 .. unknowns) := e_p of a state whose extra part is given. */
 void damped_effective(const struct damped *d, const struct damped_part *part, const double *u,

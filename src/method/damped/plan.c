@@ -33,6 +33,37 @@ static struct reached reached_of(const struct ground_damping *damping, const str
     return reached;
 }
 
+/* Of a model: Q that is wanted and the worst that is reached, by its samples. */
+static void describe_model(const struct damped *d,
+                           void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct ground_damping *damping = d->damping;
+    const struct scene *scene = d->model.scene;
+    struct material sample[MOST_SAMPLES];
+    double q[2][2] = {{INFINITY, 0}, {INFINITY, 0}}, off = 0;
+    char text[300];
+    if (scene->body.model == NULL || !scene->body.model->damped) return;
+    const size_t count = damping_samples(scene->body.model, sample);
+    for (size_t i = 0; i < count; i++) {
+        const struct damped_moduli *fitted = &damping->fitted[scene->materials + i];
+        const struct damped_moduli *wanted = &damping->wanted[scene->materials + i];
+        const double own[2] = {sample[i].q_p, sample[i].q_s};
+        for (int k = 0; k < 2 && own[k] > 0; k++) {
+            const struct reached one =
+                reached_of(damping, k == 0 ? &fitted->axial : &fitted->shear,
+                           k == 0 ? &wanted->axial : &wanted->shear, sample[i].density);
+            off = fmax(off, one.misfit * own[k]);
+            q[k][0] = fmin(q[k][0], own[k]);
+            q[k][1] = fmax(q[k][1], own[k]);
+        }
+    }
+    snprintf(text, sizeof text,
+             "Q_p %.4g to %.4g, Q_s %.4g to %.4g in %zu values that stand for all; largest misfit of their "
+             "moduli %.2g/Q; %zu values are not damped",
+             q[0][0], q[0][1], q[1][0], q[1][1], count, off, scene->body.model->undamped);
+    tell(context, "damping of the model", text);
+}
+
 static void describe_material(const struct damped *d, size_t index,
                               void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -69,8 +100,9 @@ void damped_describe(const struct model *model,
              relaxation_quantile(&damping->band, from_share) / (2 * M_PI),
              relaxation_quantile(&damping->band, to_share) / (2 * M_PI), damping->centroid / (2 * M_PI));
     tell(context, "damping", text);
-    for (size_t i = 0; i < damping->materials; i++)
+    for (size_t i = 0; i < deck_count(d->model.scene->deck, "material"); i++)
         describe_material(d, i, tell, context);
+    describe_model(d, tell, context);
     const size_t dimension = (size_t)d->model.scene->dimension;
     snprintf(text, sizeof text,
              "%zu operator call%s a step in place of 1; %zu memory variables a point, %zu bytes", d->parts,

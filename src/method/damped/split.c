@@ -90,6 +90,7 @@ static selas_status set_part(const struct damped *d, struct damped_part *part, c
     part->scene = *scene;
     part->scene.material = part->material;
     part->scene.whole = d->part[0].material;
+    if (d->field != NULL) part->scene.body.model = &d->field[part - d->part];
     return SELAS_OK;
 }
 
@@ -99,9 +100,6 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
     struct damping_column *columns = array_new(2 * damping->materials, sizeof *columns);
     selas_status status = SELAS_OK;
     if (columns == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
-    if (scene->body.model != NULL)
-        status = fail(messages, SELAS_UNSUPPORTED,
-                      "ground from a file (&model) has no damping: q_p and q_s are those of materials");
     d->parts = 1;
     d->part[0].given = 1;
     for (size_t i = 0; i < damping->materials; i++)
@@ -115,6 +113,7 @@ selas_status damped_split(struct damped *d, const struct scene *scene, struct me
         if (scene->plane == PLANE_STRESS && scene->dimension < 3)
             status = fail(messages, SELAS_UNSUPPORTED,
                           "in plane stress damped materials need q_p = q_s and one Q for all");
+    if (scene->body.model != NULL && status == SELAS_OK) status = damped_field(d, scene, messages);
     for (size_t p = 0; p < d->parts && status == SELAS_OK; p++)
         status = set_part(d, &d->part[p], scene, columns, messages);
     array_free(columns);

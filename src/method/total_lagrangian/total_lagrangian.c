@@ -82,12 +82,11 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     struct tl_model *tl = of(model);
     const size_t d = (size_t)tl->cloud->dimension;
     all_forces(tl, drive, u, v);
-    const bool damped = tl->damper != NULL && v != NULL;
 #pragma omp parallel for schedule(static) if (tl->cloud->points > TL_SERIAL)
     for (size_t i = 0; i < tl->cloud->points; i++)
         for (size_t k = d * i; k < d * (i + 1); k++) {
-            const double damper = damped ? tl->damper[k] : 0;
-            const double force = damped ? tl->force[k] - damper * v[k] : tl->force[k];
+            const double damper = tl->damper != NULL ? tl->damper[k] : 0;
+            const double force = damper > 0 && v != NULL ? tl->force[k] - damper * v[k] : tl->force[k];
             a[k] = force / (tl->mass[i] + half_step * damper);
         }
     for (size_t k = 0; k < tl->held_count; k++)
@@ -287,6 +286,28 @@ static void read_real(const struct deck_group *group, const char *name, double *
     if (deck_values(group, name) > 0) *value = deck_real(group, name, 0);
 }
 
+/* Parts of a damped body (method/damped/damped.h) take e_p in the place of u: only what is linear in u can, and
+ * moved walls have no memory. */
+static selas_status check_part(const struct scene *scene, const struct tl_options *options,
+                               struct messages *messages)
+{
+    const struct deck_group *group = scene->method.group;
+    if (options->law != LAW_LINEAR)
+        return deck_error(scene->deck, group, "law", messages,
+                          "damping by q_p and q_s is linear; expected law = 'linear'");
+    if (options->viscosity_alpha > 0 || options->viscosity_beta > 0)
+        return deck_error(scene->deck, group,
+                          options->viscosity_alpha > 0 ? "viscosity_alpha" : "viscosity_beta", messages,
+                          "viscosity is not linear, beside q_p and q_s; expected 0");
+    for (int face = 0; face < FACES; face++)
+        if (boundary_moves(&scene->boundary[face]))
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "face %s is moved, which 'total-lagrangian' does not take beside q_p and q_s; "
+                        "'smoothed-point', 'consistent' does",
+                        face_name((enum face)face));
+    return SELAS_OK;
+}
+
 static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     struct tl_options options = tl_default_options();
@@ -301,13 +322,16 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     read_real(group, "hourglass", &options.hourglass);
     read_real(group, "viscosity_alpha", &options.viscosity_alpha);
     read_real(group, "viscosity_beta", &options.viscosity_beta);
+    const selas_status status = scene->whole != NULL ? check_part(scene, &options, messages) : SELAS_OK;
+    if (status != SELAS_OK) return status;
     return total_lagrangian_create(scene, &options, model, messages);
 }
 
 const struct method method_total_lagrangian = {
     .name = "sph",
     .variant = "total-lagrangian",
-    .words = "kernel smoothing_length viscosity_alpha viscosity_beta hourglass gradient law",
+    .words = "kernel smoothing_length viscosity_alpha viscosity_beta hourglass gradient law mechanisms",
+    .damping = true,
     .point_materials = true,
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,

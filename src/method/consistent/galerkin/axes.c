@@ -141,9 +141,10 @@ static void mean_speeds(const struct consistent *c, int face, size_t k, double s
             if (n[axis] > 1)
                 place[axis] = scene->body.low[axis] +
                               (at[axis] + .5) / SAMPLES * (scene->body.high[axis] - scene->body.low[axis]);
-        const struct rock rock = ground_at(scene, place);
-        speed[0] += sqrt((rock.lambda + 2 * rock.mu) / rock.density) / (n[0] * n[1]);
-        speed[1] += sqrt(rock.mu / rock.density) / (n[0] * n[1]);
+        double here[2];
+        ground_speeds_at(scene, place, here);
+        speed[0] += here[0] / (n[0] * n[1]);
+        speed[1] += here[1] / (n[0] * n[1]);
     }
 }
 

@@ -140,7 +140,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     selas_status status =
         good ? SELAS_OK
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
-    if (status == SELAS_OK) status = general_part_material(c, mass, messages);
+    if (status == SELAS_OK) status = general_material(c, mass, messages);
     if (status == SELAS_OK) general_lay_corners(c);
     status = ranks_agree(c->part.ranks, status, messages);
     if (status == SELAS_OK && !general_scale(c, mass))

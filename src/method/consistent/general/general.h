@@ -125,11 +125,9 @@ size_t general_corner_seen(const struct consistent *c, const struct corner *corn
 /* What the stresses of a component pull at along each slot, from the slopes along the lattice; these are spoiled. */
 void general_corner_pull(const struct corner *corner, double slope[3][3], int component, double pull[3]);
 
-/* material.c: lays moduli at the points, and the mass of each control value. SELAS_NO_MEMORY. */
+/* material.c: lays moduli at the points, those of a part of damped ground too, and the mass of each control value.
+ * SELAS_NO_MEMORY. */
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
-/* part.c: the same, or of a part of damped ground (scene->whole). SELAS_UNSUPPORTED: a part whose points cannot be
- * told apart. */
-selas_status general_part_material(struct consistent *c, double *mass, struct messages *messages);
 void general_free_family(struct family *family);
 
 /* hill.c: false: no memory. */

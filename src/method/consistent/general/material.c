@@ -18,6 +18,7 @@ static double weight_of(const struct consistent *c, int slot, enum at at, size_t
 /* Sums over the points about each control value: weight times density, and weight. */
 struct sums {
     double *mass, *even;
+    struct sharing *sharing; /* of a part of damped ground */
 };
 
 static void add_mass(const struct consistent *c, const struct taps *const at[3], double weight,
@@ -111,9 +112,10 @@ static bool lay_row(struct consistent *c, struct family *family, const struct me
         const struct metric metric = general_metric_at(c, family, i, j, k);
         const double weight = even * metric.jacobian;
         medium_point(medium, i, j, &metric, &averaged);
-        if (medium_stiffness(&averaged, stiffness, &lambda, &mu) &&
-            !add_point(family, found, row, i, stiffness, weight))
-            return false;
+        const bool turned = medium_stiffness(&averaged, stiffness, &lambda, &mu);
+        if (sums->sharing != NULL)
+            general_share(sums->sharing, family, place, &averaged, turned ? stiffness : NULL, &lambda, &mu);
+        if (turned && !add_point(family, found, row, i, stiffness, weight)) return false;
         family->lambda[point] = weight * lambda;
         family->mu[point] = weight * mu;
         add_mass(c, at, even, metric.jacobian * averaged.mean[MEAN_DENSITY], sums);
@@ -156,9 +158,10 @@ static double integral(const struct consistent *c, const struct band *const mass
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages)
 {
     const struct band *band[3] = {NULL, NULL, NULL};
-    const struct sums sums = {mass, array_new(c->volume, sizeof *mass)};
+    const bool part = general_is_part(c->model.scene);
+    const struct sums sums = {mass, array_new(c->volume, sizeof *mass), part ? sharing_new(c) : NULL};
     struct medium *medium = medium_new(c);
-    bool good = sums.even != NULL && medium != NULL;
+    bool good = sums.even != NULL && medium != NULL && (!part || sums.sharing != NULL);
     for (int f = 0; good && f < 3; f++)
         good = lay_family(c, &c->general->family[f], medium, &sums);
     for (int axis = 0; axis < c->dimension; axis++)
@@ -166,6 +169,7 @@ selas_status general_material(struct consistent *c, double *mass, struct message
     for (size_t i = 0; good && i < c->volume; i++)
         mass[i] *= integral(c, band, i) / sums.even[i];
     array_free(sums.even);
+    sharing_free(sums.sharing);
     medium_free(medium);
     return good ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
 }

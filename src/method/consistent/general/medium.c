@@ -32,6 +32,7 @@ struct medium {
     enum at at[3];
     double *drop; /* [columns] of the surface above them, where it is not level; NULL: it is */
     struct averaged *column, *row, *point;
+    bool part;    /* of damped ground: by_bulk is wanted */
     double *jump; /* [threads * room] */
     size_t room;
 };
@@ -61,6 +62,27 @@ static void quantities(const struct rock *rock, double value[AVERAGES])
     value[MEAN_SHEAR] = rock->mu;
     value[MEAN_SPREAD] = rock->mu * (3 * rock->lambda + 2 * rock->mu) / m;
     value[MEAN_RATIO] = rock->lambda / m;
+}
+
+/* Their derivatives by e: those of lambda and M are kappa. */
+static void by_bulk(const struct rock *rock, double value[AVERAGES])
+{
+    const double m = rock->lambda + 2 * rock->mu, kappa = rock->lambda + 2. / 3 * rock->mu;
+    memset(value, 0, AVERAGES * sizeof *value);
+    value[MEAN_SOFTNESS] = -kappa / (m * m);
+    value[MEAN_SPREAD] = 4 * kappa * (rock->mu / m) * (rock->mu / m);
+    value[MEAN_RATIO] = 2 * kappa * rock->mu / (m * m);
+}
+
+static void add_derivatives(const struct rock *rock, double weight, struct averaged *sum)
+{
+    double value[AVERAGES], derivative[AVERAGES];
+    quantities(rock, value);
+    by_bulk(rock, derivative);
+    for (int n = 0; n < AVERAGES; n++)
+        sum->by_bulk[n] += weight * derivative[n];
+    for (int n = 0; n < POSITIVE; n++)
+        if (value[n] <= sum->least[n]) sum->least_by_bulk[n] = derivative[n];
 }
 
 /* One sample of the rock, `t` cells from the point, for `part` of a cell. */
@@ -121,6 +143,7 @@ static void average_column(const struct medium *medium, double place[3], double 
         quantities(&rock, sum->mean);
         memcpy(sum->least, sum->mean, sizeof sum->least);
         sum->level = log(rock.lambda + 2 * rock.mu);
+        if (medium->part) add_derivatives(&rock, 1, sum);
         return;
     }
     for (int piece = 0; piece <= PIECES; piece++)
@@ -133,6 +156,8 @@ static void average_column(const struct medium *medium, double place[3], double 
             place[axis] = real(medium, drop, sample);
             const struct rock rock = ground_at(scene, place);
             add_sample(&rock, at, (sample - middle) / h, length / (2 * h), sum);
+            if (medium->part)
+                add_derivatives(&rock, length / (2 * h) * kernel(at, (sample - middle) / h), sum);
         }
     }
 }
@@ -165,14 +190,19 @@ static void average_along(const struct medium *medium, int slot, size_t i, const
     if (same) return;
     *sum = (struct averaged){.level = 0};
     memcpy(sum->least, from->least, sizeof sum->least);
+    memcpy(sum->least_by_bulk, from->least_by_bulk, sizeof sum->least_by_bulk);
     for (size_t n = 0; n < width; n++) {
         const struct averaged *one = from + n * stride;
         const double t = ((double)n + .5) / (double)columns->a_cell - reach_of_kernel,
                      weight = kernel(at, t) / (double)columns->a_cell;
         for (int q = 0; q < AVERAGES; q++)
             sum->mean[q] += weight * one->mean[q];
+        for (int q = 0; q < POSITIVE && medium->part; q++)
+            if (one->least[q] < sum->least[q]) sum->least_by_bulk[q] = one->least_by_bulk[q];
         for (int q = 0; q < POSITIVE; q++)
             sum->least[q] = fmin(sum->least[q], one->least[q]);
+        for (int q = 0; q < AVERAGES && medium->part; q++)
+            sum->by_bulk[q] += weight * one->by_bulk[q];
         const double even = 1. / (double)width;
         sum->level += even * one->level;
         for (int s = 0; s < 3; s++)
@@ -238,6 +268,7 @@ struct medium *medium_new(const struct consistent *c)
     struct medium *medium = array_new(1, sizeof *medium);
     if (medium == NULL) return NULL;
     medium->c = c;
+    medium->part = general_is_part(c->model.scene);
     const struct columns *along = medium->along;
     lay_columns(medium, 0);
     lay_columns(medium, 1);
@@ -299,6 +330,9 @@ void medium_point(const struct medium *medium, size_t i, size_t j, const struct 
 {
     *averaged = medium->point[j * medium->along[0].points + i];
     metric_tilt(metric, averaged->rise);
-    for (int n = 0; n < POSITIVE; n++)
+    for (int n = 0; n < POSITIVE; n++) {
+        if (averaged->mean[n] < least_part * averaged->least[n])
+            averaged->by_bulk[n] = least_part * averaged->least_by_bulk[n];
         averaged->mean[n] = fmax(averaged->mean[n], least_part * averaged->least[n]);
+    }
 }

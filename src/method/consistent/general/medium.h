@@ -20,13 +20,28 @@ enum average {
 /* At a place: averages, the least of what they are of, and where the logarithm of M rises to, by slot. */
 struct averaged {
     double mean[AVERAGES], least[POSITIVE], rise[3], level;
-    bool even; /* one rock all around */
+    double by_bulk[AVERAGES],
+        least_by_bulk[POSITIVE]; /* derivatives by e, kappa (1 + e) in the place of kappa
+                                                          everywhere; 0 but in parts of damped ground */
+    bool even;                   /* one rock all around */
 };
 
 /* C of the effective medium in Voigt's order of the slots (points.h), the upper triangle by rows. False: it is
  * isotropic, with this lambda and mu. */
 bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
                       double *mu);
+/* dC/de where it is not isotropic, about the same normal. */
+void medium_bulk_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES]);
+
+/* part.c: a part of damped ground but the one that is the whole. */
+bool general_is_part(const struct scene *scene);
+struct sharing;
+struct sharing *sharing_new(const struct consistent *c); /* NULL: no memory */
+void sharing_free(struct sharing *sharing);              /* takes NULL */
+/* From the numbers of the whole ground at point `at` of a family to those of the part; stiffness NULL: it is
+ * isotropic. */
+void general_share(const struct sharing *sharing, const struct family *family, const size_t at[3],
+                   const struct averaged *averaged, double *stiffness, double *lambda, double *mu);
 
 /* Averages over a plane of points of a family. */
 struct medium;

@@ -6,12 +6,11 @@
  * with C of the whole ground and b_kappa, b_mu the part's shares of the moduli, means over the cell about the point. C
  * is of degree 1 in the moduli, so that C - A is the derivative by mu. Eigenvalues of A in the metric of C are clipped
  * to 0 and 1 (they are 0 and 1 in even ground). */
-#include "method/consistent/general/general.h"
+#include "method/consistent/general/medium.h"
 
 #include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "method/consistent/galerkin/surface.h"
-#include "scene/ground.h"
 #include "scene/topography.h"
 
 #include <gsl/gsl_eigen.h>
@@ -19,42 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 4, SIDES = 2 }; /* along each axis of a cell */
-static const double little = 1e-4;
-
-/* Materials of the whole ground, with kappa 1 + `bulk` times, and so much of the part's moduli; graded ground takes
- * their speeds. */
-static void vary(const struct scene *scene, double bulk, double by, struct material *material,
-                 struct scene *varied)
-{
-    for (size_t i = 0; i < scene->materials; i++) {
-        const struct material *whole = &scene->whole[i], *part = &scene->material[i];
-        const double more = bulk * (whole->lambda + 2. / 3 * whole->mu) + by * part->lambda;
-        material[i] = *whole;
-        material[i].lambda += more;
-        material[i].mu += by * part->mu;
-        material[i].plane_lambda += more;
-        material[i].p_speed = sqrt((material[i].plane_lambda + 2 * material[i].mu) / material[i].density);
-        material[i].s_speed = sqrt(material[i].mu / material[i].density);
-    }
-    *varied = *scene;
-    varied->material = material;
-}
-
-/* --- Shares --------------------------------------------------------------------------------------------- */
-
-struct shares {
-    double bulk, shear;
-};
-
-/* Part's shares at a place, from the whole ground and from that with a little of the part. */
-static struct shares shares_at(const struct scene ground[2], const double place[3])
-{
-    const struct rock whole = ground_at(&ground[0], place), more = ground_at(&ground[1], place);
-    const double kappa = whole.lambda + 2. / 3 * whole.mu;
-    return (struct shares){(more.lambda + 2. / 3 * more.mu - kappa) / (little * kappa),
-                           (more.mu - whole.mu) / (little * whole.mu)};
-}
+enum { SAMPLES = 4 }; /* along each axis of a cell */
 
 /* The ground's place of a place of the lattice: below a surface that is not level another depth. */
 static void to_ground(const struct consistent *c, double place[3])
@@ -66,10 +30,11 @@ static void to_ground(const struct consistent *c, double place[3])
 }
 
 /* Their mean over the cell about a point of a family. */
-static struct shares mean_shares(const struct consistent *c, const struct family *family,
-                                 const struct scene ground[2], const size_t at[3])
+static struct shares mean_shares(const struct consistent *c, const struct family *family, const size_t at[3])
 {
-    struct shares sum = {0};
+    const struct scene *scene = c->model.scene;
+    const int samples = scene->body.model != NULL && scene->body.blocks == 0 ? SAMPLES / 2 : SAMPLES;
+    struct shares sum = {0, 0};
     double middle[3] = {0}, spacing[3] = {0};
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
@@ -77,14 +42,14 @@ static struct shares mean_shares(const struct consistent *c, const struct family
         middle[axis] = general_place(c, slot, family->at[slot], at[slot]);
         spacing[axis] = (spline->high - spline->low) / (double)spline->cells;
     }
-    const int count = c->dimension == 3 ? SAMPLES * SAMPLES * SAMPLES : SAMPLES * SAMPLES;
+    const int count = c->dimension == 3 ? samples * samples * samples : samples * samples;
     for (int sample = 0; sample < count; sample++) {
-        const int step[3] = {sample % SAMPLES, sample / SAMPLES % SAMPLES, sample / SAMPLES / SAMPLES};
+        const int step[3] = {sample % samples, sample / samples % samples, sample / samples / samples};
         double place[3] = {0};
         for (int axis = 0; axis < c->dimension; axis++)
-            place[axis] = middle[axis] + ((step[axis] + .5) / SAMPLES - .5) * spacing[axis];
+            place[axis] = middle[axis] + ((step[axis] + .5) / samples - .5) * spacing[axis];
         to_ground(c, place);
-        const struct shares one = shares_at(ground, place);
+        const struct shares one = ground_shares_at(scene, place);
         sum.bulk += one.bulk / count;
         sum.shear += one.shear / count;
     }
@@ -93,14 +58,14 @@ static struct shares mean_shares(const struct consistent *c, const struct family
 
 /* --- Stiffness ------------------------------------------------------------------------------------------ */
 
-/* Room for eigenvalues of symmetric matrices of STRESSES rows. */
-struct eigen {
-    gsl_eigen_symmv_workspace *room;
+struct sharing {
+    const struct consistent *c;
+    gsl_eigen_symmv_workspace *room; /* for eigenvalues of symmetric matrices of STRESSES rows */
     gsl_matrix *matrix, *vector;
     gsl_vector *value;
 };
 
-static bool eigen_of(struct eigen *eigen, double a[STRESSES][STRESSES])
+static bool eigen_of(const struct sharing *eigen, double a[STRESSES][STRESSES])
 {
     for (size_t p = 0; p < STRESSES; p++)
         for (size_t q = 0; q < STRESSES; q++)
@@ -124,15 +89,15 @@ static void both_sides(double l[STRESSES][STRESSES], double a[STRESSES][STRESSES
                 product[p][q] += (turned ? l[p][k] : l[k][p]) * half[k][q];
 }
 
-static void unpack(const double *packed, size_t apart, double a[STRESSES][STRESSES])
+static void unpack(const double *packed, double a[STRESSES][STRESSES])
 {
     for (int p = 0; p < STRESSES; p++)
-        for (int q = p; q < STRESSES; q++, packed += apart)
-            a[p][q] = a[q][p] = *packed;
+        for (int q = p; q < STRESSES; q++)
+            a[p][q] = a[q][p] = *packed++;
 }
 
 /* A := A clipped between 0 and C; false: C is not positive. */
-static bool clip(struct eigen *eigen, double c[STRESSES][STRESSES], double a[STRESSES][STRESSES])
+static bool clip(const struct sharing *eigen, double c[STRESSES][STRESSES], double a[STRESSES][STRESSES])
 {
     double root[STRESSES][STRESSES], inverse[STRESSES][STRESSES], inner[STRESSES][STRESSES];
     if (!eigen_of(eigen, c)) return false;
@@ -158,143 +123,65 @@ static bool clip(struct eigen *eigen, double c[STRESSES][STRESSES], double a[STR
     return true;
 }
 
-/* Numbers of point m of a run: of the whole ground, and of it with kappa (1 +- little) times. */
-static void set_point(struct eigen *eigen, double *whole, const double *const side[SIDES], size_t apart,
-                      const struct shares *share)
+/* (G11a) */
+static void share_stiffness(const struct sharing *sharing, const struct averaged *averaged,
+                            const struct shares *share, double *stiffness)
 {
-    double c[STRESSES][STRESSES], a[STRESSES][STRESSES], less[STRESSES][STRESSES];
-    unpack(whole, apart, c);
-    unpack(side[0], apart, a);
-    unpack(side[1], apart, less);
+    double c[STRESSES][STRESSES], a[STRESSES][STRESSES], derivative[STIFFNESSES];
+    medium_bulk_stiffness(averaged, derivative);
+    unpack(stiffness, c);
+    unpack(derivative, a);
+    const bool good = clip(sharing, c, a);
     for (int p = 0; p < STRESSES; p++)
-        for (int q = 0; q < STRESSES; q++)
-            a[p][q] = (a[p][q] - less[p][q]) / (2 * little);
-    const bool good = clip(eigen, c, a);
-    for (int p = 0; p < STRESSES; p++)
-        for (int q = p; q < STRESSES; q++, whole += apart)
-            *whole =
+        for (int q = p; q < STRESSES; q++)
+            *stiffness++ =
                 good ? share->bulk * a[p][q] + share->shear * (c[p][q] - a[p][q]) : share->shear * c[p][q];
 }
 
-/* --- Families ------------------------------------------------------------------------------------------- */
-
-static bool alike(const struct family *one, const struct family *other)
+void general_share(const struct sharing *sharing, const struct family *family, const size_t at[3],
+                   const struct averaged *averaged, double *stiffness, double *lambda, double *mu)
 {
-    return one->runs == other->runs &&
-           (one->runs == 0 || memcmp(one->run, other->run, one->runs * sizeof *one->run) == 0);
-}
-
-/* From the whole ground's numbers to the part's; `side`: families with kappa (1 +- little) times. */
-static bool turn_family(const struct consistent *c, struct eigen *eigen, const struct scene ground[2],
-                        const struct family *const side[SIDES], struct family *family)
-{
-    const size_t *n = family->n;
-    if (!alike(side[0], family) || !alike(side[1], family)) return false;
-    for (size_t point = 0; point < n[0] * n[1] * n[2]; point++) {
-        const size_t at[3] = {point % n[0], point / n[0] % n[1], point / n[0] / n[1]};
-        double place[3] = {0};
-        for (int axis = 0; axis < c->dimension; axis++)
-            place[axis] = general_place(c, c->slot[axis], family->at[c->slot[axis]], at[c->slot[axis]]);
-        to_ground(c, place);
-        const struct shares share = shares_at(ground, place);
-        const double kappa = family->lambda[point] + 2. / 3 * family->mu[point];
-        family->mu[point] *= share.shear;
-        family->lambda[point] = share.bulk * kappa - 2. / 3 * family->mu[point];
-    }
-    for (size_t row = 0; row < n[1] * n[2]; row++)
-        for (size_t r = family->first_run[row]; r < family->first_run[row + 1]; r++)
-            for (size_t m = 0; m < family->run[r].count; m++) {
-                const size_t at[3] = {family->run[r].from + m, row % n[1], row / n[1]};
-                const size_t first = family->run[r].at + m;
-                const double *const sides[SIDES] = {side[0]->stiffness + first, side[1]->stiffness + first};
-                const struct shares share = mean_shares(c, family, ground, at);
-                set_point(eigen, family->stiffness + first, sides, family->run[r].count, &share);
-            }
-    return true;
-}
-
-/* New families in place of those there, which are kept elsewhere: of a scene. */
-static selas_status lay(struct consistent *c, const struct scene *scene, struct messages *messages)
-{
-    struct general *g = c->general;
-    double *mass = array_new(c->volume, sizeof *mass);
-    bool good = mass != NULL;
-    for (int f = 0; f < 3; f++) {
-        struct family *family = &g->family[f];
-        const size_t points = family->n[0] * family->n[1] * family->n[2];
-        family->first_run = NULL;
-        family->run = NULL;
-        family->stiffness = NULL;
-        family->runs = 0;
-        family->lambda = array_new(points, sizeof(double));
-        family->mu = array_new(points, sizeof(double));
-        good = good && family->lambda != NULL && family->mu != NULL;
-    }
-    c->model.scene = scene;
-    const selas_status status = good ? general_material(c, mass, messages)
-                                     : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
-    array_free(mass);
-    return status;
-}
-
-static selas_status turn(struct consistent *c, const struct scene ground[2], struct family side[SIDES][3],
-                         struct messages *messages)
-{
+    const struct consistent *c = sharing->c;
+    double place[3] = {0};
+    for (int axis = 0; axis < c->dimension; axis++)
+        place[axis] = general_place(c, c->slot[axis], family->at[c->slot[axis]], at[c->slot[axis]]);
+    to_ground(c, place);
+    const struct shares share = ground_shares_at(c->model.scene, place);
+    const double kappa = *lambda + 2. / 3 * *mu;
+    *mu *= share.shear;
+    *lambda = share.bulk * kappa - 2. / 3 * *mu;
+    if (stiffness == NULL) return;
+    const struct shares mean = mean_shares(c, family, at);
     gsl_errors_returned();
-    struct eigen eigen = {gsl_eigen_symmv_alloc(STRESSES), gsl_matrix_alloc(STRESSES, STRESSES),
-                          gsl_matrix_alloc(STRESSES, STRESSES), gsl_vector_alloc(STRESSES)};
-    bool room = eigen.room != NULL && eigen.matrix != NULL && eigen.vector != NULL && eigen.value != NULL;
-    selas_status status = room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
-    for (int f = 0; f < 3 && status == SELAS_OK; f++) {
-        const struct family *const sides[SIDES] = {&side[0][f], &side[1][f]};
-        if (!turn_family(c, &eigen, ground, sides, &c->general->family[f]))
-            status =
-                fail(messages, SELAS_UNSUPPORTED, "damped ground whose averages differ in kind by kappa");
-    }
-    if (eigen.room != NULL) gsl_eigen_symmv_free(eigen.room);
-    gsl_matrix_free(eigen.matrix);
-    gsl_matrix_free(eigen.vector);
-    gsl_vector_free(eigen.value);
+    share_stiffness(sharing, averaged, &mean, stiffness);
     gsl_errors_as_before();
-    return status;
 }
 
-/* Families of both sides, then of the part in place of the whole. */
-static selas_status lay_part(struct consistent *c, const struct scene ground[2], struct material *room,
-                             struct messages *messages)
+bool general_is_part(const struct scene *scene)
 {
-    struct family side[SIDES][3], whole[3];
-    struct scene varied;
-    selas_status status = SELAS_OK;
-    memcpy(whole, c->general->family, sizeof whole);
-    memset(side, 0, sizeof side);
-    for (int i = 0; i < SIDES && status == SELAS_OK; i++) {
-        vary(&ground[0], i == 0 ? little : -little, 0, room, &varied);
-        status = lay(c, &varied, messages);
-        memcpy(side[i], c->general->family, sizeof side[i]);
-        memcpy(c->general->family, whole, sizeof whole);
-    }
-    if (status == SELAS_OK) status = turn(c, ground, side, messages);
-    for (int i = 0; i < SIDES; i++)
-        for (int f = 0; f < 3; f++)
-            general_free_family(&side[i][f]);
-    return status;
+    return scene->whole != NULL && scene->whole != scene->material;
 }
 
-selas_status general_part_material(struct consistent *c, double *mass, struct messages *messages)
+struct sharing *sharing_new(const struct consistent *c)
 {
-    const struct scene *scene = c->model.scene;
-    if (scene->whole == NULL) return general_material(c, mass, messages);
-    struct material *room = array_new(3 * scene->materials, sizeof *room);
-    struct scene ground[2];
-    if (room == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
-    vary(scene, 0, 0, room, &ground[0]);
-    vary(scene, 0, little, room + scene->materials, &ground[1]);
-    c->model.scene = &ground[0];
-    selas_status status = general_material(c, mass, messages);
-    if (status == SELAS_OK && scene->whole != scene->material)
-        status = lay_part(c, ground, room + 2 * scene->materials, messages);
-    c->model.scene = scene;
-    array_free(room);
-    return status;
+    struct sharing *sharing = array_new(1, sizeof *sharing);
+    if (sharing == NULL) return NULL;
+    gsl_errors_returned();
+    *sharing = (struct sharing){c, gsl_eigen_symmv_alloc(STRESSES), gsl_matrix_alloc(STRESSES, STRESSES),
+                                gsl_matrix_alloc(STRESSES, STRESSES), gsl_vector_alloc(STRESSES)};
+    gsl_errors_as_before();
+    if (sharing->room != NULL && sharing->matrix != NULL && sharing->vector != NULL && sharing->value != NULL)
+        return sharing;
+    sharing_free(sharing);
+    return NULL;
+}
+
+void sharing_free(struct sharing *sharing)
+{
+    if (sharing == NULL) return;
+    if (sharing->room != NULL) gsl_eigen_symmv_free(sharing->room);
+    gsl_matrix_free(sharing->matrix);
+    gsl_matrix_free(sharing->vector);
+    gsl_vector_free(sharing->value);
+    array_free(sharing);
 }

@@ -27,20 +27,13 @@ static double about_axis(double c11, double c33, double c13, double c55, double 
     return sum;
 }
 
-bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
-                      double *mu)
+static const int pair[STRESSES][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+
+/* The upper triangle by rows. */
+static void about_normal(const double rise[3], double c11, double c33, double c13, double c55, double c66,
+                         double stiffness[STIFFNESSES])
 {
-    static const int pair[STRESSES][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
-    const double *mean = averaged->mean, *rise = averaged->rise;
-    const double c33 = 1 / mean[MEAN_SOFTNESS], c13 = mean[MEAN_RATIO] * c33, c66 = mean[MEAN_SHEAR];
-    const double c55 = 1 / mean[MEAN_SLIP];
-    const double c11 = mean[MEAN_SPREAD] + c66 + mean[MEAN_RATIO] * c13;
     const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
-    *mu = c66;
-    *lambda = c11 - 2 * c66;
-    if (averaged->even || (fabs(c33 - c11) <= rounding * c11 && fabs(c55 - c66) <= rounding * c66 &&
-                           fabs(c13 - *lambda) <= rounding * c11))
-        return false;
     double normal[3] = {0, 0, 1};
     for (int s = 0; s < 3 && length > 0; s++)
         normal[s] = rise[s] / length;
@@ -48,5 +41,30 @@ bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNES
     for (int p = 0; p < STRESSES; p++)
         for (int q = p; q < STRESSES; q++)
             stiffness[at++] = about_axis(c11, c33, c13, c55, c66, normal, pair[p], pair[q]);
+}
+
+bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
+                      double *mu)
+{
+    const double *mean = averaged->mean;
+    const double c33 = 1 / mean[MEAN_SOFTNESS], c13 = mean[MEAN_RATIO] * c33, c66 = mean[MEAN_SHEAR];
+    const double c55 = 1 / mean[MEAN_SLIP];
+    const double c11 = mean[MEAN_SPREAD] + c66 + mean[MEAN_RATIO] * c13;
+    *mu = c66;
+    *lambda = c11 - 2 * c66;
+    if (averaged->even || (fabs(c33 - c11) <= rounding * c11 && fabs(c55 - c66) <= rounding * c66 &&
+                           fabs(c13 - *lambda) <= rounding * c11))
+        return false;
+    about_normal(averaged->rise, c11, c33, c13, c55, c66, stiffness);
     return true;
+}
+
+void medium_bulk_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES])
+{
+    const double *mean = averaged->mean, *by = averaged->by_bulk;
+    const double c33 = 1 / mean[MEAN_SOFTNESS], c13 = mean[MEAN_RATIO] * c33;
+    const double d33 = -by[MEAN_SOFTNESS] * c33 * c33;
+    const double d13 = by[MEAN_RATIO] * c33 + mean[MEAN_RATIO] * d33;
+    const double d11 = by[MEAN_SPREAD] + by[MEAN_RATIO] * c13 + mean[MEAN_RATIO] * d13;
+    about_normal(averaged->rise, d11, d33, d13, 0, 0, stiffness);
 }
