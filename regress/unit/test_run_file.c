@@ -12,7 +12,12 @@
 #include <cmocka.h>
 
 static const size_t cube[3] = {6, 5, 4};
-static const struct run_figures figures = {2.0, 3.0, 0.5, 0.6, 0.7, 1, 0};
+static const struct run_figures figures = {.wall_seconds = 2.0,
+                                           .cpu_seconds = 3.0,
+                                           .setup_wall_seconds = 0.5,
+                                           .setup_cpu_seconds = 0.6,
+                                           .exact_cpu_seconds = 0.7,
+                                           .threads = 1};
 
 static int reset(void **state)
 {

@@ -146,7 +146,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     if (status == SELAS_OK && !general_scale(c, mass))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     array_free(mass);
-    if (status == SELAS_OK) g->bytes += tensor_plan_bytes(g->inverse);
+    if (good && status == SELAS_OK) g->bytes += tensor_plan_bytes(g->inverse);
     return status;
 }
 

@@ -29,7 +29,7 @@ bool general_scale(struct consistent *c, const double *mass)
 {
     double *root = c->general->root, *product = array_new(c->volume, sizeof *product);
     struct tensor_plan *plan = even_mass(c);
-    const bool good = part_largest(c, product != NULL && plan != NULL ? 0 : 1) == 0;
+    const bool mine = product != NULL && plan != NULL, good = part_largest(c, mine ? 0 : 1) == 0 && mine;
     double change = 1;
     for (size_t i = 0; i < c->volume; i++)
         root[i] = 1;
