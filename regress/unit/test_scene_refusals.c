@@ -184,9 +184,10 @@ static void faces(void **unused)
         {BOX "&boundary face='x-', kind='transmitting', layer='lysmer', layer_points=8 /\n",
          "t.nml:4:59: error:",
          {"'lysmer', which has no thickness"}},
-        {BOX "&boundary face='x-', kind='transmitting', layer_points=8 /\n&method mass='exact' /\n",
+        {BOX "&boundary face='x-', kind='transmitting', layer_points=8 /\n"
+             "&stepping scheme='modified-equation' /\n",
          "t.nml:4:43: error:",
-         {"'lysmer', which has no thickness (absorbing layers need method%mass"}},
+         {"'lysmer', which has no thickness (absorbing layers need stepping%scheme"}},
         {BOX "&boundary face='x-', kind='transmitting', layer_points=8, layer_thickness=1 /\n",
          "t.nml:4:59: error:",
          {"give one of layer_points, layer_thickness and layer_reflection"}},

@@ -128,7 +128,7 @@ static bool everywhere(const struct model *model, bool here)
 {
     double missing = here ? 0 : 1;
     ranks_largest(model->scene->ranks, 1, &missing);
-    return missing == 0;
+    return here && missing == 0;
 }
 
 /* Norm of r; the v part of y gets M r where the model can tell it. */

@@ -167,7 +167,7 @@ static void write_pulls(const struct consistent *c, enum at at, size_t m, size_t
         const int slot = c->slot[axis];
         const struct taps *z = taps_at(c, DEPTH, slot == DEPTH, at, m);
         for (size_t j = 0; j < c->n[1]; j++) {
-            double *pull[FIELDS];
+            double *pull[FIELDS] = {NULL};
             for (int f = PULL_VALUE; f <= (apart ? PULL_ACROSS : PULL_SLOPE); f++) {
                 pull[f] = field_of(c, buffer, (enum field)f, slot) + j * g->pitch;
                 clamp(c->layout[0], slot == 0, g->cells[0], &whole, pull[f] + ROW_ROOM);

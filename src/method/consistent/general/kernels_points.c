@@ -128,6 +128,7 @@ INLINED void pull(const int count, const bool apart, const bool knots, const str
         const double one = scale * PULL_SLOPE(x), two = PULL_VALUE(y), three = PULL_VALUE(z);
         for (int d = 0; d < count; d++) {
             value[(size_t)d * pitch + i] += apart ? t->value[d] * one : t->value[d] * one + t->slope[d] * two;
+            /* cppcheck-suppress nullPointer ; only where apart */
             if (apart) elsewhere[(size_t)d * pitch + i] += t->slope[d] * two;
             slope[(size_t)d * pitch + i] += t->value[d] * three;
         }
