@@ -125,8 +125,8 @@ static void test_step_of_a_model(void **state)
     const size_t most = ground_jumps_at_most(made.scene);
     double *at = calloc(most, sizeof *at), near = 1000;
     const double place[3] = {1234, 567, 0};
-    assert_int_equal(ground_jumps(made.scene, place, 2, 100, 500, at), 0);
-    const size_t count = ground_jumps(made.scene, place, 2, 820, 1220, at);
+    assert_int_equal(ground_jumps(made.scene, place, 2, 100, 150, at), 0);
+    const size_t count = ground_jumps(made.scene, place, 2, 1000, 1050, at);
     assert_true(count >= 4 && count <= 64);
     for (size_t i = 0; i < count; i++) {
         assert_true(at[i] > 1012 && at[i] < 1048); /* no farther off than a half of a part of 25 */

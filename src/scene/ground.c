@@ -157,7 +157,7 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
 
 /* Parts of a range that are looked at. One over which the shear modulus rises by more than this is halved, and so are
  * its halves, so often. */
-enum { MODEL_PARTS = 16, HALVINGS = 5 };
+enum { MODEL_PARTS = 2, HALVINGS = 5 };
 static const double much = .05;
 
 /* In logarithms. */

@@ -123,20 +123,30 @@ static bool lay_row(struct consistent *c, struct family *family, const struct me
     return true;
 }
 
-static bool lay_family(struct consistent *c, struct family *family, struct medium *medium,
-                       const struct sums *sums)
+/* The families a plane after the other, so that all see the same columns of the ground. */
+static bool lay_families(struct consistent *c, struct medium *medium, const struct sums *sums)
 {
-    struct found found = {0};
-    family->first_run = array_new(family->n[1] * family->n[2] + 1, sizeof *family->first_run);
-    if (family->first_run == NULL) return false;
-    for (size_t k = 0; k < family->n[2]; k++) {
-        medium_plane(medium, family->at, k);
-        for (size_t j = 0; j < family->n[1]; j++)
-            if (!lay_row(c, family, medium, j, k, &found, sums)) return false;
+    struct found found[3] = {{0}};
+    struct family *family = c->general->family;
+    size_t planes = 0;
+    for (int f = 0; f < 3; f++) {
+        family[f].first_run = array_new(family[f].n[1] * family[f].n[2] + 1, sizeof *family->first_run);
+        if (family[f].first_run == NULL) return false;
+        if (family[f].n[2] > planes) planes = family[f].n[2];
     }
-    family->runs = family->first_run[family->n[1] * family->n[2]] = found.runs;
-    c->general->bytes += found.room_of_numbers * sizeof(double);
-    return turn_runs(family);
+    for (size_t k = 0; k < planes; k++)
+        for (int f = 0; f < 3; f++) {
+            if (k >= family[f].n[2]) continue;
+            medium_plane(medium, f, k);
+            for (size_t j = 0; j < family[f].n[1]; j++)
+                if (!lay_row(c, &family[f], medium, j, k, &found[f], sums)) return false;
+        }
+    for (int f = 0; f < 3; f++) {
+        family[f].runs = family[f].first_run[family[f].n[1] * family[f].n[2]] = found[f].runs;
+        c->general->bytes += found[f].room_of_numbers * sizeof(double);
+        if (!turn_runs(&family[f])) return false;
+    }
+    return true;
 }
 
 /* The integral of a control value's function. */
@@ -162,8 +172,7 @@ selas_status general_material(struct consistent *c, double *mass, struct message
     const struct sums sums = {mass, array_new(c->volume, sizeof *mass), part ? sharing_new(c) : NULL};
     struct medium *medium = medium_new(c);
     bool good = sums.even != NULL && medium != NULL && (!part || sums.sharing != NULL);
-    for (int f = 0; good && f < 3; f++)
-        good = lay_family(c, &c->general->family[f], medium, &sums);
+    good = good && lay_families(c, medium, &sums);
     for (int axis = 0; axis < c->dimension; axis++)
         band[c->slot[axis]] = consistent_matrix(c, axis, 0, false, 0, false, WEIGHT_NONE);
     for (size_t i = 0; good && i < c->volume; i++)

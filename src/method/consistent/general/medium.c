@@ -2,7 +2,7 @@
  * second moment (doc/theory/general-ground.md, section 4). Along depth between the places where the rock jumps, so
  * exact for layers; along the axes of the surface, where the ground varies along them, over columns of a
  * fraction of the spacing. */
-#include "method/consistent/general/medium.h"
+#include "method/consistent/general/piece.h"
 
 #include "base/memory.h"
 #include "scene/topography.h"
@@ -15,89 +15,31 @@
 enum {
     MOST_COLUMNS = 8, /* a cell; even, so that cells' middles lie between two */
     BEYOND = 3,       /* cells of columns on either side of the body */
-    PIECES = 10       /* of half a cell, that the widest kernel reaches over */
+    PIECES = 10,      /* of half a cell, that the widest kernel reaches over */
+    RING = PIECES + 2 /* pieces over depth that are kept: planes of knots and of middles of a cell */
 };
-static const double sharpening = 1. / 6, least_part = .3;
+static const double least_part = .3;
 static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
 
 struct columns {
     size_t count, points, a_cell;
     double from, step, spacing; /* place of column n: from + n step */
     bool varies;
+    double weight[2][MOST_COLUMNS * PIECES / 2]; /* [at] of the columns about a point */
 };
 
 struct medium {
     const struct consistent *c;
     struct columns along[2]; /* by slot */
-    enum at at[3];
-    double *drop; /* [columns] of the surface above them, where it is not level; NULL: it is */
-    struct averaged *column, *row, *point;
-    bool part;    /* of damped ground: by_bulk is wanted */
-    double *jump; /* [threads * room] */
+    double *drop;            /* [columns] of the surface above them, where it is not level; NULL: it is */
+    struct piece *column, *row;
+    struct piece *ring[3]; /* by family: [RING][points of a plane] */
+    struct averaged *point;
+    ptrdiff_t next; /* the piece that none has been made of; number 0 begins at face z- */
+    bool part;      /* of damped ground: by_bulk is wanted */
+    double *jump;   /* [threads * room] */
     size_t room;
 };
-
-static double hat(double t)
-{
-    return fmax(0, 1 - fabs(t));
-}
-
-static double at_knots(double t)
-{
-    return (1 + 2 * sharpening) * hat(t) - sharpening * (hat(t - 1) + hat(t + 1));
-}
-
-/* (G11): t in cells from the point. */
-static double kernel(enum at at, double t)
-{
-    return at == AT_KNOTS ? at_knots(t) : (at_knots(t - .5) + at_knots(t + .5)) / 2;
-}
-
-static void quantities(const struct rock *rock, double value[AVERAGES])
-{
-    const double m = rock->lambda + 2 * rock->mu;
-    value[MEAN_DENSITY] = rock->density;
-    value[MEAN_SOFTNESS] = 1 / m;
-    value[MEAN_SLIP] = 1 / rock->mu;
-    value[MEAN_SHEAR] = rock->mu;
-    value[MEAN_SPREAD] = rock->mu * (3 * rock->lambda + 2 * rock->mu) / m;
-    value[MEAN_RATIO] = rock->lambda / m;
-}
-
-/* Their derivatives by e: those of lambda and M are kappa. */
-static void by_bulk(const struct rock *rock, double value[AVERAGES])
-{
-    const double m = rock->lambda + 2 * rock->mu, kappa = rock->lambda + 2. / 3 * rock->mu;
-    memset(value, 0, AVERAGES * sizeof *value);
-    value[MEAN_SOFTNESS] = -kappa / (m * m);
-    value[MEAN_SPREAD] = 4 * kappa * (rock->mu / m) * (rock->mu / m);
-    value[MEAN_RATIO] = 2 * kappa * rock->mu / (m * m);
-}
-
-static void add_derivatives(const struct rock *rock, double weight, struct averaged *sum)
-{
-    double value[AVERAGES], derivative[AVERAGES];
-    quantities(rock, value);
-    by_bulk(rock, derivative);
-    for (int n = 0; n < AVERAGES; n++)
-        sum->by_bulk[n] += weight * derivative[n];
-    for (int n = 0; n < POSITIVE; n++)
-        if (value[n] <= sum->least[n]) sum->least_by_bulk[n] = derivative[n];
-}
-
-/* One sample of the rock, `t` cells from the point, for `part` of a cell. */
-static void add_sample(const struct rock *rock, enum at at, double t, double part, struct averaged *sum)
-{
-    double value[AVERAGES];
-    const double weight = part * kernel(at, t), logarithm = log(rock->lambda + 2 * rock->mu);
-    quantities(rock, value);
-    for (int n = 0; n < AVERAGES; n++)
-        sum->mean[n] += weight * value[n];
-    for (int n = 0; n < POSITIVE; n++)
-        sum->least[n] = fmin(sum->least[n], value[n]);
-    sum->level += part / (2 * reach_of_kernel) * logarithm;
-    sum->rise[DEPTH] += (t > 0 ? part : -part) / reach_of_kernel * logarithm;
-}
 
 static int ascending(const void *one, const void *other)
 {
@@ -124,90 +66,114 @@ static size_t find_jumps(const struct medium *medium, const double place[3], dou
     return count;
 }
 
-/* Averages over depth of one column about a point. place: of the column, by axis; middle: of the point. */
-static void average_column(const struct medium *medium, double place[3], double drop, double middle,
-                           double *jump, struct averaged *sum)
+static double depth_spacing(const struct medium *medium)
+{
+    const struct spline *spline = medium->c->layout[DEPTH];
+    return (spline->high - spline->low) / (double)spline->cells;
+}
+
+/* One piece of a column whose place is `place`. */
+static void average_piece(const struct medium *medium, double place[3], double drop, ptrdiff_t number,
+                          double *jump, struct piece *sum)
 {
     const struct scene *scene = medium->c->model.scene;
-    const struct spline *spline = medium->c->layout[DEPTH];
     const int axis = medium->c->dimension - 1;
-    const double h = (spline->high - spline->low) / (double)spline->cells, reach = reach_of_kernel * h;
-    const enum at at = medium->at[DEPTH];
-    size_t count = find_jumps(medium, place, drop, middle - reach, middle + reach, jump);
-    *sum = (struct averaged){.even = count == 0 && !ground_grades(scene)};
+    const double h = depth_spacing(medium), low = medium->c->layout[DEPTH]->low;
+    const double from = low + (double)number * h / 2, to = low + (double)(number + 1) * h / 2;
+    const double middle = (from + to) / 2;
+    size_t count = find_jumps(medium, place, drop, from, to, jump);
+    *sum = (struct piece){.even = count == 0 && !ground_grades(scene)};
     for (int n = 0; n < POSITIVE; n++)
         sum->least[n] = INFINITY;
     if (sum->even) {
         place[axis] = real(medium, drop, middle);
         const struct rock rock = ground_at(scene, place);
-        quantities(&rock, sum->mean);
-        memcpy(sum->least, sum->mean, sizeof sum->least);
-        sum->level = log(rock.lambda + 2 * rock.mu);
-        if (medium->part) add_derivatives(&rock, 1, sum);
+        piece_sample(&rock, 0, 1, medium->part, sum);
         return;
     }
-    for (int piece = 0; piece <= PIECES; piece++)
-        jump[count++] = middle - reach + piece * h / 2;
+    jump[count++] = from;
+    jump[count++] = to;
     qsort(jump, count, sizeof *jump, ascending);
-    for (size_t piece = 0; piece + 1 < count; piece++) {
-        const double length = jump[piece + 1] - jump[piece];
+    for (size_t part = 0; part + 1 < count; part++) {
+        const double length = jump[part + 1] - jump[part];
         for (int side = -1; side <= 1 && length > 0; side += 2) { /* Gauss, two points */
-            const double sample = (jump[piece] + jump[piece + 1]) / 2 + side * length / (2 * sqrt(3));
+            const double sample = (jump[part] + jump[part + 1]) / 2 + side * length / (2 * sqrt(3));
             place[axis] = real(medium, drop, sample);
             const struct rock rock = ground_at(scene, place);
-            add_sample(&rock, at, (sample - middle) / h, length / (2 * h), sum);
-            if (medium->part)
-                add_derivatives(&rock, length / (2 * h) * kernel(at, (sample - middle) / h), sum);
+            piece_sample(&rock, (sample - middle) / h, length / h, medium->part, sum);
         }
     }
 }
 
-static bool alike(const struct averaged *one, const struct averaged *other)
-{
-    return one->even && other->even && one->mean[MEAN_DENSITY] == other->mean[MEAN_DENSITY] &&
-           one->mean[MEAN_SHEAR] == other->mean[MEAN_SHEAR] &&
-           one->mean[MEAN_SOFTNESS] == other->mean[MEAN_SOFTNESS];
-}
-
 /* Averages along a slot of the surface about point i from columns `stride` apart. */
-static void average_along(const struct medium *medium, int slot, size_t i, const struct averaged *column,
-                          size_t stride, struct averaged *sum)
+static void average_along(const struct medium *medium, int slot, enum at at, size_t i,
+                          const struct piece *column, size_t stride, struct piece *sum)
 {
     const struct columns *columns = &medium->along[slot];
     if (!columns->varies) {
         *sum = *column;
         return;
     }
-    const enum at at = medium->at[slot];
     const size_t width = columns->a_cell * PIECES / 2;
     const size_t first =
         (i + BEYOND) * columns->a_cell + (at == AT_MIDDLES ? columns->a_cell / 2 : 0) - width / 2;
-    const struct averaged *from = column + first * stride;
+    const struct piece *from = column + first * stride;
     bool same = true;
     for (size_t n = 1; n < width && same; n++)
-        same = alike(from, from + n * stride);
+        same = piece_alike(from, from + n * stride);
     *sum = *from;
     if (same) return;
-    *sum = (struct averaged){.level = 0};
+    *sum = (struct piece){.level = 0};
     memcpy(sum->least, from->least, sizeof sum->least);
     memcpy(sum->least_by_bulk, from->least_by_bulk, sizeof sum->least_by_bulk);
     for (size_t n = 0; n < width; n++) {
-        const struct averaged *one = from + n * stride;
-        const double t = ((double)n + .5) / (double)columns->a_cell - reach_of_kernel,
-                     weight = kernel(at, t) / (double)columns->a_cell;
-        for (int q = 0; q < AVERAGES; q++)
-            sum->mean[q] += weight * one->mean[q];
-        for (int q = 0; q < POSITIVE && medium->part; q++)
-            if (one->least[q] < sum->least[q]) sum->least_by_bulk[q] = one->least_by_bulk[q];
-        for (int q = 0; q < POSITIVE; q++)
-            sum->least[q] = fmin(sum->least[q], one->least[q]);
-        for (int q = 0; q < AVERAGES && medium->part; q++)
-            sum->by_bulk[q] += weight * one->by_bulk[q];
+        const struct piece *one = from + n * stride;
         const double even = 1. / (double)width;
-        sum->level += even * one->level;
-        for (int s = 0; s < 3; s++)
-            sum->rise[s] += even * one->rise[s];
-        sum->rise[slot] += (t > 0 ? 2 : -2) * even * one->level;
+        piece_add(one, columns->weight[at][n], even, medium->part, sum);
+        sum->rise[slot] += (n < width / 2 ? -2 : 2) * even * one->level;
+    }
+}
+
+/* (G11b): from pieces on either side of a point of a family's plane, the first of which has this number. */
+static void average_depth(const struct piece *ring, size_t plane, enum at at, ptrdiff_t first,
+                          struct averaged *sum)
+{
+    const struct piece *piece[PIECES];
+    bool same = true;
+    for (int n = 0; n < PIECES; n++) {
+        piece[n] = ring + plane * (size_t)((first + n + RING) % RING);
+        same = same && piece_alike(piece[0], piece[n]);
+    }
+    *sum = (struct averaged){.level = 0};
+    memcpy(sum->least, piece[0]->least, sizeof sum->least);
+    memcpy(sum->least_by_bulk, piece[0]->least_by_bulk, sizeof sum->least_by_bulk);
+    memcpy(sum->mean, piece[0]->mean[0], sizeof sum->mean);
+    memcpy(sum->by_bulk, piece[0]->by_bulk[0], sizeof sum->by_bulk);
+    sum->level = piece[0]->level;
+    sum->even = same;
+    if (same) return;
+    memset(sum->mean, 0, sizeof sum->mean);
+    memset(sum->by_bulk, 0, sizeof sum->by_bulk);
+    sum->level = 0;
+    for (int n = 0; n < PIECES; n++) {
+        const double t = (n + .5) / 2 - reach_of_kernel, from = piece_kernel(at, t - .25),
+                     to = piece_kernel(at, t + .25);
+        const double weight[2] = {(from + to) / 4,
+                                  to - from}; /* the piece is half a cell, and its slope 2 (to - from) */
+        for (int moment = 0; moment < 2; moment++)
+            for (int q = 0; q < AVERAGES; q++) {
+                sum->mean[q] += weight[moment] * piece[n]->mean[moment][q];
+                sum->by_bulk[q] += weight[moment] * piece[n]->by_bulk[moment][q];
+            }
+        for (int q = 0; q < POSITIVE; q++)
+            if (piece[n]->least[q] < sum->least[q]) {
+                sum->least[q] = piece[n]->least[q];
+                sum->least_by_bulk[q] = piece[n]->least_by_bulk[q];
+            }
+        sum->level += piece[n]->level / PIECES;
+        for (int s = 0; s < 2; s++)
+            sum->rise[s] += piece[n]->rise[s] / PIECES;
+        sum->rise[DEPTH] += (t > 0 ? 2. : -2.) / PIECES * piece[n]->level;
     }
 }
 
@@ -236,6 +202,11 @@ static void lay_columns(struct medium *medium, int slot)
     columns->count = (spline->cells + 2 * BEYOND) * columns->a_cell;
     columns->step = columns->spacing / (double)columns->a_cell;
     columns->from += columns->step / 2 - BEYOND * columns->spacing;
+    for (size_t n = 0; n < columns->a_cell * PIECES / 2; n++)
+        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+            columns->weight[at][n] =
+                piece_kernel((enum at)at, ((double)n + .5) / (double)columns->a_cell - reach_of_kernel) /
+                (double)columns->a_cell;
 }
 
 /* Place of column n; beyond a symmetry plane its mirror image. */
@@ -272,17 +243,19 @@ struct medium *medium_new(const struct consistent *c)
     const struct columns *along = medium->along;
     lay_columns(medium, 0);
     lay_columns(medium, 1);
-    medium->room = ground_jumps_at_most(c->model.scene) + PIECES + 1;
+    medium->room = ground_jumps_at_most(c->model.scene) + 2;
+    medium->next = 2 * (ptrdiff_t)c->general->first - PIECES / 2;
     medium->column = array_new(along[0].count * along[1].count, sizeof *medium->column);
     medium->row = array_new(along[0].points * along[1].count, sizeof *medium->row);
     medium->point = array_new(along[0].points * along[1].points, sizeof *medium->point);
     medium->jump = array_new((size_t)c->threads * medium->room, sizeof *medium->jump);
-    if (!lay_drops(medium)) {
-        medium_free(medium);
-        return NULL;
+    bool good =
+        medium->column != NULL && medium->row != NULL && medium->point != NULL && medium->jump != NULL;
+    for (int f = 0; f < 3 && good; f++) {
+        medium->ring[f] = array_new(RING * along[0].points * along[1].points, sizeof **medium->ring);
+        good = medium->ring[f] != NULL;
     }
-    if (medium->column != NULL && medium->row != NULL && medium->point != NULL && medium->jump != NULL)
-        return medium;
+    if (good && lay_drops(medium)) return medium;
     medium_free(medium);
     return NULL;
 }
@@ -293,17 +266,20 @@ void medium_free(struct medium *medium)
     array_free(medium->drop);
     array_free(medium->column);
     array_free(medium->row);
+    for (int f = 0; f < 3; f++)
+        array_free(medium->ring[f]);
     array_free(medium->point);
     array_free(medium->jump);
     array_free(medium);
 }
 
-void medium_plane(struct medium *medium, const enum at at[3], size_t k)
+/* The next piece of all columns, and its averages along the surface about the points of each family. */
+static void advance(struct medium *medium)
 {
     const struct consistent *c = medium->c;
     const struct columns *x = &medium->along[0], *y = &medium->along[1];
-    const double middle = general_place(c, DEPTH, at[DEPTH], k);
-    memcpy(medium->at, at, sizeof medium->at);
+    const size_t plane = x->points * y->points;
+    const ptrdiff_t number = medium->next++;
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
     for (size_t j = 0; j < y->count; j++) {
         double place[3] = {0};
@@ -311,18 +287,40 @@ void medium_plane(struct medium *medium, const enum at at[3], size_t k)
             place[0] = column_place(medium, 0, i);
             if (c->dimension == 3) place[1] = column_place(medium, 1, j);
             const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
-            average_column(medium, place, drop, middle,
-                           medium->jump + (size_t)omp_get_thread_num() * medium->room,
-                           &medium->column[j * x->count + i]);
+            average_piece(medium, place, drop, number,
+                          medium->jump + (size_t)omp_get_thread_num() * medium->room,
+                          &medium->column[j * x->count + i]);
         }
-        for (size_t i = 0; i < x->points - (at[0] == AT_MIDDLES ? 1 : 0); i++)
-            average_along(medium, 0, i, &medium->column[j * x->count], 1, &medium->row[j * x->points + i]);
     }
-    const size_t rows = y->points - (c->dimension == 3 && at[1] == AT_MIDDLES ? 1 : 0);
+    for (int f = 0; f < 3; f++) {
+        const struct family *family = &c->general->family[f];
+        struct piece *point = medium->ring[f] + plane * (size_t)((number + RING) % RING);
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
-    for (size_t j = 0; j < rows; j++)
-        for (size_t i = 0; i < x->points - (at[0] == AT_MIDDLES ? 1 : 0); i++)
-            average_along(medium, 1, j, &medium->row[i], x->points, &medium->point[j * x->points + i]);
+        for (size_t j = 0; j < y->count; j++)
+            for (size_t i = 0; i < family->n[0]; i++)
+                average_along(medium, 0, family->at[0], i, &medium->column[j * x->count], 1,
+                              &medium->row[j * x->points + i]);
+#pragma omp parallel for num_threads(c->threads) schedule(dynamic)
+        for (size_t j = 0; j < family->n[1]; j++)
+            for (size_t i = 0; i < family->n[0]; i++)
+                average_along(medium, 1, family->at[1], j, &medium->row[i], x->points,
+                              &point[j * x->points + i]);
+    }
+}
+
+void medium_plane(struct medium *medium, int f, size_t k)
+{
+    const struct consistent *c = medium->c;
+    const struct family *family = &c->general->family[f];
+    const enum at at = family->at[DEPTH];
+    const size_t points = medium->along[0].points, plane = points * medium->along[1].points;
+    const ptrdiff_t first = 2 * (ptrdiff_t)(c->general->first + k) + (at == AT_MIDDLES) - PIECES / 2;
+    while (medium->next < first + PIECES)
+        advance(medium);
+#pragma omp parallel for num_threads(c->threads) schedule(dynamic)
+    for (size_t j = 0; j < family->n[1]; j++)
+        for (size_t i = 0; i < family->n[0]; i++)
+            average_depth(medium->ring[f] + j * points + i, plane, at, first, &medium->point[j * points + i]);
 }
 
 void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,

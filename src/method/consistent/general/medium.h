@@ -43,11 +43,11 @@ void sharing_free(struct sharing *sharing);              /* takes NULL */
 void general_share(const struct sharing *sharing, const struct family *family, const size_t at[3],
                    const struct averaged *averaged, double *stiffness, double *lambda, double *mu);
 
-/* Averages over a plane of points of a family. */
+/* Averages over plane k of the points of family f: k must not fall, for any two families by no more than a plane. */
 struct medium;
 struct medium *medium_new(const struct consistent *c); /* NULL: no memory */
 void medium_free(struct medium *medium);
-void medium_plane(struct medium *medium, const enum at at[3], size_t k);
+void medium_plane(struct medium *medium, int f, size_t k);
 /* Of point i, j of that plane, with the metric there. */
 void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,
                   struct averaged *averaged);

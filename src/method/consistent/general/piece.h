@@ -1,0 +1,24 @@
+/* Averages of the rock over pieces of a column (doc/theory/general-ground.md, section 4). */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_PIECE_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_PIECE_H
+
+#include "method/consistent/general/medium.h"
+
+/* Half a cell over depth: means of a quantity and of it times the height over the middle, in cells. The kernels are
+ * linear there, so that a plane's averages are sums over its pieces (G11b). */
+struct piece {
+    double mean[2][AVERAGES], least[POSITIVE], level, rise[2];
+    double by_bulk[2][AVERAGES], least_by_bulk[POSITIVE];
+    bool even;
+};
+
+/* (G11): t in cells from the point. */
+double piece_kernel(enum at at, double t);
+/* One sample of the rock, `height` cells over the middle of the piece, of which it is `part`. */
+void piece_sample(const struct rock *rock, double height, double part, bool derivatives, struct piece *piece);
+/* One and the same rock. */
+bool piece_alike(const struct piece *one, const struct piece *other);
+/* sum += weight * one; `even`: the weight of its level. */
+void piece_add(const struct piece *one, double weight, double even, bool derivatives, struct piece *sum);
+
+#endif
