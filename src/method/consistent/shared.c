@@ -82,17 +82,19 @@ void consistent_share(struct model *model, enum model_array array, struct spread
 
 /* --- What the plan tells -------------------------------------------------------------------------------- */
 
-/* Bytes that a rank sends to one neighbour at each call of the operator, or step in one pass. */
+/* Bytes that a rank sends to one neighbour at each step: each operator of damped ground its own, but the velocities of
+ * steps in one pass once. */
 static double halo_bytes(const struct consistent *c)
 {
     const struct pml_fast *fast = c->pml == NULL           ? NULL
                                   : c->pml->single != NULL ? c->pml->single
                                                            : c->pml->fast;
     const double number = c->model.single ? sizeof(float) : sizeof(double);
-    double numbers = c->dimension * (double)c->plane;
+    const double operators = c->model.parts > 1 ? c->model.parts : 1;
+    double numbers = c->dimension * (double)c->plane * (c->model.one_pass != NULL ? 1 : operators);
     for (size_t s = 0; fast != NULL && s < c->pml->slabs; s++)
         if (fast->slab[s].axis[ROLE_B] == DEPTH)
-            numbers += 3 * (double)(fast->slab[s].ns * fast->slab[s].width);
+            numbers += operators * 3 * (double)(fast->slab[s].ns * fast->slab[s].width);
     return numbers * number * (double)c->part.halo;
 }
 

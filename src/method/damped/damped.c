@@ -237,12 +237,12 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
     if (first->single && first->one_pass == NULL)
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%precision = 'single' needs one damped material and no more");
+    first->parts = (unsigned)d->parts;
     *model = *first;
     d->core = damped_core;
     if (first->core->holder == NULL) d->core.holder = NULL;
     if (first->core->share == NULL) d->core.share = NULL;
     model->core = &d->core;
-    model->parts = (unsigned)d->parts;
     model->energy_calls = (unsigned)(d->parts * (1 + mechanisms_of(d)));
     model->spatial = &spatial;
     model->memory = &memory;
