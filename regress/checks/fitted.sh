@@ -100,6 +100,20 @@ fi
 # Layers beside the exact mass; a scheme without layers gets the larger box.
 plan exact f scene%end_time=15 method%mass=exact
 ok "method%mass=exact: layers" grep -q '^box chosen: absorbing layers' "$out/exact.plan"
+# Its inverse carries a load's forces into layers that are near.
+cat >"$out/near.nml" <<D
+&scene dimension = 2, end_time = 40 /
+&material name = 'rock', density = 1, p_speed = 1.54, s_speed = 1 /
+&body material = 'rock', shape = 'half-space', spacing = 0.421 /
+&method mass = 'exact', degree = 4 /
+&load kind = 'moment-tensor', centre = 1.894, 1.253, moment = 1, .5, 0, .3, 0, 0, history = 'gaussian', width = 0.974, delay = 4.872 /
+&receiver name = 'r', position = -0.456, 2.987 /
+D
+OMP_NUM_THREADS=1 "$build/selas" check --echo "$out/near.nml" >"$out/near.plan" 2>&1
+echo=$(sed -n 's/^echo r: \([^ ]*\).*/\1/p' "$out/near.plan")
+ok "a source 17 cells from layers beside the exact mass of degree 4: echo $echo" below "$echo" 2e-4
+plan close near body%low=-6.736,0 body%high=3.368,8.42 boundary%face=x-,x+,y+ boundary%kind=transmitting boundary%layer_points=13
+ok "one that is too near is told of" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face x+, .* up to about 0.3 of' "$out/close.plan"
 plan none f scene%end_time=9 stepping%scheme=modified-equation
 ok "stepping%scheme=modified-equation: the larger box, and why" \
     grep -q '^box chosen: so large .*absorbing layers need' "$out/none.plan"

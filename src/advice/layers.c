@@ -7,6 +7,7 @@
 #include "accuracy/outlook.h"
 #include "advice/parts.h"
 #include "scene/absorbing_layers.h"
+#include "scene/extent.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -44,4 +45,39 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper)
         "absorbing layers of %zu points are only %.2g P wavelengths thick at the mean frequency and leave an "
         "error of about %.1g, the spacing only %.1g; layer = 'pml', layer_points = %ld would be right",
         points, (double)points / cells, error, outlook.error, outlook.layer_points);
+}
+
+/* Cells between what a load acts on and a face. */
+static double cells_to(const struct scene *scene, const struct extent *load, int face)
+{
+    const struct body *body = &scene->body;
+    const int axis = face / 2;
+    const double away =
+        face % 2 == 0 ? load->low[axis] - body->low[axis] : body->high[axis] - load->high[axis];
+    return away / body->spacing;
+}
+
+void look_at_clearance(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    const double clearance = layer_clearance(scene);
+    struct extent load;
+    for (size_t i = 0; scene_extent(scene, i, &load); i++) {
+        int nearest = -1;
+        double least = clearance;
+        for (int face = 0; load.dipole && face < 2 * scene->dimension; face++) {
+            if (layer_points(scene, face) == 0) continue;
+            const double cells = cells_to(scene, &load, face);
+            if (cells > least - 1e-6) continue;
+            least = cells;
+            nearest = face;
+        }
+        if (nearest < 0) continue;
+        advise(adviser,
+               "the moment tensor of load %zu lies %.2g cells from the absorbing layer behind face %s, which "
+               "leaves a "
+               "displacement of up to about %.1g of the largest behind; %.0f cells would be right",
+               load.index + 1, least, face_name((enum face)nearest), layer_left_behind(scene, least),
+               ceil(clearance));
+    }
 }

@@ -25,6 +25,8 @@ double half_size(const struct load *load, int axis);
 void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
+/* Moment tensors too near to layers. */
+void look_at_clearance(struct adviser *adviser);
 /* Edges in which faces prescribe different motions. */
 void look_at_meetings(struct adviser *adviser);
 /* Scenes that their own mirror images do not continue. */

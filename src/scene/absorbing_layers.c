@@ -43,6 +43,31 @@ double layer_cost(const struct scene *scene)
     return asks_exact(scene) ? exact : sweeps;
 }
 
+/* Measured: in the cell of the layer's face, and from cell to cell. */
+struct tail {
+    double begins, falls;
+};
+
+static struct tail tail_of(const struct scene *scene)
+{
+    static const struct tail sweeps = {.7, .194}, exact[] = {{1.5, .43}, {1.5, .54}, {1.5, .61}};
+    const long degree = degree_asked(scene);
+    return !asks_exact(scene) ? sweeps : exact[degree < 2 ? 0 : degree > 4 ? 2 : degree - 2];
+}
+
+double layer_left_behind(const struct scene *scene, double cells)
+{
+    const struct tail tail = tail_of(scene);
+    return tail.begins * pow(tail.falls, fmax(cells, 0));
+}
+
+double layer_clearance(const struct scene *scene)
+{
+    const double allowed = asks_exact(scene) ? 5e-4 : 1e-3; /* 10.4, 13, 16.2; 4 cells */
+    const struct tail tail = tail_of(scene);
+    return log(allowed / tail.begins) / log(tail.falls);
+}
+
 const char *layers_refusal(const struct scene *scene)
 {
     if (strcmp(scene->method.variant, "consistent") != 0) return "this method has no absorbing layers";

@@ -14,6 +14,12 @@ enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
  * doc/developers/performance.md, section 5). */
 double layer_cost(const struct scene *scene);
 
+/* The inverse of the mass carries the forces of a moment tensor on into layers: what stays behind there of one so many
+ * cells away, in parts of its largest displacement, and the cells that it ought to keep
+ * (doc/theory/absorbing-faces.md, section 2). */
+double layer_left_behind(const struct scene *scene, double cells);
+double layer_clearance(const struct scene *scene);
+
 /* Points of the absorbing layer behind a face, 0 if it has none. */
 size_t layer_points(const struct scene *scene, int face);
 /* Has any face one? */

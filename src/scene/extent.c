@@ -121,6 +121,7 @@ static void state_load(const struct scene *scene, size_t index, struct extent *e
     case LOAD_POINT:
         break;
     }
+    extent->dipole = load->kind == LOAD_MOMENT_TENSOR;
     begin_place(extent);
     for (size_t k = first; k < past; k++)
         widen_by_load(scene, &scene->load[k], extent);

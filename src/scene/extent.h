@@ -16,6 +16,7 @@ struct extent {
     double from, until;     /* ACTS: no motion before `from`; SEEN: not looked at after `until` */
     double wavelength; /* ACTS: P waves at the root mean square frequency of the velocity; INFINITY: static */
     bool skew[3];      /* ACTS: not its own mirror image across this axis of the body */
+    bool dipole;       /* ACTS: a moment tensor */
     bool plane;        /* ACTS: alike all over the surface, along its normal */
 };
 

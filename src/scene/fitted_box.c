@@ -26,7 +26,7 @@ static void widen(struct span *span, double low, double high)
 
 /* What the box has to hold. */
 struct held {
-    struct span all[3], load[3];
+    struct span all[3], load[3], dipole[3];
     bool one_centre[3]; /* all that acts has the same centre along this axis and is symmetric about it */
     double centre[3];
     bool plane, whole; /* all moves along the depth alone; the whole body is looked at */
@@ -117,6 +117,7 @@ static void add(struct held *held, const struct extent *extent, int dimension)
         else if (fabs(centre - held->centre[c]) > 1e-9 * (1 + fabs(centre)))
             held->one_centre[c] = false;
         widen(&held->load[c], extent->low[c], extent->high[c]);
+        if (extent->dipole) widen(&held->dipole[c], extent->low[c], extent->high[c]);
     }
 }
 
@@ -125,7 +126,7 @@ static struct held find_held(const struct scene *sketch)
     struct held held = {0};
     struct extent extent;
     for (int c = 0; c < 3; c++) {
-        held.all[c] = held.load[c] = (struct span){INFINITY, -INFINITY};
+        held.all[c] = held.load[c] = held.dipole[c] = (struct span){INFINITY, -INFINITY};
         held.one_centre[c] = true;
     }
     for (size_t i = 0; scene_extent(sketch, i, &extent); i++)
@@ -212,7 +213,9 @@ static double fit_small(const struct builder *builder, const struct held *held, 
         struct span want[3] = {{0, 0}};
         for (int c = 0; c < sketch->dimension; c++) {
             const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * dx;
+            const double clear = layer_clearance(sketch) * dx;
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
+            widen(&want[c], held->dipole[c].low - clear, held->dipole[c].high + clear);
         }
         want[down].high = fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx),
                                fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
