@@ -155,7 +155,12 @@ static void same_file(const char *name)
         for (int k = 0; k < 2; k++)
             assert_non_null(memmem(text[k], size[k], echo, deck_size));
     } else if (size[0] != size[1] || memcmp(text[0], text[1], size[0]) != 0) {
-        fail_msg("%s is another one beside a host that writes commas", name);
+        size_t at = 0;
+        while (at < size[0] && at < size[1] && text[0][at] == text[1][at])
+            at++;
+        while (at > 0 && text[0][at - 1] != '\n')
+            at--;
+        fail_msg("%s is another one beside a host that writes commas: %.160s", name, text[1] + at);
     }
     free(text[0]);
     free(text[1]);

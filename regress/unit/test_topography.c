@@ -6,7 +6,9 @@
 #include "scene/symmetry.h"
 #include "scene/topography.h"
 
+#include <hdf5.h>
 #include <math.h>
+#include <unistd.h>
 
 static const char stored[] = "build/test/heights.txt";
 
@@ -75,6 +77,58 @@ static void test_heights(void **state)
         assert_near(topography_drop(topography, (double[]){0, 0}), 0, 1e-3);
         from_deck_free(&made);
     }
+}
+
+static void write_set(hid_t file, const char *name, int axes, const hsize_t *extent, const double *value)
+{
+    const hid_t space = H5Screate_simple(axes, extent, NULL);
+    const hid_t set = H5Dcreate2(file, name, H5T_IEEE_F32BE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
+    H5Dclose(set);
+    H5Sclose(space);
+}
+
+enum { ALONG = 9, ACROSS = 5 };
+
+/* In floats of the other end; z: rows along y, named so; fault: a value without a height. */
+static void store_heights(const char *path, bool z, bool fault)
+{
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    double x[ALONG], y[ACROSS], height[ALONG * ACROSS];
+    for (size_t i = 0; i < ALONG; i++)
+        for (size_t j = 0; j < ACROSS; j++) {
+            x[i] = (double)i / 2;
+            y[j] = (double)j;
+            height[z ? j * ALONG + i : i * ACROSS + j] = 100 + x[i] / 8 + y[j] * y[j] / 32;
+        }
+    if (fault) height[ALONG + 2] = NAN; /* (1, 1) where rows are along y */
+    write_set(file, "x", 1, (hsize_t[]){ALONG}, x);
+    write_set(file, "y", 1, (hsize_t[]){ACROSS}, y);
+    write_set(file, z ? "z" : "height", 2, z ? (hsize_t[]){ACROSS, ALONG} : (hsize_t[]){ALONG, ACROSS},
+              height);
+    H5Fclose(file);
+}
+
+/* A grid of HDF5, rows along x or, as netCDF-4 has them, along y. */
+static void test_stored_heights(void **state)
+{
+    (void)state;
+    const char deck[] = HEAD BOX "&topography file = 'build/test/heights.h5', datum = 100.0 /\n";
+    const char path[] = "build/test/heights.h5";
+    for (int z = 0; z < 2; z++) {
+        store_heights(path, z, false);
+        struct from_deck made = right_scene(deck);
+        const double drop = topography_drop(made.scene->body.topography, (double[]){1.3, 2.2});
+        assert_near(drop, -(1.3 / 8 + 2.2 * 2.2 / 32), 1e-12); /* of degree 2: no spline changes it */
+        from_deck_free(&made);
+    }
+    store_heights(path, true, true);
+    assert_refused(deck, "t.nml:5:", (const char *[]){"'z', at (1, 1), is not a number", NULL});
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    write_set(file, "lon", 1, (hsize_t[]){2}, (double[]){7, 8});
+    H5Fclose(file);
+    assert_refused(deck, "t.nml:5:", (const char *[]){"expected the HDF5 data sets x [nx], y [ny]", NULL});
+    unlink(path);
 }
 
 static void test_refused(void **state)
@@ -163,8 +217,9 @@ static void test_who_takes_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shapes), cmocka_unit_test(test_heights),      cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_fitted), cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_stored_heights), cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_heights),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_fitted),         cmocka_unit_test(test_who_takes_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -203,8 +203,8 @@ static const struct word layer_words[] = {
      "depth of the upper face [length]; of a tilted one where x = y = 0, of one from a file that of the "
      "height datum"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
-     "heights of the upper face, upwards: text, x y height a line, each x with each y (consistent, operator "
-     "'general')"},
+     "heights of the upper face, upwards: text, x y height a line, each x with each y, or HDF5: x, y, height "
+     "[nx, ny], or z [ny, nx] as in netCDF-4 (consistent, operator 'general')"},
     {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at depth top [length]"},
     {"dip", WORD_REAL, 1, "0", "[0, 80]", OPTIONAL,
      "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},
@@ -251,7 +251,7 @@ static const struct word topography_words[] = {
      "direction of ridge or canyon, from x towards y [degrees]"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
      "heights above face z-, in place of a shape: text, x y height a line (2D: x height), each x with each "
-     "y"},
+     "y, or HDF5: x, y, height [nx, ny], or z [ny, nx] as in netCDF-4"},
     {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at face z- [length]"},
     {"depth", WORD_REAL, 1, NULL, POSITIVE, EXPERT,
      "depth below face z- at which the lattice is level again [length]; else at the body's lower end, or 6 "

@@ -247,6 +247,11 @@ static void describe(const struct model *model,
         mirror->model.part->core->describe(mirror->model.part, tell, context);
 }
 
+static void forget(struct model *model)
+{
+    if (model->part->core->forget != NULL) model->part->core->forget(model->part);
+}
+
 static void destroy(struct model *model)
 {
     struct mirror *mirror = (struct mirror *)model;
@@ -266,6 +271,7 @@ static const struct model_core mirror_core = {
     .power = whole_power,
     .unseen = unseen,
     .describe = describe,
+    .forget = forget,
 };
 
 /* What the whole shows of the part: state, operator, passes and memory are the part's, points the whole's: a

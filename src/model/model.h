@@ -123,6 +123,8 @@ struct model_core {
      * none. */
     void (*describe)(const struct model *model,
                      void (*tell)(void *context, const char *key, const char *value), void *context);
+    /* What describe() counts of calls so far begins anew. NULL: it counts nothing. */
+    void (*forget)(struct model *model);
 };
 
 /* The spatial operator. */

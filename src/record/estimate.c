@@ -69,6 +69,7 @@ double estimate_step(const struct recorder *own, struct stepper *stepper)
     state_free(&state);
     recorder_free(&recorder);
     stepper->model->evaluations = evaluations;
+    if (stepper->model->core->forget != NULL) stepper->model->core->forget(stepper->model);
     stepper->driver.host = host;
     driver_changed(&stepper->driver, 0);
     return seconds;

@@ -2,13 +2,12 @@
  * squares, one axis after the other (C. de Boor, A Practical Guide to Splines, 1978, chapters XIV and XVII). */
 #include "scene/height_map.h"
 #include "base/gsl_errors.h"
-#include "base/lines.h"
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/height_rows.h"
 
 #include <gsl/gsl_linalg.h>
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,56 +30,6 @@ struct height_map {
     double most, smoothed;
 };
 
-/* Rows of the file as they stand: places along the axes, height. */
-struct rows {
-    size_t count, room;
-    double (*row)[3];
-};
-
-static bool keep(struct rows *rows, const double *value, int axes)
-{
-    if (rows->count == rows->room) {
-        const size_t more = 2 * rows->room + 1024;
-        double(*larger)[3] = array_new(more, sizeof *larger);
-        if (larger == NULL) return false;
-        if (rows->count > 0) memcpy(larger, rows->row, rows->count * sizeof *larger);
-        array_free(rows->row);
-        rows->row = larger;
-        rows->room = more;
-    }
-    double *row = rows->row[rows->count++];
-    row[0] = value[0];
-    row[1] = axes == 2 ? value[1] : 0;
-    row[2] = value[axes];
-    return true;
-}
-
-static selas_status read_rows(const char *path, int axes, struct rows *rows, struct messages *messages)
-{
-    FILE *file = fopen(path, "r");
-    if (file == NULL) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s': %s", path, strerror(errno));
-    char line[LINE_SIZE];
-    selas_status status = SELAS_OK;
-    enum line_found next = LINE_END;
-    for (size_t number = 1; status == SELAS_OK && (next = line_next(file, line)) != LINE_END; number++) {
-        double value[3];
-        int count = next == LINE_READ ? line_numbers(line, 3, value) : 0;
-        for (int i = 0; i < count; i++)
-            if (!isfinite(value[i])) count = -1;
-        if (next != LINE_READ)
-            status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
-        else if (count != 0 && count != axes + 1)
-            status = fail(messages, SELAS_FILE_ERROR, "%s:%zu: expected %s", path, number,
-                          axes == 2 ? "three numbers, x y height" : "two numbers, x height");
-        else if (count != 0 && !keep(rows, value, axes))
-            status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
-    }
-    if (status == SELAS_OK && ferror(file) != 0)
-        status = fail(messages, SELAS_FILE_ERROR, "cannot read '%s': %s", path, strerror(errno));
-    fclose(file);
-    return status;
-}
-
 static int ascending(const void *one, const void *other)
 {
     const double a = *(const double *)one, b = *(const double *)other;
@@ -88,7 +37,7 @@ static int ascending(const void *one, const void *other)
 }
 
 /* Places that occur along an axis, those that rounding parts taken together. */
-static bool find_places(const struct rows *rows, int axis, struct axis_map *along)
+static bool find_places(const struct height_rows *rows, int axis, struct axis_map *along)
 {
     along->place = array_new(rows->count, sizeof *along->place);
     if (along->place == NULL) return false;
@@ -114,8 +63,8 @@ static size_t nearest(const struct axis_map *along, double x)
 }
 
 /* Puts the rows into the grid: each place once. */
-static selas_status lay_grid(const char *path, const struct rows *rows, double datum, struct height_map *map,
-                             struct messages *messages)
+static selas_status lay_grid(const char *path, const struct height_rows *rows, double datum,
+                             struct height_map *map, struct messages *messages)
 {
     const size_t n[2] = {map->along[0].values, map->along[1].values};
     if (n[0] < 2 || (map->axes == 2 && n[1] < 2))
@@ -249,7 +198,7 @@ static bool fit_all(struct height_map *map)
 }
 
 /* Splines through rows of a grid; `path`: what they are from. */
-static struct height_map *map_of(const struct rows *rows, const char *path, int axes, double datum,
+static struct height_map *map_of(const struct height_rows *rows, const char *path, int axes, double datum,
                                  double piece, struct messages *messages)
 {
     struct height_map *map = array_new(1, sizeof *map);
@@ -274,9 +223,9 @@ static struct height_map *map_of(const struct rows *rows, const char *path, int 
 struct height_map *height_map_read(const char *path, int axes, double datum, double piece,
                                    struct messages *messages)
 {
-    struct rows rows = {0};
+    struct height_rows rows = {0};
     struct height_map *map = NULL;
-    const selas_status status = read_rows(path, axes, &rows, messages);
+    const selas_status status = height_rows_read(path, axes, &rows, messages);
     if (status == SELAS_OK && rows.count == 0)
         fail(messages, SELAS_FILE_ERROR, "%s: no heights", path);
     else if (status == SELAS_OK)
@@ -289,7 +238,7 @@ struct height_map *height_map_sample(double (*height)(const struct ground_model 
                                      const struct ground_model *of, const double low[2], const double high[2],
                                      double step, double piece, struct messages *messages)
 {
-    struct rows rows = {0};
+    struct height_rows rows = {0};
     size_t n[2];
     bool room = true;
     for (int axis = 0; axis < 2; axis++)
@@ -298,7 +247,7 @@ struct height_map *height_map_sample(double (*height)(const struct ground_model 
         const size_t row = i / n[1], column = i % n[1];
         const double x = low[0] + (high[0] - low[0]) * (double)row / (double)(n[0] - 1);
         const double y = low[1] + (high[1] - low[1]) * (double)column / (double)(n[1] - 1);
-        room = keep(&rows, (double[]){x, y, height(of, (double[]){x, y})}, 2);
+        room = height_rows_keep(&rows, (double[]){x, y, height(of, (double[]){x, y})}, 2);
     }
     struct height_map *map = NULL;
     if (room)

@@ -9,7 +9,7 @@ struct deck_group;
 struct ground_model;
 struct height_map;
 
-/* Reads x, height (two dimensions) or x, y, height, on a grid of rows and columns whatever their
+/* Reads x, height (two dimensions) or x, y, height (height_rows.h), on a grid of rows and columns whatever their
  * distances; splines of pieces no shorter than `piece` by least squares. NULL: SELAS_FILE_ERROR or SELAS_NO_MEMORY
  * in messages. */
 struct height_map *height_map_read(const char *path, int axes, double datum, double piece,

@@ -227,6 +227,13 @@ static void describe(const struct model *model,
     shared_describe(c, tell, context);
 }
 
+static void forget(struct model *model)
+{
+    struct consistent *c = consistent_of(model);
+    fused_forget(c->fused);
+    layers_forget(c->pml);
+}
+
 static selas_status build_space(struct consistent *c, struct messages *messages)
 {
     selas_status status = consistent_lay(c, messages);
@@ -287,6 +294,7 @@ static const struct model_core core = {
     .power = power,
     .unseen = consistent_unseen,
     .describe = describe,
+    .forget = forget,
 };
 static const struct model_operator spatial = {
     .accelerate = accelerate,

@@ -205,6 +205,12 @@ static void unseen(struct model *model, const double *y, struct unseen *found)
     }
 }
 
+static void forget(struct model *model)
+{
+    struct model *first = first_of(model);
+    if (first->core->forget != NULL) first->core->forget(first);
+}
+
 const struct model_core damped_core = {
     .destroy = damped_free,
     .initialise = initialise,
@@ -218,4 +224,5 @@ const struct model_core damped_core = {
     .loss = loss,
     .unseen = unseen,
     .describe = damped_describe,
+    .forget = forget,
 };

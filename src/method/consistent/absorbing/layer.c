@@ -55,6 +55,13 @@ void layers_describe(const struct consistent *c,
     tell(context, "layers skipped", text);
 }
 
+void layers_forget(struct pml *pml)
+{
+    struct pml_fast *const fast[2] = {pml != NULL ? pml->fast : NULL, pml != NULL ? pml->single : NULL};
+    for (int kind = 0; kind < 2; kind++)
+        if (fast[kind] != NULL) fast[kind]->groups = fast[kind]->skipped = 0;
+}
+
 /* Speed of control value (i, j, k) of a slab, counted from its first; infinite if it, or what the layer keeps
  * there, is not finite or overflows. */
 static double speed_at(const struct consistent *c, const struct slab *slab, const double *v,

@@ -64,6 +64,9 @@ struct pml {
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context);
 
+/* What the second of these lines counts begins anew; takes NULL. */
+void layers_forget(struct pml *pml);
+
 /* The fastest control value of the layers, or the middle of those that are spoiled, if it is faster, or more are, than
  * what was found. */
 void layers_fastest(struct model *model, const double *y, struct unseen *found);

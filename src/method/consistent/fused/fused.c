@@ -315,6 +315,12 @@ void fused_count(struct fused *f)
     }
 }
 
+void fused_forget(struct fused *fused)
+{
+    for (; fused != NULL; fused = fused->single)
+        fused->points = fused->skipped = 0;
+}
+
 void fused_free(struct fused *fused)
 {
     if (fused == NULL) return;

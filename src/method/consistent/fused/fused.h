@@ -136,6 +136,7 @@ void fused_look_single(struct fused *fused, const float *u);
 struct window fused_whole(const struct fused *fused);
 /* Counts the points of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
+void fused_forget(struct fused *fused); /* these counts; takes NULL */
 
 /* What steps in one pass work on. Each part has displacements u and the layers' memory variables (NULL
  * without layers); with `relax` (NULL: none) u of part p is e_p, and its memory is there. */
