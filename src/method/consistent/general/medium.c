@@ -32,8 +32,8 @@ struct medium {
     const struct consistent *c;
     struct columns along[2]; /* by slot */
     double *drop;            /* [columns] of the surface above them, where it is not level; NULL: it is */
-    struct piece *column, *row;
-    struct piece *ring[3]; /* by family: [RING][points of a plane] */
+    struct piece *column, *row[2]; /* [threads * columns along x]; [at][points along x, columns along y] */
+    struct piece *ring[3];         /* by family: [RING][points of a plane] */
     struct averaged *point;
     ptrdiff_t next; /* the piece that none has been made of; number 0 begins at face z- */
     bool part;      /* of damped ground: by_bulk is wanted */
@@ -245,12 +245,13 @@ struct medium *medium_new(const struct consistent *c)
     lay_columns(medium, 1);
     medium->room = ground_jumps_at_most(c->model.scene) + 2;
     medium->next = 2 * (ptrdiff_t)c->general->first - PIECES / 2;
-    medium->column = array_new(along[0].count * along[1].count, sizeof *medium->column);
-    medium->row = array_new(along[0].points * along[1].count, sizeof *medium->row);
+    medium->column = array_new((size_t)c->threads * along[0].count, sizeof *medium->column);
+    for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+        medium->row[at] = array_new(along[0].points * along[1].count, sizeof **medium->row);
     medium->point = array_new(along[0].points * along[1].points, sizeof *medium->point);
     medium->jump = array_new((size_t)c->threads * medium->room, sizeof *medium->jump);
-    bool good =
-        medium->column != NULL && medium->row != NULL && medium->point != NULL && medium->jump != NULL;
+    bool good = medium->column != NULL && medium->row[0] != NULL && medium->row[1] != NULL &&
+                medium->point != NULL && medium->jump != NULL;
     for (int f = 0; f < 3 && good; f++) {
         medium->ring[f] = array_new(RING * along[0].points * along[1].points, sizeof **medium->ring);
         good = medium->ring[f] != NULL;
@@ -265,7 +266,8 @@ void medium_free(struct medium *medium)
     if (medium == NULL) return;
     array_free(medium->drop);
     array_free(medium->column);
-    array_free(medium->row);
+    for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+        array_free(medium->row[at]);
     for (int f = 0; f < 3; f++)
         array_free(medium->ring[f]);
     array_free(medium->point);
@@ -282,29 +284,27 @@ static void advance(struct medium *medium)
     const ptrdiff_t number = medium->next++;
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
     for (size_t j = 0; j < y->count; j++) {
+        const size_t thread = (size_t)omp_get_thread_num();
+        struct piece *column = medium->column + thread * x->count;
         double place[3] = {0};
         for (size_t i = 0; i < x->count; i++) {
             place[0] = column_place(medium, 0, i);
             if (c->dimension == 3) place[1] = column_place(medium, 1, j);
             const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
-            average_piece(medium, place, drop, number,
-                          medium->jump + (size_t)omp_get_thread_num() * medium->room,
-                          &medium->column[j * x->count + i]);
+            average_piece(medium, place, drop, number, medium->jump + thread * medium->room, &column[i]);
         }
+        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+            for (size_t i = 0; i < x->points - (at == AT_MIDDLES ? 1 : 0); i++)
+                average_along(medium, 0, (enum at)at, i, column, 1, &medium->row[at][j * x->points + i]);
     }
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
+        const struct piece *row = medium->row[family->at[0]];
         struct piece *point = medium->ring[f] + plane * (size_t)((number + RING) % RING);
-#pragma omp parallel for num_threads(c->threads) schedule(dynamic)
-        for (size_t j = 0; j < y->count; j++)
-            for (size_t i = 0; i < family->n[0]; i++)
-                average_along(medium, 0, family->at[0], i, &medium->column[j * x->count], 1,
-                              &medium->row[j * x->points + i]);
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
         for (size_t j = 0; j < family->n[1]; j++)
             for (size_t i = 0; i < family->n[0]; i++)
-                average_along(medium, 1, family->at[1], j, &medium->row[i], x->points,
-                              &point[j * x->points + i]);
+                average_along(medium, 1, family->at[1], j, &row[i], x->points, &point[j * x->points + i]);
     }
 }
 
