@@ -21,7 +21,7 @@ SOURCES := $(filter-out src/program/% $(MPI_ONLY),$(shell find src -name "*.c" |
 # Kernels are compiled once for each kind of processor (src/base/processor.h)
 KERNELS  = $(wildcard $(addprefix src/method/,spline/passes.c consistent/fused/kernels_*.c consistent/general/kernels_*.c consistent/absorbing/pml_kernels_*.c \
            total_lagrangian/*_loops.c updated_lagrangian/block_rates.c updated_lagrangian/artificial_stress.c cloud/solver.c cloud/splines.c))
-KINDS   := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine)),x86-64 x86-64-v3 x86-64-v4,plain)
+KINDS   := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null)),x86-64 x86-64-v3 x86-64-v4,plain)
 OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(filter-out $(KERNELS),$(SOURCES))) \
            $(foreach kind,$(KINDS),$(KERNELS:src/%.c=$(BUILD)/obj/$(kind)/%.o))
 PROGRAM  = $(wildcard src/program/*.c)

@@ -152,7 +152,7 @@ fuzz-replay: $(FUZZED:%=$(BUILD)/replay/%) # on the inputs that are kept, with a
 # Studies: tables and figures of the manual
 
 .PHONY: absorption damping quiet paper-figures sph-figures gallery consistent-tables tables stability accuracy bench bench-all bench-sph bench-host lamb-check
-absorption: $(BUILD)/selas ## table of doc/theory/absorbing-faces.md: what comes back from transmitting faces
+absorption: $(BUILD)/selas ## table of doc/verification/tables/absorbing.txt: what comes back from transmitting faces
 	@sh regress/studies/absorption $(BUILD)
 
 damping: $(BUILD)/selas ## error against mechanisms and Q: table and plot of doc/theory/damping.md (a minute)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
-# contents (doc/README.md), every page that the source or a script names is there, every command and option of --help is in the
-# man page. Argument: the build folder. Prints TAP.
+# contents (doc/README.md), every page that the source or a script names is there, and every file that a page names, every
+# command and option of --help is in the man page. Argument: the build folder. Prints TAP.
 selas=$(cd "${1:-build}" && pwd)/selas
 cd "$(dirname "$0")/../.." || exit 1
 texts=$(mktemp) || exit 1
@@ -38,6 +38,12 @@ verdict 'every page of the manual is in its contents' "$(
 verdict 'every page that source and scripts name is there' "$(
     grep -rhoE '\bdoc/[a-z0-9/-]+\.(md|1)\b' src regress input Makefile README.md doc/selas.1 | sort -u | while read -r page; do
         [ -e "$page" ] || echo "$page"
+    done
+)"
+verdict 'every file of the source that the manual names is there' "$(
+    # shellcheck disable=SC2086 # the pages are several words
+    grep -hoE '`(src|input|regress/(checks|studies|unit))/[a-z0-9_/*.-]+`' $pages | tr -d '`' | sort -u | while read -r path; do
+        ls -d $path >/dev/null 2>&1 || echo "$path"
     done
 )"
 verdict 'every message of doc/howto/troubleshooting.md is one of the source' "$(

@@ -120,7 +120,7 @@ static double dispersion(struct run *run, double points)
     return worst;
 }
 
-/* The table of doc/theory/general-ground.md, for Poisson's ratio 1/4 (worst of 150 directions there, three here). */
+/* doc/theory/general-ground.md, section 6: phase errors for nu = 1/4 (worst of 150 directions there, three here). */
 static void test_plane_waves(void **state)
 {
     (void)state;

@@ -129,12 +129,6 @@ static int exit_status(selas_status status)
 
 /* --- Commands --- */
 
-static void print_line(void *context, const char *key, const char *value)
-{
-    if (context == NULL) return; /* not the first rank */
-    fprintf(context, "%s: %s\n", key, value);
-}
-
 static selas_status open_named(const struct arguments *arguments, selas_simulation **simulation)
 {
     if (strcmp(arguments->command, "restart") == 0)

@@ -5,6 +5,7 @@
  * cannot be written. One that cannot be written is told once and the run goes on with the one before. */
 #include "program/run.h"
 
+#include "advice/advice.h"
 #include "base/clock.h"
 #include "base/progress.h"
 #include "host/simulation.h"
@@ -45,6 +46,11 @@ void tell_messages(const selas_simulation *simulation, size_t *told)
     const size_t length = strlen(text);
     if (length > *told) fputs(text + *told, stderr);
     *told = length;
+}
+
+void print_line(void *context, const char *key, const char *value)
+{
+    if (context != NULL) fprintf(context, "%s: %s\n", key, value);
 }
 
 static void print_text(void *context, const char *text)
@@ -202,6 +208,8 @@ static selas_status run_with_progress(struct run *run, const char *from)
     if (status != SELAS_OK) return status;
     const unsigned long needed = selas_steps_needed(simulation);
     tell_messages(simulation, run->told);
+    if (from == NULL)
+        advice_tell(simulation->scene, simulation->stepper, print_line, run->quiet ? NULL : stderr);
     signals_catch();
     progress_start(&progress, selas_end_time(simulation), isatty(STDERR_FILENO) != 0, print_text, stderr);
     status = step_on(run, &progress, needed);

@@ -9,5 +9,7 @@
 selas_status run_program(selas_simulation *simulation, const char *from, bool quiet, size_t *told);
 /* Prints what the simulation has said since the last call. */
 void tell_messages(const selas_simulation *simulation, size_t *told);
+/* Prints a line `key: value` to the FILE `context`; NULL: nothing (ranks but the first, a quiet run). */
+void print_line(void *context, const char *key, const char *value);
 
 #endif
