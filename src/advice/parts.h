@@ -1,6 +1,6 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), points.c (patches on
- * points), places.c (receivers near sources, surfaces before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved
- * faces that meet others). */
+ * points), places.c (receivers near sources, surfaces before layers), layers.c (absorbing layers), mirrors.c
+ * (symmetry planes), edges.c (moved faces that meet others). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 

@@ -1,5 +1,5 @@
-/* Places that the lattice or the absorbing layers do not do justice: receivers in the midst of a source, and a surface
- * that layers make level. */
+/* Places that the lattice or the absorbing layers do not do justice: receivers in the midst of a source, and a
+ * surface that layers make level. */
 #include "advice/parts.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Spacings that a force and a moment tensor are wide on splines of degree 2 (doc/theory/sources.md): velocities nearer to
- * a force were .01 to .09 wrong, to a moment tensor .03 to .3, at 5 to 8 points a wavelength. */
+/* Spacings that a force and a moment tensor are wide on splines of degree 2 (doc/theory/sources.md). At 5 to 8
+ * points a wavelength velocities nearer to a force were .01 to .09 wrong, to a moment tensor .03 to .3. */
 static double near(const struct load *load)
 {
     return load->kind == LOAD_MOMENT_TENSOR ? 4.0 : load->shape == LOAD_POINT ? 2.0 : 0.0;
