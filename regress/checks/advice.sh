@@ -60,6 +60,15 @@ told "a disc of few particles" "have 0.909 of its area.* amplitude = 1.1 would" 
 told "shear on a whole face across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%shape=face load%direction=1,0 load%centre= load%size=
 told "a body force across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%kind=body-force load%shape=face load%face= load%direction=1,0 load%centre= load%size=
 told "a force at an absorbing face" "load 1 acts at the absorbing face y+.*two spacings (0.5)" load%kind=body-force load%shape=point load%face= load%centre=1,3.9 load%size=
+force="load%kind=body-force load%shape=point load%face= load%size="
+# shellcheck disable=SC2086
+told "a receiver beside a point force" "receiver 'r' is 0.35 from load 1.*nearer than 2 spacings (0.5).*body%spacing = 0.175" $force load%centre=2,1.35
+told "one in the midst of a moment tensor" "receiver 'r' is 0.9 from load 1.*nearer than 4 spacings (1)" load%face= load%size= load%kind=moment-tensor load%shape= load%direction= load%moment=1,1,0,0,0,0 load%centre=2,1.9
+hill="topography%shape=ridge topography%height=.4 topography%width=.5"
+# shellcheck disable=SC2086
+told "a hill that absorbing layers cut" "made level, which changes its heights by up to" $force load%centre=.8,2.5 $hill topography%centre=3.5
+# shellcheck disable=SC2086
+"$selas" --strict check good.nml $force load%centre=.8,2.5 $hill topography%centre=.0 >said 2>&1 && echo "ok - a hill that ends before them: nothing to warn of" || { echo "not ok - a hill that ends before them"; failures=$((failures + 1)); }
 deck=start.nml
 sed '/^&load/d; /^&boundary face = .x+/d' good.nml >start.nml
 echo "&initial kind = 'gaussian', centre = 0, 2, width = 0.5, amplitude = 0.1, direction = 0, 1 /" >>start.nml

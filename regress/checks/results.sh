@@ -140,4 +140,21 @@ check "a killed run leaves the older run.h5" cmp out/run.h5 killed/run.h5
 check "... and no half files" sh -c '! ls killed | grep -q "\.part$"'
 touch file
 check "a folder that cannot be made is told, exit 1" sh -c '"$0" small.nml output%directory=file/out; test $? -eq 1' "$selas"
+# a box shut on all sides whose load acts on after end_time, when the run goes on for the time-dispersion transform
+cat >shut.nml <<'END'
+&scene dimension = 2, end_time = 3.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', low = 0, 0, high = 5, 5, spacing = 0.25 /
+&load kind = 'body-force', shape = 'point', centre = 2.5, 2.0, direction = 0, 1, history = 'gaussian', width = 0.6, delay = 3.0 /
+&receiver name = 'side', position = 3.3, 2.1 /
+&output plots = .false. /
+END
+# shellcheck disable=SC2086
+of_one_time() { # work and energy of the report belong to one time
+    "$selas" -q shut.nml output%directory="shut$1" $2 && awk -F': ' '{ of[$1] = $2 + 0 }
+        END { e = of["energy kinetic"] + of["energy strain"] + of["energy absorbed"]; w = of["work of loads"]; print e, w
+            exit !(w > 0 && e > .99 * w && e < 1.01 * w) }' "shut$1/report.txt"
+}
+check "the work of a load that acts on is that of the energy told" of_one_time 1 ""
+check "and what dampers absorbed" of_one_time 2 "boundary%face=all boundary%kind=transmitting boundary%layer=lysmer"
 exit $((failures > 0))

@@ -242,8 +242,10 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     if (!body_is_box(&scene->body)) return adviser.count;
     look_at_meetings(&adviser);
     look_at_receivers(&adviser);
+    look_at_nearness(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
+    look_at_levelled(&adviser);
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);

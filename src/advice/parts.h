@@ -1,6 +1,6 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), points.c (patches on
- * points), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved
- * faces that meet others). */
+ * points), places.c (receivers near sources, surfaces before layers), layers.c (absorbing layers), mirrors.c
+ * (symmetry planes), edges.c (moved faces that meet others). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -27,6 +27,10 @@ void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 /* Moment tensors too near to layers. */
 void look_at_clearance(struct adviser *adviser);
+/* Receivers in the midst of a point source. */
+void look_at_nearness(struct adviser *adviser);
+/* A surface that absorbing layers change. */
+void look_at_levelled(struct adviser *adviser);
 /* Edges in which faces prescribe different motions. */
 void look_at_meetings(struct adviser *adviser);
 /* Scenes that their own mirror images do not continue. */

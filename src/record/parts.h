@@ -61,8 +61,8 @@ struct watch {
     double turn, strain;               /* largest rotation [rad] and strain at recorder->place */
     double due, arrived; /* energy that was given, about when it was most, and what the body had of it */
     struct energy last;
-    double taken, lost;    /* at that time: of `damped`; of what was given and is not there */
-    double largest_defect; /* largest |E - E0 - work + absorbed + damped| */
+    double worked, let_out, taken; /* of `work`, `absorbed` and `damped`, at that time */
+    double largest_defect;         /* largest |E - E0 - work + absorbed + damped| */
     double last_time;
     double sampled; /* sum of squares of a sample of the velocities when they were last energetic */
     double next;    /* step of the next look at the whole state */

@@ -43,17 +43,17 @@ static void write_energy(FILE *out, const struct recorder *recorder)
     fprintf(out, "energy kinetic: %.6e\nenergy strain: %.6e\n", watch->last.kinetic, watch->last.strain);
     fprintf(out, "energy at start: %.6e\nenergy largest: %.6e\n", watch->initial, watch->largest);
     if (!watch->by_work) return;
-    fprintf(out, "work of loads: %.6e\n", watch->work);
+    fprintf(out, "work of loads: %.6e\n", watch->worked);
     const bool losing = recorder->model->core->loss != NULL, told = losing && recorder->scene->output.balance;
     if (told) fprintf(out, "energy taken by damping: %.6e\n", watch->taken);
     if (recorder->model->layers || recorder->model->untold)
         return; /* not all is measured: there is no balance */
     if (losing && !told) {
         fprintf(out, "energy taken by damping: %.6e (work less what is left; output%%balance measures it)\n",
-                watch->lost);
+                watch->initial + watch->worked - watch->let_out - watch->last.kinetic - watch->last.strain);
         return;
     }
-    fprintf(out, "energy absorbed: %.6e\n", watch->absorbed);
+    fprintf(out, "energy absorbed: %.6e\n", watch->let_out);
     fprintf(out, "energy balance defect: %.3e (largest |E - E0 - work + absorbed%s|, relative to %.3e)\n",
             per(watch->largest_defect, watch->initial + watch->gross), told ? " + damped" : "",
             watch->initial + watch->gross);

@@ -203,8 +203,9 @@ static void keep_energy(struct recorder *recorder, const struct state *state, co
     if (!recorder->started) watch->initial = total;
     watch->largest = fmax(watch->largest, total);
     watch->last = *energy;
+    watch->worked = watch->work;
+    watch->let_out = watch->absorbed;
     watch->taken = watch->damped;
-    watch->lost = watch->initial + watch->work - watch->absorbed - total;
     watch->last_time = state->time;
     if (watch->by_work) {
         const double defect = fabs(total - watch->initial - watch->work + watch->absorbed + watch->damped);

@@ -255,6 +255,7 @@ void build_topography(struct builder *builder)
     const struct topography plain = *topography;
     draw_out(scene, topography);
     const struct range range = range_of(scene, topography, &plain);
+    topography->changed = range.drawn;
     tell(builder, topography, &range);
     check_range(builder, group, topography, &range);
     if (scene->body.model != NULL && !scene->body.model->sea && range.low < -1e-9 * topography->depth)

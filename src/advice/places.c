@@ -1,0 +1,57 @@
+/* Places that the lattice or the absorbing layers do not do justice: receivers in the midst of a source, and a
+ * surface that layers make level. */
+#include "advice/parts.h"
+#include "scene/resolution.h"
+#include "scene/topography.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Spacings that a force and a moment tensor are wide on splines of degree 2 (doc/theory/sources.md). At 5 to 8
+ * points a wavelength velocities nearer to a force were .01 to .09 wrong, to a moment tensor .03 to .3. */
+static double near(const struct load *load)
+{
+    return load->kind == LOAD_MOMENT_TENSOR ? 4.0 : load->shape == LOAD_POINT ? 2.0 : 0.0;
+}
+
+void look_at_nearness(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    const double h = scene->body.spacing;
+    double least = INFINITY, wanted = 0.0;
+    size_t load = 0, receiver = 0;
+    if (strcmp(scene->method.variant, "consistent") != 0) return;
+    for (size_t k = 0; k < scene->loads; k++)
+        for (size_t r = 0; r < scene->receivers; r++) {
+            const double *from = scene->load[k].centre, *to = scene->receiver[r].position;
+            const double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]),
+                         enough = near(&scene->load[k]) * h;
+            if (way >= 0.999 * enough || way / enough >= least) continue;
+            least = way / enough;
+            wanted = enough;
+            load = k;
+            receiver = r;
+        }
+    if (wanted > 0.0)
+        advise(adviser,
+               "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
+               "%.0f spacings (%.3g) velocities may be some per cent wrong; body%%spacing = %.3g would do",
+               scene->receiver[receiver].name, least * wanted, load + 1, wanted / h, wanted, least * h);
+}
+
+/* Velocities differed from those of a box with the whole surface in it by 1 to 3 times the change over the wavelength
+ * (hills from files drawn by chance, regress/studies/real-ground). */
+void look_at_levelled(struct adviser *adviser)
+{
+    static const double enough = 0.005; /* of the wavelength */
+    const struct topography *topography = adviser->scene->body.topography;
+    const double wavelength = points_per_wavelength(adviser->scene) * adviser->scene->body.spacing;
+    if (topography == NULL || !(wavelength > 0.0) || topography->changed <= enough * wavelength) return;
+    advise(
+        adviser,
+        "before the absorbing layers the surface is made level, which changes its heights by up to %.3g, "
+        "%.2g of the slowest wave's length at the source's cutoff, and what rises beyond them is not there: "
+        "velocities may differ by as much or more; body%%low and body%%high where the ground is level, or "
+        "farther from source and receivers, would be right",
+        topography->changed, topography->changed / wavelength);
+}
