@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 ln -s "$build" "$work/build"
 ln -s "$root/input" "$work/input"
 cd "$work" || exit 1
-export HOME="$work" OMP_NUM_THREADS=1
+export HOME="$work" OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 make() { # installs are made, of all else make only says what it would do
     case " $* " in

@@ -49,7 +49,8 @@ static void host_writes(const char *wanted)
 
 static void with_comma(void)
 {
-    if (setlocale(LC_ALL, "xx_XX") == NULL) fail_msg("localedef (package libc-bin) has made no locale");
+    if (setlocale(LC_ALL, "xx_XX") == NULL)
+        fail_msg("localedef (packages libc-bin, locales) has made no locale");
     host_writes("0,5");
 }
 
