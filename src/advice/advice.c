@@ -1,6 +1,7 @@
 /* What a scene may be wrong in without being refused: warnings in the plan and the report, each with what
  * would be right (doc/howto/troubleshooting.md). */
 #include "advice/parts.h"
+#include "scene/absorbing_layers.h"
 
 #include "exact/half_space.h"
 #include "scene/resolution.h"
@@ -170,7 +171,8 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     for (int face = 0; face < 2 * scene->dimension && load->shape == LOAD_POINT; face++) {
         const double depth =
             fabs(centre[face_axis((enum face)face)] - face_plane(&scene->body, (enum face)face));
-        if (boundary_absorbs(&scene->boundary[face]) && depth < 1.999 * scene->body.spacing)
+        const bool told = load->kind == LOAD_MOMENT_TENSOR && layer_points(scene, face) > 0; /* layers.c */
+        if (boundary_absorbs(&scene->boundary[face]) && !told && depth < 1.999 * scene->body.spacing)
             advise(adviser,
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
                    "inside it "

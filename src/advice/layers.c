@@ -75,8 +75,7 @@ void look_at_clearance(struct adviser *adviser)
         if (nearest < 0) continue;
         advise(adviser,
                "the moment tensor of load %zu lies %.2g cells from the absorbing layer behind face %s, which "
-               "leaves a "
-               "displacement of up to about %.1g of the largest behind; %.0f cells would be right",
+               "leaves a displacement of up to about %.1g of the largest behind; %.0f cells would be right",
                load.index + 1, least, face_name((enum face)nearest), layer_left_behind(scene, least),
                ceil(clearance));
     }

@@ -5,6 +5,7 @@
 #include "scene/topography.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Spacings that a force and a moment tensor are wide on splines of degree 2 (doc/theory/sources.md). At 5 to 8
@@ -32,11 +33,13 @@ void look_at_nearness(struct adviser *adviser)
             load = k;
             receiver = r;
         }
-    if (wanted > 0.0)
-        advise(adviser,
-               "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
-               "%.0f spacings (%.3g) velocities may be some per cent wrong; body%%spacing = %.3g would do",
-               scene->receiver[receiver].name, least * wanted, load + 1, wanted / h, wanted, least * h);
+    if (wanted == 0.0) return;
+    char finer[64] = "";
+    if (least > 0.01) snprintf(finer, sizeof finer, ", or body%%spacing = %.3g,", least * h);
+    advise(adviser,
+           "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
+           "%.0f spacings (%.3g) velocities may be some per cent wrong; a receiver farther off%s would do",
+           scene->receiver[receiver].name, least * wanted, load + 1, wanted / h, wanted, finer);
 }
 
 /* Velocities differed from those of a box with the whole surface in it by 1 to 3 times the change over the wavelength
