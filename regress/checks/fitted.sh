@@ -85,7 +85,7 @@ ok "a snapshot of the whole body asks for layers" grep -q '^box chosen: absorbin
 plan region shown snapshot%region=-1,-1,0,1,1,9
 depth=$(sed -n 's/^lattice: .* x //p' "$out/region.plan")
 ok "a snapshot's region lies in the box: $depth points over a depth of 9" test "$depth" -ge 37
-refused "a snapshot of the whole body where there are no layers" 'give &snapshot a region' shown stepping%scheme=modified-equation
+refused "a snapshot of the whole body where there are no layers" 'give &snapshot a region' shown stepping%scheme=rk4
 
 # Receivers far away along the layers; refining helps.
 sed "s/width = 0.3, delay = 2/width = 0.6, delay = 3/; s/position = 1,/position = 5,/; s/position = 2,/position = 10,/" \
@@ -97,9 +97,14 @@ if [ "$2" = night ]; then
     ok "the same at half the spacing: error $(largest fine)" below "$(largest fine)" "$(largest coarse)"
 fi
 
-# Layers beside the exact mass; a scheme without layers gets the larger box.
+# Layers beside the exact mass and the modified equation; a scheme without layers gets the larger box.
 plan exact f scene%end_time=15 method%mass=exact
 ok "method%mass=exact: layers" grep -q '^box chosen: absorbing layers' "$out/exact.plan"
+for words in method%degree=2 "method%degree=3 method%mass=exact" "method%operator=general body%spacing=.2"; do
+    OMP_NUM_THREADS=1 "$build/selas" check --echo "$out/f.nml" scene%end_time=12 stepping%scheme=modified-equation $words >"$out/fourth.plan" 2>&1
+    echo=$(sed -n 's/^echo r2: \([^ ]*\).*/\1/p' "$out/fourth.plan")
+    ok "the modified equation, $words: echo $echo" below "$echo" 2e-3
+done
 # Its inverse carries a load's forces into layers that are near.
 cat >"$out/near.nml" <<D
 &scene dimension = 2, end_time = 40 /
@@ -114,8 +119,8 @@ echo=$(sed -n 's/^echo r: \([^ ]*\).*/\1/p' "$out/near.plan")
 ok "a source 17 cells from layers beside the exact mass of degree 4: echo $echo" below "$echo" 2e-4
 plan close near body%low=-6.736,0 body%high=3.368,8.42 boundary%face=x-,x+,y+ boundary%kind=transmitting boundary%layer_points=13
 ok "one that is too near is told of" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face x+, .* up to about 0.3 of' "$out/close.plan"
-plan none f scene%end_time=9 stepping%scheme=modified-equation
-ok "stepping%scheme=modified-equation: the larger box, and why" \
+plan none f scene%end_time=9 stepping%scheme=rk4
+ok "stepping%scheme=rk4: the larger box, and why" \
     grep -q '^box chosen: so large .*absorbing layers need' "$out/none.plan"
 
 # A half-space whose box is given: what the deck does not name absorbs.
@@ -123,7 +128,7 @@ run given f body%low=-3,-3,0 body%high=3,3,3
 ok "sides that nobody names absorb: error $(largest given)" below "$(largest given)" 0.1
 
 refused "a pressure all over a half-space that is given" 'only rollers' face body%low=-3,-3,0 body%high=3,3,3
-plan damped f body%low=-3,-3,0 body%high=3,3,3 stepping%scheme=modified-equation
+plan damped f body%low=-3,-3,0 body%high=3,3,3 stepping%scheme=rk4
 ok "dampers that nobody asked for are told of" grep -q 'warning: .*have dampers' "$out/damped.plan"
 
 # Faces whose place counts.

@@ -256,7 +256,8 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
     fit_large(builder, &held, sketch);
     const struct body large = sketch->body;
     const double large_cost = held.whole ? INFINITY : cost(sketch);
-    const double small_cost = why == NULL ? fit_small(builder, &held, sketch) : INFINITY;
+    const double small_cost =
+        why == NULL ? layer_steps(sketch) * fit_small(builder, &held, sketch) : INFINITY;
     if (isinf(small_cost) && isinf(large_cost)) {
         char text[200];
         snprintf(text, sizeof text,
