@@ -35,6 +35,12 @@ plan() { # plan NAME DECK WORDS...: to $out/NAME.plan, errors too
     shift 2
     "$build/selas" check "$out/$deck.nml" "$@" >"$out/$name.plan" 2>&1
 }
+echoes() { # echoes DECK WORDS...: the largest echo in $echo, the plan in $out/echo.plan
+    deck=$1
+    shift
+    OMP_NUM_THREADS=1 "$build/selas" check --echo "$out/$deck.nml" "$@" >"$out/echo.plan" 2>&1
+    echo=$(sed -n 's/^echo [^e][^:]*: \([^ ]*\).*/\1/p' "$out/echo.plan" | sort -g | tail -1)
+}
 refused() { # refused TITLE PATTERN DECK WORDS...
     title=$1 pattern=$2
     shift 2
@@ -62,6 +68,14 @@ ok "dampers that are asked for stand where nothing comes back" \
 sed "s/shape = 'square', centre = 0, 0, 0, size = 1, 1/shape = 'face'/; s/'lamb'/'plane-wave'/" "$out/f.nml" >"$out/face.nml"
 run face face
 ok "a pressure all over the surface: error $(largest face)" below "$(largest face)" 0.02
+grep -q '^face z+: transmitting, dampers' "$out/face/report.txt"
+ok "below it dampers" test $? -eq 0
+echo "&boundary face = 'z+', kind = 'transmitting', layer = 'pml', layer_points = 8 /" | cat "$out/face.nml" - >"$out/sunk.nml"
+echoes sunk scene%end_time=30
+ok "layers there send slow waves back, echo $echo, and the plan says so" \
+    awk -v e="$echo" -v said="$(grep -c 'warning: all moves along the depth alone' "$out/echo.plan")" 'BEGIN { exit !(e > .01 && said == 1) }'
+echoes face scene%end_time=30
+ok "dampers hardly: echo $echo" below "$echo" 7e-3
 refused "layers beside a pressure all over the surface" 'only a roller' face boundary%face=x- boundary%kind=transmitting
 refused "a shear all over the surface has no box" 'has no end' face load%direction=1,0,0 reference%kind=file
 sed "/^&reference/d; s/^&load.*/\&load kind = 'body-force', $pulse \//" "$out/f.nml" >"$out/body.nml"
@@ -95,6 +109,48 @@ ok "a line of receivers of length 10: error $(largest coarse)" below "$(largest 
 if [ "$2" = night ]; then
     run fine line scene%end_time=14 body%spacing=0.1
     ok "the same at half the spacing: error $(largest fine)" below "$(largest fine)" "$(largest coarse)"
+fi
+
+# What the ground is like beyond the box: hills of a file are held, or the box is so large that they may go on; tilted layers.
+cat >"$out/hills.nml" <<D
+&scene dimension = 2, end_time = 14 /
+&material name = 'rock', density = 1, p_speed = 1.8, s_speed = 1 /
+&body material = 'rock', shape = 'half-space', spacing = 0.1 /
+&topography file = 'hills.txt' /
+&load kind = 'body-force', shape = 'point', centre = 0, depth = 0.8, direction = .3, 1, history = 'gaussian', width = 0.4, delay = 2 /
+&receiver name = 'a', position = -1, depth = 0 /
+&receiver name = 'b', position = 0.8, depth = 0 /
+D
+heights() { awk "BEGIN { for (i = -400; i <= 400; i++) { x = i * .05; print x, $1 } }" >"$out/hills.txt"; }
+heights '.35 * exp(-((x - 2.2) / .4) ^ 2 / 2) + .2 * exp(-((x + 2) / .3) ^ 2 / 2)'
+echoes hills
+ok "hills of a file beyond the receivers are in the box: echo $echo" below "$echo" 2e-3
+heights '.3 * exp(-((x - 5) / .4) ^ 2 / 2)'
+plan beyond hills
+ok "one farther away too: $(sed -n 's/^lattice points: //p' "$out/beyond.plan")" \
+    awk -v p="$(sed -n 's/^lattice points: \([0-9]*\).*/\1/p' "$out/beyond.plan")" 'BEGIN { exit !(p > 100) }'
+heights '.15 * sin(2 * x) + .1 * sin(3.3 * x + 1)'
+plan rough hills
+ok "ground that is nowhere level: the larger box" grep -q '^box chosen: so large .*surface level that is not' "$out/rough.plan"
+plan cut hills scene%end_time=60
+ok "where that costs too much: told" grep -q 'warning: before the absorbing layers the surface is made level' "$out/cut.plan"
+cat >"$out/dip.nml" <<D
+&scene dimension = 3, end_time = 10 /
+&material name = 'rock', density = 1.3, p_speed = 3, s_speed = 1.8 /
+&material name = 'soil', density = 1, p_speed = 1.8, s_speed = 1 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 1.5, dip = 20 /
+&body material = 'rock', shape = 'half-space', spacing = 0.2 /
+&load kind = 'body-force', shape = 'point', centre = 0, 0, depth = 0.8, direction = .3, 0, 1, history = 'gaussian', width = 0.5, delay = 2.5 /
+&receiver name = 'a', position = -1, 0, depth = 0 /
+D
+plan dip dip
+ok "tilted layers that go on beyond the box are told of" grep -q 'warning: tilted layers send waves back' "$out/dip.plan"
+plan dip dip scene%end_time=5
+ok "or held" grep -q '^box chosen: so large .*tilted layers' "$out/dip.plan"
+if [ "$2" = night ]; then
+    echoes dip
+    ok "what a dip of 20 degrees sends back from beyond the box: $echo" awk -v e="$echo" 'BEGIN { exit !(e > .01 && e < .03) }'
 fi
 
 # Layers beside the exact mass and the modified equation; a scheme without layers gets the larger box.
