@@ -61,7 +61,8 @@ void look_at_columns(struct adviser *adviser)
             advise(adviser,
                    "all moves along the depth alone, and the absorbing layer behind face %s sends slow waves "
                    "back: "
-                   "with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends hardly anything back of what "
+                   "with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends hardly anything back of "
+                   "what "
                    "meets the "
                    "face at right angles",
                    face_name((enum face)face));

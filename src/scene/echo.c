@@ -45,8 +45,8 @@ bool echo_seen(const struct scene *scene, int face, double less)
 /* What a layer of n points sends back, over the velocity at the place that is looked at,
  *   e = A (exp(-.7 n) (Lambda/h)^1.65 max(1, r/d)^1.6 + .4 exp(-.2 n) (c_p/c_s / sqrt(3))^2.6),            (15)
  * Lambda the P wavelength, h the spacing, r the way along the face, d the way to it and back; measured
- * (regress/studies/echo; doc/theory/absorbing-faces.md, section 7). In the plane waves spread out less, and not at all where
- * all moves along the depth alone. */
+ * (regress/studies/echo; doc/theory/absorbing-faces.md, section 7). In the plane waves spread out less, and not at
+ * all where all moves along the depth alone. */
 static const double decay = .7, wavelength_power = 1.65, grazing_power = 1.6;
 static const double late_part = .4, late_decay = .2, late_power = 2.6;
 static const double in_plane = .012, in_space = .0025, along_depth = .043;
