@@ -318,10 +318,9 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
         snprintf(body->choice, sizeof body->choice,
                  "%s: work as for %.3g points, against %.3g in a box so large that nothing returns before "
                  "end_time",
-                 body->dampers
-                     ? "a small box with dampers below it, which suit what moves along the "
-                       "depth alone"
-                     : "absorbing layers around a small box",
+                 body->dampers ? "a small box with dampers below it, which suit what moves along the "
+                                 "depth alone"
+                               : "absorbing layers around a small box",
                  small_cost, large_cost);
     else
         snprintf(body->choice, sizeof body->choice,
