@@ -73,7 +73,7 @@ ok "below it dampers" test $? -eq 0
 echo "&boundary face = 'z+', kind = 'transmitting', layer = 'pml', layer_points = 8 /" | cat "$out/face.nml" - >"$out/sunk.nml"
 echoes sunk scene%end_time=30
 ok "layers there send slow waves back, echo $echo, and the plan says so" \
-    awk -v e="$echo" -v said="$(grep -c 'warning: all moves along the depth alone' "$out/echo.plan")" 'BEGIN { exit !(e > .01 && said == 1) }'
+    awk -v e="$echo" -v said="$(grep -c 'warning: all moves at right angles' "$out/echo.plan")" 'BEGIN { exit !(e > .01 && said == 1) }'
 echoes face scene%end_time=30
 ok "dampers hardly: echo $echo" below "$echo" 7e-3
 refused "layers beside a pressure all over the surface" 'only a roller' face boundary%face=x- boundary%kind=transmitting

@@ -59,12 +59,9 @@ void look_at_columns(struct adviser *adviser)
             if (layer_points(scene, face) == 0 || ground_is_general(scene) || ground_is_damped(scene))
                 continue;
             advise(adviser,
-                   "all moves along the depth alone, and the absorbing layer behind face %s sends slow waves "
+                   "all moves at right angles to face %s, and the absorbing layer behind it sends slow waves "
                    "back: "
-                   "with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends hardly anything back of "
-                   "what "
-                   "meets the "
-                   "face at right angles",
+                   "with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends hardly anything back",
                    face_name((enum face)face));
             return;
         }

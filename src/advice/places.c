@@ -62,7 +62,8 @@ void look_at_tilted(struct adviser *adviser)
 void look_at_levelled(struct adviser *adviser)
 {
     const struct topography *topography = adviser->scene->body.topography;
-    const double levelled = topography != NULL ? topography_levelled(adviser->scene, topography->changed) : 0;
+    if (topography == NULL) return;
+    const double levelled = topography_levelled(adviser->scene, topography->changed);
     if (levelled <= TOPOGRAPHY_LEVELLED) return;
     advise(
         adviser,

@@ -138,7 +138,7 @@ double topography_changed(const struct topography *topography, double spacing, c
     for (size_t i = count[0] * count[1]; i-- > 0;) {
         const size_t at[2] = {i % count[0], i / count[0]};
         double place[2] = {0, 0};
-        for (int axis = 0; axis < topography->axis; axis++)
+        for (int axis = 0; axis < 2 && axis < topography->axis; axis++)
             place[axis] = low[axis] + (high[axis] - low[axis]) * (double)at[axis] / (double)(count[axis] - 1);
         if (topography_drawn(topography, place))
             changed =
@@ -166,8 +166,9 @@ static struct range range_of(const struct body *body)
     for (int axis = 0; axis < topography->axis; axis++)
         count[axis] = (size_t)((body->high[axis] - body->low[axis]) / body->spacing + 1.5);
     for (size_t i = 0; i < count[0] * count[1]; i++) {
-        const double place[2] = {body->low[0] + (double)(i % count[0]) * body->spacing,
-                                 body->low[1] + (double)(i / count[0]) * body->spacing};
+        const size_t column = i % count[0], row = i / count[0];
+        const double place[2] = {body->low[0] + (double)column * body->spacing,
+                                 body->low[1] + (double)row * body->spacing};
         const double drop = topography_drop(topography, place);
         double square = 0;
         range.low = fmin(range.low, drop);
