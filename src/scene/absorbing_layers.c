@@ -48,16 +48,22 @@ double layer_steps(const struct scene *scene)
     return strcmp(scene->stepping.scheme, "modified-equation") == 0 ? sqrt(2) : 1;
 }
 
-/* Measured: in the cell of the layer's face, and from cell to cell. */
+/* In the cell of the layer's face, and from cell to cell. Measured in the plane, Poisson's ratio .14 to .49, and in
+ * space, where it is a quarter (doc/verification/tables/absorbing.txt, table 8). */
 struct tail {
     double begins, falls;
 };
 
 static struct tail tail_of(const struct scene *scene)
 {
-    static const struct tail sweeps = {.7, .194}, exact[] = {{1.5, .43}, {1.5, .54}, {1.5, .61}};
+    static const struct tail sweeps = {1.2, .194}, exact[] = {{1.5, .43}, {1.5, .54}, {1.5, .61}};
     const long degree = degree_asked(scene);
-    return !asks_exact(scene) ? sweeps : exact[degree < 2 ? 0 : degree > 4 ? 2 : degree - 2];
+    struct tail tail = !asks_exact(scene) ? sweeps : exact[degree < 2 ? 0 : degree > 4 ? 2 : degree - 2];
+    double ratio = 1.9;
+    for (size_t m = 0; m < scene->materials; m++)
+        ratio = fmax(ratio, scene->material[m].p_speed / scene->material[m].s_speed);
+    tail.begins *= pow(ratio / 1.9, .6) * (scene->dimension == 3 ? .25 : 1);
+    return tail;
 }
 
 double layer_left_behind(const struct scene *scene, double cells)
@@ -68,7 +74,7 @@ double layer_left_behind(const struct scene *scene, double cells)
 
 double layer_clearance(const struct scene *scene)
 {
-    const double allowed = asks_exact(scene) ? 5e-4 : 1e-3; /* 10.4, 13, 16.2; 4 cells */
+    const double allowed = asks_exact(scene) ? 5e-4 : 1e-3;
     const struct tail tail = tail_of(scene);
     return log(allowed / tail.begins) / log(tail.falls);
 }

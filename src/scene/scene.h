@@ -116,7 +116,7 @@ struct body {
     bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
     bool dampers;   /* ... and dampers at its bottom send hardly anything back of that ... */
     double waves_low[3], waves_high[3]; /* ... as far as what is seen of waves comes from ... */
-    char choice[200];   /* ... which box and why, for the plan */
+    char choice[200];                   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
 
