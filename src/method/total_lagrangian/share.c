@@ -269,6 +269,7 @@ void tl_describe_part(const struct tl_model *tl,
     const struct tl_part *part = &tl->part;
     if (part->ranks == NULL) return;
     const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
+    const size_t operators = tl->model.parts > 1 ? tl->model.parts : 1; /* of damped materials */
     char text[200];
     size_t sent = 0;
     int used = snprintf(text, sizeof text, "%zu, points:", ranks);
@@ -279,6 +280,7 @@ void tl_describe_part(const struct tl_model *tl,
     for (size_t r = 0; r < ranks; r++)
         if (r != me) sent += halo(part, me, r).end - halo(part, me, r).from;
     snprintf(text, sizeof text, "%zu by the first rank (%zu points of its %zu)",
-             sent * (size_t)tl->cloud->dimension * sizeof(double), sent, part->bound[1] - part->bound[0]);
+             operators * sent * (size_t)tl->cloud->dimension * sizeof(double), sent,
+             part->bound[1] - part->bound[0]);
     tell(context, "halo bytes a step", text);
 }
