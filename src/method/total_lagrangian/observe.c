@@ -20,7 +20,7 @@ selas_status tl_model_probe(struct model *model, const double position[3], struc
     int holder = 0;
     for (size_t k = 1; k < count; k++)
         if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
-    if (status == SELAS_OK) status = tl_find_holder(tl, count, index, heaviest, &holder, messages);
+    if (status == SELAS_OK) status = tl_find_holder(tl, count, index, &holder, messages);
     if (holder != ranks_me(tl->part.ranks)) count = 0;
     if (status == SELAS_OK) status = probe_allocate(probe, count, messages);
     if (status != SELAS_OK) return status;

@@ -189,34 +189,32 @@ void tl_keep_window(const struct tl_model *tl, double *u)
            d * (tl->cloud->points - part->window[2 * me + 1]) * sizeof *u);
 }
 
-/* A rank can take stresses at a point whose neighbours all are in its window. */
-static bool sees(const struct tl_model *tl, size_t rank, size_t i)
+/* A rank can take stresses at points whose neighbours all are in its window. */
+static bool sees(const struct tl_model *tl, size_t rank, size_t count, const size_t *index)
 {
     const size_t *window = tl->part.window + 2 * rank;
-    struct range range = {i, i + 1};
-    add_row(tl, &tl->gradient, i, &range);
+    struct range range = {index[0], index[0] + 1};
+    for (size_t k = 0; k < count; k++) {
+        widen(&range, index[k]);
+        add_row(tl, &tl->gradient, index[k], &range);
+    }
     return range.from >= window[0] && range.end <= window[1];
 }
 
-selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, size_t heaviest,
-                            int *holder, struct messages *messages)
+selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
+                            struct messages *messages)
 {
-    const struct tl_part *part = &tl->part;
+    const size_t ranks = (size_t)ranks_count(tl->part.ranks);
     size_t rank = 0;
-    *holder = 0;
-    if (part->ranks == NULL) return SELAS_OK;
-    while (index[heaviest] >= part->bound[rank + 1])
+    while (tl->part.ranks != NULL && rank < ranks && !sees(tl, rank, count, index))
         rank++;
     *holder = (int)rank;
-    for (size_t k = 0; k < count; k++)
-        if (!sees(tl, rank, index[k]))
-            return fail(
-                messages, SELAS_UNSUPPORTED,
-                "the points about (%g, %g, %g), from which a value is taken, are on no rank together: "
-                "take fewer ranks",
-                tl->deck_position[3 * index[heaviest]], tl->deck_position[3 * index[heaviest] + 1],
-                tl->deck_position[3 * index[heaviest] + 2]);
-    return SELAS_OK;
+    if (rank < ranks) return SELAS_OK;
+    const double *place = tl->deck_position + 3 * index[0];
+    return fail(messages, SELAS_UNSUPPORTED,
+                "the points about (%g, %g, %g), from which a value is taken, are on no rank together: take "
+                "fewer ranks",
+                place[0], place[1], place[2]);
 }
 
 int tl_holder(const struct model *model, size_t plane)

@@ -227,9 +227,9 @@ void tl_part_free(struct tl_part *part);
 void tl_exchange(const struct tl_model *tl,
                  double *a); /* together: a like u of own points to the windows they are in */
 void tl_keep_window(const struct tl_model *tl, double *u); /* 0 outside */
-/* The rank that reads `count` points about `heaviest` of them. SELAS_UNSUPPORTED if its window is too small. */
-selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, size_t heaviest,
-                            int *holder, struct messages *messages);
+/* The first rank that reads a value from `count` points. SELAS_UNSUPPORTED if the windows of all are too small. */
+selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
+                            struct messages *messages);
 /* Entries of the model's class, on ranks. */
 int tl_holder(const struct model *model, size_t plane);
 void tl_share(struct model *model, enum model_array array, struct spread *shares);
