@@ -67,10 +67,10 @@ static selas_status check_abilities(const struct method *method, const struct sc
     char name[2 * NAME_SIZE + 32];
     snprintf(name, sizeof name, "method '%s', variant '%s',", method->name, method->variant);
     if (ranks_count(scene->ranks) > 1 && !method->ranks)
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "%s runs on one rank: start it without mpirun; 'smoothed-point', 'consistent' runs on many",
-            name);
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s runs on one rank: start it without mpirun; 'smoothed-point', 'consistent' and 'sph', "
+                    "'total-lagrangian' run on many",
+                    name);
     if (deck_chosen(group, "precision", "single") && !method->single)
         return deck_error(scene->deck, group, "precision", messages,
                           "%s has no state in single precision; expected 'double'", name);

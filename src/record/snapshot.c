@@ -88,7 +88,9 @@ size_t snapshot_piece(const struct model *model, size_t from, int *holder)
     if (model->core->holder == NULL) return model->points;
     const size_t share = model->points / (size_t)ranks_count(model->scene->ranks) / PIECES;
     const size_t most = share > LEAST ? share : LEAST;
-    const size_t planes = model->grid[model->scene->dimension - 1], plane = model->points / planes;
+    const size_t layers = model->grid[model->scene->dimension - 1],
+                 planes = layers > 0 ? layers : model->points;
+    const size_t plane = model->points / planes;
     size_t k = from / plane;
     *holder = model->core->holder(model, k);
     do

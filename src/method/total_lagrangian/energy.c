@@ -36,11 +36,14 @@ void tl_energy(struct model *model, const double *y, struct energy *energy)
     tl_gradients(tl);
     energy->strain = tl_strain_energy(tl);
     energy->kinetic = 0;
-    for (size_t i = 0; i < model->points; i++)
+    for (size_t i = tl->part.own; i < tl->part.end; i++)
         for (size_t c = 0; c < d; c++) {
             const double v = y[model->unknowns + d * i + c];
             energy->kinetic += 0.5 * tl->mass[i] * v * v;
         }
+    double sums[2] = {energy->kinetic, energy->strain};
+    ranks_sum(tl->part.ranks, 2, sums);
+    *energy = (struct energy){sums[0], sums[1]};
 }
 
 /* Work done at moving faces: minus the force on each ghost, hourglass control's too, times its prescribed
@@ -49,6 +52,9 @@ static double motion_power(struct tl_model *tl, const double *velocity)
 {
     const size_t d = (size_t)tl->cloud->dimension;
     double power = 0;
+    for (size_t g = 0; g < tl->ghosts; g++) /* those of own points alone are known */
+        if (tl->ghost[g].source < tl->part.own || tl->ghost[g].source >= tl->part.end)
+            memset(tl->force + d * (tl->cloud->points + g), 0, d * sizeof *tl->force);
     tl_ghost_hourglass(tl);
     for (size_t g = 0; g < tl->ghosts; g++)
         for (size_t c = 0; c < d; c++)
@@ -61,7 +67,7 @@ void tl_power(struct model *model, const struct drive *drive, const double *y, d
 {
     struct tl_model *tl = (struct tl_model *)model;
     const size_t n = model->unknowns;
-    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t d = (size_t)tl->cloud->dimension, own = d * tl->part.own, end = d * tl->part.end;
     const double *v = y + n;
     *load = 0;
     *absorbed = 0;
@@ -75,14 +81,13 @@ void tl_power(struct model *model, const struct drive *drive, const double *y, d
         tl_sites(tl, y, v, drive->displacement, drive->velocity);
         memset(tl->force, 0, n * sizeof *tl->force);
         tl_viscosity(tl);
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = own; k < end; k++)
             *absorbed -= tl->force[k] * v[k];
     }
-    for (size_t k = 0; tl->damper != NULL && k < n; k++)
+    for (size_t k = own; tl->damper != NULL && k < end; k++)
         *absorbed += tl->damper[k] * v[k] * v[k];
     memset(tl->force, 0, n * sizeof *tl->force);
     tl_add_loads(tl, drive);
-    for (size_t i = 0; i < model->points; i++)
-        for (size_t k = d * i; k < d * (i + 1); k++)
-            *load += tl->force[k] * v[k];
+    for (size_t k = own; k < end; k++)
+        *load += tl->force[k] * v[k];
 }

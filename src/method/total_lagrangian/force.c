@@ -186,7 +186,7 @@ double tl_strain_energy(struct tl_model *tl)
                                                                     hourglass_energy_3};
     double sum = 0;
     if (tl->extra != NULL) ghost_gradients(tl);
-    for (size_t i = 0; i < tl->cloud->points; i++) {
+    for (size_t i = tl->part.own; i < tl->part.end; i++) {
         double H[9];
         struct elastic elastic = tl->elastic[i];
         if (tl->linear) elastic.law = LAW_LINEAR;
@@ -197,12 +197,12 @@ double tl_strain_energy(struct tl_model *tl)
     return sum;
 }
 
-/* Minus the derivative of the hourglass energy by the displacement of each ghost. */
+/* Minus the derivative of the hourglass energy of the own points by the displacement of each ghost. */
 void tl_ghost_hourglass(struct tl_model *tl)
 {
     const size_t n = tl->cloud->points;
     const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t i = 0; tl->extra != NULL && i < n; i++)
+    for (size_t i = tl->part.own; tl->extra != NULL && i < tl->part.end; i++)
         for (size_t k = tl_first(&tl->pair, i); k < tl_last(&tl->pair, i); k++) {
             const size_t j = tl_neighbour(&tl->pair, i, k);
             double X[3];
@@ -219,10 +219,9 @@ void tl_ghost_hourglass(struct tl_model *tl)
  * momentum stay. A mirrored point pushes as its source would; the reaction falls on the mirror image. */
 void tl_viscosity(struct tl_model *tl)
 {
-    const size_t n = tl->cloud->points;
     const size_t d = (size_t)tl->cloud->dimension;
-#pragma omp parallel for schedule(static) if (n > TL_SERIAL)
-    for (size_t i = 0; i < n; i++) {
+#pragma omp parallel for schedule(static) if (tl->part.end - tl->part.own > TL_SERIAL)
+    for (size_t i = tl->part.own; i < tl->part.end; i++) {
         const double speed = tl->material[i]->p_speed;
         for (size_t k = tl_first(&tl->viscous, i); k < tl_last(&tl->viscous, i); k++) {
             const size_t j = tl_neighbour(&tl->viscous, i, k);

@@ -16,16 +16,20 @@ selas_status tl_model_probe(struct model *model, const double position[3], struc
     double place[3];
     body_from_deck(&model->scene->body, position, place);
     selas_status status = tl_probe(tl, place, &count, index, weight, gradient, messages);
+    size_t heaviest = 0;
+    int holder = 0;
+    for (size_t k = 1; k < count; k++)
+        if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
+    if (status == SELAS_OK) status = tl_find_holder(tl, count, index, &holder, messages);
+    if (holder != ranks_me(tl->part.ranks)) count = 0;
     if (status == SELAS_OK) status = probe_allocate(probe, count, messages);
     if (status != SELAS_OK) return status;
     memcpy(probe->position, position, sizeof probe->position);
     memcpy(probe->index, index, count * sizeof *index);
     memcpy(probe->weight, weight, count * sizeof *weight);
     memcpy(probe->gradient, gradient, 3 * count * sizeof *gradient);
-    size_t heaviest = 0;
-    for (size_t k = 1; k < count; k++)
-        if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
     probe->material = tl->material[index[heaviest]];
+    probe->holder = holder;
     return SELAS_OK;
 }
 

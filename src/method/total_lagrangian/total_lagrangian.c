@@ -31,6 +31,7 @@ static void destroy(struct model *model)
         array_free(tl->load[k].point);
         array_free(tl->load[k].force);
     }
+    tl_part_free(&tl->part);
     tl_rows_free(&tl->gradient);
     tl_rows_free(&tl->transposed);
     tl_rows_free(&tl->pair);
@@ -82,8 +83,9 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     struct tl_model *tl = of(model);
     const size_t d = (size_t)tl->cloud->dimension;
     all_forces(tl, drive, u, v);
-#pragma omp parallel for schedule(static) if (tl->cloud->points > TL_SERIAL)
-    for (size_t i = 0; i < tl->cloud->points; i++)
+    tl_keep_window(tl, a);
+#pragma omp parallel for schedule(static) if (tl->part.end - tl->part.own > TL_SERIAL)
+    for (size_t i = tl->part.own; i < tl->part.end; i++)
         for (size_t k = d * i; k < d * (i + 1); k++) {
             const double damper = tl->damper != NULL ? tl->damper[k] : 0;
             const double force = damper > 0 && v != NULL ? tl->force[k] - damper * v[k] : tl->force[k];
@@ -91,6 +93,7 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
         }
     for (size_t k = 0; k < tl->held_count; k++)
         a[tl->held[k]] = 0;
+    tl_exchange(tl, a);
 }
 
 static void rate(struct model *model, const struct drive *drive, const double *y, double *dydt)
@@ -120,6 +123,8 @@ static void initialise(struct model *model, double *y)
         body_direction_from_deck(body, velocity, own);
         memcpy(y + model->unknowns + d * i, own, d * sizeof *y);
     }
+    tl_keep_window(tl, y);
+    tl_keep_window(tl, y + model->unknowns);
 }
 
 static void describe(const struct model *model,
@@ -143,6 +148,7 @@ static void describe(const struct model *model,
     tell(context, "hourglass control", text);
     snprintf(text, sizeof text, "%g, %g", tl->options.viscosity_alpha, tl->options.viscosity_beta);
     tell(context, "viscosity alpha, beta", text);
+    tl_describe_part(tl, tell, context);
 }
 
 static const struct model_core core = {
@@ -153,6 +159,19 @@ static const struct model_core core = {
     .field = tl_field,
     .energy = tl_energy,
     .power = tl_power,
+    .describe = describe,
+};
+static const struct model_core shared_core = {
+    .destroy = destroy,
+    .initialise = initialise,
+    .probe = tl_model_probe,
+    .observe = tl_observe,
+    .field = tl_field,
+    .holder = tl_holder,
+    .share = tl_share,
+    .energy = tl_energy,
+    .power = tl_power,
+    .unseen = tl_unseen,
     .describe = describe,
 };
 /* Hooke's law makes the model linear as a whole (without viscosity). */
@@ -206,6 +225,7 @@ static void fill_model(struct tl_model *tl)
     struct model *model = &tl->model;
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t n = tl->cloud->points;
+    if (tl->part.ranks != NULL) model->core = &shared_core;
     const bool viscous = tl->site_v != NULL;
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;
@@ -214,6 +234,7 @@ static void fill_model(struct tl_model *tl)
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
     model->unknowns = d * n;
     model->state_size = 2 * d * n;
+    if (tl->part.ranks != NULL) model->whole_unknowns = d * n;
     model->component_stride = 1;
     model->point_stride = d;
     model->damped = tl->damper != NULL || viscous;
@@ -272,6 +293,7 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     if (status == SELAS_OK) status = allocate_numbers(tl, messages);
     if (status == SELAS_OK) status = tl_make_loads(tl, messages);
     if (status == SELAS_OK) status = tl_make_dampers(tl, messages);
+    if (status == SELAS_OK) status = tl_share_points(tl, messages);
     if (status != SELAS_OK) {
         destroy(&tl->model);
         return status;
@@ -332,6 +354,7 @@ const struct method method_total_lagrangian = {
     .variant = "total-lagrangian",
     .words = "kernel smoothing_length viscosity_alpha viscosity_beta hourglass gradient law mechanisms",
     .damping = true,
+    .ranks = true,
     .point_materials = true,
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
     .create = create,

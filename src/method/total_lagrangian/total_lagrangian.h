@@ -8,6 +8,7 @@
 #include "kernel/kernel.h"
 #include "method/total_lagrangian/elastic_law.h"
 #include "model/model.h"
+#include "parallel/ranks.h"
 #include "points/cloud.h"
 #include "points/neighbours.h"
 
@@ -106,8 +107,19 @@ struct tl_load {
     double *force; /* [dimension * count], amplitude included */
 };
 
+/* The points of a rank (share.c); alone, all. */
+struct tl_part {
+    struct ranks *ranks; /* NULL: alone */
+    size_t own, end;     /* own points: own .. end - 1 */
+    size_t plane;        /* points of a plane of a lattice over its last axis, else 1 */
+    size_t *bound;       /* [ranks + 1]: own points of each rank */
+    size_t *window;      /* [2 * ranks]: first point of the window of each rank, and the one after its last */
+    struct ranks_piece *piece; /* [ranks], of an exchange */
+};
+
 struct tl_model {
     struct model model;
+    struct tl_part part;
     struct tl_options options;
     struct cloud *cloud;
     struct scene *own_scene; /* of a shortened model, else NULL */
@@ -208,6 +220,22 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
                 const double *a, double *value);
 void tl_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
               size_t end, double *value);
+/* share.c: after all else of the set-up, shares the points and keeps the blocks that the own ones need. SELAS_STOPPED:
+ * this rank has no work. */
+selas_status tl_share_points(struct tl_model *tl, struct messages *messages);
+void tl_part_free(struct tl_part *part);
+void tl_exchange(const struct tl_model *tl,
+                 double *a); /* together: a like u of own points to the windows they are in */
+void tl_keep_window(const struct tl_model *tl, double *u); /* 0 outside */
+/* The first rank that reads a value from `count` points. SELAS_UNSUPPORTED if the windows of all are too small. */
+selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
+                            struct messages *messages);
+/* Entries of the model's class, on ranks. */
+int tl_holder(const struct model *model, size_t plane);
+void tl_share(struct model *model, enum model_array array, struct spread *shares);
+void tl_unseen(struct model *model, const double *y, struct unseen *found);
+void tl_describe_part(const struct tl_model *tl,
+                      void (*tell)(void *context, const char *key, const char *value), void *context);
 enum { TL_PROBE_ROOM = 512 };
 /* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
  * hundred points, much more on a busy machine). */
@@ -233,7 +261,7 @@ static inline size_t tl_source(const struct tl_model *tl, size_t site)
 {
     return site < tl->cloud->points ? site : tl->ghost[site - tl->cloud->points].source;
 }
-/* Adds to tl->force of the ghosts what the hourglass pairs pull at them. */
+/* Adds to tl->force of the ghosts what the hourglass pairs of own points pull at them. */
 void tl_ghost_hourglass(struct tl_model *tl);
 /* H of one point for displacements u (ghosts by the amplitudes of the last drive). */
 void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double H[9]);

@@ -1,0 +1,284 @@
+/* Total-Lagrangian points on ranks (doc/howto/ranks.md, Eq. R3): each rank has a range of the points in their order,
+ * its own, and a window about them, outside of which its state is 0. The forces on own points take A of all points
+ * whose gradients they are in, these the H of their partners in hourglass control, and these the displacements of
+ * their neighbours: the window is that of three reaches. Rows of weights are those of the whole body, so each sum is
+ * over the same numbers in the same order as in one process. */
+#include "method/total_lagrangian/total_lagrangian.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Points from .. end - 1. */
+struct range {
+    size_t from, end;
+};
+
+static void widen(struct range *range, size_t point)
+{
+    if (point < range->from) range->from = point;
+    if (point >= range->end) range->end = point + 1;
+}
+
+/* Adds what stands in the row of a point or site. */
+static void add_row(const struct tl_model *tl, const struct tl_rows *rows, size_t i, struct range *range)
+{
+    for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
+        widen(range, tl_source(tl, tl_neighbour(rows, i, k)));
+}
+
+static struct range with_rows(const struct tl_model *tl, const struct tl_rows *rows, struct range range)
+{
+    struct range wider = range;
+    for (size_t i = range.from; rows->of != NULL && i < range.end; i++)
+        add_row(tl, rows, i, &wider);
+    return wider;
+}
+
+/* What the forces on a rank's own points take: A of points, H of points, displacements of points. */
+struct reach {
+    struct range own, stress, gradient, window;
+};
+
+static struct reach reach_of(const struct tl_model *tl, size_t from, size_t end)
+{
+    struct reach reach = {.own = {from, end}};
+    reach.stress = with_rows(tl, &tl->transposed, reach.own);
+    for (size_t g = 0; g < tl->ghosts; g++)
+        if (tl->ghost[g].source >= from && tl->ghost[g].source < end)
+            add_row(tl, &tl->transposed, tl->cloud->points + g, &reach.stress);
+    reach.gradient = with_rows(tl, &tl->pair, reach.stress);
+    reach.window = with_rows(tl, &tl->gradient, reach.gradient);
+    const struct range near = with_rows(tl, &tl->viscous, reach.own);
+    widen(&reach.window, near.from);
+    widen(&reach.window, near.end - 1);
+    return reach;
+}
+
+/* Blocks that have a site of the range, by the points that they are or mirror. */
+static void keep_blocks(const struct tl_model *tl, struct range range, struct tl_blocks *blocks)
+{
+    size_t kept = 0;
+    for (size_t b = 0; b < blocks->count; b++) {
+        const struct tl_block *block = &blocks->block[b];
+        bool needed = false;
+        for (size_t s = block->first; s < (size_t)block->first + block->count; s++)
+            needed = needed || (tl_source(tl, s) >= range.from && tl_source(tl, s) < range.end);
+        if (needed) blocks->block[kept++] = *block;
+    }
+    blocks->count = kept;
+}
+
+/* Work for point i: neighbours. */
+static double cost(const struct tl_model *tl, size_t i)
+{
+    return (double)(tl_last(&tl->gradient, i) - tl_first(&tl->gradient, i) + tl_last(&tl->transposed, i) -
+                    tl_first(&tl->transposed, i));
+}
+
+/* Bounds of equal cost; of a lattice between planes over its last axis. Each rank gets one plane at least. */
+static void deal(const struct tl_model *tl, size_t ranks, size_t plane, size_t *bound)
+{
+    const size_t planes = tl->cloud->points / plane;
+    double whole = 0, sum = 0;
+    for (size_t i = 0; i < tl->cloud->points; i++)
+        whole += cost(tl, i);
+    size_t rank = 1;
+    for (size_t p = 0; p < planes && rank < ranks; p++) {
+        double here = 0;
+        for (size_t i = p * plane; i < (p + 1) * plane; i++)
+            here += cost(tl, i);
+        const bool due = sum + 0.5 * here >= whole * (double)rank / (double)ranks;
+        if ((due && p * plane > bound[rank - 1]) || planes - p == ranks - rank) bound[rank++] = p * plane;
+        sum += here;
+    }
+    bound[ranks] = tl->cloud->points;
+}
+
+static selas_status take_ranks(struct tl_model *tl, size_t planes, struct messages *messages)
+{
+    struct ranks *ranks = tl->part.ranks;
+    const int wanted = ranks_count(ranks);
+    if ((size_t)wanted <= planes) return SELAS_OK;
+    if (ranks_fixed(ranks))
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "%zu of the %d ranks of the communicator would have work: the body has %zu planes over its last "
+            "axis; open it with %zu ranks",
+            planes, wanted, planes, planes);
+    warn(messages, "%zu of %d ranks have work: the body has %zu planes over its last axis", planes, wanted,
+         planes);
+    ranks_take(ranks, (int)planes);
+    return ranks_idle(ranks) ? SELAS_STOPPED : SELAS_OK;
+}
+
+selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
+{
+    struct tl_part *part = &tl->part;
+    const size_t *grid = tl->cloud->grid;
+    part->end = tl->cloud->points;
+    if (ranks_count(tl->model.scene->ranks) == 1) return SELAS_OK;
+    part->ranks = tl->model.scene->ranks;
+    part->plane = grid[0] > 0 ? tl->cloud->points / grid[tl->cloud->dimension - 1] : 1;
+    const selas_status status = take_ranks(tl, tl->cloud->points / part->plane, messages);
+    if (status != SELAS_OK) return status;
+    const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
+    part->bound = array_new(ranks + 1, sizeof *part->bound);
+    part->window = array_new(2 * ranks, sizeof *part->window);
+    if (part->bound == NULL || part->window == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    part->piece = array_new(ranks, sizeof *part->piece);
+    if (part->piece == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    deal(tl, ranks, part->plane, part->bound);
+    for (size_t r = 0; r < ranks; r++) {
+        const struct reach reach = reach_of(tl, part->bound[r], part->bound[r + 1]);
+        part->window[2 * r] = reach.window.from;
+        part->window[2 * r + 1] = reach.window.end;
+        if (r != me) continue;
+        keep_blocks(tl, reach.gradient, &tl->gradient_blocks);
+        keep_blocks(tl, reach.stress, &tl->stress_blocks);
+        keep_blocks(tl, reach.own, &tl->force_blocks);
+    }
+    part->own = part->bound[me];
+    part->end = part->bound[me + 1];
+    return SELAS_OK;
+}
+
+void tl_part_free(struct tl_part *part)
+{
+    array_free(part->bound);
+    array_free(part->window);
+    array_free(part->piece);
+}
+
+/* Own points of rank `from` in the window of rank `to`. */
+static struct range halo(const struct tl_part *part, size_t from, size_t to)
+{
+    const size_t low = part->bound[from] > part->window[2 * to] ? part->bound[from] : part->window[2 * to];
+    const size_t high =
+        part->bound[from + 1] < part->window[2 * to + 1] ? part->bound[from + 1] : part->window[2 * to + 1];
+    return (struct range){low, high > low ? high : low};
+}
+
+void tl_exchange(const struct tl_model *tl, double *a)
+{
+    const struct tl_part *part = &tl->part;
+    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks);
+    size_t pieces = 0;
+    for (size_t r = 0; part->ranks != NULL && r < (size_t)ranks_count(part->ranks); r++) {
+        const struct range give = halo(part, me, r), get = halo(part, r, me);
+        if (r == me || (give.end == give.from && get.end == get.from)) continue;
+        part->piece[pieces++] = (struct ranks_piece){.with = (int)r,
+                                                     .send = a + d * give.from,
+                                                     .receive = a + d * get.from,
+                                                     .send_bytes = d * (give.end - give.from) * sizeof *a,
+                                                     .receive_bytes = d * (get.end - get.from) * sizeof *a};
+    }
+    ranks_exchange(part->ranks, pieces, part->piece);
+}
+
+void tl_keep_window(const struct tl_model *tl, double *u)
+{
+    const struct tl_part *part = &tl->part;
+    if (part->ranks == NULL) return;
+    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks);
+    memset(u, 0, d * part->window[2 * me] * sizeof *u);
+    memset(u + d * part->window[2 * me + 1], 0,
+           d * (tl->cloud->points - part->window[2 * me + 1]) * sizeof *u);
+}
+
+/* A rank can take stresses at points whose neighbours all are in its window. */
+static bool sees(const struct tl_model *tl, size_t rank, size_t count, const size_t *index)
+{
+    const size_t *window = tl->part.window + 2 * rank;
+    struct range range = {index[0], index[0] + 1};
+    for (size_t k = 0; k < count; k++) {
+        widen(&range, index[k]);
+        add_row(tl, &tl->gradient, index[k], &range);
+    }
+    return range.from >= window[0] && range.end <= window[1];
+}
+
+selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
+                            struct messages *messages)
+{
+    const size_t ranks = (size_t)ranks_count(tl->part.ranks);
+    size_t rank = 0;
+    while (tl->part.ranks != NULL && rank < ranks && !sees(tl, rank, count, index))
+        rank++;
+    *holder = (int)rank;
+    if (rank < ranks) return SELAS_OK;
+    const double *place = tl->deck_position + 3 * index[0];
+    return fail(messages, SELAS_UNSUPPORTED,
+                "the points about (%g, %g, %g), from which a value is taken, are on no rank together: take "
+                "fewer ranks",
+                place[0], place[1], place[2]);
+}
+
+int tl_holder(const struct model *model, size_t plane)
+{
+    const struct tl_part *part = &((const struct tl_model *)model)->part;
+    int rank = 0;
+    while (plane * part->plane >= part->bound[rank + 1])
+        rank++;
+    return rank;
+}
+
+void tl_share(struct model *model, enum model_array array, struct spread *shares)
+{
+    const struct tl_model *tl = (const struct tl_model *)model;
+    const struct tl_part *part = &tl->part;
+    const size_t d = (size_t)tl->cloud->dimension, *window = part->window + 2 * ranks_me(part->ranks);
+    const struct spread_run run = {d * window[0], d * window[0], d * (window[1] - window[0]),
+                                   d * (part->own - window[0]), d * (part->end - window[0])};
+    if (array == ARRAY_UNKNOWNS) spread_add(shares, model->unknowns, model->unknowns, &run);
+}
+
+/* The fastest of the own points, or the middle of those that are spoiled. */
+void tl_unseen(struct model *model, const double *y, struct unseen *found)
+{
+    const struct tl_model *tl = (const struct tl_model *)model;
+    const size_t d = (size_t)tl->cloud->dimension;
+    double place[3] = {0};
+    *found = (struct unseen){.speed = -1, .places = tl->part.end - tl->part.own};
+    for (size_t i = tl->part.own; i < tl->part.end; i++) {
+        double square = 0, way = 0;
+        for (size_t k = d * i; k < d * (i + 1); k++) {
+            square += y[model->unknowns + k] * y[model->unknowns + k];
+            way += y[k] * y[k];
+        }
+        const bool spoiled = !isfinite(square + way);
+        if (!spoiled && (found->spoiled > 0 || sqrt(square) <= found->speed)) continue;
+        for (size_t c = 0; c < 3; c++)
+            place[c] = (spoiled && found->spoiled > 0 ? place[c] : 0) + tl->deck_position[3 * i + c];
+        found->spoiled += spoiled;
+        found->speed = spoiled ? INFINITY : sqrt(square);
+    }
+    const double of = found->spoiled > 0 ? (double)found->spoiled : 1;
+    snprintf(found->place, sizeof found->place, "%s (%.6g, %.6g, %.6g)", found->spoiled > 0 ? "about" : "at",
+             place[0] / of, place[1] / of, place[2] / of);
+}
+
+void tl_describe_part(const struct tl_model *tl,
+                      void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const struct tl_part *part = &tl->part;
+    if (part->ranks == NULL) return;
+    const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
+    const size_t operators = tl->model.parts > 1 ? tl->model.parts : 1; /* of damped materials */
+    char text[200];
+    size_t sent = 0;
+    int used = snprintf(text, sizeof text, "%zu, points:", ranks);
+    for (size_t r = 0; r < ranks && (size_t)used + 24 < sizeof text; r++)
+        used +=
+            snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
+    tell(context, "ranks", text);
+    for (size_t r = 0; r < ranks; r++)
+        if (r != me) sent += halo(part, me, r).end - halo(part, me, r).from;
+    snprintf(text, sizeof text, "%zu by the first rank (%zu points of its %zu)",
+             operators * sent * (size_t)tl->cloud->dimension * sizeof(double), sent,
+             part->bound[1] - part->bound[0]);
+    tell(context, "halo bytes a step", text);
+}
