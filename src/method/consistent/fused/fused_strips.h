@@ -71,12 +71,12 @@ static void first_rows(const struct strip *s, size_t j)
     const struct fused *f = s->f;
     REAL *ring = s->ring, *spare = s->spare;
     REAL *ay = row_of(f, ring, ROW_AY, j), *az = row_of(f, ring, ROW_AZ, j);
-    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_BX, j), s->zero, spare);
+    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_BX_MIXED, j), s->zero, spare);
     x_pass(s, true, SIDE_N_EVEN, spare, row_of(f, ring, ROW_CZ, j), row_of(f, ring, ROW_G, j));
     if (j < s->from || j >= s->end) return;
     const REAL *before = s->zero;
     if (!f->bulk) {
-        x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BY, j), s->zero, spare);
+        x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BY_SHEAR, j), s->zero, spare);
         x_pass(s, true, SIDE_N_EVEN, spare, ay, ay);
         x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BZ, j), s->zero, spare);
         before = spare;
@@ -91,8 +91,8 @@ static void second_rows(const struct strip *s, size_t j)
     const struct fused *f = s->f;
     REAL *t1 = row_of(f, s->ring, ROW_T1, j), *t2 = row_of(f, s->ring, ROW_T2, j);
     REAL *t3 = row_of(f, s->ring, ROW_T3, j), *t4 = row_of(f, s->ring, ROW_T4, j);
-    y_pass(s, s->all, false, SIDE_G_FIRST, ROW_BY, j, s->zero, t1);
-    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX, j, s->zero, t2);
+    y_pass(s, s->all, false, SIDE_G_FIRST, ROW_BY_MIXED, j, s->zero, t1);
+    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX_SHEAR, j, s->zero, t2);
     y_pass(s, s->own, false, SIDE_S_ODD, ROW_BY, j, s->zero, t3);
     y_pass(s, s->own, false, SIDE_G_SECOND, ROW_G, j, t3, t3);
     if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
@@ -116,28 +116,38 @@ static void third_rows(const struct strip *s, size_t j)
 }
 
 /* Passes over depth for row j of FUSED_PLANES planes; planes that are not there have weight 0. */
-static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL *u)
+static void depth_rows(const struct strip *s, size_t first, size_t j, const struct fused_fields *fields)
 {
-    static const enum fused_row result[3][OVER_DEPTH_MATRICES] = {
-        {ROW_AX, ROW_CX, ROW_BX}, {ROW_AY, ROW_CY, ROW_BY}, {ROW_AZ, ROW_CZ, ROW_BZ}};
+    static const enum fused_row result[3][OVER_DEPTH_RESULTS] = {
+        {ROW_AX, ROW_CX, ROW_BX_SHEAR, ROW_BX_MIXED, ROW_BX},
+        {ROW_AY, ROW_CY, ROW_BY_SHEAR, ROW_BY_MIXED, ROW_BY},
+        {ROW_AZ, ROW_CZ, ROW_BZ, ROW_BZ, ROW_BZ}};
     const struct fused *f = s->f;
     const size_t half = (size_t)f->deep / 2, last = s->all.at + s->all.n;
     const size_t n = (last < f->n[0] ? last : f->n[0]) - s->all.at;
+    const REAL share[SHARES] = {(REAL)f->share[SHARE_MIXED], (REAL)f->share[SHARE_AXIAL]};
     for (int component = 0; component < 3; component++) {
-        const REAL *field = u + (size_t)component * f->volume + j * f->n[0] + s->all.at;
-        const REAL *in[FUSED_MOST_TAPS], *weight[OVER_DEPTH_MATRICES];
-        REAL *out[OVER_DEPTH_MATRICES * FUSED_PLANES];
+        const size_t at = (size_t)component * f->volume + j * f->n[0] + s->all.at;
+        const REAL *in[FUSED_MOST_TAPS], *other[FUSED_MOST_TAPS], *weight[OVER_DEPTH_MATRICES];
+        REAL *out[OVER_DEPTH_RESULTS * FUSED_PLANES];
         for (size_t t = 0; t < (size_t)f->deep + FUSED_PLANES - 1; t++) {
             const size_t k = first + t < half ? 0 : first + t - half;
-            in[t] = field + (k < f->n[2] ? k : f->n[2] - 1) * f->plane;
+            const size_t place = at + (k < f->n[2] ? k : f->n[2] - 1) * f->plane;
+            in[t] = (const REAL *)fields->u + place;
+            if (fields->other != NULL) other[t] = (const REAL *)fields->other + place;
         }
-        for (size_t m = 0; m < OVER_DEPTH_MATRICES; m++) {
-            weight[m] = (const REAL *)f->z[component][m] + first * (size_t)f->deep;
+        for (size_t m = 0; m < OVER_DEPTH_RESULTS; m++)
             for (size_t r = 0; r < FUSED_PLANES; r++)
                 out[m * FUSED_PLANES + r] =
                     row_of(f, s->rings + r * f->ring_size, result[component][m], j) + s->all.at;
-        }
-        s->kernel->of[s->sweeps].depth[!f->bare][f->bulk && component != DEPTH](in, weight, n, f->n[0], out);
+        for (size_t m = 0; m < OVER_DEPTH_MATRICES; m++)
+            weight[m] = (const REAL *)f->z[component][m] + first * (size_t)f->deep;
+        if (fields->other != NULL)
+            s->kernel->of[s->sweeps].mixed[!f->bare][component == DEPTH](in, other, weight, share, n,
+                                                                         f->n[0], out);
+        else
+            s->kernel->of[s->sweeps].depth[!f->bare][f->bulk && component != DEPTH](in, weight, n, f->n[0],
+                                                                                    out);
     }
 }
 
@@ -188,7 +198,7 @@ static void window_planes(struct strip *s, size_t first, const struct fused_fiel
         for (size_t k = fields->bring_on; k < fields->before && j < end; k++)
             bring_on(f, fields, k, &rows);
         for (size_t row = j; row < end; row++)
-            depth_rows(s, first, row, fields->u);
+            depth_rows(s, first, row, fields);
         for (size_t plane = 0; plane < planes; plane++) {
             s->ring = s->rings + plane * f->ring_size;
             strip_rows(s, first + plane, from, last, j, fields);

@@ -210,6 +210,8 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
         part->bytes -= its->kept_bytes;
         its->kept_bytes = 0;
     }
+    if (relaxing->parts > 1 && !fused_mix(consistent_of(model), consistent_of(relaxing->part[1].model)))
+        return SELAS_NO_MEMORY;
     fused->kept_bytes = model->single ? ((1 + relaxing->parts) * n + relaxing->extra) * sizeof(float)
                                       : (1 + relaxing->parts) * n * sizeof(double);
     model->bytes += fused->kept_bytes + sizeof *relaxing;

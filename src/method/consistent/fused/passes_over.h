@@ -50,6 +50,57 @@ INLINED void over_depth(const int taps, const int begin, const int end, const RE
     }
 }
 
+/* The same where `other` displacements act by a lambda of their own (fused.h, F1a): A, C and B of what multiplies
+ * them, and B of what q and p multiply, which x and y alone ask for. */
+INLINED void mixed_over_depth(const int taps, const bool bare, const bool normal, const REAL *const *in,
+                              const REAL *const *other, const REAL *const *weight, const REAL *share,
+                              size_t n, size_t ahead, REAL *const *result)
+{
+    const int matrices = bare ? OVER_DEPTH_B : OVER_DEPTH_MATRICES;
+    const REAL mixed = share[SHARE_MIXED], axial = share[SHARE_AXIAL];
+    for (size_t i = 0;; i += LANES) {
+        if (i + LANES > n) i = n - LANES;
+        lanes sum[OVER_DEPTH_MATRICES][FUSED_PLANES] = {0};
+        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
+        {
+            const lanes shear = *at(in[t] + i), more = *at(other[t] + i);
+            lanes value[] = {shear, shear + mixed * more, shear};
+            if (normal) value[OVER_DEPTH_A] += axial * more;
+            if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
+            if (sizeof(REAL) == sizeof(double)) FETCH(other[t] + i + ahead);
+            UNROLLED for (int m = 0; m < matrices; m++)
+                UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
+                weight[m][r * taps + t - r] * value[m];
+            if (!bare || t < taps / 2 || t >= taps / 2 + FUSED_PLANES) continue;
+            REAL *const *place = result + t - taps / 2;
+            *(lanes *)(place[OVER_DEPTH_B * FUSED_PLANES] + i) = shear;
+            if (normal) continue;
+            *(lanes *)(place[OVER_DEPTH_B_MIXED * FUSED_PLANES] + i) = value[OVER_DEPTH_C];
+            *(lanes *)(place[OVER_DEPTH_B_AXIAL * FUSED_PLANES] + i) = shear + axial * more;
+        }
+        UNROLLED for (int m = 0; m < matrices; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
+            (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
+        if (i + LANES >= n) break;
+    }
+    for (size_t i = 0; !bare && !normal; i += LANES) {
+        if (i + LANES > n) i = n - LANES;
+        lanes sum[FUSED_PLANES] = {0};
+        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
+        {
+            const lanes more = *at(other[t] + i);
+            UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[r] +=
+                weight[OVER_DEPTH_B][r * taps + t - r] * more;
+        }
+        UNROLLED for (int r = 0; r < FUSED_PLANES; r++)
+        {
+            const lanes shear = *at(result[OVER_DEPTH_B * FUSED_PLANES + r] + i);
+            *(lanes *)(result[OVER_DEPTH_B_MIXED * FUSED_PLANES + r] + i) = shear + mixed * sum[r];
+            *(lanes *)(result[OVER_DEPTH_B_AXIAL * FUSED_PLANES + r] + i) = shear + axial * sum[r];
+        }
+        if (i + LANES >= n) break;
+    }
+}
+
 /* Along x: out := init + matrix in, FUSED_ROWS rows, all from the same column on; entries beyond the row are
  * read, times 0. */
 INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in, const REAL *init,
@@ -195,12 +246,13 @@ INLINED void relaxed_by(const size_t parts, size_t n, const struct fused_relax *
 static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
                   REAL *memory, REAL *u, REAL *other, REAL *column)
 {
-    for (size_t row = 0; row < rows; row++) {
-        const size_t at = row * step;
+    const bool whole = n == step; /* rows lie one behind the other */
+    for (size_t row = 0; row < (whole ? 1 : rows); row++) {
+        const size_t at = row * step, numbers = whole ? rows * n : n;
         if (other == NULL)
-            relaxed_by(1, n, r, w + at, memory + at, u + at, NULL);
+            relaxed_by(1, numbers, r, w + at, memory + at, u + at, NULL);
         else
-            relaxed_by(2, n, r, w + at, memory + at, u + at, other + at);
+            relaxed_by(2, numbers, r, w + at, memory + at, u + at, other + at);
     }
     return measured_rows(n, rows, step, u, column);
 }
@@ -216,6 +268,13 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
                      REAL *const *result)                                                                    \
     {                                                                                                        \
         over_depth(deep, begin, end, in, weight, n, ahead, result);                                          \
+    }
+
+#define MIXED(name, deep, bare, normal)                                                                      \
+    static void name(const REAL *const *in, const REAL *const *other, const REAL *const *weight,             \
+                     const REAL *share, size_t n, size_t ahead, REAL *const *result)                         \
+    {                                                                                                        \
+        mixed_over_depth(deep, bare, normal, in, other, weight, share, n, ahead, result);                    \
     }
 
 /* One function for each pass and number of taps. */
@@ -238,7 +297,11 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     DEPTH(two_##deep, deep, 0, 2)                                                                            \
     DEPTH(three_##deep, deep, 0, 3)                                                                          \
     DEPTH(two_bulk_##deep, deep, 1, 2)                                                                       \
-    DEPTH(three_bulk_##deep, deep, 1, 3)
+    DEPTH(three_bulk_##deep, deep, 1, 3)                                                                     \
+    MIXED(bare_##deep, deep, true, false)                                                                    \
+    MIXED(bare_normal_##deep, deep, true, true)                                                              \
+    MIXED(mixed_##deep, deep, false, false)                                                                  \
+    MIXED(mixed_normal_##deep, deep, false, true)
 PASSES(5, 9)
 PASSES(9, 13)
 PASSES(13, 17)
@@ -248,8 +311,12 @@ PASSES(13, 17)
         wide, x_##wide, y_##wide, ends_##wide,                                                               \
         {                                                                                                    \
             {two_##deep, two_bulk_##deep},                                                                   \
+            {three_##deep, three_bulk_##deep},                                                               \
+        },                                                                                                   \
+        {                                                                                                    \
+            {bare_##deep, bare_normal_##deep},                                                               \
             {                                                                                                \
-                three_##deep, three_bulk_##deep                                                              \
+                mixed_##deep, mixed_normal_##deep                                                            \
             }                                                                                                \
         }                                                                                                    \
     }
