@@ -3,7 +3,7 @@
  *
  * On each face the second displacement is a field of its two axes, `row` along rows and `deep` across them; what
  * is made of it goes to the planes that N e of the axis across the face reaches. */
-#include "method/consistent/fused/fused.h"
+#include "method/consistent/fused/kernels.h"
 
 #include <string.h>
 
@@ -60,8 +60,7 @@ static void across_rows(const struct face_fields *of, const struct band *band, c
     const size_t n = of->n[0], half = band == NULL ? 0 : band->half;
     for (size_t other = less(j, half); other <= j + half && other < of->n[1]; other++) {
         const REAL weight = (REAL)(band == NULL ? 1 : band->value[(other + half - j) * band->n + j]);
-        for (size_t i = 0; i < n; i++)
-            out[i] += weight * in[other * n + i];
+        NAME(taken_fused_kernels)()->kick(n, weight, in + other * n, out);
     }
 }
 
@@ -69,10 +68,9 @@ static void across_rows(const struct face_fields *of, const struct band *band, c
 static void along_row(const struct band *band, const REAL *in, REAL *out)
 {
     for (size_t d = 0; d <= 2 * band->half; d++) {
-        const double *weight = band->value + d * band->n;
-        const size_t from = less(band->half, d), end = band->n - less(d, band->half);
-        for (size_t i = from; i < end; i++)
-            out[i] += (REAL)weight[i] * in[i + d - band->half];
+        const size_t from = less(band->half, d), n = band->n - less(d, band->half) - from;
+        NAME(taken_fused_kernels)()
+            ->weigh(n, band->value + d * band->n + from, in + from + d - band->half, out + from);
     }
 }
 
@@ -97,12 +95,6 @@ static void make_rows(const struct face_fields *of, size_t j)
         of->made[axis][at + i] = -of->made[axis][at + i];
 }
 
-static void add_row(size_t n, double factor, const REAL *row, REAL *sum)
-{
-    for (size_t i = 0; i < n; i++)
-        sum[i] += (REAL)factor * row[i];
-}
-
 /* Adds what was made to a component of plane k. */
 static void add_face(const struct consistent *c, const struct face_fields *of, double factor, size_t k,
                      int component, REAL *a)
@@ -111,10 +103,11 @@ static void add_face(const struct consistent *c, const struct face_fields *of, d
     const double *column = face->column[component];
     const REAL *made = of->made[component] + (face->axis == DEPTH ? 0 : k * of->n[0]);
     REAL *sum = a + (size_t)component * c->volume + k * c->plane;
+    const struct NAME(fused_kernels) *kernels = NAME(taken_fused_kernels)();
     if (face->axis == DEPTH && k >= face->from && k < face->to)
-        add_row(c->plane, factor * column[k], made, sum);
+        kernels->kick(c->plane, (REAL)(factor * column[k]), made, sum);
     for (size_t j = face->from; face->axis == 1 && j < face->to; j++)
-        add_row(c->n[0], factor * column[j], made, sum + j * c->n[0]);
+        kernels->kick(c->n[0], (REAL)(factor * column[j]), made, sum + j * c->n[0]);
     for (size_t j = 0; face->axis == 0 && j < c->n[1]; j++)
         for (size_t i = face->from; i < face->to; i++)
             sum[j * c->n[0] + i] += (REAL)(factor * column[i]) * made[j];

@@ -31,6 +31,7 @@
         real (*relax)(size_t n, size_t rows, size_t step, const struct fused_relax *relax, const real *w,    \
                       real *memory, real *u, real *other, real *column);                                     \
         void (*kick)(size_t n, real dt, const real *a, real *w);                                             \
+        void (*weigh)(size_t n, const double *weight, const real *in, real *out);                            \
     };                                                                                                       \
     EACH_PROCESSOR(struct fused_kernels_##precision, fused_kernels_##precision)
 FUSED_KERNELS(double, double)

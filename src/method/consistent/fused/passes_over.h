@@ -263,6 +263,14 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     moved(n, dt, a, w);
 }
 
+/* out += weight in, number by number */
+static void weigh(size_t n, const double *restrict weight, const REAL *restrict in, REAL *restrict out)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        out[i] += (REAL)weight[i] * in[i];
+}
+
 #define DEPTH(name, deep, begin, end)                                                                        \
     static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
                      REAL *const *result)                                                                    \
@@ -321,4 +329,4 @@ PASSES(13, 17)
         }                                                                                                    \
     }
 const struct NAME(fused_kernels)
-    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick};
+    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh};
