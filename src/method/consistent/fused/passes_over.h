@@ -51,53 +51,69 @@ INLINED void over_depth(const int taps, const int begin, const int end, const RE
 }
 
 /* The same where `other` displacements act by a lambda of their own (fused.h, F1a): A, C and B of what multiplies
- * them, and B of what q and p multiply, which x and y alone ask for. */
+ * them, and B of what q and p multiply, which x and y alone ask for. Sums `begin` to `end` - 1 of A, C, B and B of
+ * `other`. */
+INLINED void mixed_sums(const int taps, const bool normal, const int begin, const int end,
+                        const REAL *const *in, const REAL *const *other, const REAL *const *weight,
+                        const REAL *share, size_t n, size_t ahead, REAL *const *result)
+{
+    const REAL mixed = share[SHARE_MIXED], axial = share[SHARE_AXIAL];
+    for (size_t i = 0;; i += LANES) {
+        if (i + LANES > n) i = n - LANES;
+        lanes sum[OVER_DEPTH_MATRICES + 1][FUSED_PLANES] = {0};
+        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
+        {
+            const lanes shear = *at(in[t] + i), more = *at(other[t] + i);
+            lanes value[] = {shear, shear + mixed * more, shear, more};
+            if (normal) value[OVER_DEPTH_A] += axial * more;
+            if (sizeof(REAL) == sizeof(double) && begin == 0) FETCH(in[t] + i + ahead);
+            if (sizeof(REAL) == sizeof(double) && begin == 0) FETCH(other[t] + i + ahead);
+            UNROLLED for (int m = begin; m < end; m++)
+            {
+                const int matrix = m < OVER_DEPTH_MATRICES ? m : OVER_DEPTH_B;
+                UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
+                    weight[matrix][r * taps + t - r] * value[m];
+            }
+        }
+        UNROLLED for (int r = 0; r < FUSED_PLANES; r++)
+        {
+            UNROLLED for (int m = begin; m < end && m < OVER_DEPTH_MATRICES; m++) *
+                (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
+            if (end <= OVER_DEPTH_MATRICES) continue;
+            *(lanes *)(result[OVER_DEPTH_B_MIXED * FUSED_PLANES + r] + i) =
+                sum[OVER_DEPTH_B][r] + mixed * sum[OVER_DEPTH_MATRICES][r];
+            *(lanes *)(result[OVER_DEPTH_B_AXIAL * FUSED_PLANES + r] + i) =
+                sum[OVER_DEPTH_B][r] + axial * sum[OVER_DEPTH_MATRICES][r];
+        }
+        if (i + LANES >= n) break;
+    }
+}
+
+/* All of them; sixteen registers do not hold the sums of four matrices. */
 INLINED void mixed_over_depth(const int taps, const bool bare, const bool normal, const REAL *const *in,
                               const REAL *const *other, const REAL *const *weight, const REAL *share,
                               size_t n, size_t ahead, REAL *const *result)
 {
-    const int matrices = bare ? OVER_DEPTH_B : OVER_DEPTH_MATRICES;
-    const REAL mixed = share[SHARE_MIXED], axial = share[SHARE_AXIAL];
-    for (size_t i = 0;; i += LANES) {
-        if (i + LANES > n) i = n - LANES;
-        lanes sum[OVER_DEPTH_MATRICES][FUSED_PLANES] = {0};
-        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
-        {
-            const lanes shear = *at(in[t] + i), more = *at(other[t] + i);
-            lanes value[] = {shear, shear + mixed * more, shear};
-            if (normal) value[OVER_DEPTH_A] += axial * more;
-            if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
-            if (sizeof(REAL) == sizeof(double)) FETCH(other[t] + i + ahead);
-            UNROLLED for (int m = 0; m < matrices; m++)
-                UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
-                weight[m][r * taps + t - r] * value[m];
-            if (!bare || t < taps / 2 || t >= taps / 2 + FUSED_PLANES) continue;
-            REAL *const *place = result + t - taps / 2;
-            *(lanes *)(place[OVER_DEPTH_B * FUSED_PLANES] + i) = shear;
-            if (normal) continue;
-            *(lanes *)(place[OVER_DEPTH_B_MIXED * FUSED_PLANES] + i) = value[OVER_DEPTH_C];
-            *(lanes *)(place[OVER_DEPTH_B_AXIAL * FUSED_PLANES] + i) = shear + axial * more;
+    enum { ALL = OVER_DEPTH_MATRICES + 1, MANY = VECTOR_BYTES == 64 };
+    if (bare) {
+        mixed_sums(taps, normal, 0, OVER_DEPTH_B, in, other, weight, share, n, ahead, result);
+        for (int r = 0; r < FUSED_PLANES; r++) {
+            const REAL *shear = in[r + taps / 2], *more = other[r + taps / 2];
+            REAL *const *place = result + r;
+#pragma omp simd
+            for (size_t i = 0; i < n; i++) {
+                place[OVER_DEPTH_B * FUSED_PLANES][i] = shear[i];
+                if (normal) continue;
+                place[OVER_DEPTH_B_MIXED * FUSED_PLANES][i] = shear[i] + share[SHARE_MIXED] * more[i];
+                place[OVER_DEPTH_B_AXIAL * FUSED_PLANES][i] = shear[i] + share[SHARE_AXIAL] * more[i];
+            }
         }
-        UNROLLED for (int m = 0; m < matrices; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
-            (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
-        if (i + LANES >= n) break;
-    }
-    for (size_t i = 0; !bare && !normal; i += LANES) {
-        if (i + LANES > n) i = n - LANES;
-        lanes sum[FUSED_PLANES] = {0};
-        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
-        {
-            const lanes more = *at(other[t] + i);
-            UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[r] +=
-                weight[OVER_DEPTH_B][r * taps + t - r] * more;
-        }
-        UNROLLED for (int r = 0; r < FUSED_PLANES; r++)
-        {
-            const lanes shear = *at(result[OVER_DEPTH_B * FUSED_PLANES + r] + i);
-            *(lanes *)(result[OVER_DEPTH_B_MIXED * FUSED_PLANES + r] + i) = shear + mixed * sum[r];
-            *(lanes *)(result[OVER_DEPTH_B_AXIAL * FUSED_PLANES + r] + i) = shear + axial * sum[r];
-        }
-        if (i + LANES >= n) break;
+    } else if (normal || MANY) {
+        mixed_sums(taps, normal, 0, normal ? OVER_DEPTH_MATRICES : ALL, in, other, weight, share, n, ahead,
+                   result);
+    } else {
+        mixed_sums(taps, false, 0, OVER_DEPTH_B, in, other, weight, share, n, ahead, result);
+        mixed_sums(taps, false, OVER_DEPTH_B, ALL, in, other, weight, share, n, ahead, result);
     }
 }
 
