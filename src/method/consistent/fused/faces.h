@@ -11,10 +11,10 @@ struct face_fields {
     const struct fused_faces *faces;
     const struct fused_face *face;
     int row, deep;
-    size_t n[2];        /* numbers in a row, rows */
-    REAL *value[3];     /* of the face, by component */
-    REAL *made[3];      /* by component */
-    REAL *bare[2];      /* B of the components along rows and across the face */
+    size_t n[2];    /* numbers in a row, rows */
+    REAL *value[3]; /* of the face, by component */
+    REAL *made[3];  /* by component */
+    REAL *bare[2];  /* B of the components along rows and across the face */
 };
 
 static struct face_fields fields_of_face(const struct consistent *c, const struct fused_faces *faces,
@@ -69,8 +69,8 @@ static void along_row(const struct band *band, const REAL *in, REAL *out)
 {
     for (size_t d = 0; d <= 2 * band->half; d++) {
         const size_t from = less(band->half, d), n = band->n - less(d, band->half) - from;
-        NAME(taken_fused_kernels)()
-            ->weigh(n, band->value + d * band->n + from, in + from + d - band->half, out + from);
+        NAME(taken_fused_kernels)
+        ()->weigh(n, band->value + d * band->n + from, in + from + d - band->half, out + from);
     }
 }
 

@@ -157,7 +157,7 @@ static bool lay_plain(struct fused *f)
 /* How long rows are waited for: from the newest, which the strip or the narrow passes over y make, to the
  * oldest that those behind still read. b_x and b_y are the same whatever multiplies them but where
  * displacements are mixed. */
-static void lay_rings(struct fused *f)
+static void lay_rings(const struct fused *f, bool mixed, struct fused_rings *rings)
 {
     size_t all = 0;
     for (int field = 0; field < FUSED_FIELDS; field++) {
@@ -167,23 +167,21 @@ static void lay_rings(struct fused *f)
             field == ROW_CY || field == ROW_G)
             rows = FUSED_STRIP + f->late[0] + (size_t)f->narrow / 2;
         if (field >= ROW_T1) rows = f->late[1] + (size_t)f->wide / 2 + FUSED_ROWS - f->late[0];
-        f->ring[field] = rounded(rows, FUSED_ROWS);
-        f->start[field] = all;
-        if (f->faces == NULL && field >= ROW_BX_SHEAR && field < ROW_BZ) {
-            const int same = (field - ROW_BX_SHEAR) % 2 == 0 ? ROW_BX : ROW_BY;
-            f->ring[field] = f->ring[same];
-            f->start[field] = f->start[same];
-        } else
-            all += f->ring[field];
+        const bool same = !mixed && field >= ROW_BX_SHEAR && field < ROW_BZ;
+        const int as = (field - ROW_BX_SHEAR) % 2 == 0 ? ROW_BX : ROW_BY;
+        rings->rows[field] = same ? rings->rows[as] : rounded(rows, FUSED_ROWS);
+        rings->start[field] = same ? rings->start[as] : all;
+        all += same ? 0 : rings->rows[field];
     }
-    f->ring_size = all * f->stride;
+    rings->size = all * f->stride;
 }
 
-bool fused_lay_rings(struct fused *f)
+bool fused_lay_rings(struct fused *f, int displacements)
 {
+    struct fused_rings *rings = &f->rings[displacements - 1];
     const size_t before = f->buffer_size;
-    lay_rings(f);
-    f->buffer_size = FUSED_PLANES * f->ring_size + 2 * FUSED_ROWS * f->stride + 2 * (f->stride - f->width);
+    lay_rings(f, displacements > 1, rings);
+    f->buffer_size = FUSED_PLANES * rings->size + 2 * FUSED_ROWS * f->stride + 2 * (f->stride - f->width);
     f->bytes += (size_t)f->threads * f->number * (f->buffer_size - before);
     if (f->buffer == NULL) f->buffer = array_new((size_t)f->threads, sizeof *f->buffer);
     for (int t = 0; f->buffer != NULL && t < f->threads; t++) {
@@ -284,7 +282,7 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
     f->bytes = sizeof *f;
     const bool good = lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && lay_plain(f) &&
-                      fused_lay_rings(f) && lay_windows(c, f);
+                      fused_lay_rings(f, 1) && lay_windows(c, f);
     if (good && number == sizeof(float)) shorten_all(f);
     if (good) return f;
     fused_free(f);

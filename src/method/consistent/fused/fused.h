@@ -95,19 +95,24 @@ struct fused_relax {
     double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS];
 };
 
+/* Rows in the ring of each field of a plane, rows before it, numbers in all. */
+struct fused_rings {
+    size_t rows[FUSED_FIELDS], start[FUSED_FIELDS], size;
+};
+
 struct fused {
     size_t n[3], plane, volume;
-    size_t width, stride;                               /* numbers in a row, from row to row */
-    size_t ring[FUSED_FIELDS], start[FUSED_FIELDS]; /* rows in the ring of a field, and before it */
-    int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
-    bool bare;                                          /* B is the identity */
+    size_t width, stride;        /* numbers in a row, from row to row */
+    struct fused_rings rings[2]; /* of one displacement, of two */
+    int narrow, wide, deep;      /* taps of S and G, of N, of products over depth */
+    bool bare;                   /* B is the identity */
     bool bulk; /* mu is 0, and all that it is a factor of: A of x and y, S_x b_y, S_y b_x, S_x b_z, S_y b_z */
-    size_t late[2];         /* rows that narrow and wide passes over y lag behind */
-    void *x[SIDE_MATRICES]; /* [width / vector][taps][vector] */
-    void *y[SIDE_MATRICES]; /* [rows * taps] */
-    double share[SHARES];   /* of e_1 in what q and p multiply (F1a) ... */
+    size_t late[2];            /* rows that narrow and wide passes over y lag behind */
+    void *x[SIDE_MATRICES];    /* [width / vector][taps][vector] */
+    void *y[SIDE_MATRICES];    /* [rows * taps] */
+    double share[SHARES];      /* of e_1 in what q and p multiply (F1a) ... */
     struct fused_faces *faces; /* ... and what that leaves; NULL: there is no e_1 */
-    bool *plain;            /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
+    bool *plain;               /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
     void *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
     double quiet;   /* where displacements are all below this times the largest they do not move others */
     double *size;   /* [n[2]] largest displacement in each plane, ... */
@@ -131,8 +136,8 @@ struct fused {
     struct relaxing *relaxing; /* NULL: steps do not relax */
     struct ranks *ranks;       /* that share the planes; NULL: alone */
     int threads;
-    void **buffer;    /* [threads] */
-    size_t ring_size, buffer_size; /* numbers in the rings of a plane, in a buffer */
+    void **buffer;      /* [threads] */
+    size_t buffer_size; /* numbers */
     size_t bytes;
 };
 
@@ -144,7 +149,7 @@ struct fused_fields {
     double dt;
     const struct fused_relax *relax; /* u goes on by this and its `memory`, `other` too; NULL: by dt w */
     void *memory, *other;            /* other: e_1, NULL if there is one part */
-    size_t bring_on, before; /* planes of u to be brought on on the way */
+    size_t bring_on, before;         /* planes of u to be brought on on the way */
 };
 
 /* Builds c->fused if the scene is one for it (c->fused stays NULL if not); false: no memory. Needs c->hform.
@@ -170,8 +175,8 @@ void fused_planes_single(const struct fused *fused, int thread, size_t first,
  * boundary term E (-1 at the low, 1 at the high end; 0 at mirrors). NULL: no memory. */
 struct band *fused_narrow_matrix(struct consistent *c, int axis, bool test_odd, bool test_slope,
                                  bool trial_odd, bool trial_slope, double share);
-/* Rings of rows and rooms for them, anew; false: no memory. */
-bool fused_lay_rings(struct fused *f);
+/* Rings of rows of `displacements` (1 or 2), and rooms that hold them; false: no memory. */
+bool fused_lay_rings(struct fused *f, int displacements);
 /* mixed.c: from now on calls have displacements besides that act by the lambda of `second` (F1a); false: no
  * memory. */
 bool fused_mix(struct consistent *c, const struct consistent *second);

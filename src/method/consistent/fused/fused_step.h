@@ -19,8 +19,8 @@ struct pass {
     const struct consistent *c;
     const struct drive *drive;
     struct fused_fields fields;
-    double level;               /* smaller displacements move nothing */
-    size_t next, limit;         /* the next plane to be brought on; those from `limit` on are already */
+    double level;       /* smaller displacements move nothing */
+    size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
     int thread;
 };
 

@@ -83,7 +83,7 @@ bool fused_mix(struct consistent *c, const struct consistent *second)
         f->faces = faces;
         f->share[SHARE_MIXED] = more / (lambda + mu);
         f->share[SHARE_AXIAL] = more / (lambda + 2 * mu);
-        if (!fused_lay_rings(f)) return false;
+        if (!fused_lay_rings(f, 2)) return false;
         c->model.bytes += f->bytes - before;
     }
     return true;

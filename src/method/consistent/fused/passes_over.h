@@ -333,10 +333,10 @@ PASSES(13, 17)
 #define OF(wide, deep)                                                                                       \
     {                                                                                                        \
         wide, x_##wide, y_##wide, ends_##wide,                                                               \
-        {                                                                                                    \
-            {two_##deep, two_bulk_##deep},                                                                   \
-            {three_##deep, three_bulk_##deep},                                                               \
-        },                                                                                                   \
+            {                                                                                                \
+                {two_##deep, two_bulk_##deep},                                                               \
+                {three_##deep, three_bulk_##deep},                                                           \
+            },                                                                                               \
         {                                                                                                    \
             {bare_##deep, bare_normal_##deep},                                                               \
             {                                                                                                \
@@ -344,5 +344,5 @@ PASSES(13, 17)
             }                                                                                                \
         }                                                                                                    \
     }
-const struct NAME(fused_kernels)
-    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh};
+const struct NAME(fused_kernels) OF_PROCESSOR(NAME(fused_kernels)) = {
+    {OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh};
