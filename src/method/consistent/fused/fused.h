@@ -90,10 +90,20 @@ struct fused_faces {
  * ground has not more than two parts. */
 enum { FUSED_PARTS = 2 };
 struct fused_relax {
-    size_t mechanisms, parts, apart; /* numbers from the memory of one mechanism to that of the next */
+    size_t mechanisms, parts;
+    size_t order[MODEL_MECHANISMS],
+        at[MODEL_MECHANISMS]; /* mechanism of the scene, where its memory begins */
     double dt, kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
     double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS];
+    double from_parts[FUSED_PARTS], from_memory[MODEL_MECHANISMS];
 };
+
+/* Mechanisms whose memory steps go on with. Of two parts e_0, e_1 and the other D_l tell the last:
+ * D_last = sum over p of from_parts_p e_p + sum over l of from_memory_l D_l. */
+static inline size_t fused_remembered(const struct fused_relax *relax)
+{
+    return relax->mechanisms - (relax->parts > 1 ? 1 : 0);
+}
 
 /* Rows in the ring of each field of a plane, rows before it, numbers in all. */
 struct fused_rings {

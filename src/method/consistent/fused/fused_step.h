@@ -242,11 +242,17 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
 {
     const struct fused_relax *relax = step->relax;
     if (relax == NULL) return step->w;
-    REAL factor = (REAL)relax->given[part], before[MODEL_MECHANISMS];
-    for (size_t l = 0; l < relax->mechanisms; l++) {
+    const size_t remembered = fused_remembered(relax), last = relax->mechanisms - 1;
+    const REAL *other = step->part[step->parts - 1].u;
+    REAL factor = (REAL)relax->given[part], before[MODEL_MECHANISMS], told[FUSED_PARTS] = {0};
+    for (size_t l = 0; l <= last; l++) {
         factor += (REAL)(relax->weight[part][l] * relax->taken[l] / relax->dt);
         before[l] = (REAL)(relax->weight[part][l] * (relax->kept[l] - 1) / relax->dt);
     }
+    for (size_t p = 0; p < step->parts; p++)
+        told[p] = before[last] * (REAL)relax->from_parts[p];
+    for (size_t l = 0; l < remembered; l++)
+        before[l] += before[last] * (REAL)relax->from_memory[l];
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct block *region = &c->pml->slab[s].region;
         const size_t rows = region->n[1] * region->n[2];
@@ -257,8 +263,9 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
             const size_t at = row / rows * c->volume + k * c->plane + j * c->n[0] + region->at[0];
             for (size_t i = at; i < at + region->n[0]; i++) {
                 REAL sum = factor * step->w[i];
-                for (size_t l = 0; l < relax->mechanisms; l++)
-                    sum += before[l] * step->memory[l * relax->apart + i];
+                for (size_t l = 0; l < remembered; l++)
+                    sum += before[l] * step->memory[relax->at[l] + i];
+                if (step->parts > 1) sum += told[0] * step->part[0].u[i] + told[1] * other[i];
                 step->work[i] = sum;
             }
         }
@@ -270,10 +277,15 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
 static double displacement(const struct NAME(step_fields) * step, size_t at)
 {
     const struct fused_relax *relax = step->relax;
-    double u = step->part[0].u[at];
+    double u = step->part[0].u[at], told = 0;
     if (relax == NULL) return u;
-    for (size_t l = 0; l < relax->mechanisms; l++)
-        u -= relax->weight[0][l] * step->memory[l * relax->apart + at];
+    for (size_t p = 0; p < step->parts; p++)
+        told += relax->from_parts[p] * step->part[p].u[at];
+    for (size_t l = 0; l < relax->mechanisms; l++) {
+        const double memory = l < fused_remembered(relax) ? step->memory[relax->at[l] + at] : told;
+        told += relax->from_memory[l] * memory;
+        u -= relax->weight[0][l] * memory;
+    }
     return u / relax->given[0];
 }
 

@@ -223,13 +223,17 @@ INLINED void relaxed(const size_t mechanisms, const size_t parts, size_t n, cons
                      const REAL *restrict w, REAL *restrict memory, REAL *restrict u, REAL *restrict other)
 {
     const REAL given = (REAL)(r->given[0] * r->dt), given_other = (REAL)(r->given[1] * r->dt);
+    const REAL from = (REAL)r->from_parts[0], from_other = (REAL)r->from_parts[1];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         REAL change = given * w[i], change_other = given_other * w[i];
+        REAL told = parts > 1 ? from * u[i] + from_other * other[i] : 0;
         for (size_t l = 0; l < mechanisms; l++) {
-            const REAL before = memory[l * r->apart + i];
+            const bool last = parts > 1 && l + 1 == mechanisms;
+            const REAL before = last ? told : memory[r->at[l] + i];
             const REAL after = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
-            memory[l * r->apart + i] = after;
+            if (!last) memory[r->at[l] + i] = after;
+            if (!last && parts > 1) told += (REAL)r->from_memory[l] * before;
             change += (REAL)r->weight[0][l] * (after - before);
             if (parts > 1) change_other += (REAL)r->weight[1][l] * (after - before);
         }
