@@ -108,9 +108,12 @@ static void add_face(const struct consistent *c, const struct face_fields *of, d
         kernels->kick(c->plane, (REAL)(factor * column[k]), made, sum);
     for (size_t j = face->from; face->axis == 1 && j < face->to; j++)
         kernels->kick(c->n[0], (REAL)(factor * column[j]), made, sum + j * c->n[0]);
-    for (size_t j = 0; face->axis == 0 && j < c->n[1]; j++)
-        for (size_t i = face->from; i < face->to; i++)
-            sum[j * c->n[0] + i] += (REAL)(factor * column[i]) * made[j];
+    if (face->axis != 0) return;
+    REAL weight[FUSED_STRIP] = {0}; /* N e reaches no further */
+    const size_t from = face->from == 0 ? 0 : c->n[0] - FUSED_STRIP;
+    for (size_t i = face->from; i < face->to; i++)
+        weight[i - from] = (REAL)(factor * column[i]);
+    kernels->spread(c->n[1], c->n[0], weight, made, sum + from);
 }
 
 /* a += factor (F1b) of the second displacement u. */

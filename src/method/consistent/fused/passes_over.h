@@ -291,6 +291,16 @@ static void weigh(size_t n, const double *restrict weight, const REAL *restrict 
         out[i] += (REAL)weight[i] * in[i];
 }
 
+/* FUSED_STRIP numbers of each row += weights times the row's value. */
+static void spread(size_t rows, size_t step, const REAL *restrict weight, const REAL *restrict value,
+                   REAL *restrict sum)
+{
+    for (size_t row = 0; row < rows; row++)
+#pragma omp simd
+        for (size_t i = 0; i < FUSED_STRIP; i++)
+            sum[row * step + i] += weight[i] * value[row];
+}
+
 #define DEPTH(name, deep, begin, end)                                                                        \
     static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
                      REAL *const *result)                                                                    \
@@ -349,4 +359,4 @@ PASSES(13, 17)
         }                                                                                                    \
     }
 const struct NAME(fused_kernels) OF_PROCESSOR(NAME(fused_kernels)) = {
-    {OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh};
+    {OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh, spread};
