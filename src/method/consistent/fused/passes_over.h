@@ -66,8 +66,8 @@ INLINED void mixed_sums(const int taps, const bool normal, const int begin, cons
             const lanes shear = *at(in[t] + i), more = *at(other[t] + i);
             lanes value[] = {shear, shear + mixed * more, shear, more};
             if (normal) value[OVER_DEPTH_A] += axial * more;
-            if (sizeof(REAL) == sizeof(double) && begin == 0) FETCH(in[t] + i + ahead);
-            if (sizeof(REAL) == sizeof(double) && begin == 0) FETCH(other[t] + i + ahead);
+            if (begin == 0) FETCH(in[t] + i + ahead);
+            if (begin == 0) FETCH(other[t] + i + ahead);
             UNROLLED for (int m = begin; m < end; m++)
             {
                 const int matrix = m < OVER_DEPTH_MATRICES ? m : OVER_DEPTH_B;
