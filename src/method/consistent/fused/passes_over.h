@@ -266,13 +266,12 @@ INLINED void relaxed_by(const size_t parts, size_t n, const struct fused_relax *
 static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
                   REAL *memory, REAL *u, REAL *other, REAL *column)
 {
-    const bool whole = n == step; /* rows lie one behind the other */
-    for (size_t row = 0; row < (whole ? 1 : rows); row++) {
-        const size_t at = row * step, numbers = whole ? rows * n : n;
+    for (size_t row = 0; row < rows; row++) {
+        const size_t at = row * step;
         if (other == NULL)
-            relaxed_by(1, numbers, r, w + at, memory + at, u + at, NULL);
+            relaxed_by(1, n, r, w + at, memory + at, u + at, NULL);
         else
-            relaxed_by(2, numbers, r, w + at, memory + at, u + at, other + at);
+            relaxed_by(2, n, r, w + at, memory + at, u + at, other + at);
     }
     return measured_rows(n, rows, step, u, column);
 }
