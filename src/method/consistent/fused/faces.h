@@ -3,6 +3,7 @@
  *
  * On each face the second displacement is a field of its two axes, `row` along rows and `deep` across them; what
  * is made of it goes to the planes that N e of the axis across the face reaches. */
+#include "base/machine.h"
 #include "method/consistent/fused/kernels.h"
 
 #include <string.h>
@@ -123,13 +124,18 @@ static void add_faces(const struct consistent *c, double factor, const REAL *u, 
     for (const struct fused_face *face = faces->face; face < faces->face + faces->count; face++) {
         const struct face_fields of = fields_of_face(c, faces, face);
         if (!take_face(c, &of, u)) continue;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-        for (size_t j = 0; j < of.n[1]; j++)
-            make_rows(&of, j);
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-        for (size_t k = 0; k < c->n[DEPTH]; k++)
-            for (int component = 0; component < 3; component++)
-                add_face(c, &of, factor * face->factor, k, component, a);
+#pragma omp parallel num_threads(c->threads)
+        {
+            const unsigned before = tiny_as_zero();
+#pragma omp for schedule(static)
+            for (size_t j = 0; j < of.n[1]; j++)
+                make_rows(&of, j);
+#pragma omp for schedule(static)
+            for (size_t k = 0; k < c->n[DEPTH]; k++)
+                for (int component = 0; component < 3; component++)
+                    add_face(c, &of, factor * face->factor, k, component, a);
+            tiny_as_before(before);
+        }
     }
 }
 

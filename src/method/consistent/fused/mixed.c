@@ -4,8 +4,8 @@
 #include "base/memory.h"
 #include "method/consistent/galerkin/hform.h"
 
-/* N (D - share E) of an axis between its own component and another: `slope` is the trial functions' for a
- * derivative along the axis, the test functions being odd or even as N is. NULL: no memory. */
+/* N (D - share E) along an axis for component `out`: of its own component if that is another, else of another
+ * one. NULL: no memory. */
 static struct band *gradient(struct consistent *c, int axis, int out, double share)
 {
     const bool odd = out == axis;
