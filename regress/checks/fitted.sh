@@ -35,6 +35,12 @@ plan() { # plan NAME DECK WORDS...: to $out/NAME.plan, errors too
     shift 2
     "$build/selas" check "$out/$deck.nml" "$@" >"$out/$name.plan" 2>&1
 }
+echoes() { # echoes DECK WORDS...: the largest echo in $echo, the plan in $out/echo.plan
+    deck=$1
+    shift
+    OMP_NUM_THREADS=1 "$build/selas" check --echo "$out/$deck.nml" "$@" >"$out/echo.plan" 2>&1
+    echo=$(sed -n 's/^echo [^e][^:]*: \([^ ]*\).*/\1/p' "$out/echo.plan" | sort -g | tail -1)
+}
 refused() { # refused TITLE PATTERN DECK WORDS...
     title=$1 pattern=$2
     shift 2
@@ -62,6 +68,14 @@ ok "dampers that are asked for stand where nothing comes back" \
 sed "s/shape = 'square', centre = 0, 0, 0, size = 1, 1/shape = 'face'/; s/'lamb'/'plane-wave'/" "$out/f.nml" >"$out/face.nml"
 run face face
 ok "a pressure all over the surface: error $(largest face)" below "$(largest face)" 0.02
+grep -q '^face z+: transmitting, dampers' "$out/face/report.txt"
+ok "below it dampers" test $? -eq 0
+echo "&boundary face = 'z+', kind = 'transmitting', layer = 'pml', layer_points = 8 /" | cat "$out/face.nml" - >"$out/sunk.nml"
+echoes sunk scene%end_time=30
+ok "layers there send slow waves back, echo $echo, and the plan says so" \
+    awk -v e="$echo" -v said="$(grep -c 'warning: all moves at right angles' "$out/echo.plan")" 'BEGIN { exit !(e > .01 && said == 1) }'
+echoes face scene%end_time=30
+ok "dampers hardly: echo $echo" below "$echo" 7e-3
 refused "layers beside a pressure all over the surface" 'only a roller' face boundary%face=x- boundary%kind=transmitting
 refused "a shear all over the surface has no box" 'has no end' face load%direction=1,0,0 reference%kind=file
 sed "/^&reference/d; s/^&load.*/\&load kind = 'body-force', $pulse \//" "$out/f.nml" >"$out/body.nml"
@@ -85,7 +99,7 @@ ok "a snapshot of the whole body asks for layers" grep -q '^box chosen: absorbin
 plan region shown snapshot%region=-1,-1,0,1,1,9
 depth=$(sed -n 's/^lattice: .* x //p' "$out/region.plan")
 ok "a snapshot's region lies in the box: $depth points over a depth of 9" test "$depth" -ge 37
-refused "a snapshot of the whole body where there are no layers" 'give &snapshot a region' shown stepping%scheme=modified-equation
+refused "a snapshot of the whole body where there are no layers" 'give &snapshot a region' shown stepping%scheme=rk4
 
 # Receivers far away along the layers; refining helps.
 sed "s/width = 0.3, delay = 2/width = 0.6, delay = 3/; s/position = 1,/position = 5,/; s/position = 2,/position = 10,/" \
@@ -97,9 +111,56 @@ if [ "$2" = night ]; then
     ok "the same at half the spacing: error $(largest fine)" below "$(largest fine)" "$(largest coarse)"
 fi
 
-# Layers beside the exact mass; a scheme without layers gets the larger box.
+# What the ground is like beyond the box: hills of a file are held, or the box is so large that they may go on; tilted layers.
+cat >"$out/hills.nml" <<D
+&scene dimension = 2, end_time = 14 /
+&material name = 'rock', density = 1, p_speed = 1.8, s_speed = 1 /
+&body material = 'rock', shape = 'half-space', spacing = 0.1 /
+&topography file = 'hills.txt' /
+&load kind = 'body-force', shape = 'point', centre = 0, depth = 0.8, direction = .3, 1, history = 'gaussian', width = 0.4, delay = 2 /
+&receiver name = 'a', position = -1, depth = 0 /
+&receiver name = 'b', position = 0.8, depth = 0 /
+D
+heights() { awk "BEGIN { for (i = -400; i <= 400; i++) { x = i * .05; print x, $1 } }" >"$out/hills.txt"; }
+heights '.35 * exp(-((x - 2.2) / .4) ^ 2 / 2) + .2 * exp(-((x + 2) / .3) ^ 2 / 2)'
+echoes hills
+ok "hills of a file beyond the receivers are in the box: echo $echo" below "$echo" 2e-3
+heights '.3 * exp(-((x - 5) / .4) ^ 2 / 2)'
+plan beyond hills
+ok "one farther away too: $(sed -n 's/^lattice points: //p' "$out/beyond.plan")" \
+    awk -v p="$(sed -n 's/^lattice points: \([0-9]*\).*/\1/p' "$out/beyond.plan")" 'BEGIN { exit !(p > 100) }'
+heights '.15 * sin(2 * x) + .1 * sin(3.3 * x + 1)'
+plan rough hills
+ok "ground that is nowhere level: the larger box" grep -q '^box chosen: so large .*surface level that is not' "$out/rough.plan"
+plan cut hills scene%end_time=60
+ok "where that costs too much: told" grep -q 'warning: before the absorbing layers the surface is made level' "$out/cut.plan"
+cat >"$out/dip.nml" <<D
+&scene dimension = 3, end_time = 10 /
+&material name = 'rock', density = 1.3, p_speed = 3, s_speed = 1.8 /
+&material name = 'soil', density = 1, p_speed = 1.8, s_speed = 1 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 1.5, dip = 20 /
+&body material = 'rock', shape = 'half-space', spacing = 0.2 /
+&load kind = 'body-force', shape = 'point', centre = 0, 0, depth = 0.8, direction = .3, 0, 1, history = 'gaussian', width = 0.5, delay = 2.5 /
+&receiver name = 'a', position = -1, 0, depth = 0 /
+D
+plan dip dip
+ok "tilted layers that go on beyond the box are told of" grep -q 'warning: tilted layers send waves back' "$out/dip.plan"
+plan dip dip scene%end_time=5
+ok "or held" grep -q '^box chosen: so large .*tilted layers' "$out/dip.plan"
+if [ "$2" = night ]; then
+    echoes dip
+    ok "what a dip of 20 degrees sends back from beyond the box: $echo" awk -v e="$echo" 'BEGIN { exit !(e > .01 && e < .03) }'
+fi
+
+# Layers beside the exact mass and the modified equation; a scheme without layers gets the larger box.
 plan exact f scene%end_time=15 method%mass=exact
 ok "method%mass=exact: layers" grep -q '^box chosen: absorbing layers' "$out/exact.plan"
+for words in method%degree=2 "method%degree=3 method%mass=exact" "method%operator=general body%spacing=.2"; do
+    OMP_NUM_THREADS=1 "$build/selas" check --echo "$out/f.nml" scene%end_time=12 stepping%scheme=modified-equation $words >"$out/fourth.plan" 2>&1
+    echo=$(sed -n 's/^echo r2: \([^ ]*\).*/\1/p' "$out/fourth.plan")
+    ok "the modified equation, $words: echo $echo" below "$echo" 2e-3
+done
 # Its inverse carries a load's forces into layers that are near.
 cat >"$out/near.nml" <<D
 &scene dimension = 2, end_time = 40 /
@@ -114,8 +175,8 @@ echo=$(sed -n 's/^echo r: \([^ ]*\).*/\1/p' "$out/near.plan")
 ok "a source 17 cells from layers beside the exact mass of degree 4: echo $echo" below "$echo" 2e-4
 plan close near body%low=-6.736,0 body%high=3.368,8.42 boundary%face=x-,x+,y+ boundary%kind=transmitting boundary%layer_points=13
 ok "one that is too near is told of" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face x+, .* up to about 0.3 of' "$out/close.plan"
-plan none f scene%end_time=9 stepping%scheme=modified-equation
-ok "stepping%scheme=modified-equation: the larger box, and why" \
+plan none f scene%end_time=9 stepping%scheme=rk4
+ok "stepping%scheme=rk4: the larger box, and why" \
     grep -q '^box chosen: so large .*absorbing layers need' "$out/none.plan"
 
 # A half-space whose box is given: what the deck does not name absorbs.
@@ -123,7 +184,7 @@ run given f body%low=-3,-3,0 body%high=3,3,3
 ok "sides that nobody names absorb: error $(largest given)" below "$(largest given)" 0.1
 
 refused "a pressure all over a half-space that is given" 'only rollers' face body%low=-3,-3,0 body%high=3,3,3
-plan damped f body%low=-3,-3,0 body%high=3,3,3 stepping%scheme=modified-equation
+plan damped f body%low=-3,-3,0 body%high=3,3,3 stepping%scheme=rk4
 ok "dampers that nobody asked for are told of" grep -q 'warning: .*have dampers' "$out/damped.plan"
 
 # Faces whose place counts.

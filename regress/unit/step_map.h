@@ -1,4 +1,5 @@
-/* One step of leapfrog, memory variables and all, as a linear map of the state: for tests of its eigenvalues. */
+/* One step of leapfrog or the modified equation, memory variables and all, as a linear map of the state: for tests of
+ * its eigenvalues. */
 #ifndef STEP_MAP_H
 #define STEP_MAP_H
 
@@ -24,9 +25,29 @@ static inline void map_step(struct model *model, double dt, double *y, double *a
     model_remember(model, dt, y);
 }
 
-/* Largest modulus among the eigenvalues of the map on what is not held (NULL: nothing is), *count of them. */
-static inline double map_largest(struct model *model, double dt, bool (*held)(struct model *model, size_t i),
-                                 size_t *count)
+/* The same by the modified equation. */
+static inline void map_corrected_step(struct model *model, double dt, double *y, double *a)
+{
+    const size_t n = model->unknowns;
+    const struct drive drive = {.extra = y + 2 * n};
+    double *lifted = malloc(n * sizeof *lifted);
+    model->spatial->accelerate(model, &drive, 0, y, NULL, a);
+    for (size_t i = 0; i < n; i++)
+        lifted[i] = y[i] + dt * dt / 12 * a[i];
+    model->spatial->accelerate(model, &drive, dt / 2, lifted, y + n, a);
+    free(lifted);
+    for (size_t i = 0; i < n; i++) {
+        y[n + i] += dt * a[i];
+        y[i] += dt * y[n + i];
+    }
+    model_remember(model, dt, y);
+}
+
+typedef void map_of_step(struct model *model, double dt, double *y, double *a);
+
+/* Largest modulus among the eigenvalues of a map on what is not held (NULL: nothing is), *count of them. */
+static inline double map_largest_of(map_of_step *step, struct model *model, double dt,
+                                    bool (*held)(struct model *model, size_t i), size_t *count)
 {
     const size_t size = model->state_size;
     double *y = calloc(size, sizeof *y), *a = calloc(model->unknowns, sizeof *a), largest = 0;
@@ -39,7 +60,7 @@ static inline double map_largest(struct model *model, double dt, bool (*held)(st
     for (size_t j = 0; j < free_ones; j++) {
         memset(y, 0, size * sizeof *y);
         y[place[j]] = 1;
-        map_step(model, dt, y, a);
+        step(model, dt, y, a);
         for (size_t i = 0; i < free_ones; i++)
             gsl_matrix_set(map, i, j, y[place[i]]);
     }
@@ -55,6 +76,12 @@ static inline double map_largest(struct model *model, double dt, bool (*held)(st
     free(y);
     free(a);
     return largest;
+}
+
+static inline double map_largest(struct model *model, double dt, bool (*held)(struct model *model, size_t i),
+                                 size_t *count)
+{
+    return map_largest_of(map_step, model, dt, held, count);
 }
 
 #endif

@@ -43,12 +43,20 @@ static void judge(const char *name, unsigned layered, const size_t cells[2], lon
     double omega, error;
     struct messages messages = {0};
     assert_int_equal(largest_frequency(model, &omega, &error, &messages), SELAS_OK);
-    size_t count;
-    const double largest = map_largest(model, 1.8 / (omega * (1 + error)), held, &count);
-    print_message("# %s, nu %g, degree %d, %s, depth mass %s: %zu eigenvalues, largest modulus 1 %+.2e\n",
-                  name, nu, options.degree, options.sweeps > 0 ? "sweeps" : "exact mass",
-                  options.depth_exact ? "exact" : "same", count, largest - 1);
-    assert_true(largest < 1);
+    for (int corrected = 0; corrected < 2; corrected++) {
+        const struct spectrum spectrum = {.omega = omega * (1 + error), .layers = true};
+        const double dt = corrected ? .9999 * scheme_limit(scheme_find("modified-equation"), &spectrum, 0)
+                                    : 1.8 / spectrum.omega;
+        size_t count;
+        const double largest =
+            map_largest_of(corrected ? map_corrected_step : map_step, model, dt, held, &count);
+        print_message(
+            "# %s, nu %g, degree %d, %s, depth mass %s, %s: %zu eigenvalues, largest modulus 1 %+.2e\n", name,
+            nu, options.degree, options.sweeps > 0 ? "sweeps" : "exact mass",
+            options.depth_exact ? "exact" : "same", corrected ? "modified equation" : "leapfrog", count,
+            largest - 1);
+        assert_true(largest < 1);
+    }
     model_free(&model);
 }
 

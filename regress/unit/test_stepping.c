@@ -193,7 +193,7 @@ static void abilities(void **state)
     int defaults[4] = {0};
     for (size_t i = 0; scheme_table[i] != NULL; i++) {
         const struct scheme_class *scheme = scheme_table[i];
-        const unsigned halves = SCHEME_FILTERS | SCHEME_REMEMBERS | SCHEME_ONE_PASS | SCHEME_UNWARPS;
+        const unsigned halves = SCHEME_FILTERS | SCHEME_LAYERS | SCHEME_ONE_PASS | SCHEME_UNWARPS;
         const double longest = scheme_limit(scheme, &(struct spectrum){.omega = 1.0}, 5);
         assert_int_equal(longest > 0.0, (scheme->can & SCHEME_WAVES) != 0);
         if (!scheme->needs_acceleration) assert_int_equal(scheme->can & halves, 0);
@@ -213,7 +213,7 @@ static void names_of_schemes(void **state)
     struct fixture f;
     char text[SCHEME_NAMES_SIZE];
     set_up(&f, CHAIN, 1.0, 0.0, "euler");
-    assert_string_equal(scheme_names(&f.chain.model, SCHEME_REMEMBERS, text), "'leapfrog'");
+    assert_string_equal(scheme_names(&f.chain.model, SCHEME_DAMPED, text), "'leapfrog'");
     assert_string_equal(scheme_names(&f.chain.model, SCHEME_FILTERS, text),
                         "'leapfrog' or 'modified-equation'");
     static const struct model_operator rates = {0};

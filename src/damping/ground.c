@@ -7,13 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-bool ground_is_damped(const struct scene *scene)
-{
-    for (size_t i = 0; i < scene->materials; i++)
-        if (scene->material[i].q_p > 0) return true;
-    return scene->body.model != NULL && scene->body.model->damped;
-}
-
 /* --- The source's spectrum ---------------------------------------------------------------------------- */
 
 static double power_of(const struct history *history, double angular_frequency, int derivatives)

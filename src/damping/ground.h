@@ -4,7 +4,7 @@
 #define SELAS_DAMPING_GROUND_H
 
 #include "damping/relaxation.h"
-#include "scene/scene.h"
+#include "scene/ground.h"
 
 /* Moduli lambda + 2 mu and mu of a material. */
 struct damped_moduli {
@@ -22,8 +22,6 @@ struct ground_damping {
     struct damped_moduli *wanted, *fitted; /* [materials]; equal where there is no damping */
 };
 
-/* Is any of the scene's materials damped? */
-bool ground_is_damped(const struct scene *scene);
 /* What is wanted; with `fitted`, method%mechanisms (3 if none are said) for all damped materials too. NULL
  * where nothing is damped. SELAS_BAD_SCENE, SELAS_NO_MEMORY. */
 selas_status ground_damping_new(const struct scene *scene, bool fitted, struct ground_damping **damping,

@@ -52,6 +52,7 @@ struct spectrum {
                             undamped */
     double viscous;      /* largest damping rate of any motion [1/time] */
     bool dampers;        /* transmitting faces have dampers, which the scheme takes implicitly */
+    bool layers;         /* absorbing layers with memory, which the scheme brings over each step */
 };
 
 /* As half_step of accelerate(): so large that components with dampers do not accelerate. */

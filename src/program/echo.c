@@ -9,6 +9,7 @@
 #include "scene/echo.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -55,6 +56,7 @@ static void enlarge(struct scene *scene)
             if (boundary_has_layer(boundary)) boundary->layer_points = SURE_POINTS;
         }
     }
+    topography_draw_out(scene);
 }
 
 /* Steps the scene to its end; *rows of velocities of all receivers, free() them. */
@@ -165,10 +167,25 @@ static selas_status open_coarse(const struct echo_deck *deck, bool larger, selas
     return SELAS_OK;
 }
 
+/* The shorter one of the steps that the two choose, which then are open anew. */
+static selas_status common_step(const struct echo_deck *deck, selas_simulation **one,
+                                selas_simulation **other, double *step)
+{
+    selas_status status = selas_step(*one, 0);
+    if (status == SELAS_OK) status = selas_step(*other, 0);
+    if (status != SELAS_OK) return status;
+    *step = fmin(selas_time_step(*one), selas_time_step(*other));
+    selas_close(one);
+    selas_close(other);
+    status = open_coarse(deck, false, one);
+    if (status == SELAS_OK) status = open_coarse(deck, true, other);
+    return status;
+}
+
 selas_status check_echo(const struct echo_deck *deck)
 {
     selas_simulation *one = NULL, *other = NULL;
-    double *small = NULL, *large = NULL;
+    double *small = NULL, *large = NULL, step = 0;
     size_t rows = 0;
     selas_status status = open_coarse(deck, false, &one);
     if (status == SELAS_OK && (!body_is_box(&one->scene->body) || one->scene->receivers == 0)) {
@@ -176,8 +193,9 @@ selas_status check_echo(const struct echo_deck *deck)
         status = SELAS_UNSUPPORTED;
     }
     if (status == SELAS_OK) status = open_coarse(deck, true, &other);
-    if (status == SELAS_OK) status = run(one, 0, &small, &rows);
-    if (status == SELAS_OK) status = run(other, selas_time_step(one), &large, &rows);
+    if (status == SELAS_OK) status = common_step(deck, &one, &other, &step);
+    if (status == SELAS_OK) status = run(one, step, &small, &rows);
+    if (status == SELAS_OK) status = run(other, step, &large, &rows);
     if (status == SELAS_OK) {
         tell(one->scene, small, large, rows);
         if ((scene_needs(one->scene) & CAN_DAMP) != 0)

@@ -43,6 +43,11 @@ double layer_cost(const struct scene *scene)
     return asks_exact(scene) ? exact : sweeps;
 }
 
+double layer_steps(const struct scene *scene)
+{
+    return strcmp(scene->stepping.scheme, "modified-equation") == 0 ? sqrt(2) : 1;
+}
+
 /* Measured: in the cell of the layer's face, and from cell to cell. */
 struct tail {
     double begins, falls;
@@ -77,8 +82,9 @@ const char *layers_refusal(const struct scene *scene)
         return "absorbing layers at degree 3 and more need method%mass = 'exact'";
     if (given(scene, "tuned") && deck_logical(scene->method.group, "tuned", 0))
         return "absorbing layers need splines that are not tuned";
-    if (scene->stepping.scheme[0] != '\0' && strcmp(scene->stepping.scheme, "leapfrog") != 0)
-        return "absorbing layers need stepping%scheme = 'leapfrog'";
+    const char *scheme = scene->stepping.scheme;
+    if (scheme[0] != '\0' && strcmp(scheme, "leapfrog") != 0 && strcmp(scheme, "modified-equation") != 0)
+        return "absorbing layers need stepping%scheme = 'leapfrog' or 'modified-equation'";
     return NULL;
 }
 

@@ -13,6 +13,8 @@ enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 /* What a layer point costs against one of the body, by the mass that the deck asks for (regress/studies/layer-cost;
  * doc/developers/performance.md, section 5). */
 double layer_cost(const struct scene *scene);
+/* Steps with layers for one without: limits of the modified equation, sqrt(12 / 6). */
+double layer_steps(const struct scene *scene);
 
 /* The inverse of the mass carries the forces of a moment tensor on into layers: what stays behind there of one so many
  * cells away, in parts of its largest displacement, and the cells that it ought to keep

@@ -45,10 +45,11 @@ bool echo_seen(const struct scene *scene, int face, double less)
 /* What a layer of n points sends back, over the velocity at the place that is looked at,
  *   e = A (exp(-.7 n) (Lambda/h)^1.65 max(1, r/d)^1.6 + .4 exp(-.2 n) (c_p/c_s / sqrt(3))^2.6),            (15)
  * Lambda the P wavelength, h the spacing, r the way along the face, d the way to it and back; measured
- * (regress/studies/echo; doc/theory/absorbing-faces.md, section 7). In the plane waves do not spread out. */
+ * (regress/studies/echo; doc/theory/absorbing-faces.md, section 7). In the plane waves spread out less, and not at
+ * all where all moves along the depth alone. */
 static const double decay = .7, wavelength_power = 1.65, grazing_power = 1.6;
 static const double late_part = .4, late_decay = .2, late_power = 2.6;
-static const double in_plane = .012, in_space = .0025;
+static const double in_plane = .012, in_space = .0025, along_depth = .043;
 /* And where velocities in the layer are damped besides, at the share s against guided waves,
  *   e = B s max(1, r/d)^.6 Lambda / (h n^2) min(1, Lambda / (h n)):                                        (16)
  * what weak damping scatters back within a stretched coordinate, B by measurement. */
@@ -89,6 +90,7 @@ struct echo {
     double early, late; /* the factor of exp(-.7 n) and .4 (...)^2.6 in (15) */
     double grazing;     /* max(1, r/d) */
     double wavelength;  /* the longest */
+    bool plane;         /* what acts moves all along the depth alone */
 };
 
 static void take_worst(const struct scene *scene, int face, const struct extent *acts,
@@ -101,6 +103,7 @@ static void take_worst(const struct scene *scene, int face, const struct extent 
     worst->wavelength = fmax(worst->wavelength, wavelength);
     const double grazing = fmax(1, way / across);
     worst->grazing = fmax(worst->grazing, grazing);
+    worst->plane = worst->plane || acts->plane;
     worst->early =
         fmax(worst->early, pow(fmax(1, wavelength / h), wavelength_power) * pow(grazing, grazing_power));
 }
@@ -122,7 +125,9 @@ static struct echo worst_echo(const struct scene *scene, int face)
 static double of_points(const struct scene *scene, const struct echo *echo, size_t points)
 {
     const double n = (double)points;
-    return (scene->dimension == 3 ? in_space : in_plane) *
+    return (echo->plane             ? along_depth
+            : scene->dimension == 3 ? in_space
+                                    : in_plane) *
            (echo->early * exp(-decay * n) + echo->late * exp(-late_decay * n));
 }
 

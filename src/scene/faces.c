@@ -46,7 +46,7 @@ static void read_motion(struct builder *builder, const struct deck_group *group,
 /* What a transmitting face has where the deck does not say. */
 static enum absorber best_absorber(const struct scene *scene)
 {
-    return layers_refusal(scene) == NULL ? ABSORBER_PML : ABSORBER_LYSMER;
+    return layers_refusal(scene) == NULL && !scene->body.dampers ? ABSORBER_PML : ABSORBER_LYSMER;
 }
 
 /* Why a face with dampers takes no word of a layer. */
@@ -66,7 +66,10 @@ static void read_absorber(struct builder *builder, const struct deck_group *grou
     static const char *const factor_words[] = {"normal_factor", "shear_factor", NULL};
     char purpose[160];
     const bool factors = deck_given(group, "normal_factor") || deck_given(group, "shear_factor");
+    const bool thickness = deck_given(group, "layer_points") || deck_given(group, "layer_thickness") ||
+                           deck_given(group, "layer_reflection");
     boundary->absorber = factors ? ABSORBER_LYSMER : best_absorber(builder->scene);
+    if (thickness && layers_refusal(builder->scene) == NULL) boundary->absorber = ABSORBER_PML;
     if (deck_values(group, "layer") > 0) boundary->absorber = (enum absorber)deck_choice(group, "layer", 0);
     boundary->normal_factor = deck_real(group, "normal_factor", 0);
     boundary->shear_factor = deck_real(group, "shear_factor", 0);

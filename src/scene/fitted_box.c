@@ -6,11 +6,14 @@
 #include "scene/build.h"
 #include "scene/echo.h"
 #include "scene/extent.h"
+#include "scene/ground.h"
 #include "scene/topography.h"
 
 #include <math.h>
 #include <stdio.h>
 
+/* A right answer may cost so many times as much as one that is warned of. */
+static const double worth = 10;
 /* Points between what the box holds and a layer and depth of the box in points, at least. */
 enum { MARGIN = 4, LEAST_DEPTH = 12 };
 
@@ -39,6 +42,13 @@ static double deepest_layer(const struct builder *builder)
     for (size_t k = 0; k < deck_count(builder->deck, "layer"); k++)
         depth = fmax(depth, deck_real(deck_get(builder->deck, "layer", k), "top", 0));
     return depth;
+}
+
+static bool tilted(const struct builder *builder)
+{
+    for (size_t k = 0; k < deck_count(builder->deck, "layer"); k++)
+        if (deck_real(deck_get(builder->deck, "layer", k), "dip", 0) != 0) return true;
+    return false;
 }
 
 /* --- What has a box ------------------------------------------------------------------------------------- */
@@ -193,20 +203,46 @@ static void fit_large(const struct builder *builder, const struct held *held, st
     put(sketch, held, want, &sketch->body);
 }
 
-/* With absorbing layers: the cheapest of some distances, since layers nearer by have to be thicker. */
-static double fit_small(const struct builder *builder, const struct held *held, struct scene *sketch)
+/* Absorbing layers make the surface level before and behind them: not enough to matter in the large box. */
+static bool level_there(struct scene *sketch, const struct body *large)
 {
-    enum { TRIES = 12 };
+    const struct topography *topography = sketch->body.topography;
+    if (topography == NULL) return true;
+    topography_draw_out(sketch);
+    const double changed = topography_changed(topography, large->spacing, large->low, large->high);
+    return topography_levelled(sketch, changed) <= TOPOGRAPHY_LEVELLED;
+}
+
+/* Do a file's heights reach as far? */
+static bool heights_reach(const struct body *large)
+{
+    const struct topography *topography = large->topography;
+    bool reach = true;
+    for (int axis = 0; topography != NULL && topography->map != NULL && axis < topography->axis; axis++) {
+        double low, high;
+        height_map_extent(topography->map, axis, &low, &high);
+        reach = reach && low <= large->low[axis] && high >= large->high[axis];
+    }
+    return reach;
+}
+
+/* With absorbing layers: the cheapest of some distances, since layers nearer by have to be thicker; if there is one,
+ * of those outside which the ground is level. */
+static double fit_small(const struct builder *builder, const struct held *held, const struct body *large,
+                        struct scene *sketch, bool *level)
+{
+    enum { TRIES = 16 };
     static const double wider = 1.25;
     const double dx = sketch->body.spacing;
     const int down = sketch->dimension - 1;
     double factor = 1.0, least = INFINITY;
+    *level = false;
     struct body best = sketch->body;
     for (int face = 0; face < 2 * sketch->dimension; face++) {
         struct boundary *boundary = &sketch->boundary[face];
         if (face == 2 * down || boundary->given) continue;
         boundary->kind = held->plane && face < 2 * down ? BOUNDARY_ROLLER : BOUNDARY_TRANSMITTING;
-        boundary->absorber = ABSORBER_PML;
+        boundary->absorber = sketch->body.dampers ? ABSORBER_LYSMER : ABSORBER_PML;
         boundary->least_points = builder->layer_points;
     }
     for (int i = 0; i < TRIES; i++, factor *= wider) {
@@ -221,21 +257,28 @@ static double fit_small(const struct builder *builder, const struct held *held, 
                                fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
         put(sketch, held, want, &sketch->body);
         const double here = cost(sketch);
-        if (here < least) best = sketch->body;
-        least = fmin(least, here);
+        const bool now = level_there(sketch, large) && !tilted(builder);
+        if (now == *level ? here >= least : *level) continue;
+        best = sketch->body;
+        least = here;
+        *level = now;
     }
     sketch->body = best;
     return least;
 }
 
-static void keep(const struct body *found, const struct held *held, bool absorbing, struct body *body)
+static void keep(const struct body *found, const struct body *large, const struct held *held,
+                 struct body *body)
 {
     body->chosen = true;
-    body->absorbing = absorbing;
+    body->absorbing = found != large;
     body->plane = held->plane;
+    body->dampers = large->dampers;
     for (int c = 0; c < 3; c++) {
         body->low[c] = found->low[c];
         body->high[c] = found->high[c];
+        body->waves_low[c] = large->low[c];
+        body->waves_high[c] = large->high[c];
     }
 }
 
@@ -253,22 +296,31 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
     for (int face = 0; face < 2 * sketch->dimension; face++)
         if (sketch->boundary[face].given && boundary_damps(&sketch->boundary[face]))
             why = why != NULL ? why : "the deck asks for dampers";
+    sketch->body.dampers =
+        held.plane && !ground_is_general(sketch) && !tilted(builder) && !ground_is_damped(sketch);
     fit_large(builder, &held, sketch);
     const struct body large = sketch->body;
     const double large_cost = held.whole ? INFINITY : cost(sketch);
-    const double small_cost = why == NULL ? fit_small(builder, &held, sketch) : INFINITY;
+    bool level = true;
+    const double small_cost =
+        why == NULL ? layer_steps(sketch) * fit_small(builder, &held, &large, sketch, &level) : INFINITY;
+    if (!level && heights_reach(&large) && large_cost < worth * small_cost)
+        why = tilted(builder) ? "tilted layers send waves back from beyond smaller ones"
+                              : "absorbing layers would make a surface level that is not";
     if (isinf(small_cost) && isinf(large_cost)) {
         char text[200];
         snprintf(text, sizeof text,
                  "the whole body is looked at, faces and all, and %s; give &snapshot a region", why);
         return refuse_box(builder, "body", 0, NULL, text);
     }
-    keep(small_cost < large_cost ? &sketch->body : &large, &held, small_cost < large_cost, body);
+    keep(why == NULL && small_cost < large_cost ? &sketch->body : &large, &large, &held, body);
     if (body->absorbing)
         snprintf(body->choice, sizeof body->choice,
-                 "absorbing layers around a small box: work as for %.3g points, against %.3g in a box so "
-                 "large that "
-                 "nothing returns before end_time",
+                 "%s: work as for %.3g points, against %.3g in a box so large that nothing returns before "
+                 "end_time",
+                 body->dampers ? "a small box with dampers below it, which suit what moves along the "
+                                 "depth alone"
+                               : "absorbing layers around a small box",
                  small_cost, large_cost);
     else
         snprintf(body->choice, sizeof body->choice,
@@ -337,43 +389,4 @@ bool choose_half_space(struct builder *builder, const struct deck_group *group)
     sketch->material = NULL; /* the scene's */
     scene_free(&sketch);
     return right;
-}
-
-/* --- A box that the deck gives ------------------------------------------------------------------------- */
-
-/* Waves from all over the surface, or the body, run along the sides: rollers let those along the depth pass,
- * nothing the others. */
-static void check_sides(struct builder *builder, const struct extent *extent)
-{
-    const struct scene *scene = builder->scene;
-    const int sides = 2 * scene->dimension - 2;
-    bool slide = true;
-    for (int face = 0; face < sides; face++)
-        slide = slide && boundary_slides(&scene->boundary[face]);
-    if (extent->role != EXTENT_ACTS || !isinf(extent->low[0]) || (extent->plane && slide)) return;
-    complain(builder, deck_get(builder->deck, extent->group, extent->index), NULL,
-             extent->plane
-                 ? "what acts all over a half-space sends waves along its sides, where only rollers let "
-                   "them pass: say &boundary kind = 'roller' of them"
-                 : "what acts here has no end, and the sides of a half-space have no place for it; a "
-                   "body of shape 'box' has sides of its own");
-}
-
-void check_half_space(struct builder *builder)
-{
-    const struct scene *scene = builder->scene;
-    struct extent extent;
-    bool damped = false;
-    if (scene->body.shape != BODY_HALF_SPACE || scene->body.chosen || builder->status != SELAS_OK) return;
-    for (size_t i = 0; scene_extent(scene, i, &extent); i++)
-        check_sides(builder, &extent);
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        damped = damped || (!scene->boundary[face].given && boundary_damps(&scene->boundary[face]));
-    if (damped)
-        deck_warning(
-            builder->deck, deck_get(builder->deck, "body", 0), "low", builder->messages,
-            "the faces of the half-space that no &boundary names have dampers, which send back a good part "
-            "of the waves that meet them askew (%s); without low and high the program chooses a box from "
-            "which nothing returns",
-            layers_refusal(scene));
 }

@@ -256,3 +256,10 @@ bool ground_is_general(const struct scene *scene)
         general = general || ground_varies(scene, axis);
     return general;
 }
+
+bool ground_is_damped(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->materials; i++)
+        if (scene->material[i].q_p > 0) return true;
+    return scene->body.model != NULL && scene->body.model->damped;
+}

@@ -46,5 +46,7 @@ bool ground_varies(const struct scene *scene, int axis);
 
 /* More than layers of even rock: what only the general operator takes. */
 bool ground_is_general(const struct scene *scene);
+/* Is any of its materials damped? */
+bool ground_is_damped(const struct scene *scene);
 
 #endif

@@ -114,6 +114,8 @@ struct body {
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */
     bool absorbing; /* ... with absorbing layers at its sides and bottom where no &boundary names them ... */
     bool plane;     /* ... or with rollers at its sides: all moves along the depth alone ... */
+    bool dampers;   /* ... and dampers at its bottom send hardly anything back of that ... */
+    double waves_low[3], waves_high[3]; /* ... as far as what is seen of waves comes from ... */
     char choice[200];   /* ... which box and why, for the plan */
     char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };

@@ -18,6 +18,13 @@ static double drawn(const struct drawn_out end[2], double x)
     return x;
 }
 
+bool topography_drawn(const struct topography *topography, const double place[2])
+{
+    for (int axis = 0; axis < 2 && axis < topography->axis; axis++)
+        if (drawn(topography->end[axis], place[axis]) != place[axis]) return true;
+    return false;
+}
+
 static double bell(double distance, double width)
 {
     return exp(-distance * distance / (2 * width * width));

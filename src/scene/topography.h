@@ -36,6 +36,19 @@ enum { TOPOGRAPHY_LINES = 4 };
 
 /* s at a place (x, y): how far the surface lies below the plane of face z-; a hill's is negative. */
 double topography_drop(const struct topography *topography, const double place[2]);
+/* Is the place one where the surface is drawn out? */
+bool topography_drawn(const struct topography *topography, const double place[2]);
+/* Draws the surface out as faces and box of the scene ask: absorbing layers go on as it is at the face, level across
+ * it. */
+void topography_draw_out(struct scene *scene);
+/* By how much that changes heights from low to high along the horizontal axes, at most. */
+double topography_changed(const struct topography *topography, double spacing, const double low[2],
+                          const double high[2]);
+/* That change, of the slowest wave's length at the source's cutoff; 0: not known. Velocities differed from those of a
+ * box with the whole surface in it by 1 to 3 times as much (hills from files drawn by chance,
+ * regress/studies/real-ground). */
+#define TOPOGRAPHY_LEVELLED 0.002 /* what the program takes without a word */
+double topography_levelled(const struct scene *scene, double changed);
 /* f at a depth below the plane of face z-, its slope over depth in *slope. */
 double topography_share(const struct topography *topography, double depth, double *slope);
 /* Vertical coordinate of a place of the lattice whose column has a surface `drop` below the plane, and the other way.

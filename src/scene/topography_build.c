@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "scene/build.h"
 #include "scene/ground.h"
+#include "scene/resolution.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -110,28 +111,57 @@ static double take_depth(struct builder *builder, const struct deck_group *group
     return fmax(depth, pair);
 }
 
-/* Absorbing layers go on as the surface is at the face, level across it. */
-static void draw_out(const struct scene *scene, struct topography *topography)
+void topography_draw_out(struct scene *scene)
 {
-    for (int face = 0; face < 2 * topography->axis; face++) {
-        if (!boundary_has_layer(&scene->boundary[face])) continue;
+    struct topography *topography = scene->body.topography;
+    for (int face = 0; topography != NULL && face < 2 * topography->axis; face++) {
         struct drawn_out *end = &topography->end[face / 2][face % 2];
+        *end = (struct drawn_out){0, 0};
+        if (!boundary_has_layer(&scene->boundary[face])) continue;
         const double length = scene->body.high[face / 2] - scene->body.low[face / 2];
         end->width = fmin(strip * scene->body.spacing, length / 4);
         end->from = face_plane(&scene->body, (enum face)face) - face_sign((enum face)face) * end->width;
     }
 }
 
+double topography_changed(const struct topography *topography, double spacing, const double low[2],
+                          const double high[2])
+{
+    enum { MOST = 300 };
+    if (topography->shape == TOPOGRAPHY_MODEL && topography->map == NULL) return 0; /* not known yet */
+    struct topography plain = *topography;
+    memset(plain.end, 0, sizeof plain.end);
+    double changed = 0;
+    size_t count[2] = {1, 1};
+    for (int axis = 0; axis < topography->axis; axis++)
+        count[axis] = (size_t)fmin((high[axis] - low[axis]) / spacing + 2, MOST);
+    for (size_t i = count[0] * count[1]; i-- > 0;) {
+        const size_t at[2] = {i % count[0], i / count[0]};
+        double place[2] = {0, 0};
+        for (int axis = 0; axis < 2 && axis < topography->axis; axis++)
+            place[axis] = low[axis] + (high[axis] - low[axis]) * (double)at[axis] / (double)(count[axis] - 1);
+        if (topography_drawn(topography, place))
+            changed =
+                fmax(changed, fabs(topography_drop(topography, place) - topography_drop(&plain, place)));
+    }
+    return changed > 1e-9 * spacing ? changed : 0;
+}
+
+double topography_levelled(const struct scene *scene, double changed)
+{
+    const double wavelength = points_per_wavelength(scene) * scene->body.spacing;
+    return wavelength > 0 ? changed / wavelength : 0;
+}
+
 struct range {
-    double low, high, slope, drawn;
+    double low, high, slope;
 };
 
-/* Over the points of the surface; `plain`: as it was before it was drawn out. */
-static struct range range_of(const struct scene *scene, const struct topography *topography,
-                             const struct topography *plain)
+/* Over the points of the surface. */
+static struct range range_of(const struct body *body)
 {
-    const struct body *body = &scene->body;
-    struct range range = {INFINITY, -INFINITY, 0, 0};
+    const struct topography *topography = body->topography;
+    struct range range = {INFINITY, -INFINITY, 0};
     size_t count[2] = {1, 1};
     for (int axis = 0; axis < topography->axis; axis++)
         count[axis] = (size_t)((body->high[axis] - body->low[axis]) / body->spacing + 1.5);
@@ -143,7 +173,6 @@ static struct range range_of(const struct scene *scene, const struct topography 
         double square = 0;
         range.low = fmin(range.low, drop);
         range.high = fmax(range.high, drop);
-        range.drawn = fmax(range.drawn, fabs(drop - topography_drop(plain, place)));
         for (int axis = 0; axis < 2 && axis < topography->axis; axis++) {
             const double half = body->spacing / 4;
             double beside[2][2] = {{place[0], place[1]}, {place[0], place[1]}};
@@ -181,7 +210,7 @@ static void tell(const struct builder *builder, struct topography *topography, c
             topography->text[3], size,
             "level across faces with absorbing layers: drawn out over %g points before them, heights changed "
             "by up to %.3g",
-            strip, range->drawn);
+            strip, topography->changed);
 }
 
 static void check_range(struct builder *builder, const struct deck_group *group,
@@ -252,10 +281,12 @@ void build_topography(struct builder *builder)
     topography->depth = take_depth(builder, group, topography);
     if (!builder->body_known) return;
     if (deck_given(group, "file")) height_map_cover(topography->map, builder, group, topography->axis);
-    const struct topography plain = *topography;
-    draw_out(scene, topography);
-    const struct range range = range_of(scene, topography, &plain);
-    topography->changed = range.drawn;
+    topography_draw_out(scene);
+    const struct body *body = &scene->body;
+    topography->changed =
+        topography_changed(topography, body->spacing, body->chosen ? body->waves_low : body->low,
+                           body->chosen ? body->waves_high : body->high);
+    const struct range range = range_of(body);
     tell(builder, topography, &range);
     check_range(builder, group, topography, &range);
     if (scene->body.model != NULL && !scene->body.model->sea && range.low < -1e-9 * topography->depth)

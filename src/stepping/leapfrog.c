@@ -32,11 +32,8 @@ static void start(struct stepper *stepper, struct state *state)
         model->one_pass->begin(model, &drive, stepper->dt, state->y, state->a);
         return;
     }
-    if (model->memory != NULL) {
-        double *extra = state->y + 2 * model->unknowns;
-        model->memory->start(model, state->y, extra);
-        drive.extra = extra;
-    }
+    leapfrog_begin(stepper, state);
+    drive.extra = leapfrog_memory(stepper, state);
     model->spatial->accelerate(model, &drive, 0.0, state->y, state->y + model->unknowns, state->a);
 }
 
@@ -59,7 +56,7 @@ static void close_step(struct stepper *stepper, struct state *state)
     double *u = state->y;
     double *v = state->y + model->unknowns;
     struct drive drive = driver_at_step(&stepper->driver, state->step, false);
-    if (model->memory != NULL) drive.extra = v + model->unknowns;
+    drive.extra = leapfrog_memory(stepper, state);
     const struct drive rest = held_left_out(&stepper->held, model->scene, &drive);
     accelerate(stepper, &rest, u, v, state->a);
     held_add(&stepper->held, &drive, state->a);
@@ -71,7 +68,6 @@ static void step(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     if (!stepper->one_pass) {
         leapfrog_drift(stepper, state);
-        if (model->memory != NULL) model_remember(model, stepper->dt, state->y);
         close_step(stepper, state);
         return;
     }
@@ -102,8 +98,8 @@ static selas_status finish(const struct stepper *stepper, size_t n, double *u, d
 const struct scheme_class scheme_leapfrog = {
     .name = "leapfrog",
     .order = 2,
-    .can = SCHEME_WAVES | SCHEME_MOVING_LOADS | SCHEME_FILTERS | SCHEME_REMEMBERS | SCHEME_ONE_PASS |
-           SCHEME_UNWARPS,
+    .can = SCHEME_WAVES | SCHEME_MOVING_LOADS | SCHEME_FILTERS | SCHEME_LAYERS | SCHEME_DAMPED |
+           SCHEME_ONE_PASS | SCHEME_UNWARPS,
     .default_for = DEFAULT_FOR_ACCELERATE,
     .needs_acceleration = true,
     .evaluations = 1.0,

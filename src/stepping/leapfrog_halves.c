@@ -22,6 +22,7 @@ void leapfrog_drift(struct stepper *stepper, struct state *state)
         u[i] += dt * v[i];
     }
     if (filters) model->spatial->after_step(model, dt, stepper->work[0], u, v);
+    if (model->memory != NULL) model_remember(model, dt, state->y);
     state->step++;
     state->time = (double)state->step * dt;
 }
@@ -44,6 +45,17 @@ void leapfrog_kick(struct stepper *stepper, struct state *state)
 void leapfrog_unkick(struct stepper *stepper, struct state *state)
 {
     add_acceleration(stepper, state, -0.5 * stepper->dt);
+}
+
+void leapfrog_begin(struct stepper *stepper, struct state *state)
+{
+    struct model *model = stepper->model;
+    if (model->memory != NULL) model->memory->start(model, state->y, state->y + 2 * model->unknowns);
+}
+
+const double *leapfrog_memory(const struct stepper *stepper, const struct state *state)
+{
+    return stepper->model->memory != NULL ? state->y + 2 * stepper->model->unknowns : NULL;
 }
 
 bool leapfrog_hold(struct stepper *stepper, struct state *state)

@@ -7,8 +7,9 @@
  * dampers Q = M^-1. With dampers Q is the inverse mass with the damped components held: K - dt^2/12 K Q K
  * stays symmetric and positive, so dampers only take energy, and a0 is right to second order in dt next to
  * them. (M^-1 there would be the acceleration of faces without dampers, by far too large: 13 % of a wave came
- * back near the limit. C in a0 makes it unsymmetric, and it grows.) Stable for omega dt <= sqrt(12), with
- * dampers for omega dt <= 2, as K - dt^2/12 K Q K <= K. The velocity (u(n+1) - u(n-1)) / (2 dt) has the error
+ * back near the limit. C in a0 makes it unsymmetric, and it grows.) Memory of absorbing layers is the same in both
+ * calls. Stable for omega dt <= sqrt(12), with dampers for omega dt <= 2, as K - dt^2/12 K Q K <= K, with layers
+ * for omega dt <= sqrt(6) (doc/theory/stepping.md, T6b). The velocity (u(n+1) - u(n-1)) / (2 dt) has the error
  * dt^2/6 u''', which finish() takes out of the histories. */
 #include "stepping/schemes.h"
 
@@ -21,8 +22,8 @@ static double limit(const struct spectrum *spectrum, long stages)
     /* a viscous force taken at the half step needs x + 2 viscous dt <= 4, and x = (omega dt)^2 (1 - (omega
      * dt)^2 / 12) is 3 at most */
     const double viscous = spectrum->viscous > 0.0 ? 0.5 / spectrum->viscous : INFINITY;
-    const double waves =
-        spectrum->omega > 0.0 ? (spectrum->dampers ? 2.0 : sqrt(12.0)) / spectrum->omega : INFINITY;
+    const double most = spectrum->dampers ? 2.0 : spectrum->layers ? sqrt(6.0) : sqrt(12.0);
+    const double waves = spectrum->omega > 0.0 ? most / spectrum->omega : INFINITY;
     return fmin(waves, viscous);
 }
 
@@ -35,29 +36,32 @@ static struct drive drive_of(struct stepper *stepper, unsigned long step, bool c
 
 /* With the drive given, or (NULL) that of the step. */
 static void accelerate_by(struct stepper *stepper, const struct drive *given, unsigned long step,
-                          const double *restrict u, const double *v, double *restrict a)
+                          const double *extra, const double *restrict u, const double *v, double *restrict a)
 {
     struct model *model = stepper->model;
     const size_t n = model->unknowns;
     const double twelfth = stepper->dt * stepper->dt / 12.0, half_step = step > 0 ? 0.5 * stepper->dt : 0.0;
     double *restrict lifted = stepper->work[0];
     struct drive drive = given != NULL ? *given : drive_of(stepper, step, false);
+    drive.extra = extra;
     model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
         lifted[i] = u[i] + twelfth * a[i];
     if (given == NULL) drive = drive_of(stepper, step, true);
+    drive.extra = extra;
     model->spatial->accelerate(model, &drive, half_step, lifted, v, a);
 }
 
 static void accelerate(void *scheme, const struct drive *drive, const double *u, const double *v, double *a)
 {
-    accelerate_by(scheme, drive, 1, u, v, a);
+    accelerate_by(scheme, drive, 1, NULL, u, v, a);
 }
 
 static void accelerate_now(struct stepper *stepper, struct state *state)
 {
-    accelerate_by(stepper, NULL, state->step, state->y, state->y + stepper->model->unknowns, state->a);
+    accelerate_by(stepper, NULL, state->step, leapfrog_memory(stepper, state), state->y,
+                  state->y + stepper->model->unknowns, state->a);
     if (state->step == 0) return;
     const struct drive drive = driver_last(&stepper->driver, state->time);
     held_add(&stepper->held, &drive, state->a);
@@ -73,6 +77,7 @@ static void start(struct stepper *stepper, struct state *state)
     const double sixth = stepper->dt * stepper->dt / 6.0;
     const struct drive none = {.time = 0.0};
     double *v = state->y + n, *third = stepper->work[0];
+    leapfrog_begin(stepper, state);
     if (model->spatial->linearise != NULL) model->spatial->linearise(model, true);
     model->spatial->accelerate(model, &none, 0.0, v, NULL, third);
     if (model->spatial->linearise != NULL) model->spatial->linearise(model, false);
@@ -122,7 +127,8 @@ static selas_status finish(const struct stepper *stepper, size_t n, double *u, d
 const struct scheme_class scheme_modified_equation = {
     .name = "modified-equation",
     .order = 4,
-    .can = SCHEME_WAVES | SCHEME_FILTERS, /* knows how loads vary in time, not how they move */
+    .can =
+        SCHEME_WAVES | SCHEME_FILTERS | SCHEME_LAYERS, /* knows how loads vary in time, not how they move */
     .needs_acceleration = true,
     .evaluations = 2.0,
     .accelerate = accelerate,

@@ -8,8 +8,12 @@
 SCHEMES(SCHEME_DECLARATION)
 #undef SCHEME_DECLARATION
 
-/* v := v + dt/2 a, u := u + dt v, filter of the model if it has one, time and step move on. Needs work[0] if
- * the model filters. */
+/* Fits the memory of a model that has some to the displacements at the start. */
+void leapfrog_begin(struct stepper *stepper, struct state *state);
+/* That memory, for a drive; NULL: none. */
+const double *leapfrog_memory(const struct stepper *stepper, const struct state *state);
+/* v := v + dt/2 a, u := u + dt v, filter and memory of the model if it has them, time and step move on. Needs
+ * work[0] if the model filters. */
 void leapfrog_drift(struct stepper *stepper, struct state *state);
 /* v := v + dt/2 a, and back. */
 void leapfrog_kick(struct stepper *stepper, struct state *state);

@@ -18,6 +18,7 @@ static selas_status measure_spectrum(struct stepper *stepper, struct messages *m
     selas_status status = largest_frequency(model, &spectrum->omega, &stepper->frequency_error, messages);
     spectrum->omega *= 1.0 + stepper->frequency_error;
     spectrum->dampers = model->damped;
+    spectrum->layers = model->layers;
     const bool explicit_damping = !stepper->scheme->needs_acceleration || spatial->linearise != NULL;
     if (status == SELAS_OK && model->damped && explicit_damping)
         status = largest_damping(model, scene_fastest(model->scene), &spectrum->viscous, messages);
@@ -166,8 +167,8 @@ static selas_status check_abilities(const struct stepper *stepper, struct messag
         {SCHEME_MOVING_LOADS, scene_loads_move(model->scene), "loads that move need"},
         {SCHEME_FILTERS, model->spatial->after_step != NULL, "a filter (method%filter > 0) needs"},
         {SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"},
-        {SCHEME_REMEMBERS, model->memory != NULL,
-         "absorbing layers (boundary%layer = 'pml') and damped materials (material%q_p) need"},
+        {SCHEME_LAYERS, model->layers, "absorbing layers (boundary%layer = 'pml') need"},
+        {SCHEME_DAMPED, model->core->loss != NULL, "damped materials (material%q_p) need"},
     };
     char names[SCHEME_NAMES_SIZE];
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
