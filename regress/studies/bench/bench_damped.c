@@ -41,11 +41,12 @@ static void open_side(struct side *side, int n, const char *precision)
     char text[1024];
     struct messages messages = {0};
     struct model *model = NULL;
-    snprintf(text, sizeof text,
-             "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', precision = '%s' %s /\n"
-             "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 %s /\n"
-             "&body material = 'rock', shape = 'box', low = 3*0.0, high = 3*%d.0, spacing = 1.0 /\n",
-             precision, side->method, side->damping, n - 2);
+    snprintf(
+        text, sizeof text,
+        "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', precision = '%s' %s /\n"
+        "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 %s /\n"
+        "&body material = 'rock', shape = 'box', low = 3*0.0, high = 3*%d.0, spacing = 1.0 /\n",
+        precision, side->method, side->damping, n - 2);
     side->from = from_text(text, 0, NULL);
     if (side->from.scene == NULL) stop(side->from.messages.text);
     if (model_create(side->from.scene, &model, &messages) != SELAS_OK) stop(messages.text);
