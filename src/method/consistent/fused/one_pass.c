@@ -175,8 +175,8 @@ static void tell_displacements(const struct consistent *c, const struct fused_re
     for (size_t i = 0; i < n; i++) {
         if (relax->parts > 1) {
             double *told = y + 2 * n + relax->at[last] + i;
-            double memory = relax->from_parts[0] * y[i] +
-                            relax->from_parts[1] * (e_1 != NULL ? e_1[i] : (double)single[i]);
+            const double other = e_1 != NULL ? e_1[i] : single != NULL ? (double)single[i] : 0;
+            double memory = relax->from_parts[0] * y[i] + relax->from_parts[1] * other;
             for (size_t l = 0; l < last; l++)
                 memory += relax->from_memory[l] * y[2 * n + relax->at[l] + i];
             if (memory != *told) *told = memory;
