@@ -1,5 +1,5 @@
 /* What damping adds to a step: boxes of N^3 control values that all move, undamped and damped, steps of each
- * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS]]. A step's figure is the least of all
+ * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS [PRECISION]]]. A step's figure is the least of all
  * rounds; the ratio is the median over rounds of damped over undamped, side by side. */
 #include "base/memory.h"
 #include "from_deck.h"
@@ -36,16 +36,17 @@ static void stop(const char *text)
     exit(1);
 }
 
-static void open_side(struct side *side, int n)
+static void open_side(struct side *side, int n, const char *precision)
 {
     char text[1024];
     struct messages messages = {0};
     struct model *model = NULL;
-    snprintf(text, sizeof text,
-             "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3' %s /\n"
-             "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 %s /\n"
-             "&body material = 'rock', shape = 'box', low = 3*0.0, high = 3*%d.0, spacing = 1.0 /\n",
-             side->method, side->damping, n - 2);
+    snprintf(
+        text, sizeof text,
+        "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', precision = '%s' %s /\n"
+        "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 %s /\n"
+        "&body material = 'rock', shape = 'box', low = 3*0.0, high = 3*%d.0, spacing = 1.0 /\n",
+        precision, side->method, side->damping, n - 2);
     side->from = from_text(text, 0, NULL);
     if (side->from.scene == NULL) stop(side->from.messages.text);
     if (model_create(side->from.scene, &model, &messages) != SELAS_OK) stop(messages.text);
@@ -103,7 +104,7 @@ int main(int count, char **word)
     const int rounds = count > 2 && atoi(word[2]) < MOST_ROUNDS ? atoi(word[2]) : 40;
     omp_set_num_threads(1);
     for (int i = 0; i < SIDES; i++)
-        open_side(&side[i], n);
+        open_side(&side[i], n, count > 3 ? word[3] : "double");
     for (int round = 0; round < rounds; round++)
         for (int i = 0; i < SIDES; i++) {
             const double start = now();

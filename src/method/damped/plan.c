@@ -104,8 +104,10 @@ void damped_describe(const struct model *model,
         describe_material(d, i, tell, context);
     describe_model(d, tell, context);
     const size_t dimension = (size_t)d->model.scene->dimension;
-    snprintf(text, sizeof text,
-             "%zu operator call%s a step in place of 1; %zu memory variables a point, %zu bytes", d->parts,
-             d->parts > 1 ? "s" : "", dimension * damping->mechanisms, 8 * dimension * damping->mechanisms);
+    const char *calls = d->parts == 1             ? "operator call a step"
+                        : model->one_pass != NULL ? "operators in one call a step"
+                                                  : "operator calls a step";
+    snprintf(text, sizeof text, "%zu %s in place of 1; %zu memory variables a point, %zu bytes", d->parts,
+             calls, dimension * damping->mechanisms, 8 * dimension * damping->mechanisms);
     tell(context, "damping adds", text);
 }

@@ -14,10 +14,8 @@ static size_t rounded(size_t n, size_t unit)
     return (n + unit - 1) / unit * unit;
 }
 
-/* integral of test and trial functions of an axis, odd or even, with slopes or not, less `share` of the
- * boundary term E (-1 at the low, 1 at the high end; 0 at mirrors). NULL: no memory. */
-static struct band *narrow_matrix(struct consistent *c, int axis, bool test_odd, bool test_slope,
-                                  bool trial_odd, bool trial_slope, double share)
+struct band *fused_narrow_matrix(struct consistent *c, int axis, bool test_odd, bool test_slope,
+                                 bool trial_odd, bool trial_slope, double share)
 {
     const struct band *known =
         consistent_matrix(c, axis, test_slope, test_odd, trial_slope, trial_odd, WEIGHT_NONE);
@@ -39,13 +37,13 @@ static struct band *side_matrix(struct consistent *c, int axis, enum fused_side 
                                       : sum / density;
     switch (which) {
     case SIDE_S_EVEN:
-        return narrow_matrix(c, axis, false, true, false, true, 0);
+        return fused_narrow_matrix(c, axis, false, true, false, true, 0);
     case SIDE_S_ODD:
-        return narrow_matrix(c, axis, true, true, true, true, 0);
+        return fused_narrow_matrix(c, axis, true, true, true, true, 0);
     case SIDE_G_FIRST:
-        return narrow_matrix(c, axis, false, false, true, true, mu / sum);
+        return fused_narrow_matrix(c, axis, false, false, true, true, mu / sum);
     default:
-        return narrow_matrix(c, axis, true, false, false, true, lambda / sum);
+        return fused_narrow_matrix(c, axis, true, false, false, true, lambda / sum);
     }
 }
 
@@ -59,13 +57,13 @@ static struct band *depth_matrix(struct consistent *c, int in, enum fused_depth 
     struct band *inner = NULL;
     if (which == OVER_DEPTH_A) {
         *factor = odd ? -(lambda + 2 * mu) / density : -mu / density;
-        inner = narrow_matrix(c, DEPTH, odd, true, odd, true, 0);
+        inner = fused_narrow_matrix(c, DEPTH, odd, true, odd, true, 0);
     } else if (changes) {
         *factor = odd ? 1 : sum / density;
-        inner = narrow_matrix(c, DEPTH, !odd, false, odd, true, (odd ? mu : lambda) / sum);
+        inner = fused_narrow_matrix(c, DEPTH, !odd, false, odd, true, (odd ? mu : lambda) / sum);
     } else {
         *factor = 1;
-        inner = narrow_matrix(c, DEPTH, odd, false, odd, false, 0);
+        inner = fused_narrow_matrix(c, DEPTH, odd, false, odd, false, 0);
     }
     const struct band *left = c->hform->inverse[to_odd ? DEPTH : 0][DEPTH];
     struct band *product = inner == NULL ? NULL : band_product(left, inner);
@@ -157,33 +155,41 @@ static bool lay_plain(struct fused *f)
 }
 
 /* How long rows are waited for: from the newest, which the strip or the narrow passes over y make, to the
- * oldest that those behind still read. */
-static void lay_rings(struct fused *f)
+ * oldest that those behind still read. b_x and b_y are the same whatever multiplies them but where
+ * displacements are mixed. */
+static void lay_rings(const struct fused *f, bool mixed, struct fused_rings *rings)
 {
+    size_t all = 0;
     for (int field = 0; field < FUSED_FIELDS; field++) {
         size_t rows = FUSED_STRIP + f->late[1];
-        if (field == ROW_CX) rows = FUSED_STRIP;
-        if (field == ROW_BY || field == ROW_BZ || field == ROW_CY || field == ROW_G)
+        if (field == ROW_CX || field == ROW_BX_MIXED || field == ROW_BY_SHEAR) rows = FUSED_STRIP;
+        if (field == ROW_BY || field == ROW_BX_SHEAR || field == ROW_BY_MIXED || field == ROW_BZ ||
+            field == ROW_CY || field == ROW_G)
             rows = FUSED_STRIP + f->late[0] + (size_t)f->narrow / 2;
         if (field >= ROW_T1) rows = f->late[1] + (size_t)f->wide / 2 + FUSED_ROWS - f->late[0];
-        f->ring[field] = rounded(rows, FUSED_ROWS);
-        f->start[field + 1] = f->start[field] + f->ring[field];
+        const bool same = !mixed && field >= ROW_BX_SHEAR && field < ROW_BZ;
+        const int as = (field - ROW_BX_SHEAR) % 2 == 0 ? ROW_BX : ROW_BY;
+        rings->rows[field] = same ? rings->rows[as] : rounded(rows, FUSED_ROWS);
+        rings->start[field] = same ? rings->start[as] : all;
+        all += same ? 0 : rings->rows[field];
     }
+    rings->size = all * f->stride;
 }
 
-static bool lay_buffers(struct fused *f)
+bool fused_lay_rings(struct fused *f, int displacements)
 {
-    f->ring_size = f->start[FUSED_FIELDS] * f->stride;
-    const size_t size = FUSED_PLANES * f->ring_size + 2 * FUSED_ROWS * f->stride + 2 * (f->stride - f->width);
-    f->buffer = array_new((size_t)f->threads, sizeof *f->buffer);
-    if (f->buffer == NULL) return false;
-    for (int t = 0; t < f->threads; t++) {
-        f->buffer[t] = array_new(size, f->number);
+    struct fused_rings *rings = &f->rings[displacements - 1];
+    const size_t before = f->buffer_size;
+    lay_rings(f, displacements > 1, rings);
+    f->buffer_size = FUSED_PLANES * rings->size + 2 * FUSED_ROWS * f->stride + 2 * (f->stride - f->width);
+    f->bytes += (size_t)f->threads * f->number * (f->buffer_size - before);
+    if (f->buffer == NULL) f->buffer = array_new((size_t)f->threads, sizeof *f->buffer);
+    for (int t = 0; f->buffer != NULL && t < f->threads; t++) {
+        array_free(f->buffer[t]);
+        f->buffer[t] = array_new(f->buffer_size, f->number);
         if (f->buffer[t] == NULL) return false;
     }
-    f->bound = array_new((size_t)f->threads + 1, sizeof *f->bound);
-    f->bytes = sizeof *f + (size_t)f->threads * size * f->number;
-    return f->bound != NULL;
+    return f->buffer != NULL;
 }
 
 /* Where loads act. */
@@ -203,6 +209,7 @@ static void lay_loaded(const struct consistent *c, struct fused *f)
 static bool lay_windows(const struct consistent *c, struct fused *f)
 {
     const size_t planes = f->n[2], blocks = rounded(planes, FUSED_PLANES) / FUSED_PLANES;
+    f->bound = array_new((size_t)f->threads + 1, sizeof *f->bound);
     f->strips = rounded(f->n[1], FUSED_STRIP) / FUSED_STRIP;
     f->size = array_new(planes, sizeof *f->size);
     f->column = array_new(planes * f->n[0], f->number);
@@ -212,7 +219,7 @@ static bool lay_windows(const struct consistent *c, struct fused *f)
     f->will_reach = array_new(planes, sizeof *f->will_reach);
     f->loaded = array_new(planes, sizeof *f->loaded);
     f->bytes += planes * (f->n[0] + f->strips) * f->number + (3 * planes + blocks) * sizeof *f->loaded;
-    if (f->size == NULL || f->column == NULL || f->strip == NULL || f->computed == NULL ||
+    if (f->bound == NULL || f->size == NULL || f->column == NULL || f->strip == NULL || f->computed == NULL ||
         f->reached == NULL || f->will_reach == NULL || f->loaded == NULL)
         return false;
     lay_loaded(c, f);
@@ -273,9 +280,9 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->stride = f->width + rounded(reach, FUSED_VECTOR / number);
     f->late[0] = rounded(degree, FUSED_ROWS);
     f->late[1] = rounded(f->late[0] + reach, FUSED_ROWS);
-    lay_rings(f);
+    f->bytes = sizeof *f;
     const bool good = lay_side(c, f, 0) && lay_side(c, f, 1) && lay_depth(c, f) && lay_plain(f) &&
-                      lay_buffers(f) && lay_windows(c, f);
+                      fused_lay_rings(f, 1) && lay_windows(c, f);
     if (good && number == sizeof(float)) shorten_all(f);
     if (good) return f;
     fused_free(f);
@@ -324,7 +331,9 @@ void fused_forget(struct fused *fused)
 void fused_free(struct fused *fused)
 {
     if (fused == NULL) return;
+    if (fused->single != NULL) fused->single->faces = NULL;
     fused_free(fused->single);
+    fused_faces_free(fused->faces);
     for (int which = 0; which < SIDE_MATRICES; which++) {
         array_free(fused->x[which]);
         array_free(fused->y[which]);

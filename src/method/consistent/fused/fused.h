@@ -7,7 +7,17 @@
  *   a_z = A_z u_z + N_x [m S_x b_z + G_x q C_z u_x] + N_y [m S_y b_z + G_y q C_z u_y]
  *
  * p = -(lambda + 2 mu) / rho, m = -mu / rho, q = (lambda + mu) / rho, G with its share of the boundary terms
- * (Eq 17 of the manual). Edges, loads, dampers and layers are added by others. */
+ * (Eq 17 of the manual). Edges, loads, dampers and layers are added by others.
+ *
+ * Damped ground whose lambda and mu relax unlike each other has a second displacement e that acts by lambda_e
+ * alone. It goes through the same passes, since they are linear in the moduli:
+ *
+ *   m multiplies u,   q multiplies u + lambda_e / (lambda + mu) e,   p: u + lambda_e / (lambda + 2 mu) e   (F1a)
+ *
+ * and what the boundary terms in G would ask for besides is left at the faces (D: G without its share, E_i: -1 at
+ * the low and 1 at the high end of axis i, elsewhere 0),
+ *
+ *   a_i += lambda_e mu / ((lambda + mu) rho) sum over j != i of N (G_i E_j - E_i D_j) e_j.                 (F1b) */
 #ifndef SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
 #define SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
 
@@ -18,10 +28,15 @@
  * over y reach; bytes of a vector; room for taps and the planes or rows made together. */
 enum { FUSED_PLANES = 4, FUSED_ROWS = 4, FUSED_STRIP = 8, FUSED_VECTOR = 64, FUSED_MOST_TAPS = 24 };
 
-/* Rows in the ring of a plane: inputs along the plane, what is summed, and what waits for its pass over y. */
+/* Rows in the ring of a plane: inputs along the plane, what is summed, and what waits for its pass over y. b_x
+ * and b_y by what multiplies them: p; m and q where those are of other displacements (F1a). */
 enum fused_row {
     ROW_BX,
     ROW_BY,
+    ROW_BX_SHEAR,
+    ROW_BY_SHEAR,
+    ROW_BX_MIXED,
+    ROW_BY_MIXED,
     ROW_BZ,
     ROW_CX,
     ROW_CY,
@@ -48,28 +63,66 @@ enum fused_side {
     SIDE_MATRICES
 };
 enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_MATRICES };
+/* Results over depth behind those of the matrices, where displacements are mixed: B of what q and p multiply. */
+enum fused_mixed { OVER_DEPTH_B_MIXED = OVER_DEPTH_MATRICES, OVER_DEPTH_B_AXIAL, OVER_DEPTH_RESULTS };
+enum { SHARE_MIXED, SHARE_AXIAL, SHARES };
+
+/* What mixed displacements leave at a face (F1b): `factor` times weights of its planes across, index `at`
+ * being read, from .. to - 1 written. */
+struct fused_face {
+    int axis;
+    double factor;
+    size_t at, from, to;
+    const double *column[3]; /* N e by component, from index 0 on */
+};
+
+struct fused_faces {
+    size_t count;
+    struct fused_face face[BOX_FACES];
+    struct band *first[3], *second[3]; /* [axis] N D, N (D - lambda / (lambda + mu) E) */
+    struct band *bare;                 /* B over depth; NULL: the identity */
+    void *work;                        /* room for 8 fields of the largest face */
+    size_t bytes;
+};
 
 /* How displacements e_p that relax go on with their memory (model.h, relaxing), in a step of dt:
  * D_l := kept_l D_l + taken_l w, e_p += given_p dt w + sum over l of weight_pl (change of D_l). One kind of
  * ground has not more than two parts. */
 enum { FUSED_PARTS = 2 };
 struct fused_relax {
-    size_t mechanisms, parts, apart; /* numbers from the memory of one mechanism to that of the next */
+    size_t mechanisms, parts;
+    size_t order[MODEL_MECHANISMS],
+        at[MODEL_MECHANISMS]; /* mechanism of the scene, where its memory begins */
     double dt, kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
     double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS];
+    double from_parts[FUSED_PARTS], from_memory[MODEL_MECHANISMS];
+};
+
+/* Mechanisms whose memory steps go on with. Of two parts e_0, e_1 and the other D_l tell the last:
+ * D_last = sum over p of from_parts_p e_p + sum over l of from_memory_l D_l. */
+static inline size_t fused_remembered(const struct fused_relax *relax)
+{
+    return relax->mechanisms - (relax->parts > 1 ? 1 : 0);
+}
+
+/* Rows in the ring of each field of a plane, rows before it, numbers in all. */
+struct fused_rings {
+    size_t rows[FUSED_FIELDS], start[FUSED_FIELDS], size;
 };
 
 struct fused {
     size_t n[3], plane, volume;
-    size_t width, stride;                               /* numbers in a row, from row to row */
-    size_t ring[FUSED_FIELDS], start[FUSED_FIELDS + 1]; /* rows in the ring of a field, and before it */
-    int narrow, wide, deep;                             /* taps of S and G, of N, of products over depth */
-    bool bare;                                          /* B is the identity */
+    size_t width, stride;        /* numbers in a row, from row to row */
+    struct fused_rings rings[2]; /* of one displacement, of two */
+    int narrow, wide, deep;      /* taps of S and G, of N, of products over depth */
+    bool bare;                   /* B is the identity */
     bool bulk; /* mu is 0, and all that it is a factor of: A of x and y, S_x b_y, S_y b_x, S_x b_z, S_y b_z */
-    size_t late[2];         /* rows that narrow and wide passes over y lag behind */
-    void *x[SIDE_MATRICES]; /* [width / vector][taps][vector] */
-    void *y[SIDE_MATRICES]; /* [rows * taps] */
-    bool *plain;            /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
+    size_t late[2];            /* rows that narrow and wide passes over y lag behind */
+    void *x[SIDE_MATRICES];    /* [width / vector][taps][vector] */
+    void *y[SIDE_MATRICES];    /* [rows * taps] */
+    double share[SHARES];      /* of e_1 in what q and p multiply (F1a) ... */
+    struct fused_faces *faces; /* ... and what that leaves; NULL: there is no e_1 */
+    bool *plain;               /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
     void *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
     double quiet;   /* where displacements are all below this times the largest they do not move others */
     double *size;   /* [n[2]] largest displacement in each plane, ... */
@@ -93,8 +146,8 @@ struct fused {
     struct relaxing *relaxing; /* NULL: steps do not relax */
     struct ranks *ranks;       /* that share the planes; NULL: alone */
     int threads;
-    void **buffer;    /* [threads] */
-    size_t ring_size; /* numbers in the rings of a plane */
+    void **buffer;      /* [threads] */
+    size_t buffer_size; /* numbers */
     size_t bytes;
 };
 
@@ -104,10 +157,9 @@ struct fused_fields {
     void *a;     /* w in a step */
     void *moved; /* u again */
     double dt;
-    const struct fused_relax *relax; /* u goes on by this and its `memory`, `other` (e_1) too if there are two
-                                        parts; NULL: by dt w */
-    void *memory, *other;
-    size_t bring_on, before; /* planes of u to be brought on on the way */
+    const struct fused_relax *relax; /* u goes on by this and its `memory`, `other` too; NULL: by dt w */
+    void *memory, *other;            /* other: e_1, NULL if there is one part */
+    size_t bring_on, before;         /* planes of u to be brought on on the way */
 };
 
 /* Builds c->fused if the scene is one for it (c->fused stays NULL if not); false: no memory. Needs c->hform.
@@ -129,6 +181,16 @@ void fused_planes_double(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
 void fused_planes_single(const struct fused *fused, int thread, size_t first,
                          const struct fused_fields *fields);
+/* integral of test and trial functions of an axis, odd or even, with slopes or not, less `share` of the
+ * boundary term E (-1 at the low, 1 at the high end; 0 at mirrors). NULL: no memory. */
+struct band *fused_narrow_matrix(struct consistent *c, int axis, bool test_odd, bool test_slope,
+                                 bool trial_odd, bool trial_slope, double share);
+/* Rings of rows of `displacements` (1 or 2), and rooms that hold them; false: no memory. */
+bool fused_lay_rings(struct fused *f, int displacements);
+/* mixed.c: from now on calls have displacements besides that act by the lambda of `second` (F1a); false: no
+ * memory. */
+bool fused_mix(struct consistent *c, const struct consistent *second);
+void fused_faces_free(struct fused_faces *faces); /* takes NULL */
 /* active.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
 void fused_look_double(struct fused *fused, const double *u);
 void fused_look_single(struct fused *fused, const float *u);

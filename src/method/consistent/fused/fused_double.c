@@ -9,4 +9,5 @@
 
 #include "method/consistent/galerkin/hform_edges.h"
 
+#include "method/consistent/fused/faces.h"
 #include "method/consistent/fused/fused_step.h"

@@ -17,11 +17,10 @@
 /* What the blocks of a thread share. */
 struct pass {
     const struct consistent *c;
-    const struct NAME(step_fields) * step;
     const struct drive *drive;
-    struct fused_fields fields; /* of part 0 */
-    double level;               /* smaller displacements move nothing */
-    size_t next, limit;         /* the next plane to be brought on; those from `limit` on are already */
+    struct fused_fields fields;
+    double level;       /* smaller displacements move nothing */
+    size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
     int thread;
 };
 
@@ -95,32 +94,23 @@ static void take_window(struct pass *pass, size_t first)
     f->computed[first / FUSED_PLANES] = window;
 }
 
-/* Part 0, which brings all displacements on, and what others add to it. */
+/* (F1), which brings all displacements on, and what others add to it. */
 static void pass_block(struct pass *pass, size_t first)
 {
-    const struct NAME(step_fields) *of = pass->step;
     const struct fused *f = FUSED(pass->c);
     const bool step = pass->fields.moved != NULL;
     const double factor = step ? pass->fields.dt : 1;
-    const struct drive quiet = {0};
     if (step) take_window(pass, first);
-    for (size_t p = 0; p < of->parts; p++) {
-        const struct consistent *c = of->part[p].c;
-        REAL *u = of->part[p].u;
-        const struct fused_fields more = {.u = u, .a = pass->fields.a, .moved = u, .dt = factor};
-        FUSED(c)->computed[first / FUSED_PLANES] = f->computed[first / FUSED_PLANES];
-        NAME(fused_planes)(FUSED(c), pass->thread, first, p == 0 ? &pass->fields : &more);
-        for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
-            add_rest(c, p == 0 ? pass->drive : &quiet, k, factor, u, pass->fields.a);
-    }
-    for (size_t k = first; step && k < first + FUSED_PLANES && k < f->n[2]; k++) {
+    NAME(fused_planes)(f, pass->thread, first, &pass->fields);
+    for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
+        add_rest(pass->c, pass->drive, k, factor, pass->fields.u, pass->fields.a);
+        if (!step) continue;
+        const struct window edges = reached_by_edges(pass->c, f, k), faces = reached_by_faces(pass->c, f, k);
         struct window *after = &f->will_reach[k];
         *after = window_join(&f->reached[k], &f->computed[first / FUSED_PLANES]);
         *after = window_join(after, &f->loaded[k]);
-        for (size_t p = 0; p < of->parts; p++) {
-            const struct window edges = reached_by_edges(of->part[p].c, f, k);
-            *after = window_join(after, &edges);
-        }
+        *after = window_join(after, &edges);
+        *after = window_join(after, &faces);
     }
 }
 
@@ -154,9 +144,8 @@ static void lay_bounds(const struct fused *f)
 }
 
 /* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. */
-static void pass_thread(const struct consistent *c, const struct NAME(step_fields) * step,
-                        const struct drive *drive, const struct fused_fields *fields, bool bring,
-                        double level, int thread, int stage)
+static void pass_thread(const struct consistent *c, const struct drive *drive,
+                        const struct fused_fields *fields, bool bring, double level, int thread, int stage)
 {
     const struct fused *f = FUSED(c);
     const size_t reach = (size_t)f->deep / 2, from = f->bound[thread], end = f->bound[thread + 1];
@@ -167,14 +156,14 @@ static void pass_thread(const struct consistent *c, const struct NAME(step_field
         bring_planes(f, fields, high, end);
         return;
     }
-    struct pass pass = {c, step, drive, *fields, level, low, high, thread};
+    struct pass pass = {c, drive, *fields, level, low, high, thread};
     for (size_t first = from; first < end; first += FUSED_PLANES)
         pass_block(&pass, first);
 }
 
 /* All planes; u is brought on too if `bring`. */
-static void pass_over(const struct consistent *c, const struct NAME(step_fields) * step,
-                      const struct drive *drive, const struct fused_fields *fields, bool bring, double level)
+static void pass_over(const struct consistent *c, const struct drive *drive,
+                      const struct fused_fields *fields, bool bring, double level)
 {
     const struct fused *f = FUSED(c);
     lay_bounds(f);
@@ -183,10 +172,11 @@ static void pass_over(const struct consistent *c, const struct NAME(step_fields)
 #pragma omp for schedule(static, 1)
         for (int thread = 0; thread < f->threads; thread++) {
             const unsigned before = tiny_as_zero();
-            pass_thread(c, step, drive, fields, bring, level, thread, stage);
+            pass_thread(c, drive, fields, bring, level, thread, stage);
             tiny_as_before(before);
         }
     }
+    if (fields->other != NULL) add_faces(c, bring ? fields->dt : 1, fields->other, fields->a);
 }
 
 static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
@@ -225,9 +215,10 @@ static void halo_reached(const struct consistent *c, const struct fused *f)
 static void accelerate(const struct consistent *c, const struct drive *drive,
                        const struct NAME(step_fields) * step, REAL *a)
 {
-    const struct fused_fields fields = {.u = step->part[0].u, .a = a};
+    const struct fused_fields fields = {
+        .u = step->part[0].u, .a = a, .other = step->parts > 1 ? step->part[1].u : NULL};
     NAME(fused_look)(FUSED(c), step->part[0].u);
-    pass_over(c, step, drive, &fields, false, 0);
+    pass_over(c, drive, &fields, false, 0);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_accelerate)(step->part[p].c, 1, step->part[p].extra, a);
     exchange(c, a);
@@ -251,11 +242,17 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
 {
     const struct fused_relax *relax = step->relax;
     if (relax == NULL) return step->w;
-    REAL factor = (REAL)relax->given[part], before[MODEL_MECHANISMS];
-    for (size_t l = 0; l < relax->mechanisms; l++) {
+    const size_t remembered = fused_remembered(relax), last = relax->mechanisms - 1;
+    const REAL *other = step->part[step->parts - 1].u;
+    REAL factor = (REAL)relax->given[part], before[MODEL_MECHANISMS], told[FUSED_PARTS] = {0};
+    for (size_t l = 0; l <= last; l++) {
         factor += (REAL)(relax->weight[part][l] * relax->taken[l] / relax->dt);
         before[l] = (REAL)(relax->weight[part][l] * (relax->kept[l] - 1) / relax->dt);
     }
+    for (size_t p = 0; p < step->parts; p++)
+        told[p] = before[last] * (REAL)relax->from_parts[p];
+    for (size_t l = 0; l < remembered; l++)
+        before[l] += before[last] * (REAL)relax->from_memory[l];
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct block *region = &c->pml->slab[s].region;
         const size_t rows = region->n[1] * region->n[2];
@@ -266,8 +263,9 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
             const size_t at = row / rows * c->volume + k * c->plane + j * c->n[0] + region->at[0];
             for (size_t i = at; i < at + region->n[0]; i++) {
                 REAL sum = factor * step->w[i];
-                for (size_t l = 0; l < relax->mechanisms; l++)
-                    sum += before[l] * step->memory[l * relax->apart + i];
+                for (size_t l = 0; l < remembered; l++)
+                    sum += before[l] * step->memory[relax->at[l] + i];
+                if (step->parts > 1) sum += told[0] * step->part[0].u[i] + told[1] * other[i];
                 step->work[i] = sum;
             }
         }
@@ -279,10 +277,15 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
 static double displacement(const struct NAME(step_fields) * step, size_t at)
 {
     const struct fused_relax *relax = step->relax;
-    double u = step->part[0].u[at];
+    double u = step->part[0].u[at], told = 0;
     if (relax == NULL) return u;
-    for (size_t l = 0; l < relax->mechanisms; l++)
-        u -= relax->weight[0][l] * step->memory[l * relax->apart + at];
+    for (size_t p = 0; p < step->parts; p++)
+        told += relax->from_parts[p] * step->part[p].u[at];
+    for (size_t l = 0; l < relax->mechanisms; l++) {
+        const double memory = l < fused_remembered(relax) ? step->memory[relax->at[l] + at] : told;
+        told += relax->from_memory[l] * memory;
+        u -= relax->weight[0][l] * memory;
+    }
     return u / relax->given[0];
 }
 
@@ -311,7 +314,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_remember)
     (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
-    pass_over(c, step, drive, &fields, true, level);
+    pass_over(c, drive, &fields, true, level);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++) {
         NAME(pml_fast_accelerate)(step->part[p].c, dt, step->part[p].extra, step->w);
         NAME(pml_fast_reached)(step->part[p].c, f->will_reach);

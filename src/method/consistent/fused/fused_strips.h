@@ -24,13 +24,14 @@ struct strip {
     int sweeps;           /* less one: which of the kernels are the wide ones */
     struct span own, all; /* columns of the result; with those beyond that passes along x read */
     size_t from, end;     /* rows of the result */
-    REAL *rings, *ring;   /* of the first plane; of the plane being worked on */
-    REAL *spare, *zero;   /* FUSED_ROWS rows each */
+    const struct fused_rings *in_ring;
+    REAL *rings, *ring; /* of the first plane; of the plane being worked on */
+    REAL *spare, *zero; /* FUSED_ROWS rows each */
 };
 
-static REAL *row_of(const struct fused *f, REAL *ring, enum fused_row field, size_t j)
+static REAL *row_of(const struct strip *s, REAL *ring, enum fused_row field, size_t j)
 {
-    return ring + (f->start[field] + j % f->ring[field]) * f->stride;
+    return ring + (s->in_ring->start[field] + j % s->in_ring->rows[field]) * s->f->stride;
 }
 
 /* out := init + matrix `side` of y times a field, rows j .. j + 3; init may be out. Rows beyond the ends are
@@ -42,10 +43,10 @@ static void y_pass(const struct strip *s, struct span span, bool wide, enum fuse
     const REAL *rows[FUSED_MOST_TAPS];
     const size_t taps = (size_t)(wide ? f->wide : f->narrow);
     const REAL *weight = (const REAL *)f->y[side] + j * taps;
-    const size_t ring = f->ring[field];
+    const size_t ring = s->in_ring->rows[field];
     size_t place = (j + ring - taps / 2) % ring;
     for (size_t t = 0; t < taps + FUSED_ROWS - 1; t++) {
-        rows[t] = s->ring + (f->start[field] + place) * f->stride + span.at;
+        rows[t] = s->ring + (s->in_ring->start[field] + place) * f->stride + span.at;
         place = place + 1 < ring ? place + 1 : 0;
     }
     const bool plain = f->plain[j / FUSED_ROWS];
@@ -70,18 +71,18 @@ static void first_rows(const struct strip *s, size_t j)
 {
     const struct fused *f = s->f;
     REAL *ring = s->ring, *spare = s->spare;
-    REAL *ay = row_of(f, ring, ROW_AY, j), *az = row_of(f, ring, ROW_AZ, j);
-    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_BX, j), s->zero, spare);
-    x_pass(s, true, SIDE_N_EVEN, spare, row_of(f, ring, ROW_CZ, j), row_of(f, ring, ROW_G, j));
+    REAL *ay = row_of(s, ring, ROW_AY, j), *az = row_of(s, ring, ROW_AZ, j);
+    x_pass(s, false, SIDE_G_FIRST, row_of(s, ring, ROW_BX_MIXED, j), s->zero, spare);
+    x_pass(s, true, SIDE_N_EVEN, spare, row_of(s, ring, ROW_CZ, j), row_of(s, ring, ROW_G, j));
     if (j < s->from || j >= s->end) return;
     const REAL *before = s->zero;
     if (!f->bulk) {
-        x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BY, j), s->zero, spare);
+        x_pass(s, false, SIDE_S_EVEN, row_of(s, ring, ROW_BY_SHEAR, j), s->zero, spare);
         x_pass(s, true, SIDE_N_EVEN, spare, ay, ay);
-        x_pass(s, false, SIDE_S_EVEN, row_of(f, ring, ROW_BZ, j), s->zero, spare);
+        x_pass(s, false, SIDE_S_EVEN, row_of(s, ring, ROW_BZ, j), s->zero, spare);
         before = spare;
     }
-    x_pass(s, false, SIDE_G_FIRST, row_of(f, ring, ROW_CX, j), before, spare);
+    x_pass(s, false, SIDE_G_FIRST, row_of(s, ring, ROW_CX, j), before, spare);
     x_pass(s, true, SIDE_N_EVEN, spare, az, az);
 }
 
@@ -89,10 +90,10 @@ static void first_rows(const struct strip *s, size_t j)
 static void second_rows(const struct strip *s, size_t j)
 {
     const struct fused *f = s->f;
-    REAL *t1 = row_of(f, s->ring, ROW_T1, j), *t2 = row_of(f, s->ring, ROW_T2, j);
-    REAL *t3 = row_of(f, s->ring, ROW_T3, j), *t4 = row_of(f, s->ring, ROW_T4, j);
-    y_pass(s, s->all, false, SIDE_G_FIRST, ROW_BY, j, s->zero, t1);
-    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX, j, s->zero, t2);
+    REAL *t1 = row_of(s, s->ring, ROW_T1, j), *t2 = row_of(s, s->ring, ROW_T2, j);
+    REAL *t3 = row_of(s, s->ring, ROW_T3, j), *t4 = row_of(s, s->ring, ROW_T4, j);
+    y_pass(s, s->all, false, SIDE_G_FIRST, ROW_BY_MIXED, j, s->zero, t1);
+    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX_SHEAR, j, s->zero, t2);
     y_pass(s, s->own, false, SIDE_S_ODD, ROW_BY, j, s->zero, t3);
     y_pass(s, s->own, false, SIDE_G_SECOND, ROW_G, j, t3, t3);
     if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
@@ -104,40 +105,50 @@ static void third_rows(const struct strip *s, size_t j)
 {
     const struct fused *f = s->f;
     REAL *ring = s->ring, *spare = s->spare;
-    REAL *ax = row_of(f, ring, ROW_AX, j), *ay = row_of(f, ring, ROW_AY, j), *az = row_of(f, ring, ROW_AZ, j);
-    REAL *divergence = row_of(f, ring, ROW_CZ, j);
+    REAL *ax = row_of(s, ring, ROW_AX, j), *ay = row_of(s, ring, ROW_AY, j), *az = row_of(s, ring, ROW_AZ, j);
+    REAL *divergence = row_of(s, ring, ROW_CZ, j);
     y_pass(s, s->all, true, SIDE_N_EVEN, ROW_T1, j, divergence, divergence);
     if (!f->bulk) y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T2, j, ax, ax);
     y_pass(s, s->own, true, SIDE_N_ODD, ROW_T3, j, f->bulk ? s->zero : ay, ay);
     y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T4, j, az, az);
-    x_pass(s, false, SIDE_S_ODD, row_of(f, ring, ROW_BX, j), s->zero, spare);
+    x_pass(s, false, SIDE_S_ODD, row_of(s, ring, ROW_BX, j), s->zero, spare);
     x_pass(s, false, SIDE_G_SECOND, divergence, spare, spare);
     x_pass(s, true, SIDE_N_ODD, spare, f->bulk ? s->zero : ax, ax);
 }
 
 /* Passes over depth for row j of FUSED_PLANES planes; planes that are not there have weight 0. */
-static void depth_rows(const struct strip *s, size_t first, size_t j, const REAL *u)
+static void depth_rows(const struct strip *s, size_t first, size_t j, const struct fused_fields *fields)
 {
-    static const enum fused_row result[3][OVER_DEPTH_MATRICES] = {
-        {ROW_AX, ROW_CX, ROW_BX}, {ROW_AY, ROW_CY, ROW_BY}, {ROW_AZ, ROW_CZ, ROW_BZ}};
+    static const enum fused_row result[3][OVER_DEPTH_RESULTS] = {
+        {ROW_AX, ROW_CX, ROW_BX_SHEAR, ROW_BX_MIXED, ROW_BX},
+        {ROW_AY, ROW_CY, ROW_BY_SHEAR, ROW_BY_MIXED, ROW_BY},
+        {ROW_AZ, ROW_CZ, ROW_BZ, ROW_BZ, ROW_BZ}};
     const struct fused *f = s->f;
     const size_t half = (size_t)f->deep / 2, last = s->all.at + s->all.n;
     const size_t n = (last < f->n[0] ? last : f->n[0]) - s->all.at;
+    const REAL share[SHARES] = {(REAL)f->share[SHARE_MIXED], (REAL)f->share[SHARE_AXIAL]};
     for (int component = 0; component < 3; component++) {
-        const REAL *field = u + (size_t)component * f->volume + j * f->n[0] + s->all.at;
-        const REAL *in[FUSED_MOST_TAPS], *weight[OVER_DEPTH_MATRICES];
-        REAL *out[OVER_DEPTH_MATRICES * FUSED_PLANES];
+        const size_t at = (size_t)component * f->volume + j * f->n[0] + s->all.at;
+        const REAL *in[FUSED_MOST_TAPS], *other[FUSED_MOST_TAPS], *weight[OVER_DEPTH_MATRICES];
+        REAL *out[OVER_DEPTH_RESULTS * FUSED_PLANES];
         for (size_t t = 0; t < (size_t)f->deep + FUSED_PLANES - 1; t++) {
             const size_t k = first + t < half ? 0 : first + t - half;
-            in[t] = field + (k < f->n[2] ? k : f->n[2] - 1) * f->plane;
+            const size_t place = at + (k < f->n[2] ? k : f->n[2] - 1) * f->plane;
+            in[t] = (const REAL *)fields->u + place;
+            if (fields->other != NULL) other[t] = (const REAL *)fields->other + place;
         }
-        for (size_t m = 0; m < OVER_DEPTH_MATRICES; m++) {
-            weight[m] = (const REAL *)f->z[component][m] + first * (size_t)f->deep;
+        for (size_t m = 0; m < OVER_DEPTH_RESULTS; m++)
             for (size_t r = 0; r < FUSED_PLANES; r++)
                 out[m * FUSED_PLANES + r] =
-                    row_of(f, s->rings + r * f->ring_size, result[component][m], j) + s->all.at;
-        }
-        s->kernel->of[s->sweeps].depth[!f->bare][f->bulk && component != DEPTH](in, weight, n, f->n[0], out);
+                    row_of(s, s->rings + r * s->in_ring->size, result[component][m], j) + s->all.at;
+        for (size_t m = 0; m < OVER_DEPTH_MATRICES; m++)
+            weight[m] = (const REAL *)f->z[component][m] + first * (size_t)f->deep;
+        if (fields->other != NULL)
+            s->kernel->of[s->sweeps].mixed[!f->bare][component == DEPTH](in, other, weight, share, n, f->n[0],
+                                                                         out);
+        else
+            s->kernel->of[s->sweeps].depth[!f->bare][f->bulk && component != DEPTH](in, weight, n, f->n[0],
+                                                                                    out);
     }
 }
 
@@ -147,7 +158,7 @@ static void store_row(const struct strip *s, size_t k, size_t j, const struct fu
     static const enum fused_row sum[3] = {ROW_AX, ROW_AY, ROW_AZ};
     const size_t from = s->own.at, last = from + s->own.n, n = (last < f->n[0] ? last : f->n[0]) - from;
     for (int component = 0; component < 3; component++) {
-        const REAL *row = row_of(f, s->ring, sum[component], j) + from;
+        const REAL *row = row_of(s, s->ring, sum[component], j) + from;
         const size_t at = (size_t)component * f->volume + k * f->plane + j * f->n[0] + from;
         REAL *a = (REAL *)fields->a + at;
         if (fields->moved == NULL)
@@ -188,9 +199,9 @@ static void window_planes(struct strip *s, size_t first, const struct fused_fiel
         for (size_t k = fields->bring_on; k < fields->before && j < end; k++)
             bring_on(f, fields, k, &rows);
         for (size_t row = j; row < end; row++)
-            depth_rows(s, first, row, fields->u);
+            depth_rows(s, first, row, fields);
         for (size_t plane = 0; plane < planes; plane++) {
-            s->ring = s->rings + plane * f->ring_size;
+            s->ring = s->rings + plane * s->in_ring->size;
             strip_rows(s, first + plane, from, last, j, fields);
         }
     }
@@ -208,9 +219,10 @@ void NAME(fused_planes)(const struct fused *fused, int thread, size_t first,
 {
     const struct fused *f = fused;
     const struct window *window = &f->computed[first / FUSED_PLANES];
-    struct strip s = {.f = f, .rings = (REAL *)f->buffer[thread] + (f->stride - f->width)};
-    s.spare = s.rings + FUSED_PLANES * f->ring_size;
-    s.zero = s.spare + FUSED_ROWS * f->stride;
+    struct strip s = {.f = f, .zero = (REAL *)f->buffer[thread] + (f->stride - f->width)};
+    s.in_ring = &f->rings[fields->other != NULL];
+    s.spare = s.zero + FUSED_ROWS * f->stride;
+    s.rings = s.spare + FUSED_ROWS * f->stride;
     s.kernel = NAME(taken_fused_kernels)();
     while (s.kernel->of[s.sweeps].taps != f->wide)
         s.sweeps++;

@@ -11,6 +11,9 @@
 #define FUSED_KERNELS(real, precision)                                                                       \
     typedef void fused_depth_##precision(const real *const *in, const real *const *weight, size_t n,         \
                                          size_t ahead, real *const *result);                                 \
+    typedef void fused_mixed_##precision(const real *const *in, const real *const *other,                    \
+                                         const real *const *weight, const real *share, size_t n,             \
+                                         size_t ahead, real *const *result);                                 \
     typedef void fused_x_##precision(const real *matrix, const real *in, const real *init, size_t width,     \
                                      size_t stride, real *out);                                              \
     typedef void fused_y_##precision(const real *weight, const real *const *in, const real *init,            \
@@ -21,12 +24,15 @@
             fused_x_##precision *x;                                                                          \
             fused_y_##precision *y, *y_ends;                                                                 \
             fused_depth_##precision *depth[2][2]; /* [B is a matrix of its own][A is 0] */                   \
+            fused_mixed_##precision *mixed[2][2]; /* [B is a matrix of its own][of u_z] */                   \
         } of[3]; /* one, two and three sweeps; the first is the narrow one too */                            \
         real (*measure)(size_t n, size_t rows, size_t step, const real *u, real *column);                    \
         real (*drift)(size_t n, size_t rows, size_t step, real dt, const real *w, real *u, real *column);    \
         real (*relax)(size_t n, size_t rows, size_t step, const struct fused_relax *relax, const real *w,    \
                       real *memory, real *u, real *other, real *column);                                     \
         void (*kick)(size_t n, real dt, const real *a, real *w);                                             \
+        void (*weigh)(size_t n, const double *weight, const real *in, real *out);                            \
+        void (*spread)(size_t rows, size_t step, const real *weight, const real *value, real *sum);          \
     };                                                                                                       \
     EACH_PROCESSOR(struct fused_kernels_##precision, fused_kernels_##precision)
 FUSED_KERNELS(double, double)

@@ -5,25 +5,51 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 static const struct model_one_pass one_pass;
+
+/* What memory is but for u: e_1 - (given_1 / given_0) e_0 = sum over l of this times D_l. */
+static double between(const struct relaxing *relaxing, size_t l)
+{
+    const struct relaxing_part *part = relaxing->part;
+    return part[1].weight[l] - part[1].given / part[0].given * part[0].weight[l];
+}
+
+/* Mechanisms in the order of the scene, but of two parts the one last that they tell best. */
+static void lay_order(const struct relaxing *relaxing, size_t n, struct fused_relax *relax)
+{
+    const size_t last = relaxing->mechanisms - 1;
+    size_t best = last;
+    for (size_t l = 0; l < last && relaxing->parts > 1; l++)
+        if (fabs(between(relaxing, l)) > fabs(between(relaxing, best))) best = l;
+    for (size_t l = 0; l <= last; l++) {
+        relax->order[l] = l == best ? last : l == last ? best : l;
+        relax->at[l] = relax->order[l] * n;
+    }
+    if (relaxing->parts == 1) return;
+    relax->from_parts[1] = 1 / between(relaxing, best);
+    relax->from_parts[0] = -relaxing->part[1].given / relaxing->part[0].given * relax->from_parts[1];
+    for (size_t l = 0; l < last; l++)
+        relax->from_memory[l] = -between(relaxing, relax->order[l]) * relax->from_parts[1];
+}
 
 /* Factors of a step of dt. */
 static struct fused_relax relax_of(const struct consistent *c, double dt)
 {
     const struct relaxing *relaxing = c->fused->relaxing;
-    struct fused_relax relax = {
-        .mechanisms = relaxing->mechanisms, .parts = relaxing->parts, .apart = c->model.unknowns, .dt = dt};
+    struct fused_relax relax = {.mechanisms = relaxing->mechanisms, .parts = relaxing->parts, .dt = dt};
+    lay_order(relaxing, c->model.unknowns, &relax);
     for (size_t l = 0; l < relaxing->mechanisms; l++) {
-        const double half = relaxing->rate[l] * dt / 2;
+        const double half = relaxing->rate[relax.order[l]] * dt / 2;
         relax.kept[l] = (1 - half) / (1 + half);
         relax.taken[l] = dt / (1 + half);
+        for (size_t p = 0; p < relaxing->parts; p++)
+            relax.weight[p][l] = relaxing->part[p].weight[relax.order[l]];
     }
-    for (size_t p = 0; p < relaxing->parts; p++) {
+    for (size_t p = 0; p < relaxing->parts; p++)
         relax.given[p] = relaxing->part[p].given;
-        memcpy(relax.weight[p], relaxing->part[p].weight, sizeof relax.weight[p]);
-    }
     return relax;
 }
 
@@ -138,12 +164,33 @@ static void advance(struct model *model, const struct drive *drive, double dt, d
     }
 }
 
+/* u, and the memory that the parts tell, where e_0 stands in a state; e_1: in either precision, NULL if there is
+ * one part. */
+static void tell_displacements(const struct consistent *c, const struct fused_relax *relax, const double *e_1,
+                               const float *single, double *y)
+{
+    const struct relaxing *relaxing = c->fused->relaxing;
+    const size_t n = c->model.unknowns, last = relax->mechanisms - 1;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        if (relax->parts > 1) {
+            double *told = y + 2 * n + relax->at[last] + i;
+            const double other = e_1 != NULL ? e_1[i] : single != NULL ? (double)single[i] : 0;
+            double memory = relax->from_parts[0] * y[i] + relax->from_parts[1] * other;
+            for (size_t l = 0; l < last; l++)
+                memory += relax->from_memory[l] * y[2 * n + relax->at[l] + i];
+            if (memory != *told) *told = memory;
+        }
+        const double u = (y[i] - remembered(relaxing, 0, n, y, i)) / relaxing->part[0].given;
+        if (u != y[i]) y[i] = u;
+    }
+}
+
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    const struct relaxing *relaxing = c->fused->relaxing;
-    const struct fused_relax factors = relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
-    const struct fused_relax *relax = relaxing != NULL ? &factors : NULL;
+    const struct fused_relax factors = c->fused->relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
+    const struct fused_relax *relax = c->fused->relaxing != NULL ? &factors : NULL;
     const size_t n = model->unknowns;
     if (model->single) {
         const struct step_fields_single fields = fields_single(c, relax);
@@ -151,15 +198,11 @@ static void settle(struct model *model, const struct drive *drive, double dt, do
         fused_settle_single(c, drive, dt, &fields, y, a);
         for (size_t i = 2 * n; i < 2 * n + extra_of(c); i++)
             y[i] = kept[i];
+        if (relax != NULL) tell_displacements(c, relax, NULL, fields.part[1].u, y);
     } else {
         const struct step_fields_double fields = fields_double(c, y, relax);
         fused_settle_double(c, drive, dt, &fields, y, a);
-    }
-    if (relaxing == NULL) return;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < n; i++) { /* e_0 stands there */
-        const double u = (y[i] - remembered(relaxing, 0, n, y, i)) / relaxing->part[0].given;
-        if (u != y[i]) y[i] = u;
+        if (relax != NULL) tell_displacements(c, relax, fields.part[1].u, NULL, y);
     }
 }
 
@@ -210,6 +253,8 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
         part->bytes -= its->kept_bytes;
         its->kept_bytes = 0;
     }
+    if (relaxing->parts > 1 && !fused_mix(consistent_of(model), consistent_of(relaxing->part[1].model)))
+        return SELAS_NO_MEMORY;
     fused->kept_bytes = model->single ? ((1 + relaxing->parts) * n + relaxing->extra) * sizeof(float)
                                       : (1 + relaxing->parts) * n * sizeof(double);
     model->bytes += fused->kept_bytes + sizeof *relaxing;

@@ -50,6 +50,73 @@ INLINED void over_depth(const int taps, const int begin, const int end, const RE
     }
 }
 
+/* The same where `other` displacements act by a lambda of their own (fused.h, F1a): A, C and B of what multiplies
+ * them, and B of what q and p multiply, which x and y alone ask for. Sums `begin` to `end` - 1 of A, C, B and B of
+ * `other`. */
+INLINED void mixed_sums(const int taps, const bool normal, const int begin, const int end,
+                        const REAL *const *in, const REAL *const *other, const REAL *const *weight,
+                        const REAL *share, size_t n, size_t ahead, REAL *const *result)
+{
+    const REAL mixed = share[SHARE_MIXED], axial = share[SHARE_AXIAL];
+    for (size_t i = 0;; i += LANES) {
+        if (i + LANES > n) i = n - LANES;
+        lanes sum[OVER_DEPTH_MATRICES + 1][FUSED_PLANES] = {0};
+        UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
+        {
+            const lanes shear = *at(in[t] + i), more = *at(other[t] + i);
+            lanes value[] = {shear, shear + mixed * more, shear, more};
+            if (normal) value[OVER_DEPTH_A] += axial * more;
+            if (begin == 0) FETCH(in[t] + i + ahead);
+            if (begin == 0) FETCH(other[t] + i + ahead);
+            UNROLLED for (int m = begin; m < end; m++)
+            {
+                const int matrix = m < OVER_DEPTH_MATRICES ? m : OVER_DEPTH_B;
+                UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
+                    weight[matrix][r * taps + t - r] * value[m];
+            }
+        }
+        UNROLLED for (int r = 0; r < FUSED_PLANES; r++)
+        {
+            UNROLLED for (int m = begin; m < end && m < OVER_DEPTH_MATRICES; m++) *
+                (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
+            if (end <= OVER_DEPTH_MATRICES) continue;
+            *(lanes *)(result[OVER_DEPTH_B_MIXED * FUSED_PLANES + r] + i) =
+                sum[OVER_DEPTH_B][r] + mixed * sum[OVER_DEPTH_MATRICES][r];
+            *(lanes *)(result[OVER_DEPTH_B_AXIAL * FUSED_PLANES + r] + i) =
+                sum[OVER_DEPTH_B][r] + axial * sum[OVER_DEPTH_MATRICES][r];
+        }
+        if (i + LANES >= n) break;
+    }
+}
+
+/* All of them; sixteen registers do not hold the sums of four matrices. */
+INLINED void mixed_over_depth(const int taps, const bool bare, const bool normal, const REAL *const *in,
+                              const REAL *const *other, const REAL *const *weight, const REAL *share,
+                              size_t n, size_t ahead, REAL *const *result)
+{
+    enum { ALL = OVER_DEPTH_MATRICES + 1, MANY = VECTOR_BYTES == 64 };
+    if (bare) {
+        mixed_sums(taps, normal, 0, OVER_DEPTH_B, in, other, weight, share, n, ahead, result);
+        for (int r = 0; r < FUSED_PLANES; r++) {
+            const REAL *shear = in[r + taps / 2], *more = other[r + taps / 2];
+            REAL *const *place = result + r;
+#pragma omp simd
+            for (size_t i = 0; i < n; i++) {
+                place[OVER_DEPTH_B * FUSED_PLANES][i] = shear[i];
+                if (normal) continue;
+                place[OVER_DEPTH_B_MIXED * FUSED_PLANES][i] = shear[i] + share[SHARE_MIXED] * more[i];
+                place[OVER_DEPTH_B_AXIAL * FUSED_PLANES][i] = shear[i] + share[SHARE_AXIAL] * more[i];
+            }
+        }
+    } else if (normal || MANY) {
+        mixed_sums(taps, normal, 0, normal ? OVER_DEPTH_MATRICES : ALL, in, other, weight, share, n, ahead,
+                   result);
+    } else {
+        mixed_sums(taps, false, 0, OVER_DEPTH_B, in, other, weight, share, n, ahead, result);
+        mixed_sums(taps, false, OVER_DEPTH_B, ALL, in, other, weight, share, n, ahead, result);
+    }
+}
+
 /* Along x: out := init + matrix in, FUSED_ROWS rows, all from the same column on; entries beyond the row are
  * read, times 0. */
 INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in, const REAL *init,
@@ -156,13 +223,17 @@ INLINED void relaxed(const size_t mechanisms, const size_t parts, size_t n, cons
                      const REAL *restrict w, REAL *restrict memory, REAL *restrict u, REAL *restrict other)
 {
     const REAL given = (REAL)(r->given[0] * r->dt), given_other = (REAL)(r->given[1] * r->dt);
+    const REAL from = (REAL)r->from_parts[0], from_other = (REAL)r->from_parts[1];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
         REAL change = given * w[i], change_other = given_other * w[i];
+        REAL told = parts > 1 ? from * u[i] + from_other * other[i] : 0;
         for (size_t l = 0; l < mechanisms; l++) {
-            const REAL before = memory[l * r->apart + i];
+            const bool last = parts > 1 && l + 1 == mechanisms;
+            const REAL before = last ? told : memory[r->at[l] + i];
             const REAL after = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
-            memory[l * r->apart + i] = after;
+            if (!last) memory[r->at[l] + i] = after;
+            if (!last && parts > 1) told += (REAL)r->from_memory[l] * before;
             change += (REAL)r->weight[0][l] * (after - before);
             if (parts > 1) change_other += (REAL)r->weight[1][l] * (after - before);
         }
@@ -211,11 +282,36 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     moved(n, dt, a, w);
 }
 
+/* out += weight in, number by number */
+static void weigh(size_t n, const double *restrict weight, const REAL *restrict in, REAL *restrict out)
+{
+#pragma omp simd
+    for (size_t i = 0; i < n; i++)
+        out[i] += (REAL)weight[i] * in[i];
+}
+
+/* FUSED_STRIP numbers of each row += weights times the row's value. */
+static void spread(size_t rows, size_t step, const REAL *restrict weight, const REAL *restrict value,
+                   REAL *restrict sum)
+{
+    for (size_t row = 0; row < rows; row++)
+#pragma omp simd
+        for (size_t i = 0; i < FUSED_STRIP; i++)
+            sum[row * step + i] += weight[i] * value[row];
+}
+
 #define DEPTH(name, deep, begin, end)                                                                        \
     static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
                      REAL *const *result)                                                                    \
     {                                                                                                        \
         over_depth(deep, begin, end, in, weight, n, ahead, result);                                          \
+    }
+
+#define MIXED(name, deep, bare, normal)                                                                      \
+    static void name(const REAL *const *in, const REAL *const *other, const REAL *const *weight,             \
+                     const REAL *share, size_t n, size_t ahead, REAL *const *result)                         \
+    {                                                                                                        \
+        mixed_over_depth(deep, bare, normal, in, other, weight, share, n, ahead, result);                    \
     }
 
 /* One function for each pass and number of taps. */
@@ -238,7 +334,11 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     DEPTH(two_##deep, deep, 0, 2)                                                                            \
     DEPTH(three_##deep, deep, 0, 3)                                                                          \
     DEPTH(two_bulk_##deep, deep, 1, 2)                                                                       \
-    DEPTH(three_bulk_##deep, deep, 1, 3)
+    DEPTH(three_bulk_##deep, deep, 1, 3)                                                                     \
+    MIXED(bare_##deep, deep, true, false)                                                                    \
+    MIXED(bare_normal_##deep, deep, true, true)                                                              \
+    MIXED(mixed_##deep, deep, false, false)                                                                  \
+    MIXED(mixed_normal_##deep, deep, false, true)
 PASSES(5, 9)
 PASSES(9, 13)
 PASSES(13, 17)
@@ -246,12 +346,16 @@ PASSES(13, 17)
 #define OF(wide, deep)                                                                                       \
     {                                                                                                        \
         wide, x_##wide, y_##wide, ends_##wide,                                                               \
-        {                                                                                                    \
-            {two_##deep, two_bulk_##deep},                                                                   \
             {                                                                                                \
-                three_##deep, three_bulk_##deep                                                              \
+                {two_##deep, two_bulk_##deep},                                                               \
+                {three_##deep, three_bulk_##deep},                                                           \
+            },                                                                                               \
+        {                                                                                                    \
+            {bare_##deep, bare_normal_##deep},                                                               \
+            {                                                                                                \
+                mixed_##deep, mixed_normal_##deep                                                            \
             }                                                                                                \
         }                                                                                                    \
     }
-const struct NAME(fused_kernels)
-    OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick};
+const struct NAME(fused_kernels) OF_PROCESSOR(NAME(fused_kernels)) = {
+    {OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh, spread};
