@@ -185,7 +185,7 @@ static void faces(void **unused)
          "t.nml:4:59: error:",
          {"'lysmer', which has no thickness"}},
         {BOX "&boundary face='x-', kind='transmitting', layer_points=8 /\n"
-             "&stepping scheme='modified-equation' /\n",
+             "&stepping scheme='rk4' /\n",
          "t.nml:4:43: error:",
          {"'lysmer', which has no thickness (absorbing layers need stepping%scheme"}},
         {BOX "&boundary face='x-', kind='transmitting', layer_points=8, layer_thickness=1 /\n",
