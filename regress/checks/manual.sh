@@ -1,7 +1,7 @@
 #!/bin/sh
 # The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
 # contents (doc/README.md), every page that the source or a script names is there, and every file that a page names, every
-# command and option of --help is in the man page. Argument: the build folder. Prints TAP.
+# command and option of --help is in the man page; messages and warnings of the source and doc/howto/troubleshooting.md fit. Argument: the build folder. Prints TAP.
 selas=$(cd "${1:-build}" && pwd)/selas
 cd "$(dirname "$0")/../.." || exit 1
 texts=$(mktemp) || exit 1
@@ -53,6 +53,12 @@ verdict 'every message of doc/howto/troubleshooting.md is one of the source' "$(
         [ -z "$text" ] || grep -qF -e "$text" "$texts" || echo "$text"
     done
 )"
+verdict 'every warning of the source has a row in doc/howto/troubleshooting.md' "$(
+    sed -n 's/^| \(`[^|]*`\).*|.*/\1/p' doc/howto/troubleshooting.md | grep -o '`[^`]*`' | tr -d '`' |
+        sed "s/'*\.\.\.'*/\n/g" | sed "s/^[ ,']*//; s/[ ,']*$//" | grep ' ' >"$texts.rows"
+    tr '\n' ' ' <"$texts" | grep -oE '\b(warn|deck_warning|advise)\(([^";]|"[^"]*")*;' | grep '" *[^"]* [^"]*"' | grep -vF -f "$texts.rows"
+)"
+rm -f "$texts.rows"
 verdict 'the man page has every command and option' "$(
     { "$selas" --help; "$selas" diff --help; } | grep -oE -e '--[a-z]+(-[a-z]+)*|^ +selas [a-z]+' | sort -u | while read -r what; do
         sed 's/\\-/-/g' doc/selas.1 | grep -qE -e "${what#selas }" || echo "$what"
