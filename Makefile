@@ -66,7 +66,7 @@ setup: ## install what is missing with apt (root or sudo)
 setup-mpi: setup ## install what `make mpi` needs besides
 	@sh regress/setup mpi
 
-setup-manual: ## install what `make manual` needs: pandoc, weasyprint
+setup-manual: ## install what `make manual` needs: pandoc, weasyprint, graphviz
 	@sh regress/setup manual
 
 manual: ## the manual as a site and a book: output/manual/html/index.html, output/manual/selas.pdf

@@ -1,5 +1,5 @@
--- Links of the manual's pages as they must be in the site (mode 'site': .md becomes .html) and in the book (mode 'book':
--- all pages are one, so that identifiers begin with their page). PAGE is the page's path from the top of the tree.
+-- What pandoc makes of the manual's pages, for the site (mode 'site': .md becomes .html in links) and for the book (mode
+-- 'book': all pages are one, so that identifiers begin with their page). PAGE is the page's path from the top of the tree.
 local page, mode = os.getenv('PAGE'), os.getenv('MODE')
 
 local function whole(path) -- a path from the page, as one from the top of the tree
@@ -30,18 +30,48 @@ function Image(image)
     image.src = mode == 'book' and target or up() .. target:gsub('^doc/', '')
     return image
 end
+function Para(para)
+    local first, second = para.content[1], para.content[2]
+    if #para.content == 1 and first.t == 'Image' then return pandoc.Div(para, { class = 'picture' }) end
+    if first and first.t == 'Math' and first.mathtype == 'DisplayMath' and (not second or second.t == 'Span') then
+        return pandoc.Div(para, { class = 'equation' })
+    end
+end
+function Code(code) -- short names stay in one piece, what is long may break anywhere in a table
+    local long = code.text:match(('%S'):rep(24))
+    if long or not code.text:find(' ') then code.classes:insert(long and 'long' or 'whole') end
+    return code
+end
+function Str(str) -- lines would break behind the point or the minus of .25e-3
+    return str.text:match('^%p*%.%d') and pandoc.Span(str, { class = 'whole' }) or nil
+end
 function Header(header)
     if mode == 'book' then header.identifier = header.level == 1 and name(page) or name(page) .. '--' .. header.identifier end
     return header
 end
+-- weasyprint has no MathML, and pandoc no HTML for fractions and dots: in the book they stand on one line
+local function one_line(text)
+    if mode ~= 'book' then return text end
+    local function term(braced) return braced:match('^{%w+}$') and braced or '(' .. braced:sub(2, -2) .. ')' end
+    text = text:gsub('\\t?frac(%d)(%d)', '%1/%2\\,'):gsub('\\ddot ', '\\partial_t^2 ')
+    return (text:gsub('\\frac(%b{})(%b{})', function(above, below) return term(above) .. ' / ' .. term(below) end))
+end
 -- Display equations: the number of \tag stands beside, as not every writer of equations has it
 local function numbered(text)
     local number = text:match('\\tag{(.-)}')
-    local shown = pandoc.Math('DisplayMath', (text:gsub('\\tag{.-}', '')))
+    local shown = pandoc.Math('DisplayMath', (one_line(text):gsub('\\tag{.-}', '')))
     return number and { shown, pandoc.Span('(' .. number .. ')', { class = 'number' }) } or { shown }
 end
-function Math(math) return math.mathtype == 'DisplayMath' and numbered(math.text) or nil end
+function Math(math)
+    if math.mathtype == 'DisplayMath' then return numbered(math.text) end
+    return pandoc.Math('InlineMath', one_line(math.text))
+end
 function CodeBlock(block)
+    if block.classes:includes('mermaid') then -- GitHub draws it; here graphviz does
+        local graph = block.text:gsub('^flowchart TD', ''):gsub('[%w_]+%[(.-)%]', '"%1"'):gsub('%-%->', '->')
+        local drawn = pandoc.pipe('dot', { '-Tsvg' }, 'digraph { size = "7,9"; node [shape = box, fontname = "sans"];' .. graph .. '}')
+        return pandoc.RawBlock('html', drawn:match('<svg.*</svg>'))
+    end
     if not block.classes:includes('math') then return nil end
     return pandoc.Div(pandoc.Para(numbered(block.text)), { class = 'equation' })
 end
