@@ -50,6 +50,7 @@ static void open_side(struct side *side, int n, const char *precision)
     side->from = from_text(text, 0, NULL);
     if (side->from.scene == NULL) stop(side->from.messages.text);
     if (model_create(side->from.scene, &model, &messages) != SELAS_OK) stop(messages.text);
+    model = model_computed(model); /* the part below mirror planes */
     side->stepper = (struct stepper){.scheme = &scheme_leapfrog, .model = model, .dt = .1};
     side->state = (struct state){.y = array_new(model->state_size, sizeof(double)),
                                  .a = array_new(model->unknowns, sizeof(double))};
