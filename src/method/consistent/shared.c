@@ -118,7 +118,7 @@ void shared_describe(const struct consistent *c,
             snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
     tell(context, "ranks", text);
     const int neighbours = (me > 0) + (me + 1 < ranks);
-    snprintf(text, sizeof text, "%.0f by the first rank (%zu planes to a neighbour)",
+    snprintf(text, sizeof text, "%.0f by the first rank in each operator call (%zu planes to a neighbour)",
              neighbours * (halo_bytes(c) + solve_bytes(c)), part->halo);
     tell(context, "halo bytes a step", text);
 }

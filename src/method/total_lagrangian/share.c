@@ -277,7 +277,7 @@ void tl_describe_part(const struct tl_model *tl,
     tell(context, "ranks", text);
     for (size_t r = 0; r < ranks; r++)
         if (r != me) sent += halo(part, me, r).end - halo(part, me, r).from;
-    snprintf(text, sizeof text, "%zu by the first rank (%zu points of its %zu)",
+    snprintf(text, sizeof text, "%zu by the first rank in each operator call (%zu points of its %zu)",
              operators * sent * (size_t)tl->cloud->dimension * sizeof(double), sent,
              part->bound[1] - part->bound[0]);
     tell(context, "halo bytes a step", text);
