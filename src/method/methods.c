@@ -69,7 +69,7 @@ static selas_status check_abilities(const struct method *method, const struct sc
     if (ranks_count(scene->ranks) > 1 && !method->ranks)
         return fail(messages, SELAS_UNSUPPORTED,
                     "%s runs on one rank: start it without mpirun; 'smoothed-point', 'consistent' and 'sph', "
-                    "'total-lagrangian' run on many",
+                    "'total-lagrangian' and 'updated-lagrangian' run on many",
                     name);
     if (deck_chosen(group, "precision", "single") && !method->single)
         return deck_error(scene->deck, group, "precision", messages,
