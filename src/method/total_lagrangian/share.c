@@ -6,7 +6,7 @@
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include "base/memory.h"
-#include "model/few_ranks.h"
+#include "parallel/few_ranks.h"
 
 #include <math.h>
 #include <stdio.h>

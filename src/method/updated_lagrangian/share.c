@@ -4,7 +4,7 @@
 #include "method/updated_lagrangian/updated_lagrangian.h"
 
 #include "base/memory.h"
-#include "model/few_ranks.h"
+#include "parallel/few_ranks.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* Ranks of a method that deals out places of the body one by one. */
-#ifndef SELAS_MODEL_FEW_RANKS_H
-#define SELAS_MODEL_FEW_RANKS_H
+#ifndef SELAS_PARALLEL_FEW_RANKS_H
+#define SELAS_PARALLEL_FEW_RANKS_H
 
 #include "parallel/ranks.h"
 

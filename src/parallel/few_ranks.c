@@ -1,5 +1,5 @@
 /* Fewer ranks where the body has no work for all of them. */
-#include "model/few_ranks.h"
+#include "parallel/few_ranks.h"
 
 selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what, struct messages *messages)
 {
