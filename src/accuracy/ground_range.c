@@ -1,4 +1,4 @@
-/* What scene%accuracy serves on ground, and how far its laws were measured (doc/verification/accuracy.md, sections 1 to 4). */
+/* What scene%accuracy serves on ground, and how far its laws were measured (doc/verification/accuracy.md). */
 #include "accuracy/ground_range.h"
 #include "accuracy/ground_task.h"
 #include "damping/ground.h"

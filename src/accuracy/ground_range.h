@@ -1,4 +1,4 @@
-/* What scene%accuracy serves on ground, and how far its laws were measured (doc/verification/accuracy.md, sections 1 to 4). */
+/* What scene%accuracy serves on ground, and how far its laws were measured (doc/verification/accuracy.md). */
 #ifndef SELAS_ACCURACY_GROUND_RANGE_H
 #define SELAS_ACCURACY_GROUND_RANGE_H
 
