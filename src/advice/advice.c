@@ -132,11 +132,11 @@ static void look_at_receivers(struct adviser *adviser)
             double place[3];
             body_from_deck(body, scene->receiver[r].position, place);
             const double depth = fabs(place[face_axis((enum face)face)] - face_plane(body, (enum face)face));
-            if (depth < 0.999 * body->spacing)
+            if (depth < 0.999 * layer_spacing(scene, face))
                 advise(adviser,
                        "receiver '%s' lies at the absorbing face %s and sees what it does to waves; two "
                        "spacings (%.3g) inside it would not",
-                       scene->receiver[r].name, face_name((enum face)face), 2.0 * body->spacing);
+                       scene->receiver[r].name, face_name((enum face)face), 2.0 * layer_spacing(scene, face));
         }
 }
 
@@ -172,12 +172,13 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
         const double depth =
             fabs(centre[face_axis((enum face)face)] - face_plane(&scene->body, (enum face)face));
         const bool told = load->kind == LOAD_MOMENT_TENSOR && layer_points(scene, face) > 0; /* layers.c */
-        if (boundary_absorbs(&scene->boundary[face]) && !told && depth < 1.999 * scene->body.spacing)
+        if (boundary_absorbs(&scene->boundary[face]) && !told &&
+            depth < 1.999 * layer_spacing(scene, face))
             advise(adviser,
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
                    "inside it "
                    "would not",
-                   k + 1, face_name((enum face)face), 2.0 * scene->body.spacing);
+                   k + 1, face_name((enum face)face), 2.0 * layer_spacing(scene, face));
     }
 }
 

@@ -88,9 +88,10 @@ static selas_status check_abilities(const struct method *method, const struct sc
                     "%s has no materials point by point, only &layer where it takes layers; expected '%s', "
                     "'%s'",
                     name, other->name, other->variant);
-    if (ground_is_general(scene) && !method->any_ground)
+    if (ground_needs_general(scene) && !method->any_ground)
         return fail(messages, SELAS_UNSUPPORTED,
-                    "%s takes no &model, no &block, no &topography and no tilted or graded &layer; expected "
+                    "%s takes no &model, no &block, no &topography, no tilted or graded &layer and no "
+                    "body%%grading; expected "
                     "'smoothed-point', 'consistent'",
                     name);
     return scene_check_faces(scene, method->faces, name, messages);

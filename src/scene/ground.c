@@ -257,6 +257,11 @@ bool ground_is_general(const struct scene *scene)
     return general;
 }
 
+bool ground_needs_general(const struct scene *scene)
+{
+    return ground_is_general(scene) || scene->body.grading != NULL;
+}
+
 bool ground_is_damped(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->materials; i++)

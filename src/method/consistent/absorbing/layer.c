@@ -117,7 +117,7 @@ void layers_fastest(struct model *model, const double *y, struct unseen *found)
         double inside[3] = {0}, position[3];
         look_at_slab(c, slab, v, v + model->unknowns, &one, inside);
         if (one.spoiled <= found->spoiled && (found->spoiled > 0 || one.speed <= found->speed)) continue;
-        body_to_deck(&model->scene->body, inside, position);
+        lattice_to_deck(&model->scene->body, inside, position);
         *found = one;
         snprintf(found->place, sizeof found->place, "in the layer behind face %s, %s (%.6g, %.6g, %.6g)",
                  face_name((enum face)(2 * slab->axis + slab->end)), one.spoiled > 0 ? "about" : "at",
