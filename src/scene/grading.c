@@ -157,7 +157,7 @@ static bool lay_knots(struct grading *grading, const double *spacing, double sum
     grading->stretch = array_new(cells + 1, sizeof *grading->stretch);
     if (grading->place == NULL || grading->stretch == NULL) return false;
     grading->step = depth / (double)cells;
-    grading->surface = grading->largest = h;
+    grading->largest = h;
     grading->from = 0;
     for (size_t i = 0; i <= cells; i++) {
         grading->stretch[i] = (1 + part * (spacing[i] - 1)) * h / grading->step;

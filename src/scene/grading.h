@@ -15,7 +15,7 @@ struct grading {
     size_t cells;                   /* over depth */
     double low, step;               /* of zeta: from the plane of the upper face on */
     double *place, *stretch;        /* [cells + 1] z and Z' at the knots */
-    double surface, largest;        /* distance of points over depth there, and the largest */
+    double largest;                 /* distance of points over depth */
     double from;                    /* depth where it begins to grow */
 };
 

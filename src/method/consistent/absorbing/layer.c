@@ -20,8 +20,7 @@ void layers_describe(const struct consistent *c,
             tell(context, key,
                  "none: no reflection can be seen by end_time (boundary%always = .true. keeps it)");
         if (c->layer[face] == 0) continue;
-        const double thickness = fabs((face % 2 == 0 ? c->spline[face / 2]->low : c->spline[face / 2]->high) -
-                                      face_plane(&scene->body, (enum face)face));
+        const double thickness = (double)c->layer[face] * layer_spacing(scene, face);
         int used =
             snprintf(text, sizeof text, "C-PML, %zu points, thickness %.4g", c->layer[face], thickness);
         if (cutoff > 0 && isfinite(cutoff))
