@@ -37,9 +37,13 @@ static void look_at_resolution(struct adviser *adviser)
 /* exp(-(x/w)^2 / 2) has 5 % of its spectrum left at k w = 2.448, a wave of 2.567 w. */
 static void look_at_start(struct adviser *adviser)
 {
-    const struct initial *initial = &adviser->scene->initial;
-    const double spacing = adviser->scene->body.spacing;
-    double wave = 0.0;
+    const struct scene *scene = adviser->scene;
+    const struct initial *initial = &scene->initial;
+    double wave = 0.0, centre[3];
+    body_from_deck(&scene->body, initial->centre, centre);
+    if (initial->kind == INITIAL_PLANE_WAVE) /* anywhere */
+        memcpy(centre, scene->body.high, sizeof centre);
+    const double spacing = body_spacing_at(&scene->body, centre);
     if (initial->kind == INITIAL_PLANE_WAVE) wave = initial->wavelength;
     if (initial->kind == INITIAL_GAUSSIAN) wave = 2.567 * initial->width;
     if (wave > 0.0 && spacing > 0.0 && wave < fewest * spacing)

@@ -8,8 +8,7 @@ enum { WORTH = 2 }; /* times as many points as the short body has are in the who
 
 size_t short_body_lost(const struct scene *scene, int axis, size_t cells, size_t longest)
 {
-    const struct body *body = &scene->body;
-    if (body->topography != NULL || body->grading != NULL || ground_varies(scene, axis)) return 0;
+    if (scene->body.topography != NULL || ground_varies(scene, axis)) return 0;
     return cells > longest ? cells - longest : 0;
 }
 
