@@ -133,6 +133,36 @@ static void test_rigid_motions(void **state)
     }
 }
 
+/* Where the spacing has not grown yet the ground at the points is that of an even lattice, normals of interfaces too. */
+static void test_ground(void **state)
+{
+    (void)state;
+    for (int deck = 0; deck < DECKS; deck++) {
+        struct made graded = make_deck(decks[deck]);
+        struct from_deck even = from_text(decks[deck], 1, (const char *const[]){"body%grading=1"});
+        struct messages messages = {0};
+        struct model *model = NULL;
+        assert_int_equal(model_create(even.scene, &model, &messages), SELAS_OK);
+        for (int f = 0; f < 3; f++) {
+            const struct family *one = &consistent_of(graded.run.model)->general->family[f];
+            const struct family *other = &consistent_of(model)->general->family[f];
+            const size_t rows = 4 * one->n[1], points = rows * one->n[0];
+            double most[2] = {0, 0};
+            for (size_t i = 0; i < points; i++)
+                most[0] = fmax(most[0], fabs(one->mu[i] / other->mu[i] - 1));
+            assert_int_equal(one->first_run[rows], other->first_run[rows]);
+            const size_t numbers = one->run[one->first_run[rows]].at;
+            assert_true(numbers > 0);
+            for (size_t i = 0; i < numbers; i++)
+                most[1] = fmax(most[1], fabs(one->stiffness[i] - other->stiffness[i]) / other->mu[0]);
+            assert_true(most[0] < 1e-12 && most[1] < 1e-12);
+        }
+        model_free(&model);
+        from_deck_free(&even);
+        made_free(&graded);
+    }
+}
+
 static void test_symmetric(void **state)
 {
     (void)state;
@@ -313,7 +343,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_map),         cmocka_unit_test(test_rigid_motions),
-        cmocka_unit_test(test_symmetric),   cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_ground),      cmocka_unit_test(test_symmetric),   cmocka_unit_test(test_steps),
         cmocka_unit_test(test_mass),        cmocka_unit_test(test_even_strain),
         cmocka_unit_test(test_threads),     cmocka_unit_test(test_layers_are_quiet),
         cmocka_unit_test(test_refusals),

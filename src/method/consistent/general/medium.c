@@ -336,6 +336,8 @@ void medium_point(const struct medium *medium, size_t i, size_t j, const struct 
                   struct averaged *averaged)
 {
     *averaged = medium->point[j * medium->along[0].points + i];
+    if (medium->c->model.scene->body.grading != NULL) /* from rises a cell */
+        averaged->rise[DEPTH] *= medium->along[0].spacing / depth_spacing(medium);
     metric_tilt(metric, averaged->rise);
     for (int n = 0; n < POSITIVE; n++) {
         if (averaged->mean[n] < least_part * averaged->least[n])
