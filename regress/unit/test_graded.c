@@ -9,20 +9,19 @@
 
 #include <omp.h>
 
-#define ROCKS                                                                                                 \
-    "&material name = 'soil', density = 1, p_speed = .9, s_speed = .5 /\n"                                    \
+#define ROCKS                                                                                                \
+    "&material name = 'soil', density = 1, p_speed = .9, s_speed = .5 /\n"                                   \
     "&material name = 'rock', density = 1.3, p_speed = 2.6, s_speed = 1.5 /\n"
-#define FLAT                                                                                                  \
-    "&scene dimension = 3, end_time = 1 /\n&method operator = 'general' /\n" ROCKS                            \
-    "&body low = 0, 0, 0, high = 1.5, 1.25, 5, spacing = .25, grading = 3 /\n"                                \
-    "&layer material = 'soil', top = 0 /\n&layer material = 'rock', top = .6 /\n"                             \
+#define FLAT                                                                                                 \
+    "&scene dimension = 3, end_time = 1 /\n&method operator = 'general' /\n" ROCKS                           \
+    "&body low = 0, 0, 0, high = 1.5, 1.25, 5, spacing = .25, grading = 3 /\n"                               \
+    "&layer material = 'soil', top = 0 /\n&layer material = 'rock', top = .6 /\n"                            \
     "&load face = 'z-', shape = 'face', direction = 0, 0, 1, history = 'triangle', duration = 1 /\n"
-#define HILLY                                                                                                 \
-    FLAT "&topography shape = 'gaussian', height = .3, centre = .7, .6, width = .5, depth = 2 /\n"
-#define PLANE                                                                                                 \
-    "&scene dimension = 2, end_time = 1 /\n&method operator = 'general' /\n" ROCKS                            \
-    "&body material = 'soil', low = 0, 0, high = 2, 6, spacing = .25, grading = 2.5 /\n"                      \
-    "&block material = 'rock', centre = 1, 4, size = 9, 6 /\n"                                                \
+#define HILLY FLAT "&topography shape = 'gaussian', height = .3, centre = .7, .6, width = .5, depth = 2 /\n"
+#define PLANE                                                                                                \
+    "&scene dimension = 2, end_time = 1 /\n&method operator = 'general' /\n" ROCKS                           \
+    "&body material = 'soil', low = 0, 0, high = 2, 6, spacing = .25, grading = 2.5 /\n"                     \
+    "&block material = 'rock', centre = 1, 4, size = 9, 6 /\n"                                               \
     "&load face = 'y-', shape = 'face', direction = 0, 1, history = 'triangle', duration = 1 /\n"
 static const char *const decks[] = {FLAT, HILLY, PLANE};
 enum { DECKS = 3 };
@@ -70,7 +69,8 @@ static void test_map(void **state)
         for (double zeta = -.5; zeta < high + 1; zeta += .0137) {
             const double z = grading_real(grading, zeta), step = 1e-6;
             assert_near(grading_lattice(grading, z), zeta, 1e-13);
-            assert_near((grading_real(grading, zeta + step) - grading_real(grading, zeta - step)) / (2 * step),
+            assert_near((grading_real(grading, zeta + step) - grading_real(grading, zeta - step)) /
+                            (2 * step),
                         grading_stretch(grading, zeta), 1e-5);
             double place[3] = {.1, .1, .1}, speed[2];
             place[down] = fmin(fmax(z, 0), high);
@@ -242,8 +242,9 @@ static void strain_evenly(const struct consistent *c, double *y)
 static void test_even_strain(void **state)
 {
     (void)state;
-    struct made made = make_deck(FLAT "&load kind = 'moment-tensor', centre = .8, .6, 3.3, moment = 1, -2, .5, .3, .7, -.9,"
-                                      " history = 'triangle', duration = 1 /\n");
+    struct made made =
+        make_deck(FLAT "&load kind = 'moment-tensor', centre = .8, .6, 3.3, moment = 1, -2, .5, .3, .7, -.9,"
+                       " history = 'triangle', duration = 1 /\n");
     struct run *run = &made.run;
     struct consistent *c = consistent_of(run->model);
     strain_evenly(c, run->y);
@@ -252,7 +253,8 @@ static void test_even_strain(void **state)
     struct probe probe = {0};
     struct messages messages = {0};
     double stress[6], moved[3];
-    assert_int_equal(run->model->core->probe(run->model, (double[]){.7, .8, 3.1}, &probe, &messages), SELAS_OK);
+    assert_int_equal(run->model->core->probe(run->model, (double[]){.7, .8, 3.1}, &probe, &messages),
+                     SELAS_OK);
     run->model->core->observe(run->model, &probe, SELAS_STRESS, run->y, run->a, stress);
     assert_near(stress[2], rock->lambda * trace + 2 * rock->mu * strain_of[2][2], 1e-12);
     assert_near(stress[5], rock->mu * (strain_of[0][2] + strain_of[2][0]), 1e-12);
@@ -302,7 +304,8 @@ static void test_threads(void **state)
     double *kept = NULL;
     for (int threads = 1; threads <= 3; threads += 2) {
         omp_set_num_threads(threads);
-        struct from_deck from = from_text(FLAT, 2, (const char *const[]){"body%high=5.75,4.75,5", "method%symmetry=F"});
+        struct from_deck from =
+            from_text(FLAT, 2, (const char *const[]){"body%high=5.75,4.75,5", "method%symmetry=F"});
         struct run run = {0};
         struct messages messages = {0};
         assert_non_null(from.scene);
@@ -321,16 +324,19 @@ static void test_refusals(void **state)
 {
     (void)state;
     assert_refused("&scene dimension = 2, end_time = 1 /\n" ROCKS
-                   "&body material = 'soil', low = 0, 0, high = 2, 6, spacing = .25, grading = 2, rotation = 0, 0, 30 /\n"
+                   "&body material = 'soil', low = 0, 0, high = 2, 6, spacing = .25, grading = 2, rotation = "
+                   "0, 0, 30 /\n"
                    "&block material = 'rock', centre = 1, 4, size = 9, 6 /\n",
                    "t.nml:4:", (const char *const[]){"graded", "not turned", NULL});
-    struct from_deck even = right_scene("&scene dimension = 2, end_time = 1 /\n" ROCKS
-                                        "&body material = 'soil', low = 0, 0, high = 2, 6, spacing = .25, grading = 2 /\n"
-                                        "&block material = 'rock', centre = 1, 2, size = 9, 2 /\n");
+    struct from_deck even =
+        right_scene("&scene dimension = 2, end_time = 1 /\n" ROCKS
+                    "&body material = 'soil', low = 0, 0, high = 2, 6, spacing = .25, grading = 2 /\n"
+                    "&block material = 'rock', centre = 1, 2, size = 9, 2 /\n");
     assert_null(even.scene->body.grading); /* soil again below the rock */
     assert_non_null(strstr(even.messages.text, "stays even"));
     from_deck_free(&even);
-    struct from_deck sides = right_scene(PLANE "&load face = 'x+', shape = 'face', direction = 1, 0, history = 'triangle', duration = 1 /\n");
+    struct from_deck sides = right_scene(
+        PLANE "&load face = 'x+', shape = 'face', direction = 1, 0, history = 'triangle', duration = 1 /\n");
     struct model *model = NULL;
     struct messages messages = {0};
     assert_int_equal(model_create(sides.scene, &model, &messages), SELAS_UNSUPPORTED);
@@ -342,10 +348,15 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_map),         cmocka_unit_test(test_rigid_motions),
-        cmocka_unit_test(test_ground),      cmocka_unit_test(test_symmetric),   cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_mass),        cmocka_unit_test(test_even_strain),
-        cmocka_unit_test(test_threads),     cmocka_unit_test(test_layers_are_quiet),
+        cmocka_unit_test(test_map),
+        cmocka_unit_test(test_rigid_motions),
+        cmocka_unit_test(test_ground),
+        cmocka_unit_test(test_symmetric),
+        cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_mass),
+        cmocka_unit_test(test_even_strain),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_layers_are_quiet),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

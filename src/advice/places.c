@@ -41,7 +41,8 @@ void look_at_nearness(struct adviser *adviser)
         }
     if (wanted == 0.0) return;
     char finer[64] = "";
-    if (least > 0.01) snprintf(finer, sizeof finer, ", or body%%spacing = %.3g,", least * scene->body.spacing);
+    if (least > 0.01)
+        snprintf(finer, sizeof finer, ", or body%%spacing = %.3g,", least * scene->body.spacing);
     advise(adviser,
            "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
            "%.0f spacings (%.3g) velocities may be some per cent wrong; a receiver farther off%s would do",

@@ -7,9 +7,9 @@
 #include "scene/absorbing_layers.h"
 #include "scene/build.h"
 #include "scene/echo.h"
+#include "scene/grading.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
-#include "scene/grading.h"
 #include "scene/topography.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
 #include "base/processor.h"
 #include "parallel/ranks.h"
 #include "scene/absorbing_layers.h"
-#include "scene/resolution.h"
 #include "scene/grading.h"
+#include "scene/resolution.h"
 #include "scene/topography.h"
 #include "scene/units.h"
 
@@ -98,7 +98,8 @@ static void say_grading(const struct teller *teller, const struct body *body)
     const struct grading *grading = body->grading;
     if (grading == NULL) return;
     say(teller, "spacing over depth",
-        "%.4g down to a depth of %.4g, then growing to %.4g, by no more than the slowest wave there and below is "
+        "%.4g down to a depth of %.4g, then growing to %.4g, by no more than the slowest wave there and "
+        "below is "
         "longer; %zu cells, an even lattice has %.0f",
         body->spacing, grading->from, grading->largest, grading->cells,
         (body->high[grading->axis] - body->low[grading->axis]) / body->spacing);

@@ -123,7 +123,8 @@ size_t layer_points(const struct scene *scene, int face)
     if (!layer_asked(scene, face) || layer_unneeded(scene, face)) return 0;
     if (boundary->layer_points > 0) return (size_t)boundary->layer_points;
     if (boundary->layer_thickness > 0)
-        return within_limits(ceil(boundary->layer_thickness / layer_spacing(scene, face) - 1e-9), LEAST_POINTS);
+        return within_limits(ceil(boundary->layer_thickness / layer_spacing(scene, face) - 1e-9),
+                             LEAST_POINTS);
     if (boundary->layer_reflection > 0)
         return within_limits(ceil(log(measured_part / boundary->layer_reflection) / decay_per_point - 1e-9),
                              LEAST_POINTS);

@@ -110,8 +110,7 @@ static bool find_slowest(const struct scene *scene, struct slowest *found)
         for (size_t n = 0; n < columns[0] * columns[1]; n++) {
             double place[3] = {body->low[0] + (double)(n % columns[0]) * body->spacing,
                                body->low[1] + (double)(n / columns[0]) * body->spacing, 0};
-            found->speed[k] =
-                fmin(found->speed[k], slowest_in(scene, place, from, from + found->step, jump));
+            found->speed[k] = fmin(found->speed[k], slowest_in(scene, place, from, from + found->step, jump));
         }
     }
     array_free(jump);

@@ -12,17 +12,18 @@
 
 struct grading {
     int axis;
-    size_t cells;                   /* over depth */
-    double low, step;               /* of zeta: from the plane of the upper face on */
-    double *place, *stretch;        /* [cells + 1] z and Z' at the knots */
-    double largest;                 /* distance of points over depth */
-    double from;                    /* depth where it begins to grow */
+    size_t cells;            /* over depth */
+    double low, step;        /* of zeta: from the plane of the upper face on */
+    double *place, *stretch; /* [cells + 1] z and Z' at the knots */
+    double largest;          /* distance of points over depth */
+    double from;             /* depth where it begins to grow */
 };
 
 /* Of all of these NULL is an even lattice. */
 double grading_real(const struct grading *grading, double lattice);
 double grading_lattice(const struct grading *grading, double real);
-double grading_stretch(const struct grading *grading, double lattice); /* Z', beyond the ends that of the end */
+double grading_stretch(const struct grading *grading,
+                       double lattice); /* Z', beyond the ends that of the end */
 void grading_free(struct grading *grading);
 
 /* Lays body.grading for body.most_stretch and the scene's ground anew; an even lattice where the rock gives no reason

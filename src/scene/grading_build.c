@@ -8,7 +8,8 @@
 static bool check_body(struct builder *builder, const struct deck_group *group)
 {
     const struct body *body = &builder->scene->body;
-    if (builder->scene->dimension > 1 && body_is_box(body) && !body->rotated && body->jitter == 0) return true;
+    if (builder->scene->dimension > 1 && body_is_box(body) && !body->rotated && body->jitter == 0)
+        return true;
     complain(builder, group, "grading",
              "a spacing graded over depth needs two or three dimensions and a body of shape 'box' or "
              "'half-space', not turned and without jitter");
@@ -28,12 +29,14 @@ void build_grading(struct builder *builder)
     }
     if (body->grading != NULL) return;
     if (body->topography != NULL)
-        deck_warning(builder->deck, group, "grading", builder->messages,
-                     "the spacing over depth stays even: it may grow below rock that is slower than all further "
-                     "down, and below topography%%depth = %g",
-                     body->topography->depth);
+        deck_warning(
+            builder->deck, group, "grading", builder->messages,
+            "the spacing over depth stays even: it may grow below rock that is slower than all further "
+            "down, and below topography%%depth = %g",
+            body->topography->depth);
     else
-        deck_warning(builder->deck, group, "grading", builder->messages,
-                     "the spacing over depth stays even: it may grow below rock that is slower than all further "
-                     "down, and there is none far enough above the bottom");
+        deck_warning(
+            builder->deck, group, "grading", builder->messages,
+            "the spacing over depth stays even: it may grow below rock that is slower than all further "
+            "down, and there is none far enough above the bottom");
 }

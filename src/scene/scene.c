@@ -2,8 +2,8 @@
  * their place in the deck; the parts go on after an error, so that all errors come in one pass. */
 #include "base/memory.h"
 #include "scene/build.h"
-#include "scene/ground.h"
 #include "scene/grading.h"
+#include "scene/ground.h"
 #include "scene/topography.h"
 
 #include <ctype.h>

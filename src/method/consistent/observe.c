@@ -5,9 +5,9 @@
 #include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"
+#include "scene/grading.h"
 #include "scene/ground.h"
 #include "scene/initial.h"
-#include "scene/grading.h"
 
 #include <string.h>
 

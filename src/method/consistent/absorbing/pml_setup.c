@@ -43,7 +43,8 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     const double thickness = slab->end == 0 ? edge - spline->low : spline->high - edge;
     const double reflection = layer_profile_reflection(c->layer[face]);
     const double fastest = consistent_fastest(c, face);
-    const double stretch = slot == DEPTH ? grading_stretch(body->grading, edge) : 1; /* even beyond the face */
+    const double stretch =
+        slot == DEPTH ? grading_stretch(body->grading, edge) : 1; /* even beyond the face */
     const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness * stretch);
     slab->most = most;
     slab->edge = edge;

@@ -180,7 +180,8 @@ static bool lay_planes(struct consistent *c)
             if (c->damped[face] && ground_is_general(scene)) mean_speeds(c, face, k, speed);
             if (c->slot[face / 2] == DEPTH) /* R has the Jacobian, the area of this face has not */
                 for (int s = 0; s < 2; s++)
-                    speed[s] /= grading_stretch(scene->body.grading, face_plane(&scene->body, (enum face)face));
+                    speed[s] /=
+                        grading_stretch(scene->body.grading, face_plane(&scene->body, (enum face)face));
             for (int component = 0; component < c->dimension; component++)
                 c->speed[face][component][k] = component == face / 2 ? boundary->normal_factor * speed[0]
                                                                      : boundary->shear_factor * speed[1];

@@ -66,8 +66,8 @@ static bool lay_axis(struct consistent *c, int slot)
                 lay_taps(spline, odd, general_place(c, slot, (enum at)at, i), &taps[i]);
                 if (slot != DEPTH) continue;
                 taps[i].first -= c->part.first;
-                const double stretch = grading_stretch(c->model.scene->body.grading,
-                                                       general_place(c, slot, (enum at)at, i));
+                const double stretch =
+                    grading_stretch(c->model.scene->body.grading, general_place(c, slot, (enum at)at, i));
                 for (size_t d = 0; d < taps[i].count; d++) /* (G19) */
                     taps[i].slope[d] /= stretch;
             }
