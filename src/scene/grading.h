@@ -3,8 +3,8 @@
  *
  *   z = Z(zeta),   Z' straight from knot to knot,                                                       (G18)
  *
- * a spline of degree 2 with the knots of the lattice; lattice_from_deck() and lattice_to_deck() go through the map. Z is
- * a depth of the body's own frame, that of level ground. */
+ * a spline of degree 2 with the knots of the lattice; lattice_from_deck() and lattice_to_deck() go through the map.
+ * Z is a depth of the body's own frame, that of level ground. */
 #ifndef SELAS_SCENE_GRADING_H
 #define SELAS_SCENE_GRADING_H
 

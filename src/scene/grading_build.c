@@ -2,7 +2,6 @@
 #include "scene/build.h"
 #include "scene/grading.h"
 #include "scene/ground.h"
-#include "scene/topography.h"
 
 /* What cannot have it. */
 static bool check_body(struct builder *builder, const struct deck_group *group)
@@ -27,16 +26,9 @@ void build_grading(struct builder *builder)
         builder->status = fail(builder->messages, SELAS_NO_MEMORY, "no memory for a graded lattice");
         return;
     }
-    if (body->grading != NULL) return;
-    if (body->topography != NULL)
+    if (body->grading == NULL)
         deck_warning(
             builder->deck, group, "grading", builder->messages,
-            "the spacing over depth stays even: it may grow below rock that is slower than all further "
-            "down, and below topography%%depth = %g",
-            body->topography->depth);
-    else
-        deck_warning(
-            builder->deck, group, "grading", builder->messages,
-            "the spacing over depth stays even: it may grow below rock that is slower than all further "
-            "down, and there is none far enough above the bottom");
+            "the spacing over depth stays even: it may grow where all rock further down is faster than the "
+            "slowest, some cells below that, and with &topography below topography%%depth");
 }
