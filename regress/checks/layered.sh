@@ -30,3 +30,50 @@ check "and its plan says that splines are tuned" grep -q '^splines along the sur
 run plain method%tuned=F
 check "without tuned splines v_z at r2 errs by $(error plain r2), more than twice that" \
     less "$(error default r2)" "$(awk -v e="$(error plain r2)" 'BEGIN { print e / 2 }')"
+
+# A strip on layers in the plane (general operator) against a slice of three dimensions between symmetry planes (the
+# layered one): two operators, one body. The same tilted one way and the other are mirror images.
+deck() { # deck DIMENSION LOW HIGH FACE CENTRE SIZE DIRECTION Y: receivers at x, Y, depth
+    cat <<END
+&scene dimension = $1, end_time = 4.5 /
+&stepping time_step = 0.012 /
+&material name = 'soil', density = 1.0, p_speed = 2.0, s_speed = 1.0 /
+&material name = 'rock', density = 1.3, p_speed = 4.0, s_speed = 2.0 /
+&body low = $2, high = $3, spacing = 0.125 /
+&layer material = 'soil', top = 0.0 /
+&layer material = 'rock', top = 0.93 /
+&load face = '$4', shape = 'square', centre = $5, size = $6, direction = $7, history = 'gaussian', width = 0.4, delay = 2.0 /
+&receiver name = 'r1', position = 1.0, $8 0.0 /
+&receiver name = 'r2', position = -1.0, $8 0.0 /
+&receiver name = 'r3', position = 1.5, $8 1.5 /
+&output plots = .false. /
+END
+}
+history() { grep -v '^#' "$out/$1/$2.dat"; }
+far() { # far RUN RECEIVER COLUMN RUN RECEIVER COLUMN [SIGN]: relative L2 of the first against the second
+    { history "$4" "$5"; echo; history "$1" "$2"; } | awk -v one="$3" -v other="$6" -v sign="${7:-1}" '
+        NF == 0 { n = 0; second = 1; next }
+        !second { want[++n] = $other; t[n] = $1; next }
+        { n++; if ($1 != t[n]) exit; d += ($one - sign * want[n])^2; s += want[n]^2 }
+        END { if (n > 1 && s > 0) print sqrt(d / s) }'
+}
+deck 2 '-3.0, 0.0' '3.0, 3.0' y- '0.0, 0.0' 1.0 '0.0, 1.0' '' >"$out/plane.nml"
+deck 3 '-3.0, 0.0, 0.0' '3.0, 0.75, 3.0' z- '0.0, 0.0, 0.0' '1.0, 100.0' '0.0, 0.0, 1.0' '0.25,' >"$out/slice.nml"
+echo "&boundary face = 'y-', 'y+', kind = 'symmetry' /" >>"$out/slice.nml"
+"$build/selas" -q "$out/plane.nml" output%directory="$out/plane"
+"$build/selas" -q "$out/slice.nml" method%degree=2 method%mass=vc3 output%directory="$out/slice"
+for receiver in r1 r3; do
+    for pair in 'vx 5 5' 'vz 6 7'; do
+        # shellcheck disable=SC2086 # a name and two columns
+        set -- $pair
+        off=$(far plane $receiver "$2" slice $receiver "$3")
+        check "strip on layers in the plane against three dimensions, $receiver $1: $off apart, less than .005" less "$off" 0.005
+    done
+done
+for strike in -90 90; do
+    "$build/selas" -q "$out/plane.nml" 'layer(2)%dip=10' "layer(2)%strike=$strike" output%directory="$out/dip$strike" ||
+        echo "not ok - tilted layers in the plane, strike $strike"
+done
+off=$(far dip90 r1 5 dip-90 r2 5 -1)
+check "layers that dip towards x and towards -x are mirror images: $off apart" less "$off" 1e-10
+check 'and neither is the level one' less 0.01 "$(far dip90 r1 5 plane r1 5)"

@@ -2,14 +2,13 @@
  * sections 2 to 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
 #include "scene/ground.h"
+#include "accuracy/ground_range.h"
 #include "accuracy/ground_task.h"
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
 #include "base/memory.h"
-#include "damping/ground.h"
 #include "exact/half_space.h"
 #include "scene/absorbing_layers.h"
-#include "scene/echo.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,40 +21,10 @@ static const double SLOWLY = 1.1;
 static const double TRIAL_RATIO = 1.5, TRIAL_WORK = 1e9, MEASURED_AIM = .55, MEASURED_MOST = .85;
 enum { ROWS = SURFACE_ROWS };
 
-/* The faces of a box that stands for a half-space: the loaded one free, the others mirrors, absorbing layers
- * or so far away that what they send back is too late. */
-static const char *faces_refusal(const struct scene *scene)
-{
-    struct scene seen = *scene;
-    seen.snapshots = 0; /* the error is that at the receivers */
-    if (!boundary_is_free(&scene->boundary[FACE_Z_LOW])) return "half-spaces with a free surface";
-    for (int face = 0; face < FACE_Z_HIGH + 1; face++) {
-        const struct boundary *boundary = &scene->boundary[face];
-        if (face == FACE_Z_LOW || boundary_mirrors(boundary) || boundary_has_layer(boundary)) continue;
-        if (scene->body.absorbing && !boundary->given) continue;
-        if (!scene->body.chosen && echo_seen(&seen, face, 0))
-            return "boxes with faces that absorb by layers (layer = 'pml'), are symmetry planes, or stand so "
-                   "far away that nothing comes back before end_time";
-    }
-    return NULL;
-}
-
 static bool looks_like(const struct scene *scene)
 {
     return scene->dimension == 3 && scene->loads > 0 && scene->initial.kind == INITIAL_REST &&
            scene->load[0].shape != LOAD_FACE;
-}
-
-static const char *refusal(const struct scene *scene)
-{
-    if (!body_is_box(&scene->body)) return "half-spaces and boxes";
-    if (ground_is_general(scene)) return "level layers of one material each, without &model and &block";
-    if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
-    for (size_t k = 0; k < scene->loads; k++) {
-        if (scene->load[k].shape == LOAD_FACE) return "loads on a square or a disc or at points";
-        if (load_moves(&scene->load[k])) return "loads that do not move";
-    }
-    return faces_refusal(scene);
 }
 
 static double worst(const struct scene *scene, const struct surface_place *place, double h,
@@ -107,31 +76,6 @@ static double quiet_spacing(const struct scene *scene, const struct surface_plac
         finer = dividing_spacing(&scene->body, 3, .999 * finer);
     }
     return h;
-}
-
-/* What the law was measured for (section 3): beyond, only a trial can tell. NULL, or what lies outside. */
-static const char *range_refusal(const struct scene *scene)
-{
-    static const double low = .1, high = .4; /* of Poisson's ratio */
-    if (ground_is_damped(scene)) return "materials without q_p and q_s";
-    for (size_t m = 0; m < scene->materials; m++) {
-        const double ratio = pow(scene->material[m].p_speed / scene->material[m].s_speed, 2);
-        const double nu = (ratio - 2) / (2 * ratio - 2);
-        if (nu < low - 1e-6 || nu > high + 1e-6) return "Poisson's ratios of .1 to .4";
-    }
-    return points_act(scene) ? "loads on a square or a disc" : NULL;
-}
-
-static selas_status check_range(const struct scene *scene, double h, struct messages *messages)
-{
-    const char *why = range_refusal(scene);
-    if (why == NULL) return SELAS_OK;
-    return fail(
-        messages, SELAS_BAD_SCENE,
-        "scene%%accuracy: a spacing near %.2g is needed, which is too much for a trial run, and without one "
-        "errors are known only for %s; a larger accuracy, receivers farther from the rim of a patch, or "
-        "body%%spacing in place of accuracy would do",
-        h, why);
 }
 
 /* Points times steps, those of absorbing layers counted as in the choice of a box. */
@@ -271,9 +215,9 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
         struct surface_place *place = &task->place[i];
         place->tried = 0;
         place->factor *= fmax(error[i], 1e-9) / surface_error(place, h, task->scene->end_time, ground);
-        if (!points_act(task->scene)) continue;
         place->tried = h;
         place->reached = error[i];
+        place->order = ground_order(task->scene);
     }
     scene_free(&scene);
     messages_free(&unsaid);
@@ -331,7 +275,7 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
     }
     if (status == SELAS_OK && trial->run != NULL)
         status = narrow(task, &ground, trial, choice, most, &h, &tried, messages);
-    if (status == SELAS_OK && tried == 0) status = check_range(scene, h, messages);
+    if (status == SELAS_OK && tried == 0) status = ground_in_range(scene, h, messages);
     if (status != SELAS_OK) return status;
     set_choice(task, &ground, h, choice);
     char how[48] = "predicted";
@@ -373,7 +317,7 @@ bool ground_outlook(const struct scene *scene, struct ground_outlook *outlook)
     struct messages unsaid = {0};
     struct task task;
     if (!looks_like(scene) || accuracy_refusal(&accuracy_ground, scene) != NULL) return false;
-    if (!measured_setting(scene) || range_refusal(scene) != NULL) return false;
+    if (!measured_setting(scene) || ground_range_refusal(scene) != NULL) return false;
     if (scene->body.layers > 0) return false; /* exact histories take seconds there */
     if (few.receivers > ENOUGH) few.receivers = ENOUGH;
     bool known = begin_task(&few, &task, &unsaid) == SELAS_OK;
@@ -394,6 +338,6 @@ const struct accuracy_kind accuracy_ground = {
     .looks_like = looks_like,
     .variant = "consistent",
     .served = "method 'smoothed-point', variant 'consistent'",
-    .refusal = refusal,
+    .refusal = ground_refusal,
     .choose = choose_for,
 };

@@ -37,8 +37,6 @@ static const struct law tuned = {61.3, 5.05, 2.74, 0.12, 0.000202, 6.44, 5.74e-6
 /* What a frequency that the lattice cannot carry errs, relative. */
 static const double LARGEST = 1.22;
 static const double RIM = .2, RIM_REACH = 1.5, RIM_ORDER = 4.2; /* (1a) */
-/* Under forces and moment tensors at a point errors fall as h^3.5 to h^4 (measured): no trial promises more. */
-static const double POINT_ORDER = 4;
 static const double BURIED = 0.6; /* receivers in the ground err less (measured) */
 /* A surface wave feels the ground down to some wavelengths: its slowness is the mean of the layers', each
  * weighted by exp(-depth / (FELT wavelength)) over its depth. */
@@ -107,5 +105,5 @@ double surface_error(const struct surface_place *place, double h, double end_tim
     const double law_error =
         place->factor * sqrt(error / whole) * (place->depth > .5 * place->size ? BURIED : 1);
     if (h >= place->tried) return law_error;
-    return fmax(law_error, place->reached * pow(h / place->tried, POINT_ORDER));
+    return fmax(law_error, place->reached * pow(h / place->tried, place->order));
 }

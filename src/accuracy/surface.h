@@ -14,7 +14,8 @@ struct surface_place {
     double diagonal;       /* 0 along an axis of the lattice, 1 halfway between two */
     double depth;
     double factor;         /* of what the law says: 1, or what a trial has measured */
-    double tried, reached; /* under point sources: a trial's spacing (0: none) and the error there */
+    double tried, reached; /* a trial's spacing (0: none) and the error there, which falls ... */
+    double order;          /* ... with this power of the spacing at most */
     double *power; /* [SURFACE_ROWS / 2 + 1] sum over components of |V|^2 at 2 pi j / (1.25 end_time) */
 };
 

@@ -212,7 +212,7 @@ static const struct word layer_words[] = {
      "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},
     {"strike", WORD_REAL, 1, "0", NULL, OPTIONAL,
      "direction along which a tilted face is level, from x towards y; it deepens to the right of it, "
-     "towards strike + 90 [degrees]"},
+     "towards strike + 90; in two dimensions -90, its default there, or 90 [degrees]"},
     {"bottom", WORD_TEXT, 1, NULL, NULL, OPTIONAL,
      "name of a material whose speeds and density the layer reaches at its lower face, going evenly with "
      "depth (consistent, operator 'general'); else the same throughout"},

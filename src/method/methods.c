@@ -69,7 +69,7 @@ static selas_status check_abilities(const struct method *method, const struct sc
     if (ranks_count(scene->ranks) > 1 && !method->ranks)
         return fail(messages, SELAS_UNSUPPORTED,
                     "%s runs on one rank: start it without mpirun; 'smoothed-point', 'consistent' and 'sph', "
-                    "'total-lagrangian' run on many",
+                    "'total-lagrangian' and 'updated-lagrangian' run on many",
                     name);
     if (deck_chosen(group, "precision", "single") && !method->single)
         return deck_error(scene->deck, group, "precision", messages,
@@ -90,9 +90,9 @@ static selas_status check_abilities(const struct method *method, const struct sc
                     name, other->name, other->variant);
     if (ground_needs_general(scene) && !method->any_ground)
         return fail(messages, SELAS_UNSUPPORTED,
-                    "%s takes no &model, no &block, no &topography, no tilted or graded &layer and no "
-                    "body%%grading; expected "
-                    "'smoothed-point', 'consistent'",
+                    "%s takes no &model, no &block, no &topography, no body%%grading and no &layer that is "
+                    "tilted, graded or in two "
+                    "dimensions; expected 'smoothed-point', 'consistent'",
                     name);
     return scene_check_faces(scene, method->faces, name, messages);
 }

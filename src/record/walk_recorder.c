@@ -65,7 +65,7 @@ static void pass_entries(struct walk *walk, struct recorder *recorder, size_t en
 static void pass_state(struct walk *walk, const struct recorder *recorder, struct state *state)
 {
     struct model *model = model_computed(recorder->model);
-    const bool shared = ranks_count(walk->ranks) > 1;
+    const bool shared = ranks_count(walk->ranks) > 1 && !model->replicated;
     struct spread shares = {0};
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);
     walk_shared(walk, "a", H5T_NATIVE_DOUBLE, 1, state->a, model->unknowns, shared ? &shares : NULL);

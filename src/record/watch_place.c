@@ -117,7 +117,7 @@ static void name_place(const struct recorder *recorder, const struct state *stat
     const struct model *model = recorder->model;
     struct found found;
     text[0] = '\0';
-    if (ranks_count(recorder->scene->ranks) > 1) {
+    if (ranks_count(recorder->scene->ranks) > 1 && !model->replicated) {
         name_rank(recorder, state, size, text);
         return;
     }

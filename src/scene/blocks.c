@@ -11,6 +11,7 @@ static void read_heights(struct builder *builder, const struct deck_group *group
 {
     static const char *const tilt_words[] = {"dip", "strike", NULL};
     static const double piece = 2; /* of the splines, in spacings */
+    const int axes = builder->scene->dimension - 1;
     const struct body *body = &builder->scene->body;
     struct messages said = {0};
     refuse(builder, group, tilt_words, "a layer whose upper face is from a file");
@@ -20,13 +21,13 @@ static void read_heights(struct builder *builder, const struct deck_group *group
     }
     char *path = deck_path(builder, deck_text(group, "file", 0));
     if (path != NULL && builder->body_known)
-        layer->map = height_map_read(path, 2, deck_real(group, "datum", 0), piece * body->spacing, &said);
+        layer->map = height_map_read(path, axes, deck_real(group, "datum", 0), piece * body->spacing, &said);
     if (path != NULL && builder->body_known && layer->map == NULL)
         complain_of_heights(builder, group, "file", &said);
     messages_free(&said);
     array_free(path);
     if (layer->map == NULL) return;
-    height_map_cover(layer->map, builder, group, 2);
+    height_map_cover(layer->map, builder, group, axes);
     layer->top -= height_map_centre(layer->map);
 }
 
@@ -40,7 +41,12 @@ void read_interface(struct builder *builder, const struct deck_group *group, str
     refuse(builder, group, file_words, "a layer without a file");
     const double degree = atan(1) / 45;
     const double dip = deck_real(group, "dip", 0) * degree;
-    const double towards = (deck_real(group, "strike", 0) + 90) * degree;
+    const bool in_plane = builder->scene->dimension == 2;
+    const double strike = in_plane && !deck_given(group, "strike") ? -90 : deck_real(group, "strike", 0);
+    if (in_plane && fabs(strike) != 90)
+        complain(builder, group, "strike",
+                 "in two dimensions faces tilt along x; expected -90 (deeper towards x, the default) or 90");
+    const double towards = (strike + 90) * degree;
     layer->slope[0] = tan(dip) * cos(towards);
     layer->slope[1] = tan(dip) * sin(towards);
     for (int axis = 0; axis < 2; axis++) /* along an axis: what rounding left of 0 */

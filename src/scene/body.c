@@ -282,7 +282,8 @@ static void read_layer(struct builder *builder, const struct deck_group *group, 
     layer->top = deck_real(group, "top", 0);
     read_interface(builder, group, layer);
     read_grade(builder, group, layer);
-    const double depth = scene->body.high[2] - scene->body.low[2];
+    const int last = scene->dimension - 1;
+    const double depth = scene->body.high[last] - scene->body.low[last];
     if (builder->body_known && layer->top >= depth)
         complain(builder, group, "top", "the layer begins at depth %g, below the body; expected less than %g",
                  layer->top, depth);
@@ -314,8 +315,8 @@ void build_layers(struct builder *builder)
     if (deck_count(builder->deck, "body") == 0) return;
     const struct deck_group *group = deck_get(builder->deck, "body", 0);
     const selas_status before = builder->status;
-    if (count > 0 && scene->dimension != 3) {
-        complain(builder, deck_get(builder->deck, "layer", 0), NULL, "layers need scene%%dimension = 3");
+    if (count > 0 && scene->dimension == 1) {
+        complain(builder, deck_get(builder->deck, "layer", 0), NULL, "layers need scene%%dimension = 2 or 3");
         return;
     }
     if (count > 0) {

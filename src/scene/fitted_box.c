@@ -315,7 +315,12 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
         return refuse_box(builder, "body", 0, NULL, text);
     }
     keep(why == NULL && small_cost < large_cost ? &sketch->body : &large, &large, &held, body);
-    if (body->absorbing)
+    if (held.whole)
+        snprintf(body->choice, sizeof body->choice,
+                 "absorbing layers around what is looked at: work as for %.3g points; all of the body is "
+                 "looked at, so in no box would nothing return",
+                 small_cost);
+    else if (body->absorbing)
         snprintf(body->choice, sizeof body->choice,
                  "%s: work as for %.3g points, against %.3g in a box so large that nothing returns before "
                  "end_time",

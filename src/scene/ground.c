@@ -244,14 +244,15 @@ bool ground_varies(const struct scene *scene, int axis)
 {
     const struct body *body = &scene->body;
     if (body->blocks > 0 || body->model != NULL) return true;
-    for (size_t i = 0; i < body->layers && axis < 2; i++)
+    for (size_t i = 0; i < body->layers && axis < scene->dimension - 1; i++)
         if (body->layer[i].slope[axis] != 0 || body->layer[i].map != NULL) return true;
     return axis == scene->dimension - 1 && body_is_layered(body);
 }
 
 bool ground_is_general(const struct scene *scene)
 {
-    bool general = scene->body.topography != NULL || ground_grades(scene) || scene->body.blocks > 0;
+    bool general = scene->body.topography != NULL || ground_grades(scene) || scene->body.blocks > 0 ||
+                   (scene->dimension == 2 && body_is_layered(&scene->body));
     for (int axis = 0; axis < scene->dimension - 1; axis++)
         general = general || ground_varies(scene, axis);
     return general;
@@ -260,6 +261,11 @@ bool ground_is_general(const struct scene *scene)
 bool ground_needs_general(const struct scene *scene)
 {
     return ground_is_general(scene) || scene->body.grading != NULL;
+}
+
+bool ground_has_depth(const struct scene *scene)
+{
+    return scene->dimension == 3 || scene->body.shape == BODY_HALF_SPACE || ground_is_general(scene);
 }
 
 bool ground_is_damped(const struct scene *scene)

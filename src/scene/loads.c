@@ -17,7 +17,7 @@ static int axes_of_face(enum face face, int dimension, int axes[2])
     return count;
 }
 
-static void read_size(struct builder *builder, const struct deck_group *group, struct load *load)
+static bool read_size(struct builder *builder, const struct deck_group *group, struct load *load)
 {
     const size_t count = deck_values(group, "size");
     const size_t wanted = load->shape == LOAD_DISC ? 1 : (size_t)builder->scene->dimension - 1;
@@ -26,10 +26,11 @@ static void read_size(struct builder *builder, const struct deck_group *group, s
                  "shape '%s' has %zu value%s of size; expected %zu: %s", deck_text(group, "shape", 0), count,
                  count == 1 ? "" : "s", wanted,
                  load->shape == LOAD_DISC ? "the diameter" : "the edges along the axes of the face");
-        return;
+        return false;
     }
     for (size_t i = 0; i < count; i++)
         load->size[i] = deck_real(group, "size", i);
+    return true;
 }
 
 static double half_patch(const struct load *load, int edge)
@@ -169,7 +170,7 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
         if (load->shape == LOAD_POINT)
             refuse(builder, group, size_words, "shape 'point'");
         else
-            read_size(builder, group, load);
+            known = read_size(builder, group, load) && known;
         if (known) place_patch(builder, group, load);
     }
     if (need_direction(builder, group, "direction", kinds[load->kind], load->direction) &&

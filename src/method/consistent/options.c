@@ -126,10 +126,9 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
     selas_status status = check_layers(scene, options, messages);
     if (status != SELAS_OK) return status;
     if (!options->general && ground_needs_general(scene))
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "&model, &block, &topography, tilted or graded &layer and body%%grading need method%%operator = "
-            "'general'");
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "&model, &block, &topography, body%%grading and &layer that is tilted, graded or in two "
+                    "dimensions need method%%operator = 'general'");
     if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }

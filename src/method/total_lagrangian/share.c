@@ -6,6 +6,7 @@
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include "base/memory.h"
+#include "parallel/few_ranks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -97,23 +98,6 @@ static void deal(const struct tl_model *tl, size_t ranks, size_t plane, size_t *
     bound[ranks] = tl->cloud->points;
 }
 
-static selas_status take_ranks(struct tl_model *tl, size_t planes, struct messages *messages)
-{
-    struct ranks *ranks = tl->part.ranks;
-    const int wanted = ranks_count(ranks);
-    if ((size_t)wanted <= planes) return SELAS_OK;
-    if (ranks_fixed(ranks))
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "%zu of the %d ranks of the communicator would have work: the body has %zu planes over its last "
-            "axis; open it with %zu ranks",
-            planes, wanted, planes, planes);
-    warn(messages, "%zu of %d ranks have work: the body has %zu planes over its last axis", planes, wanted,
-         planes);
-    ranks_take(ranks, (int)planes);
-    return ranks_idle(ranks) ? SELAS_STOPPED : SELAS_OK;
-}
-
 selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
 {
     struct tl_part *part = &tl->part;
@@ -122,7 +106,8 @@ selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
     if (ranks_count(tl->model.scene->ranks) == 1) return SELAS_OK;
     part->ranks = tl->model.scene->ranks;
     part->plane = grid[0] > 0 ? tl->cloud->points / grid[tl->cloud->dimension - 1] : 1;
-    const selas_status status = take_ranks(tl, tl->cloud->points / part->plane, messages);
+    const selas_status status =
+        ranks_at_most(part->ranks, tl->cloud->points / part->plane, "planes over its last axis", messages);
     if (status != SELAS_OK) return status;
     const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
     part->bound = array_new(ranks + 1, sizeof *part->bound);

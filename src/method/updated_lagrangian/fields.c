@@ -225,6 +225,8 @@ void updated_power(struct model *model, const struct drive *drive, const double 
 {
     const struct updated *updated = updated_of(model);
     const struct scene *scene = model->scene;
+    *load = *absorbed = 0;
+    if (!ranks_first(updated->part.ranks)) return; /* all have all */
     *load = updated_power_of_faces(updated, drive, y, absorbed);
     const size_t dimension = (size_t)updated->dimension;
     for (size_t k = 0; drive->load != NULL && k < scene->loads; k++) {
@@ -260,4 +262,5 @@ void updated_describe(const struct model *model,
     tell(context, "Jaumann rate", options->jaumann ? "on" : "off");
     snprintf(text, sizeof text, "%g", options->hourglass);
     tell(context, "hourglass control", options->hourglass > 0 ? text : "off");
+    updated_describe_part(updated, tell, context);
 }

@@ -30,9 +30,11 @@ void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
 
 static void all_rates(const struct updated *updated, const double *y, double *dydt)
 {
-    const size_t points = updated->cloud->points, blocks = (points + UPDATED_BLOCK - 1) / UPDATED_BLOCK;
+    const size_t points = updated->cloud->points;
+    size_t from, end;
+    updated_own_blocks(updated, &from, &end);
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
-    for (size_t block = 0; block < blocks; block++) {
+    for (size_t block = from; block < end; block++) {
         const size_t first = UPDATED_BLOCK * block;
         const size_t last = first + UPDATED_BLOCK < points ? first + UPDATED_BLOCK : points;
         taken_updated_rates()->of[updated->dimension - 1](updated, first, last, y, dydt);
@@ -62,12 +64,13 @@ void updated_rate(struct model *model, const struct drive *drive, const double *
     model->evaluations++;
     updated_fill(updated, drive, y);
     memcpy(dydt, y + unknowns, unknowns * sizeof *dydt);
-    if (updated->search_failed) {
+    if (updated->search_failed)
         for (size_t i = unknowns; i < model->state_size; i++)
             dydt[i] = NAN;
-        return;
-    }
-    all_rates(updated, y, dydt);
+    else
+        all_rates(updated, y, dydt);
+    updated_exchange(updated, dydt);
+    if (updated->search_failed) return;
     if (updated->hourglass != NULL) updated_add_hourglass(updated, y, dydt + unknowns);
     add_body_forces(updated, drive, y, dydt + unknowns);
 }

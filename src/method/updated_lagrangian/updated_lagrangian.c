@@ -174,6 +174,7 @@ static void destroy(struct model *model)
     array_free(updated->searched);
     array_free(updated->record);
     updated_hourglass_free(updated->hourglass);
+    updated_part_free(&updated->part);
     array_free(updated->planes);
     array_free(updated->shifts);
     array_free(updated->shift);
@@ -218,6 +219,7 @@ static selas_status build(struct updated *updated, struct messages *messages)
     status = choose_own_lengths(updated, messages);
     if (status == SELAS_OK) status = updated_ghosts_create(updated, messages);
     if (status == SELAS_OK) status = take_memory(updated, messages);
+    if (status == SELAS_OK) status = updated_share(updated, messages);
     if (status == SELAS_OK && (updated->options.hourglass > 0 || updated->options.adjoint))
         status = updated_hourglass_new(updated, messages);
     if (status == SELAS_OK) fill_public_face(updated);
@@ -314,5 +316,6 @@ const struct method method_updated_lagrangian = {
     .words = "kernel smoothing_length viscosity_alpha viscosity_beta artificial_stress gradient_correction "
              "jaumann forces hourglass",
     .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
+    .ranks = true,
     .create = create,
 };

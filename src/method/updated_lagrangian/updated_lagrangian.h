@@ -9,6 +9,7 @@
 #include "base/processor.h"
 #include "kernel/kernel.h"
 #include "model/model.h"
+#include "parallel/ranks.h"
 #include "points/cloud.h"
 #include "points/neighbours.h"
 
@@ -44,6 +45,13 @@ struct updated_layout {
 };
 
 struct updated_hourglass;
+
+/* Ranks have the whole state each, and work out the rates of some blocks of particles (share.c). */
+struct updated_part {
+    struct ranks *ranks; /* borrowed; NULL: alone */
+    size_t *bound;       /* [ranks + 1] first block of each rank */
+    struct ranks_piece *piece;
+};
 
 enum { UPDATED_END = 8 }; /* empty places at both ends of the planes */
 
@@ -87,6 +95,7 @@ struct updated {
     double *deck_position;     /* model.position */
     struct updated_layout layout;
     struct neighbours neighbours;
+    struct updated_part part;
     bool search_failed; /* no memory: rates become NaN, which the run notices */
 };
 
@@ -165,6 +174,15 @@ void updated_hourglass_free(struct updated_hourglass *all);
 size_t updated_hourglass_bytes(const struct updated *updated);
 /* ... and what it adds to the acceleration; after updated_fill(). */
 void updated_add_hourglass(struct updated *updated, const double *y, double *acceleration);
+/* share.c: deals out the blocks of particles. SELAS_STOPPED: this rank has none. */
+selas_status updated_share(struct updated *updated, struct messages *messages);
+void updated_part_free(struct updated_part *part);
+/* Blocks of this rank: *from .. *end - 1. */
+void updated_own_blocks(const struct updated *updated, size_t *from, size_t *end);
+/* Together: all ranks get the rates of all particles, which each has of its own blocks. */
+void updated_exchange(const struct updated *updated, double *dydt);
+void updated_describe_part(const struct updated *updated,
+                           void (*tell)(void *context, const char *key, const char *value), void *context);
 /* spectrum.c */
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
 

@@ -92,7 +92,7 @@ void cut_section(const struct scene *scene, const double from[3], const double t
     const double sign = to[0] < from[0] ? -1 : 1; /* A is on the left */
     const double way[2] = {sign * (to[0] - from[0]), sign * (to[1] - from[1])},
                  length = hypot(way[0], way[1]);
-    *cut = (struct cut){.downwards = last == 2};
+    *cut = (struct cut){.downwards = ground_has_depth(scene)};
     set_axis(scene, cut, 1, last);
     const double straight = 1e-3 * length;
     if (last == 1 || fabs(way[1]) <= straight || fabs(way[0]) <= straight) {

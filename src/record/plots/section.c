@@ -2,6 +2,7 @@
 #include "record/plots/section.h"
 
 #include "base/memory.h"
+#include "scene/ground.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -171,7 +172,8 @@ static bool cut_section(const struct recorder *recorder, const struct snapshot_r
 static bool whole_section(const struct recorder *recorder, const struct snapshot_record *record,
                           struct section *section)
 {
-    *section = (struct section){.axis = {0, 1}};
+    *section = (struct section){
+        .axis = {0, 1}, .downwards = recorder->scene->dimension == 2 && ground_has_depth(recorder->scene)};
     if (record->grid[0] == 0)
         return pick_near(recorder, record, section, -1, 0.0, 0.0) && place_points(recorder, record, section);
     section->along = record->grid[0];

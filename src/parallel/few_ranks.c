@@ -1,0 +1,17 @@
+/* Fewer ranks where the body has no work for all of them. */
+#include "parallel/few_ranks.h"
+
+selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what, struct messages *messages)
+{
+    const int wanted = ranks_count(ranks);
+    if ((size_t)wanted <= places) return SELAS_OK;
+    if (ranks_fixed(ranks))
+        return fail(
+            messages, SELAS_UNSUPPORTED,
+            "%zu of the %d ranks of the communicator would have work: the body has %zu %s; open it with "
+            "%zu ranks",
+            places, wanted, places, what, places);
+    warn(messages, "%zu of %d ranks have work: the body has %zu %s", places, wanted, places, what);
+    ranks_take(ranks, (int)places);
+    return ranks_idle(ranks) ? SELAS_STOPPED : SELAS_OK;
+}
