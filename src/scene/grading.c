@@ -185,7 +185,7 @@ selas_status scene_grade(struct scene *scene)
     if (good) {
         *grading = (struct grading){.axis = axis, .low = body->low[axis]};
         const double sum = march(scene, &slowest, depth, spacing, &grading->cells);
-        const bool even = spacing[grading->cells] == 1;
+        const bool even = depth / body->spacing - (double)grading->cells < .5; /* none saved */
         good = even || lay_knots(grading, spacing, sum, depth, body->spacing);
         if (good && !even) {
             body->grading = grading;
