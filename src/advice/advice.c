@@ -254,6 +254,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_columns(&adviser);
     look_at_levelled(&adviser);
     look_at_tilted(&adviser);
+    look_at_grading(&adviser);
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
