@@ -108,8 +108,9 @@ static bool find_slowest(const struct scene *scene, struct slowest *found)
         found->speed[k] = k + 1 < found->count ? found->speed[k + 1] : INFINITY;
         const double from = body->low[axis] + (double)k * found->step;
         for (size_t n = 0; n < columns[0] * columns[1]; n++) {
-            double place[3] = {body->low[0] + (double)(n % columns[0]) * body->spacing,
-                               body->low[1] + (double)(n / columns[0]) * body->spacing, 0};
+            const size_t column = n % columns[0], row = n / columns[0];
+            double place[3] = {body->low[0] + (double)column * body->spacing,
+                               body->low[1] + (double)row * body->spacing, 0};
             found->speed[k] = fmin(found->speed[k], slowest_in(scene, place, from, from + found->step, jump));
         }
     }
