@@ -74,6 +74,6 @@ selas_status ground_in_range(const struct scene *scene, double h, struct message
 double ground_order(const struct scene *scene)
 {
     if (!ratios_within(scene, -1, .45)) return 3; /* 2.8 at .495, 3.2 at .49; points 3.5 and less */
-    return points_act(scene) || !ratios_within(scene, -1, LAW_RATIO) ? 4
-                                                                     : INFINITY; /* 3.8 at .45, points 3.5 */
+    const bool steep = ratios_within(scene, -1, LAW_RATIO) && !body_is_layered(&scene->body);
+    return points_act(scene) || !steep ? 4 : INFINITY; /* 3.8 at .45, points 3.5, below an interface 2.8 */
 }
