@@ -137,6 +137,24 @@ told "layers too thin for the spacing" "layers of 8 points are only 0.0[0-9]* P 
 untold "layers as thick as advised" "boundary(2)%layer_points=$(sed -n 's/^warning.*layer_points = \([0-9]*\) would.*/\1/p' said)"
 untold "eight points are enough for a coarser spacing" body%spacing=0.125
 untold "a kinked pulse, of which the spacing leaves more" load%smoothing=0
+cat >graded.nml <<'END'
+&scene dimension = 3, end_time = 3.0 /
+&method operator = 'general' /
+&material name = 'soil', density = 1.0, p_speed = 1.0, s_speed = 0.5 /
+&material name = 'rock', density = 1.3, p_speed = 2.6, s_speed = 1.5 /
+&body low = 0, 0, 0, high = 4, 4, 9, spacing = 0.25, grading = 3.0 /
+&layer material = 'soil', top = 0.0 /
+&layer material = 'rock', top = 1.0 /
+&load kind = 'moment-tensor', centre = 2, 2, 7, moment = 1, 1, 1, 0, 0, 0, history = 'gaussian', width = 1.2, delay = 6 /
+&receiver name = 'r', position = 2, 2, 4.6 /
+&output plots = .false. /
+END
+deck=graded.nml
+told "a receiver near a source between coarse points" "receiver 'r' is 2.4 from load 1, .* nearer than 4 spacings (2.[5-9][0-9]*)"
+untold "the same on an even lattice" body%grading=1
+untold "a receiver farther off" receiver%position=2,2,3.5
+sed -i "/^&method/d" graded.nml
+told "a grading of level layers" "body%grading brings the general operator" receiver%position=2,2,3.5
 deck=
 "$selas" -q good.nml receiver%position=3.9,2 output%directory=out
 if grep -q "^warning: receiver 'r'" out/report.txt; then

@@ -3,6 +3,7 @@
 #include "stepped.h"
 
 #include "method/consistent/general/sweep.h"
+#include "scene/grading.h"
 #include "scene/topography.h"
 
 static struct consistent_options general(void)
@@ -11,8 +12,8 @@ static struct consistent_options general(void)
         .degree = 2, .sweeps = 3, .depth_exact = true, .general = true, .quiet = 1e-12};
 }
 
-/* A box with faces drawn by chance, of one rock or of two that meet at a tilted face, below a hill or not, and a load that
- * begins at t = 0. */
+/* A box with faces drawn by chance, of one rock or of two that meet at a tilted face, below a hill or not (of two and
+ * below one the spacing is graded), and a load that begins at t = 0. */
 static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks)
 {
     static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
@@ -35,6 +36,10 @@ static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool
     hill->centre[0] = hill->centre[1] = 1.6;
     hill->depth = 12 * spacing;
     if (hilly) plain->scene.body.topography = hill;
+    if (hilly && rocks) {
+        plain->scene.body.most_stretch = 3;
+        assert_int_equal(scene_grade(&plain->scene), SELAS_OK);
+    }
     struct load *load = plain_face_load(plain, FACE_Z_LOW, (double[]){.3, .5, 1});
     load->shape = LOAD_SQUARE;
     load->centre[0] = load->centre[1] = 1.4;
@@ -84,6 +89,7 @@ static void test_one_by_one(void **unused)
         }
         end(&one);
         end(&other);
+        grading_free(plain.scene.body.grading);
     }
     print_message("# %d scenes, 40 steps: u %.1e, v %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
                   worst[0], worst[1], worst[2], seen, watched);
@@ -125,6 +131,7 @@ static void test_single(void **unused)
             worst[2] = before; /* a is small beside the frequencies that round u: waves are long */
         end(&s);
         end(&exact);
+        grading_free(plain.scene.body.grading);
     }
     print_message("# %d scenes, 60 steps: u %.1e, v %.1e, a %.1e; settled %.1e\n", scenes, worst[0], worst[1],
                   worst[2], watched);

@@ -37,9 +37,13 @@ static void look_at_resolution(struct adviser *adviser)
 /* exp(-(x/w)^2 / 2) has 5 % of its spectrum left at k w = 2.448, a wave of 2.567 w. */
 static void look_at_start(struct adviser *adviser)
 {
-    const struct initial *initial = &adviser->scene->initial;
-    const double spacing = adviser->scene->body.spacing;
-    double wave = 0.0;
+    const struct scene *scene = adviser->scene;
+    const struct initial *initial = &scene->initial;
+    double wave = 0.0, centre[3];
+    body_from_deck(&scene->body, initial->centre, centre);
+    if (initial->kind == INITIAL_PLANE_WAVE) /* anywhere */
+        memcpy(centre, scene->body.high, sizeof centre);
+    const double spacing = body_spacing_at(&scene->body, centre);
     if (initial->kind == INITIAL_PLANE_WAVE) wave = initial->wavelength;
     if (initial->kind == INITIAL_GAUSSIAN) wave = 2.567 * initial->width;
     if (wave > 0.0 && spacing > 0.0 && wave < fewest * spacing)
@@ -132,11 +136,11 @@ static void look_at_receivers(struct adviser *adviser)
             double place[3];
             body_from_deck(body, scene->receiver[r].position, place);
             const double depth = fabs(place[face_axis((enum face)face)] - face_plane(body, (enum face)face));
-            if (depth < 0.999 * body->spacing)
+            if (depth < 0.999 * layer_spacing(scene, face))
                 advise(adviser,
                        "receiver '%s' lies at the absorbing face %s and sees what it does to waves; two "
                        "spacings (%.3g) inside it would not",
-                       scene->receiver[r].name, face_name((enum face)face), 2.0 * body->spacing);
+                       scene->receiver[r].name, face_name((enum face)face), 2.0 * layer_spacing(scene, face));
         }
 }
 
@@ -172,12 +176,12 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
         const double depth =
             fabs(centre[face_axis((enum face)face)] - face_plane(&scene->body, (enum face)face));
         const bool told = load->kind == LOAD_MOMENT_TENSOR && layer_points(scene, face) > 0; /* layers.c */
-        if (boundary_absorbs(&scene->boundary[face]) && !told && depth < 1.999 * scene->body.spacing)
+        if (boundary_absorbs(&scene->boundary[face]) && !told && depth < 1.999 * layer_spacing(scene, face))
             advise(adviser,
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
                    "inside it "
                    "would not",
-                   k + 1, face_name((enum face)face), 2.0 * scene->body.spacing);
+                   k + 1, face_name((enum face)face), 2.0 * layer_spacing(scene, face));
     }
 }
 
@@ -250,6 +254,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_columns(&adviser);
     look_at_levelled(&adviser);
     look_at_tilted(&adviser);
+    look_at_grading(&adviser);
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);

@@ -74,7 +74,7 @@ static double cells_to(const struct scene *scene, const struct extent *load, int
     const int axis = face / 2;
     const double away =
         face % 2 == 0 ? load->low[axis] - body->low[axis] : body->high[axis] - load->high[axis];
-    return away / body->spacing;
+    return away / layer_spacing(scene, face);
 }
 
 void look_at_clearance(struct adviser *adviser)

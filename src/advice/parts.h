@@ -33,6 +33,7 @@ void look_at_nearness(struct adviser *adviser);
 void look_at_columns(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */
 void look_at_tilted(struct adviser *adviser);
+void look_at_grading(struct adviser *adviser);
 /* A surface that absorbing layers change. */
 void look_at_levelled(struct adviser *adviser);
 /* Edges in which faces prescribe different motions. */

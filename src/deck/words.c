@@ -134,6 +134,8 @@ static const struct word body_words[] = {
     {"hole_radius", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "radius of the hole [length]"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "points of the body, HDF5 or text"},
     {"spacing", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "distance of neighbouring points [length]"},
+    {"grading", WORD_REAL, 1, NULL, "[1, 4]", OPTIONAL,
+     "the spacing over depth grows with the speed of the rock, up to so many times 'spacing'"},
     {"arrangement", WORD_CHOICE, 1, "'lattice'", CHOICES(ARRANGEMENTS), OPTIONAL,
      "arrangement of the points"},
     {"rotation", WORD_REAL, 3, "0, 0, 0", NULL, OPTIONAL, "turn about x, then y, then z [degrees]"},

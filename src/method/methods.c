@@ -88,12 +88,12 @@ static selas_status check_abilities(const struct method *method, const struct sc
                     "%s has no materials point by point, only &layer where it takes layers; expected '%s', "
                     "'%s'",
                     name, other->name, other->variant);
-    if (ground_is_general(scene) && !method->any_ground)
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "%s takes no &model, no &block, no &topography and no &layer that is tilted, graded or in two "
-            "dimensions; expected 'smoothed-point', 'consistent'",
-            name);
+    if (ground_needs_general(scene) && !method->any_ground)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s takes no &model, no &block, no &topography, no body%%grading and no &layer that is "
+                    "tilted, graded or in two "
+                    "dimensions; expected 'smoothed-point', 'consistent'",
+                    name);
     return scene_check_faces(scene, method->faces, name, messages);
 }
 

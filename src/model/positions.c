@@ -21,7 +21,7 @@ void model_position(const struct model *model, size_t point, double position[3])
         if (axis < model->scene->dimension)
             position[axis] = at[axis] == last ? high : low + (high - low) * (double)at[axis] / (double)last;
     }
-    body_to_deck(body, position, position);
+    lattice_to_deck(body, position, position);
 }
 
 void model_free(struct model **model)

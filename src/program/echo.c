@@ -7,6 +7,7 @@
 #include "scene/absorbing_layers.h"
 #include "scene/build.h"
 #include "scene/echo.h"
+#include "scene/grading.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
@@ -164,7 +165,7 @@ static selas_status open_coarse(const struct echo_deck *deck, bool larger, selas
     scene->stepping.unwarp = false;
     scene->stepping.unwarp_given = true;
     if (larger) enlarge(scene);
-    return SELAS_OK;
+    return scene_grade(scene);
 }
 
 /* The shorter one of the steps that the two choose, which then are open anew. */

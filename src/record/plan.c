@@ -5,6 +5,7 @@
 #include "base/processor.h"
 #include "parallel/ranks.h"
 #include "scene/absorbing_layers.h"
+#include "scene/grading.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
 #include "scene/units.h"
@@ -92,6 +93,18 @@ static void say_surface(const struct teller *teller, const struct topography *to
         if (topography->text[line][0] != '\0') say(teller, keys[line], "%s", topography->text[line]);
 }
 
+static void say_grading(const struct teller *teller, const struct body *body)
+{
+    const struct grading *grading = body->grading;
+    if (grading == NULL) return;
+    say(teller, "spacing over depth",
+        "%.4g down to a depth of %.4g, then growing to %.4g, by no more than the slowest wave there and "
+        "below is "
+        "longer; %zu cells, an even lattice has %.0f",
+        body->spacing, grading->from, grading->largest, grading->cells,
+        (body->high[grading->axis] - body->low[grading->axis]) / body->spacing);
+}
+
 static void say_interfaces(const struct teller *teller, const struct body *body)
 {
     for (size_t i = 0; i < body->layers; i++) {
@@ -109,6 +122,7 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     if (scene->body.chosen) say(teller, "box chosen", "%s", scene->body.choice);
     if (scene->body.model != NULL) say(teller, "ground", "%s", scene->body.model->text);
     say_surface(teller, scene->body.topography);
+    say_grading(teller, &scene->body);
     say_interfaces(teller, &scene->body);
     say(teller, "loads", "%zu", scene->loads);
     say(teller, "receivers", "%zu", scene->receivers);

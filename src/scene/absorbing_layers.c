@@ -3,6 +3,7 @@
 #include "scene/absorbing_layers.h"
 
 #include "scene/echo.h"
+#include "scene/grading.h"
 
 #include <math.h>
 #include <string.h>
@@ -109,13 +110,21 @@ static size_t within_limits(double points, size_t least)
     return (size_t)fmin(fmax(points, (double)least), MOST_POINTS);
 }
 
+double layer_spacing(const struct scene *scene, int face)
+{
+    const struct grading *grading = scene->body.grading;
+    if (grading == NULL || face / 2 != grading->axis) return scene->body.spacing;
+    return grading->step * grading_stretch(grading, face_plane(&scene->body, (enum face)face));
+}
+
 size_t layer_points(const struct scene *scene, int face)
 {
     const struct boundary *boundary = &scene->boundary[face];
     if (!layer_asked(scene, face) || layer_unneeded(scene, face)) return 0;
     if (boundary->layer_points > 0) return (size_t)boundary->layer_points;
     if (boundary->layer_thickness > 0)
-        return within_limits(ceil(boundary->layer_thickness / scene->body.spacing - 1e-9), LEAST_POINTS);
+        return within_limits(ceil(boundary->layer_thickness / layer_spacing(scene, face) - 1e-9),
+                             LEAST_POINTS);
     if (boundary->layer_reflection > 0)
         return within_limits(ceil(log(measured_part / boundary->layer_reflection) / decay_per_point - 1e-9),
                              LEAST_POINTS);

@@ -24,6 +24,8 @@ double layer_clearance(const struct scene *scene);
 
 /* Points of the absorbing layer behind a face, 0 if it has none. */
 size_t layer_points(const struct scene *scene, int face);
+/* Distance of points across a face, in the layer too. */
+double layer_spacing(const struct scene *scene, int face);
 /* Has any face one? */
 bool layer_anywhere(const struct scene *scene);
 /* Reflection at normal incidence that the profile of an absorbing layer of so many points is made for, and

@@ -103,7 +103,8 @@ static bool check_memory(struct builder *builder, const struct deck_group *group
     const struct body *body = &scene->body;
     double points = 1, volume = 1;
     for (int c = 0; c < scene->dimension; c++) {
-        points *= round((body->high[c] - body->low[c]) / body->spacing) + 1;
+        const double least = c == scene->dimension - 1 ? 1 / body->most_stretch : 1;
+        points *= round(least * (body->high[c] - body->low[c]) / body->spacing) + 1;
         volume *= body->high[c] - body->low[c];
     }
     const double bytes = 3 * sizeof(double) * (double)scene->dimension;
@@ -246,6 +247,7 @@ void build_body(struct builder *builder)
         body->material = scene->materials; /* build_layers complains unless layers fill the body */
     body->arrangement = (enum arrangement)deck_choice(group, "arrangement", 0);
     body->jitter = deck_real(group, "jitter", 0);
+    body->most_stretch = deck_given(group, "grading") ? deck_real(group, "grading", 0) : 1;
     body->seed = deck_integer(group, "seed", 0);
     bool right = read_shape(builder, group);
     right = read_rotation(builder, group) && right;

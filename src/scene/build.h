@@ -68,6 +68,7 @@ void build_body(struct builder *builder);
 void build_layers(struct builder *builder);
 void build_boundaries(struct builder *builder);
 void build_topography(struct builder *builder); /* topography_build.c */
+void build_grading(struct builder *builder);    /* grading_build.c */
 void build_loads(struct builder *builder);
 void build_initial(struct builder *builder);
 void build_receivers(struct builder *builder);

@@ -96,7 +96,7 @@ struct echo {
 static void take_worst(const struct scene *scene, int face, const struct extent *acts,
                        const struct extent *seen, struct echo *worst)
 {
-    const double h = scene->body.spacing;
+    const double h = layer_spacing(scene, face);
     const double way = acts->plane ? 0 : way_along(scene, face, acts, seen);
     const double across = fmax(distance(scene, face, acts) + distance(scene, face, seen), h);
     const double wavelength = wavelength_between(scene, acts, fmax(way, across));
@@ -134,7 +134,7 @@ static double of_points(const struct scene *scene, const struct echo *echo, size
 /* (16) */
 static double of_drag(const struct scene *scene, int face, const struct echo *echo, size_t points)
 {
-    const double n = fmax(1, (double)points), waves = echo->wavelength / (n * scene->body.spacing);
+    const double n = fmax(1, (double)points), waves = echo->wavelength / (n * layer_spacing(scene, face));
     return (scene->dimension == 3 ? dragged_in_space : dragged_in_plane) * layer_drag(scene, face) *
            pow(echo->grazing, dragged_grazing) * waves / n * fmin(1, waves);
 }
@@ -148,7 +148,7 @@ double echo_of_layer(const struct scene *scene, int face, size_t points)
 size_t echo_points(const struct scene *scene, int face)
 {
     const struct echo echo = worst_echo(scene, face);
-    const double finer = coarse * scene->body.spacing / fmax(echo.wavelength, scene->body.spacing);
+    const double h = layer_spacing(scene, face), finer = coarse * h / fmax(echo.wavelength, h);
     const double wanted = most_wanted * fmin(1, finer);
     size_t points = 0;
     while (points < MOST &&

@@ -248,8 +248,9 @@ static double fit_small(const struct builder *builder, const struct held *held, 
     for (int i = 0; i < TRIES; i++, factor *= wider) {
         struct span want[3] = {{0, 0}};
         for (int c = 0; c < sketch->dimension; c++) {
-            const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * dx;
-            const double clear = layer_clearance(sketch) * dx;
+            const double widest = c < down ? dx : dx * sketch->body.most_stretch;
+            const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * widest;
+            const double clear = layer_clearance(sketch) * widest;
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
             widen(&want[c], held->dipole[c].low - clear, held->dipole[c].high + clear);
         }
@@ -363,6 +364,7 @@ static bool sketch_scene(const struct builder *builder, struct scene *sketch)
     sketch->stepping = scene->stepping;
     sketch->body.shape = BODY_HALF_SPACE;
     sketch->body.spacing = scene->body.spacing;
+    sketch->body.most_stretch = scene->body.most_stretch;
     body_set_frame(&sketch->body);
     build_boundaries(&drawing);
     for (int face = 0; face < FACES; face++) /* those that nobody named are opened when the box is known */

@@ -3,6 +3,7 @@
  * R = Rz Ry Rx turns about x, then y, then z, about fixed axes; positions x = p + R (b - p), p the centre of
  * the box, b in the body's own frame. R is orthonormal, so its inverse is its transpose. */
 #include "scene/build.h"
+#include "scene/grading.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -98,10 +99,42 @@ void body_to_deck(const struct body *body, const double body_position[3], double
         position[c] = body->pivot[c] + offset[c];
 }
 
+void lattice_from_deck(const struct body *body, const double position[3], double place[3])
+{
+    body_from_deck(body, position, place);
+    if (body->grading == NULL) return;
+    double *down = &place[body->grading->axis];
+    *down = grading_lattice(body->grading, *down);
+}
+
+void lattice_to_deck(const struct body *body, const double place[3], double position[3])
+{
+    double own[3] = {place[0], place[1], place[2]};
+    if (body->grading != NULL) {
+        double *down = &own[body->grading->axis];
+        *down = grading_real(body->grading, *down);
+    }
+    body_to_deck(body, own, position);
+}
+
 const char *face_name(enum face face)
 {
     static const char *const names[FACES] = {FACE_NAMES(CHOICE_NAME)};
     return names[face];
+}
+
+double body_cells(const struct body *body, int axis)
+{
+    if (body->grading != NULL && body->grading->axis == axis) return (double)body->grading->cells;
+    return (body->high[axis] - body->low[axis]) / body->spacing;
+}
+
+double body_spacing_at(const struct body *body, const double place[3])
+{
+    const struct grading *grading = body->grading;
+    if (grading == NULL) return body->spacing;
+    const double lattice = grading_lattice(grading, place[grading->axis]);
+    return fmax(body->spacing, grading->step * grading_stretch(grading, lattice));
 }
 
 double body_tolerance(const struct body *body)

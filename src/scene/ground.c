@@ -258,6 +258,11 @@ bool ground_is_general(const struct scene *scene)
     return general;
 }
 
+bool ground_needs_general(const struct scene *scene)
+{
+    return ground_is_general(scene) || scene->body.grading != NULL;
+}
+
 bool ground_has_depth(const struct scene *scene)
 {
     return scene->dimension == 3 || scene->body.shape == BODY_HALF_SPACE || ground_is_general(scene);

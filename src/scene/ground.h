@@ -46,6 +46,8 @@ bool ground_varies(const struct scene *scene, int axis);
 
 /* More than layers of even rock: what only the general operator takes. */
 bool ground_is_general(const struct scene *scene);
+/* The same, or its lattice is graded over depth. */
+bool ground_needs_general(const struct scene *scene);
 /* Does the last axis point down, from a surface? Pictures of the plane have it upwards else. */
 bool ground_has_depth(const struct scene *scene);
 /* Is any of its materials damped? */

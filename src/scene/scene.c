@@ -2,6 +2,7 @@
  * their place in the deck; the parts go on after an error, so that all errors come in one pass. */
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/grading.h"
 #include "scene/ground.h"
 #include "scene/topography.h"
 
@@ -205,6 +206,7 @@ selas_status scene_build(const struct deck *deck, const struct scene_choice *cho
     build_layers(&builder);
     build_boundaries(&builder);
     build_topography(&builder);
+    build_grading(&builder);
     build_loads(&builder);
     build_initial(&builder);
     build_receivers(&builder);
@@ -245,6 +247,7 @@ void scene_free(struct scene **scene)
     array_free(old->body.block);
     ground_model_free(old->body.model);
     topography_free(old->body.topography);
+    grading_free(old->body.grading);
     array_free(old->body.file);
     array_free(old->output.directory);
     array_free(old->reference.file);

@@ -88,6 +88,7 @@ struct ground_model {
 };
 
 struct topography; /* topography.h */
+struct grading;    /* grading.h */
 
 struct body {
     char name[NAME_SIZE];
@@ -108,6 +109,8 @@ struct body {
     size_t layers;
     struct layer *layer;
     struct topography *topography; /* the surface, where it is not level; NULL: it is */
+    double most_stretch;           /* largest spacing over depth in that of the surface */
+    struct grading *grading;       /* by that and the ground; NULL: even */
     struct ground_model *model;    /* in the place of material and layers; NULL: none */
     size_t blocks;
     struct ground_block *block; /* later ones lie in earlier ones */
@@ -271,6 +274,10 @@ void scene_free(struct scene **scene);
 /* Position and direction between the deck's coordinates and the body's own frame. */
 void body_from_deck(const struct body *body, const double position[3], double body_position[3]);
 void body_to_deck(const struct body *body, const double body_position[3], double position[3]);
+/* The same for places of the lattice, which is even there: those of the body's own frame but for depths of a graded
+ * one. */
+void lattice_from_deck(const struct body *body, const double position[3], double place[3]);
+void lattice_to_deck(const struct body *body, const double place[3], double position[3]);
 void body_direction_from_deck(const struct body *body, const double direction[3], double body_direction[3]);
 void body_direction_to_deck(const struct body *body, const double body_direction[3], double direction[3]);
 
@@ -289,6 +296,11 @@ static inline double face_plane(const struct body *body, enum face face)
 {
     return face_sign(face) < 0 ? body->low[face_axis(face)] : body->high[face_axis(face)];
 }
+
+/* Cells of a lattice that fills a box, as the spacing has them: near a whole number. */
+double body_cells(const struct body *body, int axis);
+/* Largest distance of neighbouring points about a place of the body. */
+double body_spacing_at(const struct body *body, const double place[3]);
 
 static inline bool body_is_box(const struct body *body)
 {

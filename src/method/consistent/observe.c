@@ -5,9 +5,9 @@
 #include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"
+#include "scene/grading.h"
 #include "scene/ground.h"
 #include "scene/initial.h"
-#include "scene/topography.h"
 
 #include <string.h>
 
@@ -49,7 +49,7 @@ static void evaluate(const struct consistent *c, const struct place *place, int 
 
 static bool tilted(const struct consistent *c)
 {
-    return c->surface != NULL;
+    return c->surface != NULL || c->model.scene->body.grading != NULL;
 }
 
 /* Slopes of a component along the lattice become those along the axes. */
@@ -88,19 +88,17 @@ static const struct material *material_at(const struct consistent *c, double dep
 {
     const struct scene *scene = c->model.scene;
     if (scene->body.layers == 0) return &scene->material[scene->body.material];
-    return scene_material_at(scene, depth_position - scene->body.low[c->dimension - 1]);
+    return scene_material_at(scene, grading_real(scene->body.grading, depth_position) -
+                                        scene->body.low[c->dimension - 1]);
 }
 
 /* The same on any ground, at a place of the lattice; what Hooke's law and energies need of it. */
 static const struct material *general_material_at(const struct consistent *c, const double place[3],
                                                   struct material *material)
 {
-    const struct topography *topography = c->model.scene->body.topography;
     double real[3];
     memcpy(real, place, sizeof real);
-    if (topography != NULL)
-        real[topography->axis] =
-            topography_real(topography, consistent_drop(c, place, NULL), place[topography->axis]);
+    consistent_to_ground(c, real);
     const struct rock rock = ground_part_at(c->model.scene, real);
     *material = (struct material){
         .density = rock.density, .lambda = rock.lambda, .plane_lambda = rock.lambda, .mu = rock.mu};
@@ -114,7 +112,7 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
     struct tuned_point at[3][2];
     struct place place = {0};
     double position[3];
-    body_from_deck(&c->model.scene->body, probe->position, position);
+    lattice_from_deck(&c->model.scene->body, probe->position, position);
     for (int axis = 0; axis < c->dimension; axis++)
         for (int odd = 0; odd < 2; odd++) {
             tuned_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
@@ -162,7 +160,7 @@ selas_status consistent_probe(struct model *model, const double position[3], str
     struct tuned_point at[3] = {{.value = {1}}, {.value = {1}}, {.value = {1}}};
     size_t count[3] = {1, 1, 1};
     double place[3];
-    body_from_deck(&c->model.scene->body, position, place);
+    lattice_from_deck(&c->model.scene->body, position, place);
     for (int axis = 0; axis < c->dimension; axis++) {
         tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
         count[c->slot[axis]] = at[c->slot[axis]].count;
@@ -207,7 +205,7 @@ bool observe_create(struct consistent *c)
     for (int axis = 0; axis < 3; axis++) {
         model->grid[axis] = 1;
         if (axis >= c->dimension) continue;
-        const double cells = (body->high[axis] - body->low[axis]) / body->spacing;
+        const double cells = body_cells(body, axis);
         model->grid[axis] = cells < 1.5 ? 2 : (size_t)(cells + .5) + 1;
         model->points *= model->grid[axis];
         for (int odd = 0; odd < 2; odd++) {
@@ -301,7 +299,7 @@ void consistent_initialise(struct model *model, double *y)
         for (int axis = 0; axis < c->dimension; axis++)
             position[axis] =
                 c->spline[axis]->greville[at[c->slot[axis]] + (c->slot[axis] == DEPTH ? c->part.first : 0)];
-        body_to_deck(&scene->body, position, position);
+        lattice_to_deck(&scene->body, position, position);
         initial_at(scene, position, state[0], state[1]);
         for (int kind = 0; kind < 2; kind++) {
             if (scene->body.rotated) body_direction_from_deck(&scene->body, state[kind], state[kind]);

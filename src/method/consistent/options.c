@@ -16,20 +16,21 @@ static bool tunable(const struct scene *scene, const struct consistent_options *
            scene->initial.kind == INITIAL_REST;
 }
 
-/* Loads whose integrals know nothing of the map (doc/theory/topography.md). */
+/* Loads whose integrals know nothing of the map (doc/theory/topography.md, graded-spacing.md). */
 static selas_status check_surface(const struct scene *scene, struct messages *messages)
 {
-    for (size_t k = 0; scene->body.topography != NULL && k < scene->loads; k++) {
+    const bool bent = scene->body.topography != NULL;
+    const char *word = bent ? "&topography" : "body%grading";
+    for (size_t k = 0; (bent || scene->body.grading != NULL) && k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
         if (load->kind == LOAD_BODY_FORCE && load->shape == LOAD_FACE)
             return fail(messages, SELAS_UNSUPPORTED,
-                        "load %zu: with &topography a body force acts at a point, not over the whole body",
-                        load->group + 1);
+                        "load %zu: with %s a body force acts at a point, not over the whole body",
+                        load->group + 1, word);
         if (load->kind == LOAD_TRACTION && face_axis(load->face) != scene->dimension - 1)
-            return fail(
-                messages, SELAS_UNSUPPORTED,
-                "load %zu: with &topography tractions act on the surface or the lower face, not on face %s",
-                load->group + 1, face_name(load->face));
+            return fail(messages, SELAS_UNSUPPORTED,
+                        "load %zu: with %s tractions act on the surface or the lower face, not on face %s",
+                        load->group + 1, word, face_name(load->face));
     }
     return SELAS_OK;
 }
@@ -63,7 +64,7 @@ static selas_status check_general(const struct scene *scene, const struct consis
 static bool wants_general(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
-    if (group == NULL || !deck_given(group, "operator")) return ground_is_general(scene);
+    if (group == NULL || !deck_given(group, "operator")) return ground_needs_general(scene);
     return deck_chosen(group, "operator", "general");
 }
 
@@ -124,10 +125,10 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
                     "method%%variant = 'paper' or method%%name = 'sph'");
     selas_status status = check_layers(scene, options, messages);
     if (status != SELAS_OK) return status;
-    if (!options->general && ground_is_general(scene))
+    if (!options->general && ground_needs_general(scene))
         return fail(messages, SELAS_UNSUPPORTED,
-                    "&model, &block, &topography and &layer that is tilted, graded or in two dimensions need "
-                    "method%%operator = 'general'");
+                    "&model, &block, &topography, body%%grading and &layer that is tilted, graded or in two "
+                    "dimensions need method%%operator = 'general'");
     if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }

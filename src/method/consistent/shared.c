@@ -150,7 +150,7 @@ static void own_fastest(const struct consistent *c, const double *y, struct unse
     }
     for (int axis = 0; found->spoiled > 0 && axis < c->dimension; axis++)
         inside[axis] = middle[axis] / (double)found->spoiled;
-    body_to_deck(&c->model.scene->body, inside, position);
+    lattice_to_deck(&c->model.scene->body, inside, position);
     snprintf(found->place, sizeof found->place, "%s (%.6g, %.6g, %.6g)", found->spoiled > 0 ? "about" : "at",
              position[0], position[1], position[2]);
 }

@@ -15,7 +15,7 @@ void cut_layers(const struct scene *scene, double thickness[BOX_FACES])
 {
     for (int face = 0; face < BOX_FACES; face++)
         thickness[face] =
-            face < 2 * scene->dimension ? (double)layer_points(scene, face) * scene->body.spacing : 0;
+            face < 2 * scene->dimension ? (double)layer_points(scene, face) * layer_spacing(scene, face) : 0;
 }
 
 /* How far the surface lies below face z-, or y-, of the body. */

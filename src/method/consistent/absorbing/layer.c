@@ -20,8 +20,7 @@ void layers_describe(const struct consistent *c,
             tell(context, key,
                  "none: no reflection can be seen by end_time (boundary%always = .true. keeps it)");
         if (c->layer[face] == 0) continue;
-        const double thickness = fabs((face % 2 == 0 ? c->spline[face / 2]->low : c->spline[face / 2]->high) -
-                                      face_plane(&scene->body, (enum face)face));
+        const double thickness = (double)c->layer[face] * layer_spacing(scene, face);
         int used =
             snprintf(text, sizeof text, "C-PML, %zu points, thickness %.4g", c->layer[face], thickness);
         if (cutoff > 0 && isfinite(cutoff))
@@ -117,7 +116,7 @@ void layers_fastest(struct model *model, const double *y, struct unseen *found)
         double inside[3] = {0}, position[3];
         look_at_slab(c, slab, v, v + model->unknowns, &one, inside);
         if (one.spoiled <= found->spoiled && (found->spoiled > 0 || one.speed <= found->speed)) continue;
-        body_to_deck(&model->scene->body, inside, position);
+        lattice_to_deck(&model->scene->body, inside, position);
         *found = one;
         snprintf(found->place, sizeof found->place, "in the layer behind face %s, %s (%.6g, %.6g, %.6g)",
                  face_name((enum face)(2 * slab->axis + slab->end)), one.spoiled > 0 ? "about" : "at",

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
+#include "scene/grading.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,10 +43,12 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     const double thickness = slab->end == 0 ? edge - spline->low : spline->high - edge;
     const double reflection = layer_profile_reflection(c->layer[face]);
     const double fastest = consistent_fastest(c, face);
-    const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness);
+    const double stretch =
+        slot == DEPTH ? grading_stretch(body->grading, edge) : 1; /* even beyond the face */
+    const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness * stretch);
     slab->most = most;
     slab->edge = edge;
-    slab->relaxation = layer_relaxation * fastest / thickness;
+    slab->relaxation = layer_relaxation * fastest / (thickness * stretch);
     size_t count = 0, first = 0;
     for (size_t i = 0; i < spline->count; i++) {
         const double beyond = slab->end == 0 ? edge - spline->greville[i] : spline->greville[i] - edge;

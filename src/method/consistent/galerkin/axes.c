@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
+#include "scene/grading.h"
 #include "scene/ground.h"
 
 #include <math.h>
@@ -61,8 +62,8 @@ static selas_status lay_axes(struct consistent *c, struct messages *messages)
                                        .spacing = body->spacing,
                                        .mapped = c->options.mapped,
                                        .interface = interface};
-        const double cells = round((choice.high - choice.low) / choice.spacing);
-        if (c->layer[2 * axis] + c->layer[2 * axis + 1] > 0)
+        const double cells = round(body_cells(body, axis));
+        if (c->layer[2 * axis] + c->layer[2 * axis + 1] > 0 || body->grading != NULL)
             choice.spacing = (choice.high - choice.low) / fmax(cells, 1);
         choice.low -= (double)c->layer[2 * axis] * choice.spacing;
         choice.high += (double)c->layer[2 * axis + 1] * choice.spacing;
@@ -133,7 +134,7 @@ static void mean_speeds(const struct consistent *c, int face, size_t k, double s
     double place[3] = {0};
     const int n[3] = {across == 0 || depth == 0 ? 1 : SAMPLES, across == 1 || depth < 2 ? 1 : SAMPLES, 1};
     place[across] = face_plane(&scene->body, (enum face)face);
-    if (across != depth) place[depth] = c->layout[DEPTH]->greville[k];
+    if (across != depth) place[depth] = grading_real(scene->body.grading, c->layout[DEPTH]->greville[k]);
     speed[0] = speed[1] = 0;
     for (int i = 0; i < n[0] * n[1]; i++) {
         const int at[2] = {i % n[0], i / n[0]};
@@ -167,7 +168,8 @@ static bool lay_planes(struct consistent *c)
         const struct material *material =
             scene->body.layers == 0
                 ? &scene->material[scene->body.material]
-                : scene_material_at(scene, spline->greville[k] - scene->body.low[c->dimension - 1]);
+                : scene_material_at(scene, grading_real(scene->body.grading, spline->greville[k]) -
+                                               scene->body.low[c->dimension - 1]);
         if (material == NULL) return false;
         if (material != before) c->class_plane[c->classes++] = k;
         before = material;
@@ -176,6 +178,10 @@ static bool lay_planes(struct consistent *c)
             const struct boundary *boundary = &scene->boundary[face];
             double speed[2] = {material->p_speed, material->s_speed};
             if (c->damped[face] && ground_is_general(scene)) mean_speeds(c, face, k, speed);
+            if (c->slot[face / 2] == DEPTH) /* R has the Jacobian, the area of this face has not */
+                for (int s = 0; s < 2; s++)
+                    speed[s] /=
+                        grading_stretch(scene->body.grading, face_plane(&scene->body, (enum face)face));
             for (int component = 0; component < c->dimension; component++)
                 c->speed[face][component][k] = component == face / 2 ? boundary->normal_factor * speed[0]
                                                                      : boundary->shear_factor * speed[1];

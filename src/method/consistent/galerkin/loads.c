@@ -239,7 +239,8 @@ static void own_moment(const struct consistent *c, const struct load *load, cons
                     moment[i][j] += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
             row[c->slot[j]] = moment[i][j];
         }
-        if (c->surface != NULL) moment[i][c->dimension - 1] = metric_pull(&metric, row);
+        if (c->surface != NULL || c->model.scene->body.grading != NULL)
+            moment[i][c->dimension - 1] = metric_pull(&metric, row);
     }
 }
 
@@ -262,7 +263,7 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
 {
     const struct body *body = &c->model.scene->body;
     double centre[3], direction[3];
-    body_from_deck(body, load->centre, centre);
+    lattice_from_deck(body, load->centre, centre);
     memcpy(direction, load->direction, sizeof direction);
     if (body->rotated) body_direction_from_deck(body, load->direction, direction);
     memset(w->field, 0, (size_t)c->dimension * c->volume * sizeof *w->field);

@@ -3,6 +3,7 @@
 #include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"
+#include "scene/grading.h"
 #include "scene/topography.h"
 
 static double greville_of(const struct consistent *c, int slot, size_t i)
@@ -40,9 +41,9 @@ bool consistent_lay_surface(struct consistent *c)
     return true;
 }
 
-struct metric metric_of(double drop, const double slope[2], double share, double fall)
+struct metric metric_of(double stretch, double drop, const double slope[2], double share, double fall)
 {
-    const double jacobian = 1 + drop * fall;
+    const double jacobian = stretch * (1 + drop * fall);
     return (struct metric){
         {slope[0] * share / jacobian, slope[1] * share / jacobian}, 1 / jacobian, jacobian};
 }
@@ -69,12 +70,23 @@ double consistent_drop(const struct consistent *c, const double place[3], double
     return sum;
 }
 
+void consistent_to_ground(const struct consistent *c, double place[3])
+{
+    const struct body *body = &c->model.scene->body;
+    double *down = &place[c->dimension - 1];
+    *down = grading_real(body->grading, *down);
+    if (body->topography != NULL)
+        *down = topography_real(body->topography, consistent_drop(c, place, NULL), *down);
+}
+
 struct metric consistent_metric(const struct consistent *c, const double place[3])
 {
     const struct topography *topography = c->model.scene->body.topography;
-    if (topography == NULL) return (struct metric){.inverse = 1, .jacobian = 1};
+    const struct grading *grading = c->model.scene->body.grading;
+    const double down = place[c->dimension - 1], stretch = grading_stretch(grading, down);
+    if (topography == NULL) return (struct metric){.inverse = 1 / stretch, .jacobian = stretch};
     double slope[2], fall;
     const double drop = consistent_drop(c, place, slope);
-    const double share = topography_share(topography, place[topography->axis] - topography->plane, &fall);
-    return metric_of(drop, slope, share, fall);
+    const double share = topography_share(topography, grading_real(grading, down) - topography->plane, &fall);
+    return metric_of(stretch, drop, slope, share, fall);
 }

@@ -1,4 +1,5 @@
-/* The map of a lattice below a surface that is not level, and its metric (doc/theory/topography.md). */
+/* The map of a lattice below a surface that is not level or graded over depth, and its metric
+ * (doc/theory/topography.md, graded-spacing.md). */
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_SURFACE_H
 
@@ -10,9 +11,12 @@ struct metric {
     double tilt[2], inverse, jacobian;
 };
 
-/* Metric of a place of the lattice, by axis; 0, 1, 1 below a level surface. */
+/* Metric of a place of the lattice, by axis; 0, 1, 1 on an even lattice below a level surface. */
 struct metric consistent_metric(const struct consistent *c, const double place[3]);
-struct metric metric_of(double drop, const double slope[2], double share, double fall);
+/* From Z', s and its slopes, f and its slope over Z. */
+struct metric metric_of(double stretch, double drop, const double slope[2], double share, double fall);
+/* A place of the lattice becomes one of the ground, by axis. */
+void consistent_to_ground(const struct consistent *c, double place[3]);
 /* s at a place of the lattice, by axis; its slopes by slot, unless slope is NULL. */
 double consistent_drop(const struct consistent *c, const double place[3], double slope[2]);
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "method/consistent/galerkin/moving_load.h"
+#include "scene/grading.h"
 
 #include <math.h>
 #include <omp.h>
@@ -63,7 +64,12 @@ static bool lay_axis(struct consistent *c, int slot)
             if (spline == NULL) taps[0] = (struct taps){.count = 1, .value = {1}};
             for (size_t i = 0; spline != NULL && i < count; i++) {
                 lay_taps(spline, odd, general_place(c, slot, (enum at)at, i), &taps[i]);
-                if (slot == DEPTH) taps[i].first -= c->part.first;
+                if (slot != DEPTH) continue;
+                taps[i].first -= c->part.first;
+                const double stretch =
+                    grading_stretch(c->model.scene->body.grading, general_place(c, slot, (enum at)at, i));
+                for (size_t d = 0; d < taps[i].count; d++) /* (G19) */
+                    taps[i].slope[d] /= stretch;
             }
         }
     return true;

@@ -3,6 +3,7 @@
 #include "method/consistent/general/general.h"
 
 #include "base/memory.h"
+#include "scene/grading.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -17,12 +18,14 @@ static size_t points_of(const struct consistent *c, int slot, enum at at)
 static bool lay_depth(struct consistent *c, struct hill *hill)
 {
     const struct topography *topography = c->model.scene->body.topography;
+    const struct grading *grading = c->model.scene->body.grading;
     const double end = topography->plane + topography->depth;
     double *control = array_new(c->part.whole, sizeof *control), slope;
     struct band *lu = consistent_collocation(c->layout[DEPTH], false);
     bool good = control != NULL && lu != NULL;
     for (size_t k = 0; good && k < c->part.whole; k++)
-        control[k] = topography_share(topography, c->layout[DEPTH]->greville[k] - topography->plane, &slope);
+        control[k] = topography_share(
+            topography, grading_real(grading, c->layout[DEPTH]->greville[k]) - topography->plane, &slope);
     if (good) band_lu_solve(lu, control, 1);
     band_free(lu);
     for (int at = 0; good && at < 2; at++) {
@@ -32,7 +35,9 @@ static bool lay_depth(struct consistent *c, struct hill *hill)
         good = hill->share[at] != NULL && hill->fall[at] != NULL;
         for (size_t m = 0; good && m < points; m++) {
             const struct taps *taps = &c->general->taps[DEPTH][0][at][m];
-            if (general_place(c, DEPTH, (enum at)at, m) > end - 1e-6 * topography->depth) break;
+            if (grading_real(grading, general_place(c, DEPTH, (enum at)at, m)) >
+                end - 1e-6 * topography->depth)
+                break;
             hill->level[at] = m + 1;
             for (size_t d = 0; d < taps->count; d++) {
                 hill->share[at][m] += taps->value[d] * control[c->part.first + taps->first + d];
@@ -98,9 +103,12 @@ void general_free_hill(struct consistent *c)
 struct metric general_metric_at(const struct consistent *c, const struct family *family, size_t i, size_t j,
                                 size_t k)
 {
+    const double stretch =
+        grading_stretch(c->model.scene->body.grading, general_place(c, DEPTH, family->at[DEPTH], k));
     struct hill_row row;
-    if (!general_hill_row(c, family, j, k, &row)) return (struct metric){.inverse = 1, .jacobian = 1};
-    return metric_of(row.drop[i], (double[]){row.slope[0][i], row.slope[1][i]}, row.share, row.fall);
+    if (!general_hill_row(c, family, j, k, &row))
+        return (struct metric){.inverse = 1 / stretch, .jacobian = stretch};
+    return metric_of(stretch, row.drop[i], (double[]){row.slope[0][i], row.slope[1][i]}, row.share, row.fall);
 }
 
 bool general_hill_row(const struct consistent *c, const struct family *family, size_t j, size_t k,

@@ -5,6 +5,7 @@
 #include "method/consistent/general/piece.h"
 
 #include "base/memory.h"
+#include "scene/grading.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -51,8 +52,16 @@ static int ascending(const void *one, const void *other)
  * way. */
 static double real(const struct medium *medium, double drop, double lattice)
 {
-    return medium->drop == NULL ? lattice
-                                : topography_real(medium->c->model.scene->body.topography, drop, lattice);
+    const struct body *body = &medium->c->model.scene->body;
+    const double level = grading_real(body->grading, lattice);
+    return medium->drop == NULL ? level : topography_real(body->topography, drop, level);
+}
+
+static double lattice(const struct medium *medium, double drop, double real)
+{
+    const struct body *body = &medium->c->model.scene->body;
+    if (medium->drop != NULL) real = topography_lattice(body->topography, drop, real);
+    return grading_lattice(body->grading, real);
 }
 
 static size_t find_jumps(const struct medium *medium, const double place[3], double drop, double from,
@@ -61,8 +70,8 @@ static size_t find_jumps(const struct medium *medium, const double place[3], dou
     const struct scene *scene = medium->c->model.scene;
     const size_t count = ground_jumps(scene, place, scene->dimension - 1, real(medium, drop, from),
                                       real(medium, drop, to), jump);
-    for (size_t i = 0; i < count && medium->drop != NULL; i++)
-        jump[i] = topography_lattice(scene->body.topography, drop, jump[i]);
+    for (size_t i = 0; i < count; i++)
+        jump[i] = lattice(medium, drop, jump[i]);
     return count;
 }
 
@@ -327,6 +336,8 @@ void medium_point(const struct medium *medium, size_t i, size_t j, const struct 
                   struct averaged *averaged)
 {
     *averaged = medium->point[j * medium->along[0].points + i];
+    if (medium->c->model.scene->body.grading != NULL) /* from rises a cell */
+        averaged->rise[DEPTH] *= medium->along[0].spacing / depth_spacing(medium);
     metric_tilt(metric, averaged->rise);
     for (int n = 0; n < POSITIVE; n++) {
         if (averaged->mean[n] < least_part * averaged->least[n])

@@ -11,7 +11,6 @@
 #include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "method/consistent/galerkin/surface.h"
-#include "scene/topography.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
@@ -19,15 +18,6 @@
 #include <string.h>
 
 enum { SAMPLES = 4 }; /* along each axis of a cell */
-
-/* The ground's place of a place of the lattice: below a surface that is not level another depth. */
-static void to_ground(const struct consistent *c, double place[3])
-{
-    const struct topography *topography = c->model.scene->body.topography;
-    const int last = c->dimension - 1;
-    if (topography != NULL)
-        place[last] = topography_real(topography, consistent_drop(c, place, NULL), place[last]);
-}
 
 /* Their mean over the cell about a point of a family. */
 static struct shares mean_shares(const struct consistent *c, const struct family *family, const size_t at[3])
@@ -48,7 +38,7 @@ static struct shares mean_shares(const struct consistent *c, const struct family
         double place[3] = {0};
         for (int axis = 0; axis < c->dimension; axis++)
             place[axis] = middle[axis] + ((step[axis] + .5) / samples - .5) * spacing[axis];
-        to_ground(c, place);
+        consistent_to_ground(c, place);
         const struct shares one = ground_shares_at(scene, place);
         sum.bulk += one.bulk / count;
         sum.shear += one.shear / count;
@@ -145,7 +135,7 @@ void general_share(const struct sharing *sharing, const struct family *family, c
     double place[3] = {0};
     for (int axis = 0; axis < c->dimension; axis++)
         place[axis] = general_place(c, c->slot[axis], family->at[c->slot[axis]], at[c->slot[axis]]);
-    to_ground(c, place);
+    consistent_to_ground(c, place);
     const struct shares share = ground_shares_at(c->model.scene, place);
     const double kappa = *lambda + 2. / 3 * *mu;
     *mu *= share.shear;
