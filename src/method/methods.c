@@ -90,9 +90,8 @@ static selas_status check_abilities(const struct method *method, const struct sc
                     name, other->name, other->variant);
     if (ground_needs_general(scene) && !method->any_ground)
         return fail(messages, SELAS_UNSUPPORTED,
-                    "%s takes no &model, no &block, no &topography, no body%%grading and no &layer that is "
-                    "tilted, graded or in two "
-                    "dimensions; expected 'smoothed-point', 'consistent'",
+                    "%s takes no &model, no &block, no &topography, no body%%grading and no tilted or "
+                    "graded &layer; expected 'smoothed-point', 'consistent'",
                     name);
     return scene_check_faces(scene, method->faces, name, messages);
 }

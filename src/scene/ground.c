@@ -251,8 +251,7 @@ bool ground_varies(const struct scene *scene, int axis)
 
 bool ground_is_general(const struct scene *scene)
 {
-    bool general = scene->body.topography != NULL || ground_grades(scene) || scene->body.blocks > 0 ||
-                   (scene->dimension == 2 && body_is_layered(&scene->body));
+    bool general = scene->body.topography != NULL || ground_grades(scene) || scene->body.blocks > 0;
     for (int axis = 0; axis < scene->dimension - 1; axis++)
         general = general || ground_varies(scene, axis);
     return general;
@@ -265,7 +264,8 @@ bool ground_needs_general(const struct scene *scene)
 
 bool ground_has_depth(const struct scene *scene)
 {
-    return scene->dimension == 3 || scene->body.shape == BODY_HALF_SPACE || ground_is_general(scene);
+    return scene->dimension == 3 || scene->body.shape == BODY_HALF_SPACE || ground_is_general(scene) ||
+           body_is_layered(&scene->body);
 }
 
 bool ground_is_damped(const struct scene *scene)

@@ -127,8 +127,8 @@ selas_status consistent_check(const struct scene *scene, const struct consistent
     if (status != SELAS_OK) return status;
     if (!options->general && ground_needs_general(scene))
         return fail(messages, SELAS_UNSUPPORTED,
-                    "&model, &block, &topography, body%%grading and &layer that is tilted, graded or in two "
-                    "dimensions need method%%operator = 'general'");
+                    "&model, &block, &topography, body%%grading and tilted or graded &layer need "
+                    "method%%operator = 'general'");
     if (options->general) return check_general(scene, options, messages);
     return SELAS_OK;
 }
