@@ -36,10 +36,10 @@ static const struct word method_words[] = {
      "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
      "else vc3)"},
     {"operator", WORD_CHOICE, 1, NULL, "layered|general", OPTIONAL,
-     "operator for even or layered ground, or for ground that varies in all directions; else the one that "
-     "the ground needs (consistent)"},
+     "for even and level layered ground, or for ground that varies in all directions; else the one that the "
+     "ground needs (consistent)"},
     {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
-     "splines along the surface tuned for short waves (consistent, degree 4, exact mass; the default on "
+     "tune the splines along the surface for short waves (consistent, degree 4, exact mass; the default on "
      "layered "
      "ground)"},
     {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", EXPERT,
@@ -50,8 +50,8 @@ static const struct word method_words[] = {
     {"fused", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "passes of the operator fused where the scene allows it, which is the default (consistent)"},
     {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", EXPERT,
-     "where displacements are below this times the largest they move nothing and cost nothing; "
-     "1e-12 by default, 0: all are computed (consistent, fused)"},
+     "leave out what moves less than this times the largest displacement; else 1e-12; 0: compute all "
+     "(consistent, fused)"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, EXPERT,
      "compute half or quarter of a body where the scene has mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", EXPERT, "precision of the state"},
@@ -222,18 +222,16 @@ static const struct word model_words[] = {
     {"file", WORD_FILE, 1, NULL, NULL, OBLIGATORY,
      "plain grid or GeoModelGrids (HDF5), SW4's rfile or sfile, SPECFEM's tomography_model.xyz"},
     {"origin", WORD_REAL, 3, NULL, NULL, OPTIONAL,
-     "where x = y = 0 of the body lies, in the file's coordinates [length]; the third one, of plain grids "
-     "and "
-     "tomography_model.xyz: where z = 0, or the surface, lies; else the file's corner, of plain grids 0, 0, "
-     "0"},
+     "where x = y = 0 of the body lies, in the file's coordinates [length]; else the file's corner (plain "
+     "grids: 0, 0, 0); third value: where z = 0, or the surface, lies (plain grids, tomography_model.xyz)"},
     {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
-     "of a file that knows its ground: depths are those below it, or, 'sea', below elevation 0, or that of "
-     "the third value of origin; beside &topography always those of 'sea'"},
+     "depths are below the file's ground, or ('sea', as always beside &topography) below elevation 0 or "
+     "the third value of origin (files that know their ground)"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
-     "direction of the body's x, clockwise from north [degrees]; y is 90 further; else the axis of the file "
-     "that is nearest to north"},
+     "direction of the body's x, clockwise from north [degrees], y is 90 further; else along the file's "
+     "axis nearest to north"},
     {"damped", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL,
-     "by the file's q_p and q_s, if it has them (consistent); .false.: without them"},
+     "use the file's q_p and q_s, if it has them (consistent)"},
     {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
      "frequency at which speeds and Q of the file are meant [1/time]; centroid of the source's spectrum"},
     {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL,
@@ -321,9 +319,8 @@ static const struct word snapshot_words[] = {
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
     {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
     {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
-     "lowest, then highest corner of the part that is written [length]; else the whole body; with "
-     "&topography on the "
-     "lattice, whose surface is the plane of face z-"},
+     "lowest, then highest corner of what is written [length]; else the whole body; with &topography on "
+     "the lattice, whose surface is the plane of face z-"},
 };
 
 static const struct word output_words[] = {
@@ -340,8 +337,7 @@ static const struct word output_words[] = {
     {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "zero-phase low-pass of the histories: exp(-(w/low_pass)^4) [angle/time]; 0: none"},
     {"balance", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
-     "the report's balance of energy has what damped materials take, which several operator calls a step "
-     "tell"},
+     "put what damped materials take into the report's balance of energy, which costs operator calls"},
 };
 
 static const struct word reference_words[] = {

@@ -1,4 +1,4 @@
-/* Exact solution 'plane-wave': d'Alembert's, in two settings (doc/reference/scene.md, section 7).
+/* Exact solution 'plane-wave': d'Alembert's, in two settings (doc/theory/initial-states.md, section 3).
  *
  * Along an axis of the box everything depends on one coordinate: a bar with two ends, which reflect and send
  * waves (exact/dalembert.c). It holds for all time where the other faces do not disturb the wave: rollers and

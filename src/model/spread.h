@@ -1,5 +1,5 @@
 /* How a rank's part of an array lies in that of the whole body: runs of numbers that follow each other in both.
- * A rank has its window (doc/howto/ranks.md); each number is the own of one rank. Alone, a rank has the whole. */
+ * A rank has its window (doc/developers/ranks.md); each number is one rank's own. Alone, a rank has the whole. */
 #ifndef SELAS_MODEL_SPREAD_H
 #define SELAS_MODEL_SPREAD_H
 

@@ -1,4 +1,4 @@
-/* The state at t = 0: formulas in initial.h and doc/reference/scene.md (Eqs 12-16). */
+/* The state at t = 0: formulas in initial.h and doc/theory/initial-states.md (Eqs 1-3). */
 #include "scene/initial.h"
 
 #include <math.h>

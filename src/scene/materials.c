@@ -1,4 +1,4 @@
-/* Materials: any of four pairs of elastic constants become lambda and mu (doc/reference/scene.md, Eqs 4-9).
+/* Materials: any of four pairs of elastic constants become lambda and mu (doc/reference/scene.md, Eqs S3-S10).
  *
  * An isotropic solid is stable if its strain energy is positive definite: mu > 0 and 3 lambda + 2 mu > 0, so
  * that -1 < nu < 1/2 (Love 1927, section 70). */

@@ -332,7 +332,7 @@ double scene_fastest(const struct scene *scene);  /* speed of P waves in the fas
 double scene_carries(const struct scene *scene, const double place[3]);
 
 /* materials.c. From density, lambda and mu: Young, Poisson, and what enters the equations of a plane or a thin
- * bar (doc/reference/scene.md, Eqs 5-9). */
+ * bar (doc/reference/scene.md, Eqs S4-S10). */
 void material_complete(const struct scene *scene, struct material *material);
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);

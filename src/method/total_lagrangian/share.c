@@ -1,4 +1,4 @@
-/* Total-Lagrangian points on ranks (doc/howto/ranks.md, Eq. R3): each rank has a range of the points in their order,
+/* Total-Lagrangian points on ranks (doc/developers/ranks.md, Eq. R3): a rank has a range of the points in their order,
  * its own, and a window about them, outside of which its state is 0. The forces on own points take A of all points
  * whose gradients they are in, these the H of their partners in hourglass control, and these the displacements of
  * their neighbours: the window is that of three reaches. Rows of weights are those of the whole body, so each sum is

@@ -1,4 +1,4 @@
-/* The part of a body that a rank has (manual, doc/howto/ranks.md): planes of control values, the slot DEPTH. All ranks
+/* The part of a body that a rank has (doc/developers/ranks.md): planes of control values, the slot DEPTH. All ranks
  * know the axes of the whole body; a model's fields have a window of its planes, those of its own and on both
  * sides some of its neighbours', the halo. What is made of a window is right in own planes; the halo gets what
  * the neighbours have made. Alone, the window is the whole body. */
