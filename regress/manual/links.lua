@@ -50,14 +50,14 @@ function Header(header)
     return header
 end
 -- weasyprint has no MathML, and pandoc no HTML for fractions, roots, matrices and dots: in the book they stand on one line
-local function term(braced) return braced:match('^{%w+}$') and braced or '(' .. braced:sub(2, -2) .. ')' end
+local function term(braced) return (braced:match('^{%w+}$') or braced:match('^{\\%a+}$')) and braced or '(' .. braced:sub(2, -2) .. ')' end
 local function rows(open, close)
-    return function(inside) return open .. inside:gsub('\\\\', ';\\;'):gsub('&', '\\;') .. close end
+    return function(inside) return open .. inside:gsub('\\\\', ';\\;'):gsub('&', ',\\;') .. close end
 end
 local function one_line(text)
     if mode ~= 'book' then return text end
     text = text:gsub('\\begin{bmatrix}(.-)\\end{bmatrix}', rows('[', ']')):gsub('\\begin{cases}(.-)\\end{cases}', rows('\\{', '\\}'))
-    text = text:gsub('\\begin{aligned}(.-)\\end{aligned}', function(lines) return (lines:gsub('&', ''):gsub('\\\\', '\\quad ')) end)
+    text = text:gsub('\\begin{aligned}(.-)\\end{aligned}', function(lines) return (lines:gsub('&', ''):gsub('\\\\', '\\qquad ')) end)
     text = text:gsub('\\t?frac(%d)(%d)', '%1/%2\\,'):gsub('\\ddot ', '\\partial_t^2 '):gsub('\\dot ', '\\partial_t '):gsub('{}', '')
     text = text:gsub('\\arctan', '\\mathrm{arctan}'):gsub('\\[Bb]ig[lr]?%f[%A]', '')
     local before
