@@ -49,12 +49,24 @@ function Header(header)
     if mode == 'book' then header.identifier = header.level == 1 and name(page) or name(page) .. '--' .. header.identifier end
     return header
 end
--- weasyprint has no MathML, and pandoc no HTML for fractions and dots: in the book they stand on one line
+-- weasyprint has no MathML, and pandoc no HTML for fractions, roots, matrices and dots: in the book they stand on one line
+local function term(braced) return (braced:match('^{%w+}$') or braced:match('^{\\%a+}$')) and braced or '(' .. braced:sub(2, -2) .. ')' end
+local function rows(open, close)
+    return function(inside) return open .. inside:gsub('\\\\', ';\\;'):gsub('&', ',\\;') .. close end
+end
 local function one_line(text)
     if mode ~= 'book' then return text end
-    local function term(braced) return braced:match('^{%w+}$') and braced or '(' .. braced:sub(2, -2) .. ')' end
-    text = text:gsub('\\t?frac(%d)(%d)', '%1/%2\\,'):gsub('\\ddot ', '\\partial_t^2 ')
-    return (text:gsub('\\frac(%b{})(%b{})', function(above, below) return term(above) .. ' / ' .. term(below) end))
+    text = text:gsub('\\begin{bmatrix}(.-)\\end{bmatrix}', rows('[', ']')):gsub('\\begin{cases}(.-)\\end{cases}', rows('\\{', '\\}'))
+    text = text:gsub('\\begin{aligned}(.-)\\end{aligned}', function(lines) return (lines:gsub('&', ''):gsub('\\\\', '\\qquad ')) end)
+    text = text:gsub('\\t?frac(%d)(%d)', '%1/%2\\,'):gsub('\\ddot ', '\\partial_t^2 '):gsub('\\dot ', '\\partial_t '):gsub('{}', '')
+    text = text:gsub('\\arctan', '\\mathrm{arctan}'):gsub('\\[Bb]ig[lr]?%f[%A]', '')
+    local before
+    repeat -- what stands inside another comes with the next round
+        before = text
+        text = text:gsub('\\t?frac(%b{})(%b{})', function(above, below) return term(above) .. ' / ' .. term(below) end)
+        text = text:gsub('\\sqrt(%b{})', function(root) return '\\text{√}' .. term(root) end)
+    until text == before
+    return text
 end
 -- Display equations: the number of \tag stands beside, as not every writer of equations has it
 local function numbered(text)

@@ -1,5 +1,5 @@
 /* The half-space under surface patches: wavenumbers by Gauss panels, frequencies by FFT along Re s = eta
- * (doc/theory/lamb.md, Eqs 10-40).
+ * (doc/theory/lamb.md, Eqs 7-10).
  *
  * u(s) = f(s)/mu * sum over wavenumber nodes of coefficient(k) * compliance(k, s), where the coefficients
  * hold the quadrature weight, the load's direction and the direction averages of its transform at the

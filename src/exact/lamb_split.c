@@ -1,5 +1,5 @@
 /* What is split off the half-space's response before the FFT because it converges badly there, and added in
- * closed form (doc/theory/lamb.md, Eqs 20-32):
+ * closed form (doc/theory/lamb.md, Eqs 9-9b):
  *  - the static response (Boussinesq, Cerruti; Love 1929), f(t) times a constant: the slow end of the
  *    wavenumber integral;
  *  - the Rayleigh pole, for pulses with kinks: the slow end of the frequency integral. A step load gives

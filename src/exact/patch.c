@@ -1,4 +1,4 @@
-/* Transforms and potentials of loaded patches (doc/theory/lamb.md, Eqs 10-19). The direction averages of a rectangle
+/* Transforms and potentials of loaded patches (doc/theory/lamb.md, Eqs 7, 10). The direction averages of a rectangle
  * are taken by the trapezoidal rule on the full circle (by symmetry: on a quarter), which converges
  * exponentially once it resolves k times the farthest distance; those of a disc and a point are Bessel
  * functions. */

@@ -1,6 +1,6 @@
 /* Potentials of a uniform rectangle at complex depth d, as sums over the corners: Love (1929), Phil. Trans.
  * R. Soc. A 228, 377-420 for 1/R; Nagy, Papp & Benedek (2000), J. Geodesy 74, 552-560 for the integral over
- * depth; the next one is derived in doc/theory/lamb.md (Eqs 20-24). With u, v the distances from the receiver to the
+ * depth; the next one is derived in doc/theory/lamb.md (Eqs 9, 10). With u, v the distances from the receiver to the
  * corner's two edges and R = sqrt(u^2 + v^2 + d^2):
  *
  *   plain       = u ln(v+R) + v ln(u+R) - d atan(u v / (d R)),

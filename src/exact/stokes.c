@@ -1,6 +1,6 @@
 /* Reference 'stokes': a point force (Stokes 1849; Aki & Richards 2002, Eq 4.23) and a moment tensor (their Eq
  * 4.29) in an infinite solid, valid in a box until the first wave that one of its faces sends back can be at
- * the receiver (doc/theory/sources.md, Eqs 1-8).
+ * the receiver (doc/theory/sources.md, Eqs 1-5).
  *
  * With a = r/c_p, b = r/c_s, g = away/r, the near field needs, for the history f and its integral f1,
  *   integral from a to b of T f(t - T) dT = a f1(t-a) - b f1(t-b) + integral from t-b to t-a of f1,
