@@ -105,6 +105,33 @@ static void test_random_scenes(void **state)
     assert_true(worst < 2e-14);
 }
 
+/* Three strata of any thickness, also thinner than a cell and nearer to the layers than these reach. */
+static void test_layered_ground(void **state)
+{
+    (void)state;
+    double worst = 0;
+    const int scenes = few_of(18, 6);
+    for (int i = 0; i < scenes; i++) {
+        struct plain_scene plain;
+        bool shared;
+        random_scene(&plain, i % 6, .25);
+        plain_material(&plain.material[1], .8, .7, .3 + .1 * (double)chance(5));
+        const double deep = plain.scene.body.high[2] - plain.scene.body.low[2];
+        const double first = .01 * (double)(1 + chance(50)) * deep,
+                     second = first + .01 * (double)chance(50) * deep;
+        struct layer ground[3] = {
+            {.material = 1, .top = 0}, {.material = 0, .top = first}, {.material = 1, .top = second}};
+        plain.scene.body.layer = ground;
+        plain.scene.body.layers = 3;
+        const struct consistent_options options = {.degree = 2, .sweeps = 1 + i / 6 % 3, .quiet = 0};
+        const double error = difference(&plain, options, &shared);
+        assert_true(shared);
+        worst = fmax(worst, error);
+    }
+    print_message("# %d scenes of layered ground, velocities after 24 steps: %.1e\n", scenes, worst);
+    assert_true(worst < 2e-14);
+}
+
 /* A body so thin that the layer's region reaches its other face, one that is not fused, and other degrees:
  * one by one. */
 static void test_others(void **state)
@@ -268,9 +295,10 @@ static void test_threads(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_scenes), cmocka_unit_test(test_others),
-                                       cmocka_unit_test(test_single), cmocka_unit_test(test_quiet),
-                                       cmocka_unit_test(test_threads)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_scenes), cmocka_unit_test(test_layered_ground),
+        cmocka_unit_test(test_others),        cmocka_unit_test(test_single),
+        cmocka_unit_test(test_quiet),         cmocka_unit_test(test_threads)};
     omp_set_num_threads(1);
     seed_begin(5);
     return cmocka_run_group_tests_name("shared passes of absorbing layers", tests, NULL, NULL);

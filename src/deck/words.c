@@ -205,8 +205,8 @@ static const struct word layer_words[] = {
      "depth of the upper face [length]; of a tilted one where x = y = 0, of one from a file that of the "
      "height datum"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
-     "heights of the upper face, upwards: text, x y height a line, each x with each y, or HDF5: x, y, height "
-     "[nx, ny], or z [ny, nx] as in netCDF-4 (consistent, operator 'general')"},
+     "heights of the upper face, upwards: text, x y height a line (2D: x height), each x with each y, or "
+     "HDF5: x, y, height [nx, ny], or z [ny, nx] as in netCDF-4 (consistent, operator 'general')"},
     {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at depth top [length]"},
     {"dip", WORD_REAL, 1, "0", "[0, 80]", OPTIONAL,
      "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},

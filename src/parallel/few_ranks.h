@@ -8,4 +8,9 @@
  * SELAS_STOPPED: this rank has nothing to do. SELAS_UNSUPPORTED: a host's communicator has more. */
 selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what, struct messages *messages);
 
+/* Deals out places in their order, one each at least, by what they cost (any unit, >= 0): rank r has
+ * bound[r] .. bound[r + 1] - 1. There are at least as many places as ranks. */
+void ranks_deal(size_t places, double (*cost)(const void *context, size_t place), const void *context,
+                size_t ranks, size_t *bound);
+
 #endif

@@ -72,30 +72,15 @@ static void keep_blocks(const struct tl_model *tl, struct range range, struct tl
     blocks->count = kept;
 }
 
-/* Work for point i: neighbours. */
-static double cost(const struct tl_model *tl, size_t i)
+/* Work for a plane of a lattice, or a point: neighbours. */
+static double cost(const void *context, size_t plane)
 {
-    return (double)(tl_last(&tl->gradient, i) - tl_first(&tl->gradient, i) + tl_last(&tl->transposed, i) -
-                    tl_first(&tl->transposed, i));
-}
-
-/* Bounds of equal cost; of a lattice between planes over its last axis. Each rank gets one plane at least. */
-static void deal(const struct tl_model *tl, size_t ranks, size_t plane, size_t *bound)
-{
-    const size_t planes = tl->cloud->points / plane;
-    double whole = 0, sum = 0;
-    for (size_t i = 0; i < tl->cloud->points; i++)
-        whole += cost(tl, i);
-    size_t rank = 1;
-    for (size_t p = 0; p < planes && rank < ranks; p++) {
-        double here = 0;
-        for (size_t i = p * plane; i < (p + 1) * plane; i++)
-            here += cost(tl, i);
-        const bool due = sum + 0.5 * here >= whole * (double)rank / (double)ranks;
-        if ((due && p * plane > bound[rank - 1]) || planes - p == ranks - rank) bound[rank++] = p * plane;
-        sum += here;
-    }
-    bound[ranks] = tl->cloud->points;
+    const struct tl_model *tl = context;
+    double sum = 0;
+    for (size_t i = plane * tl->part.plane; i < (plane + 1) * tl->part.plane; i++)
+        sum += (double)(tl_last(&tl->gradient, i) - tl_first(&tl->gradient, i) + tl_last(&tl->transposed, i) -
+                        tl_first(&tl->transposed, i));
+    return sum;
 }
 
 selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
@@ -106,8 +91,8 @@ selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
     if (ranks_count(tl->model.scene->ranks) == 1) return SELAS_OK;
     part->ranks = tl->model.scene->ranks;
     part->plane = grid[0] > 0 ? tl->cloud->points / grid[tl->cloud->dimension - 1] : 1;
-    const selas_status status =
-        ranks_at_most(part->ranks, tl->cloud->points / part->plane, "planes over its last axis", messages);
+    const size_t planes = tl->cloud->points / part->plane;
+    const selas_status status = ranks_at_most(part->ranks, planes, "planes over its last axis", messages);
     if (status != SELAS_OK) return status;
     const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
     part->bound = array_new(ranks + 1, sizeof *part->bound);
@@ -116,7 +101,9 @@ selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
     part->piece = array_new(ranks, sizeof *part->piece);
     if (part->piece == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
-    deal(tl, ranks, part->plane, part->bound);
+    ranks_deal(planes, cost, tl, ranks, part->bound);
+    for (size_t r = 0; r <= ranks; r++)
+        part->bound[r] *= part->plane; /* of points */
     for (size_t r = 0; r < ranks; r++) {
         const struct reach reach = reach_of(tl, part->bound[r], part->bound[r + 1]);
         part->window[2 * r] = reach.window.from;

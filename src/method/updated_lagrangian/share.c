@@ -12,27 +12,12 @@
 enum { SUMMED = 3 };
 
 /* Neighbours in the lists of a block. */
-static double cost(const struct updated *updated, size_t block)
+static double cost(const void *context, size_t block)
 {
+    const struct updated *updated = context;
     const size_t points = updated->cloud->points, first = UPDATED_BLOCK * block;
     const size_t last = first + UPDATED_BLOCK < points ? first + UPDATED_BLOCK : points;
     return (double)(updated->neighbours.start[last] - updated->neighbours.start[first]);
-}
-
-/* Bounds of equal cost, one block each at least. */
-static void deal(const struct updated *updated, size_t ranks, size_t blocks, size_t *bound)
-{
-    double whole = 0, sum = 0;
-    for (size_t b = 0; b < blocks; b++)
-        whole += cost(updated, b);
-    size_t rank = 1;
-    for (size_t b = 0; b < blocks && rank < ranks; b++) {
-        const double here = cost(updated, b);
-        const bool due = sum + 0.5 * here >= whole * (double)rank / (double)ranks;
-        if ((due && b > bound[rank - 1]) || blocks - b == ranks - rank) bound[rank++] = b;
-        sum += here;
-    }
-    bound[ranks] = blocks;
 }
 
 selas_status updated_share(struct updated *updated, struct messages *messages)
@@ -48,7 +33,7 @@ selas_status updated_share(struct updated *updated, struct messages *messages)
     part->piece = array_new(SUMMED * ranks, sizeof *part->piece);
     if (part->bound == NULL || part->piece == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
-    deal(updated, ranks, blocks, part->bound);
+    ranks_deal(blocks, cost, updated, ranks, part->bound);
     updated->model.replicated = true;
     return SELAS_OK;
 }

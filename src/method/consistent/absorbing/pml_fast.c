@@ -30,12 +30,23 @@ struct slab_terms {
     struct terms gradient, outer, pull;
 };
 
-/* The one term from an input to a component. */
-static const struct tensor_term *term_of(const struct terms *terms, int out, int in)
+/* Term number `which` from an input to a component; NULL: there is none. */
+static const struct tensor_term *term_number(const struct terms *terms, int out, int in, size_t which)
 {
     for (size_t i = 0; i < terms->count; i++)
-        if (terms->term[i].out == out && terms->term[i].in == in) return &terms->term[i];
+        if (terms->term[i].out == out && terms->term[i].in == in && which-- == 0) return &terms->term[i];
     return NULL;
+}
+
+static const struct tensor_term *term_of(const struct terms *terms, int out, int in)
+{
+    return term_number(terms, out, in, 0);
+}
+
+/* Those that make T_jj of u_k: one, or one of lambda and one of mu. */
+static size_t count_crosses(const struct terms *outer, int j, int k)
+{
+    return term_number(outer, j, k, 1) == NULL ? 1 : 2;
 }
 
 /* Weights of one group of rows, from the columns that are not 0 alone. */
@@ -137,12 +148,54 @@ static bool lay_across(const struct fast_slab *fast, struct row_table *table, co
     return lay_table(table, term->matrix[fast->axis[ROLE_S]], term->factor, to, from, FAST_ROWS, single);
 }
 
+/* Slopes along f. Both of lambda and mu wait apart where they have a B each; then both have one C2_j. */
+static bool lay_crosses(struct fast_slab *fast, const struct slab_terms *terms, struct span to,
+                        struct span from, bool single)
+{
+    const int j = fast->axis[ROLE_S], f = fast->axis[ROLE_F];
+    bool good = true;
+    fast->parts = fast->crosses > 1 && j != DEPTH ? FAST_PARTS : 3;
+    for (size_t n = 0; good && n < fast->crosses; n++) {
+        struct cross *cross = &fast->cross[n];
+        const struct tensor_term *term = term_number(&terms->outer, j, f, n);
+        const struct tensor_term *pull = term_number(&terms->pull, f, j, n);
+        const bool apart = fast->parts > 3, shared = apart && n > 0;
+        cross->part = !apart ? j : n == 0 ? PART_LAMBDA : PART_MU;
+        good = shared || lay_across(fast, &cross->change, term, to, from, single);
+        if (good && apart) good = lay_over_b(fast, &fast->bare[cross->part], term, 1, single);
+        cross->along = lay_along_f(
+            fast, term, shared ? term->factor / term_number(&terms->outer, j, f, 0)->factor : 1, single);
+        if (pull != NULL) cross->pull = lay_along_f(fast, pull, pull->factor, single);
+        good = good && cross->along != NULL && (pull == NULL || cross->pull != NULL);
+    }
+    return good;
+}
+
+/* Slopes along b. */
+static bool lay_overs(struct fast_slab *fast, const struct slab_terms *terms, struct span to,
+                      struct span from, bool single)
+{
+    const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B];
+    const struct tensor_term *pull = term_of(&terms->pull, b, j), *slope = term_of(&terms->outer, j, 6 + b);
+    bool good = lay_over_b(fast, &fast->pull_b, pull, pull->factor, single);
+    for (size_t n = 0; good && n < fast->overs; n++) {
+        const struct tensor_term *term = term_number(&terms->outer, j, b, n);
+        good = lay_across(fast, &fast->over[n].change, term, to, from, single) &&
+               lay_over_b(fast, &fast->over[n].over_b, term, 1, single);
+    }
+    if (fast->parts == 3) return good;
+    fast->beyond = array_new(fast->nb, sizeof *fast->beyond);
+    for (size_t k = 0; fast->beyond != NULL && k < fast->nb; k++)
+        fast->beyond[k] = band_get(slope->matrix[b], fast->first_b + k, fast->first_b + k);
+    return good && fast->beyond != NULL;
+}
+
 static bool lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool single)
 {
-    const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
+    const int j = fast->axis[ROLE_S], f = fast->axis[ROLE_F];
     const size_t skipped = fast->start - fast->slab->region.at[j];
     const struct span region = {skipped, fast->region}, inside = {skipped + fast->offset, fast->ns};
-    const struct terms *outer = &terms->outer, *pull = &terms->pull;
+    const struct terms *outer = &terms->outer;
     bool good = true;
     for (int i = 0; good && i < 3; i++) {
         const struct tensor_term *second = term_of(outer, i, i);
@@ -150,38 +203,47 @@ static bool lay_tables(struct fast_slab *fast, const struct slab_terms *terms, b
             lay_across(fast, &fast->gradient[i], term_of(&terms->gradient, i, i), inside, region, single) &&
             lay_across(fast, &fast->second[i], second, inside, region, single) &&
             lay_across(fast, &fast->slope[i], term_of(outer, i, 3 + i), inside, inside, single) &&
-            lay_across(fast, &fast->pull[i], term_of(pull, i, i), region, inside, single) &&
+            lay_across(fast, &fast->pull[i], term_of(&terms->pull, i, i), region, inside, single) &&
             (j == DEPTH || second->matrix[DEPTH] == NULL ||
              lay_over_b(fast, &fast->bare[i], second, 1, single));
     }
-    const struct tensor_term *along = term_of(outer, j, f), *over = term_of(outer, j, b);
-    const struct tensor_term *pull_b = term_of(pull, b, j), *pull_f = term_of(pull, f, j);
-    good = good && lay_across(fast, &fast->change[ROLE_F], along, inside, region, single) &&
-           lay_across(fast, &fast->change[ROLE_B], over, inside, region, single) &&
-           lay_across(fast, &fast->divergence, term_of(outer, j, 6 + f), inside, region, single) &&
-           lay_over_b(fast, &fast->over_b, over, 1, single) &&
-           lay_over_b(fast, &fast->pull_b, pull_b, pull_b->factor, single);
-    fast->along_f = lay_along_f(fast, along, 1, single);
-    fast->pull_f = lay_along_f(fast, pull_f, pull_f->factor, single);
-    return good && fast->along_f != NULL && fast->pull_f != NULL;
+    return good && lay_crosses(fast, terms, inside, region, single) &&
+           lay_overs(fast, terms, inside, region, single) &&
+           lay_across(fast, &fast->divergence, term_of(outer, j, 6 + f), inside, region, single);
 }
 
-/* B is the same in all terms of a component, and the two slopes of others are taken alike. */
-static bool shares_passes(const struct fast_slab *fast, const struct slab_terms *terms)
+/* In slabs along depth: is B the same in all terms of a component, and of lambda and of mu? */
+static bool shares_bare(const struct fast_slab *fast, const struct slab_terms *terms)
 {
-    const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
+    const int j = fast->axis[ROLE_S], f = fast->axis[ROLE_F];
     const struct terms *outer = &terms->outer, *pull = &terms->pull;
-    if (term_of(outer, j, 6 + f)->matrix[j] != term_of(outer, j, 6 + b)->matrix[j]) return false;
-    if (term_of(outer, j, 6 + f)->factor != term_of(outer, j, 6 + b)->factor) return false;
-    if (j == DEPTH) return true;
     for (int i = 0; i < 3; i++) {
         const struct band *bare = term_of(outer, i, i)->matrix[DEPTH];
         if (term_of(outer, i, 3 + i)->matrix[DEPTH] != bare || term_of(pull, i, i)->matrix[DEPTH] != bare)
             return false;
     }
-    const struct band *bare = term_of(outer, j, j)->matrix[DEPTH];
-    return term_of(outer, j, f)->matrix[DEPTH] == bare && term_of(outer, j, 6 + f)->matrix[DEPTH] == bare &&
-           term_of(pull, f, j)->matrix[DEPTH] == bare;
+    for (size_t n = 0; n < fast->crosses; n++) {
+        const struct band *bare =
+            (fast->crosses > 1 ? term_number(outer, j, f, n) : term_of(outer, j, j))->matrix[DEPTH];
+        if (term_number(outer, j, f, n)->matrix[DEPTH] != bare ||
+            term_number(outer, j, 6 + f, n)->matrix[DEPTH] != bare ||
+            term_number(pull, f, j, n)->matrix[DEPTH] != bare)
+            return false;
+    }
+    return true;
+}
+
+/* Can the passes of the slab be shared? The two slopes of others are taken alike. */
+static bool shares_passes(const struct fast_slab *fast, const struct slab_terms *terms)
+{
+    const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B], f = fast->axis[ROLE_F];
+    const struct terms *outer = &terms->outer;
+    for (size_t n = 0; n < (j == DEPTH ? 1 : fast->crosses); n++) {
+        if (term_number(outer, j, 6 + f, n)->matrix[j] != term_of(outer, j, 6 + b)->matrix[j]) return false;
+        if (term_number(outer, j, 6 + f, n)->factor != term_of(outer, j, 6 + b)->factor) return false;
+        if (term_number(outer, j, f, n)->matrix[j] != term_of(outer, j, f)->matrix[j]) return false;
+    }
+    return j == DEPTH || shares_bare(fast, terms);
 }
 
 /* Sizes and places. */
@@ -212,23 +274,38 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
     fast->first = fast->start * fast->step[ROLE_S];
 }
 
+/* Half of the widest matrix along f. */
+static size_t reach_along_f(const struct fast_slab *fast, const struct slab_terms *terms)
+{
+    const int f = fast->axis[ROLE_F], j = fast->axis[ROLE_S];
+    size_t most = 0;
+    for (size_t n = 0; n < fast->crosses; n++) {
+        const struct tensor_term *one = term_number(&terms->outer, j, f, n),
+                                 *other = term_number(&terms->pull, f, j, n);
+        if (one->matrix[f]->half > most) most = one->matrix[f]->half;
+        if (other != NULL && other->matrix[f]->half > most) most = other->matrix[f]->half;
+    }
+    return most;
+}
+
 static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct slab_terms *terms)
 {
-    const int along = fast->axis[ROLE_F], across = fast->axis[ROLE_S];
-    const size_t one = term_of(&terms->outer, across, along)->matrix[along]->half;
-    const size_t other = term_of(&terms->pull, along, across)->matrix[along]->half;
     const size_t n = fast->nb * fast->ns * fast->width;
-    fast->taps_f = 2 * (one > other ? one : other) + 1;
-    fast->change_b = numbers(n, f->single);
+    fast->taps_f = 2 * reach_along_f(fast, terms) + 1;
+    bool good = lay_tables(fast, terms, f->single);
     fast->middle = numbers(n, f->single);
     fast->rests = array_new(fast->nb, sizeof *fast->rests);
-    bool good = fast->change_b != NULL && fast->middle != NULL && fast->rests != NULL;
-    for (int i = 0; i < 3; i++) {
+    good = good && fast->middle != NULL && fast->rests != NULL;
+    for (size_t i = 0; i < fast->parts; i++) {
         fast->wait[i] = numbers(n, f->single);
         good = good && fast->wait[i] != NULL;
     }
-    f->bytes += 5 * n * (f->single ? sizeof(float) : sizeof(double));
-    return good && lay_tables(fast, terms, f->single);
+    for (size_t i = 0; i < fast->overs; i++) {
+        fast->over[i].wait = numbers(n, f->single);
+        good = good && fast->over[i].wait != NULL;
+    }
+    f->bytes += (1 + fast->parts + fast->overs) * n * (f->single ? sizeof(float) : sizeof(double));
+    return good;
 }
 
 /* Room for a thread: rows of the region of three components and of the slab, groups of rows. */
@@ -249,6 +326,13 @@ static bool lay_buffers(const struct consistent *c, struct pml_fast *f)
     return true;
 }
 
+static void set_crosses(struct fast_slab *fast, const struct slab_terms *terms)
+{
+    const int j = fast->axis[ROLE_S];
+    fast->crosses = count_crosses(&terms->outer, j, fast->axis[ROLE_F]);
+    fast->overs = count_crosses(&terms->outer, j, fast->axis[ROLE_B]);
+}
+
 /* Terms of the slabs; false if one of them cannot share its passes. */
 static bool take_terms(struct consistent *c, struct slab_terms *terms, bool *good)
 {
@@ -259,9 +343,21 @@ static bool take_terms(struct consistent *c, struct slab_terms *terms, bool *goo
         lay_sizes(c, &fast);
         terms[s] = (struct slab_terms){terms_gradient(c, slab), terms_outer(c, slab), terms_pull(c, slab)};
         *good = terms[s].gradient.good && terms[s].outer.good && terms[s].pull.good;
-        if (*good && !shares_passes(&fast, &terms[s])) return false;
+        if (!*good) return false;
+        set_crosses(&fast, &terms[s]);
+        if (!shares_passes(&fast, &terms[s])) return false;
     }
     return *good;
+}
+
+static void free_cross(struct cross *cross, struct over *over)
+{
+    free_table(&cross->change);
+    array_free(cross->along);
+    array_free(cross->pull);
+    free_table(&over->change);
+    free_table(&over->over_b);
+    array_free(over->wait);
 }
 
 static void free_passes(const struct consistent *c, struct pml_fast *f)
@@ -273,17 +369,17 @@ static void free_passes(const struct consistent *c, struct pml_fast *f)
             free_table(&fast->gradient[i]);
             free_table(&fast->second[i]);
             free_table(&fast->slope[i]);
-            free_table(&fast->change[i]);
             free_table(&fast->pull[i]);
+        }
+        for (int i = 0; i < FAST_PARTS; i++) {
             free_table(&fast->bare[i]);
             array_free(fast->wait[i]);
         }
+        for (int n = 0; n < FAST_CROSSES; n++)
+            free_cross(&fast->cross[n], &fast->over[n]);
         free_table(&fast->divergence);
-        free_table(&fast->over_b);
         free_table(&fast->pull_b);
-        array_free(fast->along_f);
-        array_free(fast->pull_f);
-        array_free(fast->change_b);
+        array_free(fast->beyond);
         array_free(fast->middle);
         array_free(fast->rests);
     }
@@ -302,6 +398,7 @@ static struct pml_fast *lay_passes(struct consistent *c, const struct slab_terms
         f->single = single;
         fast->slab = &c->pml->slab[s];
         lay_sizes(c, fast);
+        set_crosses(fast, &terms[s]);
         c->pml->slab[s].inner = fast->nb * fast->ns * fast->width;
         good = lay_slab(f, fast, &terms[s]);
     }
@@ -312,7 +409,8 @@ static struct pml_fast *lay_passes(struct consistent *c, const struct slab_terms
 
 bool pml_fast_create(struct consistent *c)
 {
-    if (c->fused == NULL) return true;
+    const bool layered = c->weighted[WEIGHT_MU] != NULL && c->dimension == 3 && c->hform != NULL;
+    if (c->fused == NULL && (!layered || c->options.unfused)) return true;
     struct slab_terms *terms = array_new(BOX_FACES, sizeof *terms);
     bool good = terms != NULL;
     if (good && take_terms(c, terms, &good)) {

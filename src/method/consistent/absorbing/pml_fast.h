@@ -1,5 +1,5 @@
-/* The step of the absorbing layers on one kind of ground in three dimensions, with the passes of a slab
- * shared (doc/theory/absorbing-faces.md, section 4). It serves where the fused operator (fused.h) does.
+/* The step of the absorbing layers on level ground in three dimensions, with the passes of a slab shared
+ * (doc/theory/absorbing-faces.md, section 4). It serves where the fused operator (fused.h) does, and in layered ground.
  *
  * A slab is worked on in rows along an axis f (x, or y where the slab lies across x), row after row along
  * the third axis, b (y for slabs across depth, else z). Along the axis s across the face there are few rows,
@@ -16,7 +16,8 @@
  *   a_i += C_j B psi_ij + phi_ij + (C2_f B psi_jj if i = f; C2_b psi_jj if i = b)                       (L4)
  *
  * m_ff, m_bb: those of the slabs across f and b. (Across depth, where b = y: m_bb with B, which is the
- * identity there.) */
+ * identity there.) In layered ground lambda and mu have a B each in slabs along depth, and a C2_j each in slabs across
+ * it: the products with C1_f are two, what they make waits in parts of its own (struct cross). */
 #ifndef SELAS_METHOD_CONSISTENT_ABSORBING_PML_FAST_H
 #define SELAS_METHOD_CONSISTENT_ABSORBING_PML_FAST_H
 
@@ -25,7 +26,11 @@
 
 /* Rows made together, at most: along s, along b; numbers in a vector of doubles; numbers left free beside
  * rows that are read with neighbours; blocks of rows that a thread needs. */
-enum { FAST_ROWS = 9, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 19 };
+enum { FAST_ROWS = 9, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 27 };
+
+/* Parts of the T'_i, one a component and those of lambda and mu; products with slopes along f or b: one of both, or one
+ * each. */
+enum { PART_LAMBDA = 3, PART_MU = 4, FAST_PARTS = 5, FAST_CROSSES = 2 };
 
 /* Roles of the axes. */
 enum role { ROLE_S, ROLE_B, ROLE_F };
@@ -40,28 +45,43 @@ struct row_table {
     struct row_group *group;
 };
 
+/* C1_f (C2_j u_f) of L2, and what it is of in L4. */
+struct cross {
+    struct row_table change; /* C2_j, region to inside; no groups: that of the cross before it */
+    void *along, *pull;      /* C1_f, C2_f by diagonals: [taps_f * width]; NULL: not in L4 */
+    int part;                /* where it waits, with the B of psi_jj in L4 */
+};
+
+/* C1_b (C2_j u_b) of L3. */
+struct over {
+    struct row_table change, over_b;
+    void *wait; /* [nb][ns][width] */
+};
+
 struct fast_slab {
     const struct slab *slab;
-    int axis[3];                     /* by role */
-    size_t ns, nb, nf, width;        /* numbers of the slab by role; in a padded row */
-    size_t first_b;                  /* row of the whole body that is the first one over b */
-    struct block inside;             /* the slab's, without its outer end */
-    const double *damping;           /* [ns] d there */
-    size_t start;                    /* index of the region's first row along s */
-    size_t region, offset;           /* rows along s of its region; the first of them inside */
-    size_t first, step[3];           /* in fields: the region's first value, steps by role */
-    struct row_table gradient[3];    /* by component; region to inside: C_j of L1 */
-    struct row_table second[3];      /* A_j, region to inside */
-    struct row_table slope[3];       /* C_j, inside to inside */
-    struct row_table change[3];      /* by role, b and f: C2_j of u_b and u_f, region to inside */
-    struct row_table divergence;     /* C2_j of m_ff and m_bb, region to inside */
-    struct row_table pull[3];        /* C_j, inside to region */
-    struct row_table bare[3];        /* B, by component, over b; no groups: the identity */
-    struct row_table over_b, pull_b; /* C1_b, C2_b */
-    void *along_f, *pull_f;          /* C1_f, C2_f by diagonals: [taps_f * width] */
+    int axis[3];                  /* by role */
+    size_t ns, nb, nf, width;     /* numbers of the slab by role; in a padded row */
+    size_t first_b;               /* row of the whole body that is the first one over b */
+    struct block inside;          /* the slab's, without its outer end */
+    const double *damping;        /* [ns] d there */
+    size_t start;                 /* index of the region's first row along s */
+    size_t region, offset;        /* rows along s of its region; the first of them inside */
+    size_t first, step[3];        /* in fields: the region's first value, steps by role */
+    struct row_table gradient[3]; /* by component; region to inside: C_j of L1 */
+    struct row_table second[3];   /* A_j, region to inside */
+    struct row_table slope[3];    /* C_j, inside to inside */
+    struct cross cross[FAST_CROSSES];
+    struct over over[FAST_CROSSES];
+    size_t crosses, overs, parts;
+    struct row_table divergence;       /* C2_j of m_ff and m_bb, region to inside */
+    double *beyond;                    /* [nb] factor of m_bb besides; NULL: 1 */
+    struct row_table pull[3];          /* C_j, inside to region */
+    struct row_table bare[FAST_PARTS]; /* B, by part, over b; no groups: the identity */
+    struct row_table pull_b;           /* C2_b */
     size_t taps_f;
-    void *wait[3], *change_b, *middle; /* [nb][ns][width]: T'_i; C2_j u_b; m_jj */
-    bool *rests;                       /* [nb] rows in which nothing moves, in this call */
+    void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i; m_jj */
+    bool *rests;                     /* [nb] rows in which nothing moves, in this call */
 };
 
 /* Tables and room for numbers of one kind, doubles or floats; the memory variables are laid out alike in

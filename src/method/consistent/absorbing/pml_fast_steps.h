@@ -68,7 +68,7 @@ struct level {
 static struct level levels(const struct consistent *c, double displacement, double to_middle)
 {
     const double spacing = c->model.scene->body.spacing;
-    const double stiffness = c->property[WEIGHT_P] / c->property[WEIGHT_DENSITY];
+    const double stiffness = pow(consistent_fastest(c, FACE_X_LOW), 2);
     if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1, -1};
     return (struct level){(REAL)displacement, (REAL)(displacement / fabs(to_middle)),
                           (REAL)(displacement / spacing),
@@ -111,9 +111,11 @@ static bool rests(const struct consistent *c, const struct fast_slab *s, struct 
     for (size_t i = 0; i < 3; i++) {
         memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
         memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
-        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
     }
-    memset((REAL *)s->change_b + b * size, 0, size * sizeof *extra);
+    for (size_t i = 0; i < s->parts; i++)
+        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
+    for (size_t n = 0; n < s->overs; n++)
+        memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
     memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
     return true;
 }
@@ -121,7 +123,7 @@ static bool rests(const struct consistent *c, const struct fast_slab *s, struct 
 /* Do all rows rest that a group of rows is made from? */
 static bool group_rests(const struct fast_slab *s, size_t g)
 {
-    const struct row_group *group = &s->over_b.group[g];
+    const struct row_group *group = &s->pull_b.group[g];
     const size_t reach = s->taps_f / 2, end = group->to + group->rows + reach;
     for (size_t b = group->to < reach ? 0 : group->to - reach; b < end && b < s->nb; b++)
         if (!s->rests[b]) return false;
@@ -134,7 +136,7 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
     const int j = s->axis[ROLE_S];
-    REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *wait_j = (REAL *)s->wait[j] + b * size;
+    REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
     REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
     for (int k = 0; k < 3; k++) {
         const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
@@ -146,11 +148,15 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
         move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
         apply(&s->second[i], region, s->width, s->width, false, wait);
         apply(&s->slope[i], middle, s->width, s->width, true, wait);
-        if (i == s->axis[ROLE_B])
-            apply(&s->change[ROLE_B], region, s->width, s->width, false, (REAL *)s->change_b + b * size);
-        if (i != s->axis[ROLE_F]) continue;
-        apply(&s->change[ROLE_F], region, s->width, s->width, false, g);
-        apply_along(s, s->along_f, g, padded, wait_j);
+        for (size_t n = 0; i == s->axis[ROLE_B] && n < s->overs; n++)
+            apply(&s->over[n].change, region, s->width, s->width, false, (REAL *)s->over[n].wait + b * size);
+        for (size_t n = 0; i == s->axis[ROLE_F] && n < s->crosses; n++) {
+            const struct cross *cross = &s->cross[n];
+            REAL *sum = (REAL *)s->wait[cross->part] + b * size;
+            if (cross->part != j) memset(sum, 0, size * sizeof *sum);
+            if (cross->change.groups > 0) apply(&cross->change, region, s->width, s->width, false, g);
+            apply_along(s, cross->along, g, padded, sum);
+        }
     }
 }
 
@@ -170,9 +176,9 @@ struct meeting {
     size_t first, width; /* numbers along f, in whole vectors */
 };
 
-/* Takes m_kk of another slab in row b into rows of the region; false: they do not meet. */
-static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other, size_t b, REAL *rows,
-                        struct meeting *meeting)
+/* Takes `factor` * m_kk of another slab in row b into rows of the region; false: they do not meet. */
+static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other, size_t b, REAL factor,
+                        REAL *rows, struct meeting *meeting)
 {
     const struct block *inside = &other->inside;
     const struct range across = overlap(inside, s->axis[ROLE_S], s->start, s->region);
@@ -193,7 +199,7 @@ static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other
     for (size_t r = 0; r < across.end - across.from; r++)
         for (size_t i = 0; i < along.end - along.from; i++)
             rows[(across.from - s->start + r) * width + along.from - first + i] =
-                from[r * step_s + i * step_f];
+                factor * from[r * step_s + i * step_f];
     *meeting = (struct meeting){first, width};
     return true;
 }
@@ -203,11 +209,13 @@ static bool take_slopes(const struct fast_slab *s, const struct fast_slab *other
 static bool add_divergence(const struct consistent *c, const struct fast_slab *s, enum role role, REAL level,
                            size_t b, REAL *rows, REAL *sum)
 {
+    const REAL factor = role == ROLE_B && s->beyond != NULL ? (REAL)s->beyond[b] : 1;
     bool added = false;
     struct meeting meeting;
     for (size_t o = 0; o < c->pml->slabs; o++) {
         const struct fast_slab *other = &FAST(c)->slab[o];
-        if (other->axis[ROLE_S] != s->axis[role] || !take_slopes(s, other, b, rows, &meeting)) continue;
+        if (other->axis[ROLE_S] != s->axis[role] || !take_slopes(s, other, b, factor, rows, &meeting))
+            continue;
         if (!kernels()->loud(1, 0, s->region * meeting.width, level, rows)) continue;
         added = true;
         for (size_t g = 0; sum != NULL && g < s->divergence.groups; g++) {
@@ -224,7 +232,7 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
                              const REAL *in, REAL *out)
 {
     const size_t size = s->ns * s->width;
-    if (table->groups == 0) return in + s->over_b.group[g].to * size;
+    if (table->groups == 0) return in + s->pull_b.group[g].to * size;
     apply_group(&table->group[g], in, size, size, false, out, size);
     return out;
 }
@@ -232,7 +240,7 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
 /* Is there nothing that moves phi in a group of rows? */
 static bool nothing_moves(const struct consistent *c, const struct fast_slab *s, struct level level, size_t g)
 {
-    const struct row_group *group = &s->over_b.group[g];
+    const struct row_group *group = &s->pull_b.group[g];
     REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
     if (!group_rests(s, g)) return false;
     for (size_t b = group->to; b < group->to + group->rows; b++)
@@ -240,21 +248,34 @@ static bool nothing_moves(const struct consistent *c, const struct fast_slab *s,
     return true;
 }
 
+/* T_j in a group of rows, without m_bb: the parts of lambda and mu, and slopes along b, besides T'_j. */
+static void sum_forces(const struct fast_slab *s, size_t g, REAL *sum)
+{
+    const size_t size = s->ns * s->width;
+    const int j = s->axis[ROLE_S];
+    const struct row_group *group = &s->pull_b.group[g];
+    const REAL *force = over_rows(s, &s->bare[j], g, (const REAL *)s->wait[j], sum);
+    if (force != sum) memcpy(sum, force, group->rows * size * sizeof *sum);
+    for (size_t part = PART_LAMBDA; part < s->parts; part++)
+        apply_group(&s->bare[part].group[g], (const REAL *)s->wait[part], size, size, true, sum, size);
+    for (size_t n = 0; n < s->overs; n++)
+        apply_group(&s->over[n].over_b.group[g], (const REAL *)s->over[n].wait, size, size, true, sum, size);
+}
+
 /* L3 in a group of rows. */
 static void force_rows(const struct consistent *c, const struct fast_slab *s, double dt, size_t g,
                        REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
-    const struct row_group *group = &s->over_b.group[g];
+    const struct row_group *group = &s->pull_b.group[g];
     REAL *sum = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *rows = sum + FAST_GROUP * size;
     const int j = s->axis[ROLE_S];
     for (int i = 0; i < 3; i++) {
-        const REAL *force = over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
-        if (i == j) {
-            if (force != sum) memcpy(sum, force, group->rows * size * sizeof *sum);
-            apply_group(group, (const REAL *)s->change_b, size, size, true, sum, size);
-            force = sum;
-        }
+        const REAL *force = sum;
+        if (i == j)
+            sum_forces(s, g, sum);
+        else
+            force = over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
         for (size_t r = 0; r < group->rows; r++) {
             const size_t b = group->to + r;
             if (i == j) add_divergence(c, s, ROLE_B, -1, b, rows, sum + r * size);
@@ -272,16 +293,18 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t b = 0; b < s->nb; b++) {
         REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
-        REAL *sum = (REAL *)s->wait[s->axis[ROLE_S]] + b * size;
-        if (add_divergence(c, s, ROLE_F, s->rests[b] ? level.slope : -1, b, rows, sum)) s->rests[b] = false;
+        const REAL least = s->rests[b] ? level.slope : -1;
+        for (size_t n = 0; n < (s->parts > 3 ? s->crosses : 1); n++)
+            if (add_divergence(c, s, ROLE_F, least, b, rows, (REAL *)s->wait[s->cross[n].part] + b * size))
+                s->rests[b] = false;
     }
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
-    for (size_t g = 0; g < s->over_b.groups; g++)
+    for (size_t g = 0; g < s->pull_b.groups; g++)
         if (nothing_moves(c, s, level, g))
             skipped++;
         else
             force_rows(c, s, dt, g, extra);
-    FAST(c)->groups += s->over_b.groups;
+    FAST(c)->groups += s->pull_b.groups;
     FAST(c)->skipped += skipped;
 }
 
@@ -325,20 +348,29 @@ void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_mi
     exchange_forces(c, extra);
 }
 
+/* C2_f of L4 in row r of a group: of psi_jj, each with its B. */
+static void pull_along(const struct fast_slab *s, const REAL *const psi_b[FAST_PARTS], size_t r, REAL *padded,
+                       REAL *out)
+{
+    for (size_t n = 0; n < s->crosses; n++)
+        if (s->cross[n].pull != NULL)
+            apply_along(s, s->cross[n].pull, psi_b[s->cross[n].part] + r * s->ns * s->width, padded, out);
+}
+
 /* L4 in a group of rows. */
 static void pull_rows(const struct consistent *c, const struct fast_slab *s, double factor, size_t g,
                       const REAL *extra, REAL *a)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
-    const struct row_group *group = &s->over_b.group[g];
-    const REAL *psi = extra + s->slab->psi, *phi = extra + s->slab->phi, *psi_b[3];
+    const struct row_group *group = &s->pull_b.group[g];
+    const REAL *psi = extra + s->slab->psi, *phi = extra + s->slab->phi, *psi_b[FAST_PARTS];
     const int j = s->axis[ROLE_S];
     REAL *buffer = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
-    REAL *over = buffer + 3 * FAST_GROUP * size, *out = over + FAST_GROUP * size;
+    REAL *over = buffer + s->parts * FAST_GROUP * size, *out = over + FAST_GROUP * size;
     REAL *inside = out + s->offset * s->width, *padded = out + s->region * s->width;
-    for (int i = 0; i < 3; i++)
-        psi_b[i] =
-            over_rows(s, &s->bare[i], g, psi + (size_t)i * inner, buffer + (size_t)i * FAST_GROUP * size);
+    for (size_t i = 0; i < s->parts; i++)
+        psi_b[i] = over_rows(s, &s->bare[i], g, psi + (i < 3 ? i : (size_t)j) * inner,
+                             buffer + i * FAST_GROUP * size);
     over_rows(s, &s->pull_b, g, psi + (size_t)j * inner, over);
     for (size_t r = 0; r < group->rows; r++)
         for (int i = 0; i < 3; i++) {
@@ -346,7 +378,7 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
             apply(&s->pull[i], psi_b[i] + r * size, s->width, s->width, false, out);
             kernels()->sum(size, phi + (size_t)i * inner + b * size, inside);
             if (i == s->axis[ROLE_B]) kernels()->sum(size, over + r * size, inside);
-            if (i == s->axis[ROLE_F]) apply_along(s, s->pull_f, psi_b[j] + r * size, padded, inside);
+            if (i == s->axis[ROLE_F]) pull_along(s, psi_b, r, padded, inside);
             kernels()->store(out, (REAL)factor, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
                              a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B]);
         }
@@ -362,7 +394,7 @@ void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const 
             for (size_t b = 0; b < s->nb; b++)
                 s->rests[b] = c->options.quiet > 0 && !memory_loud(s, (struct level){0}, b, extra);
 #pragma omp for schedule(static)
-            for (size_t g = 0; g < s->over_b.groups; g++)
+            for (size_t g = 0; g < s->pull_b.groups; g++)
                 if (!group_rests(s, g)) pull_rows(c, s, factor, g, extra, a);
         }
     }
@@ -376,9 +408,9 @@ void NAME(pml_fast_reached)(const struct consistent *c, struct window *reached)
         struct window window = {.end = {c->n[0], c->n[1]}};
         if (across != DEPTH) window.from[across] = s->start;
         if (across != DEPTH) window.end[across] = s->start + s->region;
-        for (size_t g = 0; g < s->over_b.groups; g++) {
+        for (size_t g = 0; g < s->pull_b.groups; g++) {
             if (group_rests(s, g)) continue;
-            const size_t from = s->over_b.group[g].to, end = from + s->over_b.group[g].rows;
+            const size_t from = s->pull_b.group[g].to, end = from + s->pull_b.group[g].rows;
             if (across == DEPTH) window.from[1] = from;
             if (across == DEPTH) window.end[1] = end;
             const size_t first = across == DEPTH ? s->start : from;

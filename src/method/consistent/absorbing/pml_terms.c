@@ -56,36 +56,55 @@ static const struct band *matrix(struct consistent *c, struct slab *slab, int ax
     return fit(c, slab, axis, band_product(left, right));
 }
 
+/* Properties over the density, element by element of the ground over depth, at its control values. NULL: no memory. */
+static struct band *ratios(struct consistent *c, enum weighting one, enum weighting other)
+{
+    const struct spline *spline = c->spline[c->dimension - 1];
+    const double *density = c->weighted[WEIGHT_DENSITY];
+    struct band *diagonal = band_new(spline->count, 0);
+    for (size_t i = 0; diagonal != NULL && i < spline->count; i++) {
+        const size_t e = spline_locate(spline, spline->greville[i]);
+        const double sum = c->weighted[one][e] + (other == WEIGHT_NONE ? 0 : c->weighted[other][e]);
+        band_add(diagonal, i, i, sum / density[e]);
+    }
+    return diagonal;
+}
+
 /* Along an axis without derivatives: the identity (NULL), since N H = 1; over depth N M if M stands there in
  * the stiffness too (hform.c, bare_matrix). What is a slope over depth already has its own N; it lives only
- * in layers over depth, and takes the property over the density of the ground there. False: no memory. */
+ * in layers over depth, and takes the property over the density of the ground there (of both weights, where there is
+ * another). False: no memory. */
 static bool bare_matrix(struct consistent *c, struct slab *slab, int out, struct input from,
-                        enum weighting weight, const struct band **band)
+                        enum weighting weight, enum weighting other, const struct band **band)
 {
     const int axis = c->dimension - 1;
-    const double *property = c->weighted[weight], *density = c->weighted[WEIGHT_DENSITY];
+    const bool varies = c->weighted[weight] != NULL;
     *band = NULL;
     if (from.slope_axis != axis) {
-        if (property == NULL && (c->hform == NULL || !c->options.depth_exact)) return true;
+        if (!varies && (c->hform == NULL || !c->options.depth_exact)) return true;
         *band = matrix(c, slab, axis, c->pml->inverse[out][axis], (struct input){out, -1}, false, from, false,
                        weight);
         return *band != NULL;
     }
-    if (property == NULL) return true;
-    const struct spline *spline = c->spline[axis];
-    struct band *diagonal = band_new(spline->count, 0);
-    for (size_t i = 0; diagonal != NULL && i < spline->count; i++) {
-        const size_t element = spline_locate(spline, spline->greville[i]);
-        band_add(diagonal, i, i, property[element] / density[element]);
-    }
-    *band = fit(c, slab, axis, diagonal);
+    if (!varies) return true;
+    *band = fit(c, slab, axis, ratios(c, weight, other));
     return *band != NULL;
 }
 
-/* sign * weight / density * (d/dx_test, by parts) (d/dx_trial) `from`, to the acceleration `out`; test or
- * trial may be -1. */
-static void add(struct terms *t, int out, size_t in, struct input from, int test, int trial,
-                enum weighting weight, double sign)
+/* Derivatives along axes, one bit each: of the trial functions, and by parts of the test functions. */
+struct slopes {
+    unsigned trial, test;
+};
+
+static unsigned along(int axis)
+{
+    return 1U << axis;
+}
+
+/* sign * (weight + other) / density * (these derivatives of) `from`, to the acceleration `out`; other: WEIGHT_NONE, or
+ * for slopes over depth. */
+static void add(struct terms *t, int out, size_t in, struct input from, struct slopes slopes,
+                enum weighting weight, enum weighting other, double sign)
 {
     struct consistent *c = t->c;
     const bool varies = c->weighted[weight] != NULL;
@@ -93,36 +112,46 @@ static void add(struct terms *t, int out, size_t in, struct input from, int test
     *term = (struct tensor_term){.out = out, .in = (int)in, .factor = sign};
     if (!varies) term->factor *= c->property[weight] / c->property[WEIGHT_DENSITY];
     for (int axis = 0; axis < c->dimension; axis++) {
-        /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
         const struct band **band = &term->matrix[c->slot[axis]];
-        if (axis == test || axis == trial) {
-            /* cppcheck-suppress negativeIndex ; axis is never negative, test may be (no axis) */
+        if (((slopes.trial | slopes.test) & along(axis)) != 0) {
             *band = matrix(c, t->slab, axis, c->pml->inverse[out][axis], (struct input){out, -1},
-                           axis == test, from, axis == trial, weight);
+                           (slopes.test & along(axis)) != 0, from, (slopes.trial & along(axis)) != 0, weight);
             t->good = t->good && *band != NULL;
         } else if (c->slot[axis] == DEPTH)
-            t->good = t->good && bare_matrix(c, t->slab, out, from, weight, band);
+            t->good = t->good && bare_matrix(c, t->slab, out, from, weight, other, band);
     }
 }
 
 enum { NO_AXIS = 3 };
 
-/* Two terms in one where the ground is the same everywhere: trial / density N G - test / density N G^T along
- * an axis, and N G along the other (NO_AXIS: none). */
+/* Where terms in pairs take a property over the density: at the slab's end if the ground varies; 1 along an axis whose
+ * matrices have it in them. */
+static double ratio_at(const struct terms *t, enum weighting weight, int axis)
+{
+    const struct consistent *c = t->c;
+    if (c->weighted[weight] == NULL) return c->property[weight] / c->property[WEIGHT_DENSITY];
+    if (c->slot[axis] == DEPTH) return 1;
+    const size_t e = t->slab->end == 0 ? 0 : c->spline[c->dimension - 1]->elements - 1;
+    return c->weighted[weight][e] / c->weighted[WEIGHT_DENSITY][e];
+}
+
+/* Two terms in one: trial / density N G - test / density N G^T along an axis, and N G along the other (NO_AXIS: none).
+ * Where the ground varies the axis is over depth, or all is in a layer over depth. */
 static void add_pair(struct terms *t, int out, size_t in, struct input from, int axis, int other,
                      enum weighting trial, enum weighting test)
 {
     struct consistent *c = t->c;
     const struct input to = {out, -1};
-    const double density = c->property[WEIGHT_DENSITY], factor = c->property[trial] / density;
+    const double factor = ratio_at(t, trial, axis);
+    const bool varies = c->weighted[trial] != NULL;
     struct tensor_term *term = &t->term[t->count++];
     *term = (struct tensor_term){.out = out, .in = (int)in, .factor = 1};
     const struct band *inverse = c->pml->inverse[out][axis];
-    const struct band *slope = consistent_matrix(c, axis, 0, odd(to, axis), 1, odd(from, axis), WEIGHT_NONE);
-    const struct band *turned = consistent_matrix(c, axis, 1, odd(to, axis), 0, odd(from, axis), WEIGHT_NONE);
+    const struct band *slope = consistent_matrix(c, axis, 0, odd(to, axis), 1, odd(from, axis), trial);
+    const struct band *turned = consistent_matrix(c, axis, 1, odd(to, axis), 0, odd(from, axis), test);
     struct band *scaled = slope == NULL ? NULL : band_sum(slope, factor - 1, slope);
     struct band *sum =
-        scaled == NULL || turned == NULL ? NULL : band_sum(scaled, -c->property[test] / density, turned);
+        scaled == NULL || turned == NULL ? NULL : band_sum(scaled, -ratio_at(t, test, axis), turned);
     const struct band *band = sum == NULL ? NULL : fit(c, t->slab, axis, band_product(inverse, sum));
     band_free(scaled);
     band_free(sum);
@@ -134,8 +163,8 @@ static void add_pair(struct terms *t, int out, size_t in, struct input from, int
             /* cppcheck-suppress arrayIndexOutOfBoundsCond ; bare is an axis, other may be none */
             *place = matrix(c, t->slab, bare, c->pml->inverse[out][bare], to, false, from, true, trial);
             t->good = t->good && *place != NULL;
-        } else if (bare != axis && c->slot[bare] == DEPTH)
-            t->good = t->good && bare_matrix(c, t->slab, out, from, trial, place);
+        } else if (bare != axis && c->slot[bare] == DEPTH && !varies)
+            t->good = t->good && bare_matrix(c, t->slab, out, from, trial, WEIGHT_NONE, place);
     }
 }
 
@@ -172,6 +201,34 @@ struct terms terms_gradient(struct consistent *c, struct slab *slab)
     return t;
 }
 
+/* To T_jj from component k and from psi_kk: (7). Where the axis' boundary term plays no part, slopes of the trial
+ * functions along j serve for both products. */
+static void add_mixed(struct terms *t, int k)
+{
+    const struct consistent *c = t->c;
+    const int j = t->slab->axis, depth = c->dimension - 1;
+    const size_t from = (size_t)k, slope = 2 * (size_t)c->dimension + from;
+    const struct input u = {k, -1}, psi = {k, k};
+    const bool far = far_end_out(c, t->slab), varies = c->weighted[WEIGHT_MU] != NULL;
+    if (far && (!varies || k == depth))
+        add_pair(t, j, from, u, k, j, WEIGHT_LAMBDA, WEIGHT_MU);
+    else {
+        const struct slopes trial = {along(j) | along(k), 0}, parts = {along(k), along(j)};
+        const bool swapped = far && j != depth;
+        add(t, j, from, u, swapped ? trial : parts, WEIGHT_LAMBDA, WEIGHT_NONE, swapped ? 1 : -1);
+        add(t, j, from, u, (struct slopes){along(j), along(k)}, WEIGHT_MU, WEIGHT_NONE, -1);
+    }
+    if (far && (!varies || j == depth))
+        add_pair(t, j, slope, psi, j, NO_AXIS, WEIGHT_MU, WEIGHT_LAMBDA);
+    else if (far && k == depth)
+        add(t, j, slope, psi, (struct slopes){along(j), 0}, WEIGHT_LAMBDA, WEIGHT_MU, 1);
+    else {
+        const struct slopes trial = {along(j), 0}, parts = {0, along(j)};
+        add(t, j, slope, psi, far ? trial : parts, WEIGHT_LAMBDA, WEIGHT_NONE, far ? 1 : -1);
+        add(t, j, slope, psi, trial, WEIGHT_MU, WEIGHT_NONE, 1);
+    }
+}
+
 struct terms terms_outer(struct consistent *c, struct slab *slab)
 {
     const int j = slab->axis;
@@ -179,38 +236,31 @@ struct terms terms_outer(struct consistent *c, struct slab *slab)
     struct terms t = {.c = c, .slab = slab, .good = true};
     for (int i = 0; i < c->dimension; i++) {
         const enum weighting weight = i == j ? WEIGHT_P : WEIGHT_MU;
-        add(&t, i, (size_t)i, (struct input){i, -1}, j, j, weight, -1);
-        add(&t, i, dimension + (size_t)i, (struct input){i, j}, -1, j, weight, 1);
+        add(&t, i, (size_t)i, (struct input){i, -1}, (struct slopes){along(j), along(j)}, weight, WEIGHT_NONE,
+            -1);
+        add(&t, i, dimension + (size_t)i, (struct input){i, j}, (struct slopes){along(j), 0}, weight,
+            WEIGHT_NONE, 1);
     }
-    for (int k = 0; k < c->dimension; k++) {
-        if (k == j) continue;
-        const size_t slope = 2 * dimension + (size_t)k;
-        if (c->weighted[WEIGHT_MU] == NULL && far_end_out(c, slab)) {
-            add_pair(&t, j, (size_t)k, (struct input){k, -1}, k, j, WEIGHT_LAMBDA, WEIGHT_MU);
-            add_pair(&t, j, slope, (struct input){k, k}, j, NO_AXIS, WEIGHT_MU, WEIGHT_LAMBDA);
-            continue;
-        }
-        add(&t, j, (size_t)k, (struct input){k, -1}, j, k, WEIGHT_LAMBDA, -1);
-        add(&t, j, (size_t)k, (struct input){k, -1}, k, j, WEIGHT_MU, -1);
-        add(&t, j, slope, (struct input){k, k}, j, -1, WEIGHT_LAMBDA, -1);
-        add(&t, j, slope, (struct input){k, k}, -1, j, WEIGHT_MU, 1);
-    }
+    for (int k = 0; k < c->dimension; k++)
+        if (k != j) add_mixed(&t, k);
     return t;
 }
 
 struct terms terms_pull(struct consistent *c, struct slab *slab)
 {
-    const int j = slab->axis;
+    const int j = slab->axis, depth = c->dimension - 1;
     struct terms t = {.c = c, .slab = slab, .good = true};
     for (int i = 0; i < c->dimension; i++) {
-        add(&t, i, (size_t)i, (struct input){i, j}, -1, j, i == j ? WEIGHT_P : WEIGHT_MU, 1);
+        add(&t, i, (size_t)i, (struct input){i, j}, (struct slopes){along(j), 0},
+            i == j ? WEIGHT_P : WEIGHT_MU, WEIGHT_NONE, 1);
         if (i == j) continue;
-        if (c->weighted[WEIGHT_MU] == NULL) {
+        if (c->weighted[WEIGHT_MU] == NULL || i == depth || j == depth) {
             add_pair(&t, i, (size_t)j, (struct input){j, j}, i, NO_AXIS, WEIGHT_MU, WEIGHT_LAMBDA);
             continue;
         }
-        add(&t, i, (size_t)j, (struct input){j, j}, i, -1, WEIGHT_LAMBDA, -1);
-        add(&t, i, (size_t)j, (struct input){j, j}, -1, i, WEIGHT_MU, 1);
+        add(&t, i, (size_t)j, (struct input){j, j}, (struct slopes){0, along(i)}, WEIGHT_LAMBDA, WEIGHT_NONE,
+            -1);
+        add(&t, i, (size_t)j, (struct input){j, j}, (struct slopes){along(i), 0}, WEIGHT_MU, WEIGHT_NONE, 1);
     }
     return t;
 }

@@ -204,6 +204,50 @@ static bool add_term(struct consistent *c, struct tensor_term *terms, size_t *co
     return true;
 }
 
+/* Do the boundary terms of an axis play no part in what moves a component, N G^T = -N G? */
+static bool ends_out(const struct consistent *c, int component, int axis)
+{
+    const bool *mirror = c->spline[axis]->mirror, *held = &c->held[component][2 * axis];
+    return (mirror[0] || held[0]) && (mirror[1] || held[1]);
+}
+
+/* left * (one + factor * other). */
+static const struct band *multiply_sum(struct consistent *c, int axis, const struct band *left,
+                                       const struct band *one, double factor, const struct band *other)
+{
+    struct band *sum = one == NULL || other == NULL ? NULL : band_sum(one, factor, other);
+    const struct band *product = sum == NULL ? NULL : multiply(c, axis, left, sum, 0);
+    band_free(sum);
+    return product;
+}
+
+/* Both products of K_ij in one where the ground varies over depth and the ends of the axes along it play no part:
+ * N G along these and, over depth, N (G_trial - G_test^T) with lambda and mu (N M of lambda + mu if neither is over
+ * depth). */
+static bool add_layered(struct consistent *c, struct tensor_term *terms, size_t *count, int out, int in)
+{
+    const int depth = c->dimension - 1;
+    struct tensor_term *term = &terms[(*count)++];
+    *term = (struct tensor_term){.out = out, .in = in, .factor = 1};
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const struct band *left = c->hform->inverse[out][axis], **product = &term->matrix[c->slot[axis]];
+        const bool to = axis == out, from = axis == in;
+        if (axis != depth && (to || from))
+            *product = multiply(c, axis, left, consistent_matrix(c, axis, 0, to, 1, from, WEIGHT_NONE), 0);
+        else if (axis == depth && (to || from))
+            *product = multiply_sum(
+                c, axis, left, consistent_matrix(c, axis, 0, to, 1, from, from ? WEIGHT_LAMBDA : WEIGHT_MU),
+                -1, consistent_matrix(c, axis, 1, to, 0, from, from ? WEIGHT_MU : WEIGHT_LAMBDA));
+        else if (axis == depth)
+            *product = multiply_sum(c, axis, left, consistent_matrix(c, axis, 0, to, 0, from, WEIGHT_LAMBDA),
+                                    1, consistent_matrix(c, axis, 0, to, 0, from, WEIGHT_MU));
+        else
+            continue;
+        if (*product == NULL) return false;
+    }
+    return true;
+}
+
 /* A correction at two ends; none where the ends are not in the window. False: no memory. */
 static bool add_edge(struct consistent *c, int out, int in, const int end[2], const struct band *depth)
 {
@@ -266,6 +310,9 @@ static bool lay_plan(struct consistent *c)
             if (i == j) continue;
             if (c->weighted[WEIGHT_MU] == NULL)
                 good = good && add_mixed(c, terms, &count, i, j);
+            else if ((i == c->dimension - 1 || ends_out(c, i, i)) &&
+                     (j == c->dimension - 1 || ends_out(c, i, j)))
+                good = good && add_layered(c, terms, &count, i, j);
             else
                 good = good && add_term(c, terms, &count, i, j, i, j, WEIGHT_LAMBDA) &&
                        add_term(c, terms, &count, i, j, j, i, WEIGHT_MU);
