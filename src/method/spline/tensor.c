@@ -7,7 +7,8 @@
 #include <omp.h>
 #include <string.h>
 
-enum { ALIGN = 8, MAX_TAPS = 2 * TENSOR_MOST_HALF + 1 }; /* doubles a cache line */
+/* Doubles a cache line; numbers of a plane that products over depth take together. */
+enum { ALIGN = 8, PIECE = 128, MAX_TAPS = 2 * TENSOR_MOST_HALF + 1 };
 
 struct z_item {
     int in;
@@ -23,15 +24,22 @@ struct x_item {
     const struct band *matrix;
 };
 
+/* Row of a matrix: times numbers from the one in column `first` on. */
+struct row {
+    double weight[MAX_TAPS];
+    size_t first, taps;
+};
+
 struct tensor_plan {
     size_t n[3], plane, volume; /* values in a plane, in a component */
-    int components, threads;
+    int components, inputs, threads;
     size_t z_items, y_items, x_items;
     struct z_item *z;
     struct y_item *y; /* in the order of their targets */
     struct x_item *x;
     size_t pad, row; /* zeros left and right of each row of the x passes; length of a padded row */
     size_t thread_size;
+    struct row **rows;  /* [threads]: of the products over depth */
     double **buffer;    /* [threads]: z planes, padded x row, output planes of tensor_form */
     double *plane_sums; /* [n[2]] */
 };
@@ -45,6 +53,7 @@ static size_t find_z(struct tensor_plan *plan, const struct tensor_term *term)
 {
     for (size_t i = 0; i < plan->z_items; i++)
         if (plan->z[i].in == term->in && plan->z[i].matrix == term->matrix[2]) return i;
+    if (term->in >= plan->inputs) plan->inputs = term->in + 1;
     plan->z[plan->z_items] = (struct z_item){.in = term->in, .matrix = term->matrix[2]};
     return plan->z_items++;
 }
@@ -90,10 +99,12 @@ static bool lay_buffers(struct tensor_plan *plan)
         plan->z_items * rounded(plan->plane) + plan->row + (size_t)plan->components * rounded(plan->plane);
     plan->buffer = array_new((size_t)plan->threads, sizeof *plan->buffer);
     plan->plane_sums = array_new(plan->n[2], sizeof *plan->plane_sums);
-    if (plan->buffer == NULL || plan->plane_sums == NULL) return false;
+    plan->rows = array_new((size_t)plan->threads, sizeof *plan->rows);
+    if (plan->buffer == NULL || plan->plane_sums == NULL || plan->rows == NULL) return false;
     for (int t = 0; t < plan->threads; t++) {
         plan->buffer[t] = array_new(plan->thread_size, sizeof **plan->buffer);
-        if (plan->buffer[t] == NULL) return false;
+        plan->rows[t] = array_new(plan->z_items, sizeof **plan->rows);
+        if (plan->buffer[t] == NULL || plan->rows[t] == NULL) return false;
     }
     return true;
 }
@@ -131,6 +142,9 @@ void tensor_plan_free(struct tensor_plan *plan)
     if (plan == NULL) return;
     for (int t = 0; plan->buffer != NULL && t < plan->threads; t++)
         array_free(plan->buffer[t]);
+    for (int t = 0; plan->rows != NULL && t < plan->threads; t++)
+        array_free(plan->rows[t]);
+    array_free(plan->rows);
     array_free(plan->buffer);
     array_free(plan->plane_sums);
     array_free(plan->z);
@@ -141,21 +155,51 @@ void tensor_plan_free(struct tensor_plan *plan)
 
 size_t tensor_plan_bytes(const struct tensor_plan *plan)
 {
-    return (size_t)plan->threads * plan->thread_size * sizeof(double);
+    return (size_t)plan->threads * (plan->thread_size * sizeof(double) + plan->z_items * sizeof **plan->rows);
 }
 
-/* out[i] := init[i] + factor * sum over d of row `at` of A times in[(at + d - half) * stride + i], i < n;
- * init NULL: 0. */
-static void pass_across(const struct passes *passes, const struct band *matrix, size_t at, double factor,
-                        const double *in, size_t stride, size_t n, const double *init, double *out)
+static void take_row(const struct band *matrix, size_t at, double factor, struct row *row)
 {
     const size_t half = matrix->half;
     const size_t from = at < half ? half - at : 0;
     const size_t end = matrix->n - at + half < 2 * half + 1 ? matrix->n - at + half : 2 * half + 1;
-    double weight[MAX_TAPS] = {0};
+    row->first = at + from - half;
+    row->taps = end - from;
     for (size_t d = from; d < end; d++)
-        weight[d - from] = factor * matrix->value[d * matrix->n + at];
-    passes->over_rows(weight, end - from, in + (at + from - half) * stride, stride, n, init, out);
+        row->weight[d - from] = factor * matrix->value[d * matrix->n + at];
+}
+
+/* out[i] += factor * sum over d of row `at` of A times in[(at + d - half) * n + i], i < n. */
+static void pass_across(const struct passes *passes, const struct band *matrix, size_t at, double factor,
+                        const double *in, size_t n, double *out)
+{
+    struct row row;
+    take_row(matrix, at, factor, &row);
+    passes->over_rows(row.weight, row.taps, in + row.first * n, n, n, out, out);
+}
+
+/* The products over depth in plane k, piece by piece of the plane: all those of an input while its planes are in the
+ * nearest cache. */
+static void pass_down(const struct tensor_plan *plan, const struct passes *passes, int thread, size_t k,
+                      const double *u)
+{
+    const size_t plane = plan->plane, step = rounded(plane);
+    struct row *row = plan->rows[thread];
+    for (size_t i = 0; i < plan->z_items; i++)
+        if (plan->z[i].matrix != NULL) take_row(plan->z[i].matrix, k, 1, &row[i]);
+    for (size_t at = 0; at < plane; at += PIECE)
+        for (int input = 0; input < plan->inputs; input++)
+            for (size_t i = 0; i < plan->z_items; i++) {
+                const size_t n = plane - at < PIECE ? plane - at : PIECE;
+                const double *in = u + (size_t)input * plan->volume + at;
+                double *out = plan->buffer[thread] + i * step + at;
+                if (plan->z[i].in != input) continue;
+                if (plan->z[i].matrix == NULL)
+                    memcpy(out, in + k * plane, n * sizeof *in);
+                else
+                    passes->over_rows(row[i].weight, row[i].taps, in + row[i].first * plane, plane, n, NULL,
+                                      out);
+            }
 }
 
 static void add_row(double factor, const double *restrict in, size_t n, double *restrict out)
@@ -178,13 +222,7 @@ void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t fr
     const size_t nx = plan->n[0], plane = plan->plane, step = rounded(plane);
     double *buffer = plan->buffer[thread];
     double *row = buffer + plan->z_items * step + plan->pad;
-    for (size_t i = 0; i < plan->z_items; i++) {
-        const double *in = u + (size_t)plan->z[i].in * plan->volume;
-        if (plan->z[i].matrix != NULL) {
-            pass_across(passes, plan->z[i].matrix, k, 1, in, plane, plane, NULL, buffer + i * step);
-        } else
-            memcpy(buffer + i * step, in + k * plane, plane * sizeof *in);
-    }
+    pass_down(plan, passes, thread, k, u);
     for (size_t x = 0, y = 0; x < plan->x_items; x++) {
         const struct x_item *target = &plan->x[x];
         size_t y_end = y;
@@ -199,8 +237,7 @@ void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t fr
             for (size_t i = y; i < y_end; i++) {
                 const double *in = buffer + plan->y[i].source * step;
                 if (plan->y[i].matrix != NULL)
-                    pass_across(passes, plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, nx, sum,
-                                sum);
+                    pass_across(passes, plan->y[i].matrix, j, scale * plan->y[i].factor, in, nx, sum);
                 else
                     add_row(scale * plan->y[i].factor, in + j * nx, nx, sum);
             }
