@@ -53,16 +53,16 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
     const size_t block = block_of(c);
     if (c->fused != NULL) fused_look_double(c->fused, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t from = 0; from < c->n[DEPTH]; from += block) {
+    for (size_t from = c->part.own; from < c->part.end; from += block) {
         const int thread = omp_get_thread_num();
         operator_block(c, thread, from, u, a);
-        for (size_t k = from; k < from + block && k < c->n[DEPTH]; k++)
+        for (size_t k = from; k < from + block && k < c->part.end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
     }
     if (drive->extra != NULL) {
         pml_accelerate(c, 1, drive->extra, a);
         for (int component = 0; component < c->dimension; component++)
-            for (size_t k = 0; k < c->n[DEPTH]; k++)
+            for (size_t k = c->part.own; k < c->part.end; k++)
                 consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
     }
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);

@@ -237,6 +237,13 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
     return out;
 }
 
+/* Has the rank none of a group of rows for its own? */
+static bool another_rank(const struct consistent *c, const struct fast_slab *s, size_t g)
+{
+    const struct row_group *group = &s->pull_b.group[g];
+    return s->axis[ROLE_B] == DEPTH && (group->to + group->rows <= c->part.own || group->to >= c->part.end);
+}
+
 /* Is there nothing that moves phi in a group of rows? */
 static bool nothing_moves(const struct consistent *c, const struct fast_slab *s, struct level level, size_t g)
 {
@@ -299,11 +306,13 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
                 s->rests[b] = false;
     }
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
-    for (size_t g = 0; g < s->pull_b.groups; g++)
+    for (size_t g = 0; g < s->pull_b.groups; g++) {
+        if (another_rank(c, s, g)) continue;
         if (nothing_moves(c, s, level, g))
             skipped++;
         else
             force_rows(c, s, dt, g, extra);
+    }
     FAST(c)->groups += s->pull_b.groups;
     FAST(c)->skipped += skipped;
 }
@@ -395,7 +404,7 @@ void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const 
                 s->rests[b] = c->options.quiet > 0 && !memory_loud(s, (struct level){0}, b, extra);
 #pragma omp for schedule(static)
             for (size_t g = 0; g < s->pull_b.groups; g++)
-                if (!group_rests(s, g)) pull_rows(c, s, factor, g, extra, a);
+                if (!another_rank(c, s, g) && !group_rests(s, g)) pull_rows(c, s, factor, g, extra, a);
         }
     }
 }

@@ -270,6 +270,8 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->volume = c->volume;
     f->threads = c->threads;
     f->ranks = c->part.ranks;
+    f->own = c->part.own;
+    f->end = c->part.end;
     f->bare = !c->options.depth_exact;
     f->bulk = c->property[WEIGHT_MU] == 0;
     f->quiet = c->options.quiet;
@@ -316,7 +318,7 @@ void fused_count(struct fused *f)
             f->largest = f->size[k];
             f->loudest = k;
         }
-    for (size_t k = 0; k < f->n[2]; k++) {
+    for (size_t k = f->own; k < f->end; k++) {
         f->points += f->plane;
         f->skipped += f->plane - window_points(&f->computed[k / FUSED_PLANES]);
     }

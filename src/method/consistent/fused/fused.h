@@ -145,6 +145,7 @@ struct fused {
                                  and all memory, then e_1, behind it */
     struct relaxing *relaxing; /* NULL: steps do not relax */
     struct ranks *ranks;       /* that share the planes; NULL: alone */
+    size_t own, end;           /* planes that are computed here: own .. end - 1 */
     int threads;
     void **buffer;      /* [threads] */
     size_t buffer_size; /* numbers */

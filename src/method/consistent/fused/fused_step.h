@@ -119,7 +119,8 @@ static size_t cost(const struct fused *f, size_t block)
 {
     enum { COMPUTED = 8 };
     const size_t first = block * FUSED_PLANES;
-    size_t sum = 1 + COMPUTED * FUSED_PLANES * window_points(&f->computed[block]);
+    const bool own = first >= f->own && first < f->end;
+    size_t sum = 1 + (own ? COMPUTED * FUSED_PLANES * window_points(&f->computed[block]) : 0);
     for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
         sum += window_points(&f->reached[k]);
     return sum;
@@ -143,7 +144,7 @@ static void lay_bounds(const struct fused *f)
         f->bound[thread++] = f->n[2];
 }
 
-/* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. */
+/* The blocks of a thread that are the rank's own: all of u that others read is brought on before (stage 0), the rest on the way. */
 static void pass_thread(const struct consistent *c, const struct drive *drive,
                         const struct fused_fields *fields, bool bring, double level, int thread, int stage)
 {
@@ -158,7 +159,8 @@ static void pass_thread(const struct consistent *c, const struct drive *drive,
     }
     struct pass pass = {c, drive, *fields, level, low, high, thread};
     for (size_t first = from; first < end; first += FUSED_PLANES)
-        pass_block(&pass, first);
+        if (first >= f->own && first < f->end) pass_block(&pass, first);
+    if (bring && pass.next < pass.limit) bring_planes(f, fields, pass.next, pass.limit);
 }
 
 /* All planes; u is brought on too if `bring`. */
