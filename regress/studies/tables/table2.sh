@@ -26,10 +26,10 @@ table2() {
     echo
     echo 'rad/s ("Hz" in the paper). Updated Lagrangian with the published switches and the measured step (RKC), total'
     echo 'Lagrangian with quadratic gradients and leapfrog, two periods each. The truth is two-dimensional plane stress at'
-    echo 'small amplitude; the paper compares with 2066 and 1033 of Euler-Bernoulli. In brackets: the updated form against the'
-    echo "paper's figure, the total form against the truth. Where the first is not small the paper's figure cannot be reproduced by the"
-    echo 'method that the paper describes: its operator is soft by O(spacing / W) (`sph-updated-lagrangian.md`), and unstable where the'
-    echo 'tip moves far. At V_f = .05 and .02 it moves by 1.3 and .5 widths (W = .1) or 5 and 2 widths (W = .05): no linear truth.'
+    echo 'small amplitude; the paper compares with 2066 and 1033 of Euler-Bernoulli. In brackets: the updated form against'
+    echo "the paper's figure, the total form against the truth. The paper's figures cannot be reproduced by the method that"
+    echo 'it describes: its operator is soft by O(spacing / W), and unstable where the tip moves far (at V_f = .05 by 1.3'
+    echo 'and 5 widths: no linear truth).'
     echo
     echo '| W | V_f | paper | updated Lagrangian | CPU | particle evaluations | total Lagrangian | CPU | particle evaluations | truth |'
     echo '|---|---|---|---|---|---|---|---|---|---|'
