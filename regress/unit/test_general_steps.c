@@ -190,10 +190,71 @@ static void test_refused(void **unused)
     }
 }
 
+/* The same behind some faces, one at least, with layers. */
+static void drawn_layers(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks, unsigned only)
+{
+    drawn_scene(plain, hill, hilly, rocks);
+    bool any = false;
+    for (int face = 0; face < 6; face++) {
+        struct boundary *boundary = &plain->scene.boundary[face];
+        if (face == 4 && hilly) continue;
+        const bool one = (only >> face & 1U) != 0;
+        if (!one) continue;
+        any = true;
+        *boundary = (struct boundary){.kind = BOUNDARY_TRANSMITTING,
+                                      .absorber = ABSORBER_PML,
+                                      .layer_points = 4 + (long)chance(6),
+                                      .always = true};
+    }
+    (void)any;
+}
+
+static void test_tmp(void **unused)
+{
+    (void)unused;
+    for (unsigned only = 0; only < 64; only++) {
+    for (int hilly = 0; hilly < 2; hilly++) {
+        double worst[3] = {0};
+        struct plain_scene plain;
+        struct topography hill;
+        drawn_layers(&plain, &hill, hilly, getenv("ROCKS") != NULL, only);
+        struct consistent_options options = general();
+        options.quiet = 0;
+        struct stepped one = begin(&plain, options, true, true);
+        struct stepped other = begin(&plain, options, false, true);
+        const struct consistent *c = consistent_of(one.model);
+        step(&one); step(&other);        state_settle(one.stepper, &one.state, true);
+        {
+            const double *x = one.state.a, *y = other.state.a;
+            size_t n = c->model.unknowns, at = 0; int shown = 0;
+            double big = 0;
+            for (size_t i = 0; i < n; i++) big = fmax(big, fabs(y[i]));
+            for (; at < n && shown < 10; at++) if (fabs(x[at] - y[at]) > 1e-6 * big) { shown++;
+                printf("# %x start: a %g %g at comp %zu %zu %zu %zu of %zu %zu %zu layer %zu %zu\n", only, x[at], y[at], at / c->volume, at % c->volume % c->n[0], at % c->plane / c->n[0], at % c->volume / c->plane, c->n[0], c->n[1], c->n[2], c->layer[0], c->layer[1]);}
+        }
+        for (int count = 0; count < 10; count++) {
+            step(&one);
+            step(&other);
+            state_settle(one.stepper, &one.state, true);
+            compare(&one, &other, worst);
+            if (count == 0 || count == 9) {
+                const size_t n = one.model->unknowns;
+                print_message("# %x %d step %d: u %.1e, v %.1e, a %.1e extra %.1e drag %g\n", only, hilly, count, worst[0], worst[1], worst[2],
+                    difference(one.model->state_size - 2 * n, one.state.y + 2 * n, other.state.y + 2 * n), c->pml ? c->pml->drag : 0);
+            }
+        }
+        end(&one);
+        end(&other);
+        grading_free(plain.scene.body.grading);
+        plain.scene.body.grading = NULL;
+    }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_single),  cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_tmp), cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_single),  cmocka_unit_test(test_bits),
         cmocka_unit_test(test_kept),       cmocka_unit_test(test_refused),
     };
     omp_set_num_threads(1);

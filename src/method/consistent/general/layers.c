@@ -5,9 +5,7 @@
  *
  * f_ij the forces of the stresses along j, made with d_j u_i + psi_ij for every slope, F_j of them as of moments
  * (moments.h); steps by the trapezoidal rule as in absorbing/pml.c. */
-#include "method/consistent/absorbing/pml.h"
-#include "method/consistent/general/general.h"
-#include "method/consistent/general/moments.h"
+#include "method/consistent/general/layers.h"
 
 #include "base/memory.h"
 
@@ -15,16 +13,7 @@
 #include <omp.h>
 #include <string.h>
 
-struct general_layer {
-    int slot;
-    bool high;
-    size_t width; /* cells */
-    const struct slab *slab;
-    size_t at[3][3], n[3][3]; /* [family][slot] of its points */
-    double *damping[2];       /* [at] at its points along the slot */
-    size_t psi[3], points[3]; /* [family] place in extra; points */
-    struct moment_rows rows;
-};
+enum { PIECE = 4096 }; /* of numbers that a thread takes */
 
 /* Points of a layer along its slot: those of its cells, the knot of the face not among them. */
 static void lay_points(const struct consistent *c, struct general_layer *layer)
@@ -121,6 +110,13 @@ static size_t memory_at(const struct general_layer *layer, int f, int component,
     return (size_t)component * layer->points[f] + ((m - at[2]) * n[1] + j - at[1]) * n[0] + i - at[0];
 }
 
+const double *general_layer_psi(const struct general_layer *layer, int family, int component, size_t j, size_t m,
+                                const double *extra, size_t *first, size_t *end)
+{
+    if (!cut_row(layer, family, j, m, first, end)) return NULL;
+    return extra + layer->psi[family] + memory_at(layer, family, component, *first, j, m);
+}
+
 void general_layers_add(const struct consistent *c, const struct point_plane *plane,
                         const struct family *family, size_t j, size_t m, size_t from, size_t end,
                         const double *extra)
@@ -129,12 +125,11 @@ void general_layers_add(const struct consistent *c, const struct point_plane *pl
     const int f = (int)(family - g->family);
     for (size_t l = 0; l < g->layers; l++) {
         const struct general_layer *layer = &g->layer[l];
-        size_t first = from, last = end;
-        if (!cut_row(layer, f, j, m, &first, &last)) continue;
         for (int axis = 0; axis < c->dimension; axis++) {
+            size_t first = from, last = end;
+            const double *restrict psi = general_layer_psi(layer, f, axis, j, m, extra, &first, &last);
             double *restrict slope = slope_row(plane, c->slot[axis], layer->slot) + first;
-            const double *restrict psi = extra + layer->psi[f] + memory_at(layer, f, axis, first, j, m);
-            for (size_t i = 0; i < last - first; i++)
+            for (size_t i = 0; psi != NULL && i < last - first; i++)
                 slope[i] += psi[i];
         }
     }
@@ -220,8 +215,13 @@ static void move_all_slopes(struct consistent *c, const struct general_layer *la
     }
 }
 
-/* Where row j of plane k stands in the numbers of a component of a slab; false: not there. */
-static bool slab_row(const struct slab *slab, size_t j, size_t k, size_t *at)
+void general_layers_move_slopes(struct consistent *c, double dt, const double *middle, double *extra)
+{
+    for (size_t l = 0; l < c->general->layers; l++)
+        move_all_slopes(c, &c->general->layer[l], dt, middle, extra);
+}
+
+bool general_layer_row(const struct slab *slab, size_t j, size_t k, size_t *at)
 {
     const struct block *in = &slab->inside;
     if (j < in->at[1] || j >= in->at[1] + in->n[1] || k < in->at[2] || k >= in->at[2] + in->n[2])
@@ -230,8 +230,7 @@ static bool slab_row(const struct slab *slab, size_t j, size_t k, size_t *at)
     return true;
 }
 
-/* Where the numbers of a slab begin in g->pulled and g->middle. */
-static size_t moments_of(const struct consistent *c, const struct slab *slab)
+size_t general_layer_moments(const struct consistent *c, const struct slab *slab)
 {
     return slab->phi - c->pml->slab[0].phi;
 }
@@ -243,8 +242,8 @@ void general_layers_forget(const struct consistent *c, size_t from, size_t end)
         const size_t plane = slab->inside.n[0] * slab->inside.n[1];
         for (size_t component = 0; component < (size_t)c->dimension; component++)
             for (size_t k = from, at; k < end; k++)
-                if (slab_row(slab, slab->inside.at[1], k, &at))
-                    memset(c->general->pulled + moments_of(c, slab) + component * slab->inner + at, 0,
+                if (general_layer_row(slab, slab->inside.at[1], k, &at))
+                    memset(c->general->pulled + general_layer_moments(c, slab) + component * slab->inner + at, 0,
                            plane * sizeof(double));
     }
 }
@@ -254,10 +253,10 @@ void general_layers_keep(const struct consistent *c, size_t component, size_t j,
 {
     for (size_t s = 0, at; s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
-        if (!slab_row(slab, j, k, &at)) continue;
+        if (!general_layer_row(slab, j, k, &at)) continue;
         const int slot = c->slot[slab->axis];
         const double *from = pull[slot] + slab->inside.at[0], weight = slot == DEPTH ? slope : value;
-        double *to = c->general->pulled + moments_of(c, slab) + component * slab->inner + at;
+        double *to = c->general->pulled + general_layer_moments(c, slab) + component * slab->inner + at;
         for (size_t i = 0; i < slab->inside.n[0]; i++)
             to[i] -= weight * from[i];
     }
@@ -270,25 +269,43 @@ void general_layers_start(struct consistent *c, const double *u, double *extra)
     memcpy(extra + c->pml->slab[0].phi + g->moments, g->pulled, g->moments * sizeof *extra);
 }
 
+void general_layers_take(const struct consistent *c, size_t at, size_t n, const double *end, double *extra)
+{
+    const struct general *g = c->general;
+    double *pulled = g->pulled + at, *forces = extra + c->pml->slab[0].phi + g->moments + at;
+    for (size_t i = 0; i < n; i++) { /* (G13b) */
+        const double after = end[i];
+        pulled[i] = (forces[i] + after) / 2;
+        forces[i] = after;
+    }
+}
+
+static void move_moments(struct consistent *c, struct general_layer *layer, double dt, double *extra)
+{
+    const size_t moments = general_layer_moments(c, layer->slab);
+    size_t rows, planes;
+    moment_rows_lines(c, layer->slab, &rows, &planes);
+    moment_rows_eliminate(&layer->rows, layer->slab, dt);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t line = 0; line < (size_t)c->dimension * planes * rows; line++)
+        moment_rows_move(c, &layer->rows, layer->slab, dt, moments, line / (planes * rows), line % rows,
+                         line / rows % planes, extra);
+}
+
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
                              const double *v, double *extra)
 {
     struct general *g = c->general;
-    general_look(c, u); /* before its numbers go into work */
+    general_look(c, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t i = 0; i < c->model.unknowns; i++)
         g->work[i] = u[i] + to_middle * v[i];
-    for (size_t l = 0; l < g->layers; l++)
-        move_all_slopes(c, &g->layer[l], dt, g->work, extra);
+    general_layers_move_slopes(c, dt, g->work, extra);
     general_forces(c, u, extra, g->force);
-    double *forces = extra + c->pml->slab[0].phi + g->moments;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < g->moments; i++) { /* (G13b) */
-        const double end = g->pulled[i];
-        g->pulled[i] = (forces[i] + end) / 2;
-        forces[i] = end;
-    }
+    for (size_t from = 0; from < g->moments; from += PIECE)
+        general_layers_take(c, from, g->moments - from < PIECE ? g->moments - from : PIECE, g->pulled + from, extra);
     for (size_t l = 0; l < g->layers; l++)
-        moment_rows_move(c, &g->layer[l].rows, g->layer[l].slab, dt, moments_of(c, g->layer[l].slab), extra);
+        move_moments(c, &g->layer[l], dt, extra);
     g->made = true;
 }

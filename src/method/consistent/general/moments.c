@@ -50,10 +50,10 @@ void moment_rows_free(struct moment_rows *rows)
 }
 
 /* 1 + dt/2 (alpha + D) = L U. */
-static void eliminate(struct moment_rows *rows, double relaxation, double dt)
+void moment_rows_eliminate(struct moment_rows *rows, const struct slab *slab, double dt)
 {
     for (size_t i = 0; i < rows->count; i++) {
-        rows->pivot[i] = 1 + dt / 2 * (relaxation + rows->own[i]);
+        rows->pivot[i] = 1 + dt / 2 * (slab->relaxation + rows->own[i]);
         if (i == 0) continue;
         rows->left[i] = dt / 2 * rows->below[i] / rows->pivot[i - 1];
         rows->pivot[i] -= rows->left[i] * dt / 2 * rows->above[i - 1];
@@ -87,20 +87,20 @@ static void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, 
     }
 }
 
-void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
-                      size_t moments, double *extra)
+void moment_rows_lines(const struct consistent *c, const struct slab *slab, size_t *rows, size_t *planes)
+{
+    const int slot = c->slot[slab->axis];
+    *rows = slot == 1 ? 1 : slab->inside.n[1];
+    *planes = slot == 2 ? 1 : slab->inside.n[2];
+}
+
+void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab, double dt,
+                      size_t moments, size_t component, size_t j, size_t k, double *extra)
 {
     const struct block *in = &slab->inside;
     const int slot = c->slot[slab->axis];
     const size_t own[3] = {1, in->n[0], in->n[0] * in->n[1]};
-    const size_t lanes = slot == 0 ? 1 : in->n[0];
-    const size_t rows_y = slot == 1 ? 1 : in->n[1], planes = slot == 2 ? 1 : in->n[2];
-    eliminate(rows, slab->relaxation, dt);
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t line = 0; line < (size_t)c->dimension * planes * rows_y; line++) {
-        const size_t component = line / (planes * rows_y), k = line / rows_y % planes, j = line % rows_y;
-        const size_t at = component * slab->inner + k * own[2] + j * own[1];
-        move_lanes(rows, dt, lanes, c->general->pulled + moments + at, extra + slab->phi + at,
-                   c->general->middle + moments + at, own[slot]);
-    }
+    const size_t at = component * slab->inner + k * own[2] + j * own[1];
+    move_lanes(rows, dt, slot == 0 ? 1 : in->n[0], c->general->pulled + moments + at, extra + slab->phi + at,
+               c->general->middle + moments + at, own[slot]);
 }

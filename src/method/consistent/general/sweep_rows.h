@@ -5,14 +5,16 @@
 
 #include <string.h>
 
-enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS };
+enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS, P_ROWS = 3 * PULL_FIELDS };
 
 /* Rows of a thread's buffer, each with room before it. */
 struct rings {
-    REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS] */
+    REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS], [PULL_FIELDS] */
     REAL *scratch;
     REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
+    REAL *part;  /* of each layer (struct sweep_part) */
     REAL *scaled, *passed, *zero;
+    double *taken; /* a row of a layer */
     struct rows touched[SPAN]; /* of `force` */
 };
 
@@ -23,7 +25,9 @@ struct pass {
     REAL *u, *out; /* out += factor a; with `moving` u += dt w before, w being out */
     REAL factor;
     bool moving;
-    double level; /* smaller displacements move nothing */
+    double dt;     /* of the step, while moving */
+    double level;  /* smaller displacements move nothing */
+    double *extra; /* memory of absorbing layers */
 };
 
 static size_t unclamped(const struct sweep *s, int slot)
@@ -35,11 +39,13 @@ static struct rings rings_of(const struct sweep *s, REAL *buffer)
 {
     struct rings r = {.value = buffer + GROUP};
     r.pull = r.value + (size_t)(SPAN * V_ROWS) * s->stride;
-    r.scratch = r.pull + (size_t)(SPAN * V_ROWS) * s->stride;
+    r.scratch = r.pull + (size_t)(SPAN * P_ROWS) * s->stride;
     r.force = r.scratch + (size_t)(9 + STRESS_ROOM) * s->stride;
-    r.scaled = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
+    r.part = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
+    r.scaled = r.part + s->part_size;
     r.passed = r.scaled + s->n[1] * s->stride;
     r.zero = r.passed + FUSED_ROWS * s->stride;
+    r.taken = (double *)(r.zero + FUSED_ROWS * s->stride);
     return r;
 }
 
@@ -96,6 +102,11 @@ static REAL *ring_row(const struct sweep *s, REAL *ring, size_t row, int compone
     return ring + (row % SPAN * V_ROWS + (size_t)(component * DEPTH_FIELDS + field)) * s->stride;
 }
 
+static REAL *pull_row(const struct sweep *s, REAL *ring, size_t row, int component, int field)
+{
+    return ring + (row % SPAN * P_ROWS + (size_t)(component * PULL_FIELDS + field)) * s->stride;
+}
+
 /* out := a out + b in */
 static void mix(size_t n, REAL a, REAL b, const REAL *restrict in, REAL *restrict out)
 {
@@ -145,12 +156,15 @@ static void read_row(const struct pass *pass, const struct rings *r, size_t m, s
     if (row == s->cells[1] + 1) end_row(s, r, true);
 }
 
+#include "method/consistent/general/sweep_layers.h"
+
 /* Row j of the points of a family. */
 static void point_row(const struct pass *pass, const struct rings *r, int f, size_t m, size_t j)
 {
     const struct sweep *s = pass->s;
     const struct family *family = &pass->c->general->family[f];
     const size_t at = m * s->points[f][0] + j, row = m * family->n[1] + j;
+    const int across = family->at[DEPTH] == AT_KNOTS ? ACROSS_KNOTS : ACROSS_MIDDLES;
     const enum sweep_field value = family->at[DEPTH] == AT_KNOTS ? VALUE_KNOTS : VALUE_MIDDLES;
     struct NAME(sweep_row) points = {.x_knots = family->at[0] == AT_KNOTS,
                                      .y_knots = family->at[1] == AT_KNOTS,
@@ -179,10 +193,17 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
         for (size_t d = 0; d < SPAN; d++) {
             points.value[component][d] = ring_row(s, r->value, j + d, component, (int)value);
             points.slope[component][d] = ring_row(s, r->value, j + d, component, (int)value + 1);
-            points.pull[component][d] = ring_row(s, r->pull, j + d, component, (int)value);
-            points.slope_pull[component][d] = ring_row(s, r->pull, j + d, component, (int)value + 1);
+            points.pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value);
+            points.slope_pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value + 1);
+            points.across_pull[component][d] = pull_row(s, r->pull, j + d, component, across);
         }
-    NAME(taken_sweep_kernels)()->points(&points);
+    if (!s->layered) {
+        NAME(taken_sweep_kernels)()->points(&points);
+        return;
+    }
+    NAME(taken_sweep_kernels)()->slopes(&points);
+    add_memory(pass, &points, f, m, j);
+    NAME(taken_sweep_kernels)()->stresses(&points);
 }
 
 static REAL *force_row(const struct sweep *s, const struct rings *r, size_t k, size_t component, size_t row)
@@ -195,14 +216,15 @@ static void write_row(const struct pass *pass, const struct rings *r, size_t m, 
 {
     const struct sweep *s = pass->s;
     for (int component = 0; component < 3; component++) {
-        const REAL *in[DEPTH_FIELDS];
+        const REAL *in[PULL_FIELDS];
         REAL *out[SPAN];
-        for (int field = 0; field < DEPTH_FIELDS; field++)
-            in[field] = ring_row(s, r->pull, row, component, field);
+        for (int field = 0; field < PULL_FIELDS; field++)
+            in[field] = pull_row(s, r->pull, row, component, field);
         for (size_t d = 0; d < SPAN; d++)
             out[d] = force_row(s, r, s->pair[m].base + d, (size_t)component, row);
-        NAME(taken_sweep_kernels)()->pulls(s->width, in, s->pair[m].weight[component == DEPTH], out);
+        NAME(taken_sweep_kernels)()->pulls(s->layered, s->width, in, s->pair[m].weight[component == DEPTH], out);
     }
+    keep_row(pass, r, m, row);
 }
 
 /* All points of pair m that move anything. */
@@ -215,7 +237,7 @@ static void point_planes(const struct pass *pass, struct rings *r, size_t m)
     const size_t most = s->cells[1] + 1, after = loud.end + s->low[1] + 1;
     const size_t end = after < most ? after : most;
     for (size_t slot = 0; slot < SPAN; slot++) /* the first two rows; what no point of a plane sets */
-        memset(ring_row(s, r->pull, slot, 0, 0), 0, (size_t)V_ROWS * s->stride * sizeof(REAL));
+        memset(pull_row(s, r->pull, slot, 0, 0), 0, (size_t)P_ROWS * s->stride * sizeof(REAL));
     for (size_t row = from; row < from + 2; row++)
         read_row(pass, r, m, row);
     for (size_t j = from; j < end; j++) {
