@@ -228,7 +228,7 @@ void general_look(struct consistent *c, const double *u)
     struct general *g = c->general;
     const struct passes *passes = taken_passes();
     const size_t rows = c->n[1] * c->n[2];
-    double *most = g->force, largest = 0;
+    double *most = g->work, largest = 0;
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
     for (size_t row = 0; row < rows; row++) {
         most[row] = 0;

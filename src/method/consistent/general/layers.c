@@ -43,7 +43,9 @@ static bool lay_layer(struct consistent *c, const struct slab *slab, struct gene
     lay_points(c, layer);
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++) {
         layer->damping[at] = array_new(layer->width, sizeof(double));
-        if (layer->damping[at] == NULL) return false;
+        layer->kept[at] = array_new(layer->width, sizeof(double));
+        layer->taken[at] = array_new(layer->width, sizeof(double));
+        if (layer->damping[at] == NULL || layer->kept[at] == NULL || layer->taken[at] == NULL) return false;
         const size_t points = c->general->cells[layer->slot] + (at == AT_KNOTS ? 1 : 0);
         const size_t first = layer->high ? points - layer->width : 0;
         for (size_t i = 0; i < layer->width; i++)
@@ -84,8 +86,11 @@ void general_layers_free(struct consistent *c)
 {
     struct general *g = c->general;
     for (size_t l = 0; g->layer != NULL && l < g->layers; l++) {
-        for (int at = 0; at < 2; at++)
+        for (int at = 0; at < 2; at++) {
             array_free(g->layer[l].damping[at]);
+            array_free(g->layer[l].kept[at]);
+            array_free(g->layer[l].taken[at]);
+        }
         moment_rows_free(&g->layer[l].rows);
     }
     array_free(g->layer);
@@ -93,28 +98,20 @@ void general_layers_free(struct consistent *c)
     array_free(g->middle);
 }
 
-/* Points of a layer in row j of plane m, from *first to *end - 1, of those from .. end - 1; false: none. */
-static bool cut_row(const struct general_layer *layer, int f, size_t j, size_t m, size_t *first, size_t *end)
+bool general_layer_points(const struct general_layer *layer, int family, size_t j, size_t m, size_t *first,
+                          size_t *end, size_t *psi)
 {
-    const size_t *at = layer->at[f], *n = layer->n[f];
+    const size_t *at = layer->at[family], *n = layer->n[family];
     if (j < at[1] || j >= at[1] + n[1] || m < at[2] || m >= at[2] + n[2]) return false;
     *first = *first > at[0] ? *first : at[0];
     *end = *end < at[0] + n[0] ? *end : at[0] + n[0];
+    *psi = layer->psi[family] + ((m - at[2]) * n[1] + j - at[1]) * n[0] + *first - at[0];
     return *first < *end;
 }
 
-/* Where the memory of a component at a point stands, from the family's first. */
-static size_t memory_at(const struct general_layer *layer, int f, int component, size_t i, size_t j, size_t m)
+size_t general_layer_place(const struct general_layer *layer, int family, size_t i, size_t j, size_t m)
 {
-    const size_t *at = layer->at[f], *n = layer->n[f];
-    return (size_t)component * layer->points[f] + ((m - at[2]) * n[1] + j - at[1]) * n[0] + i - at[0];
-}
-
-const double *general_layer_psi(const struct general_layer *layer, int family, int component, size_t j, size_t m,
-                                const double *extra, size_t *first, size_t *end)
-{
-    if (!cut_row(layer, family, j, m, first, end)) return NULL;
-    return extra + layer->psi[family] + memory_at(layer, family, component, *first, j, m);
+    return (size_t[]){i, j, m}[layer->slot] - layer->at[family][layer->slot];
 }
 
 void general_layers_add(const struct consistent *c, const struct point_plane *plane,
@@ -125,11 +122,12 @@ void general_layers_add(const struct consistent *c, const struct point_plane *pl
     const int f = (int)(family - g->family);
     for (size_t l = 0; l < g->layers; l++) {
         const struct general_layer *layer = &g->layer[l];
-        for (int axis = 0; axis < c->dimension; axis++) {
-            size_t first = from, last = end;
-            const double *restrict psi = general_layer_psi(layer, f, axis, j, m, extra, &first, &last);
+        size_t first = from, last = end, at;
+        if (!general_layer_points(layer, f, j, m, &first, &last, &at)) continue;
+        for (size_t axis = 0; axis < (size_t)c->dimension; axis++) {
             double *restrict slope = slope_row(plane, c->slot[axis], layer->slot) + first;
-            for (size_t i = 0; psi != NULL && i < last - first; i++)
+            const double *restrict psi = extra + at + axis * layer->points[f];
+            for (size_t i = 0; i < last - first; i++)
                 slope[i] += psi[i];
         }
     }
@@ -154,13 +152,6 @@ void general_layers_pull(const struct consistent *c, const double *extra, double
     }
 }
 
-/* f at the end of a step, g in its middle (Eq 11 of absorbing-faces.md). */
-static void move(double dt, double damping, double relaxation, double g, double *memory)
-{
-    const double q = damping * dt / 2, middle = (*memory - q * g) / (1 + q + relaxation * dt / 2);
-    *memory = 2 * middle - *memory;
-}
-
 /* What a layer must read for points first .. end - 1 along each slot: control values, unclamped along x. */
 static struct part part_of(const struct consistent *c, const size_t first[2], const size_t end[2])
 {
@@ -175,30 +166,34 @@ static struct part part_of(const struct consistent *c, const size_t first[2], co
 
 /* Moves psi on at the points of a layer in plane m. */
 static void move_slopes(const struct consistent *c, const struct general_layer *layer, int f, size_t m,
-                        double dt, double *extra, double *buffer)
+                        double *extra, double *buffer)
 {
     const struct general *g = c->general;
     const struct family *family = &g->family[f];
     const struct point_plane plane = general_plane(c, family, false, buffer);
     const size_t *at = layer->at[f], *n = layer->n[f];
-    const double *damping = layer->damping[family->at[layer->slot]];
+    const enum at along = family->at[layer->slot];
     for (size_t j = at[1]; j < at[1] + n[1]; j++) {
         if (!general_row_is_loud(c, &g->taps[1][0][family->at[1]][j], &g->taps[2][0][family->at[2]][m]))
             continue;
         taken_point_kernels()->slopes(&plane, j, at[0], at[0] + n[0]);
-        for (int axis = 0; axis < c->dimension; axis++) {
+        size_t first = at[0], end = at[0] + n[0], psi;
+        general_layer_points(layer, f, j, m, &first, &end, &psi);
+        for (size_t axis = 0; axis < (size_t)c->dimension; axis++) {
             const double *slope = slope_row(&plane, c->slot[axis], layer->slot) + at[0];
-            const size_t first = layer->psi[f] + memory_at(layer, f, axis, at[0], j, m);
+            double *memory = extra + psi + axis * layer->points[f];
+            const size_t place = general_layer_place(layer, f, at[0], j, m);
+            const double *kept = layer->kept[along] + place, *taken = layer->taken[along] + place;
             for (size_t i = 0; i < n[0]; i++) {
-                const size_t along = layer->slot == 0 ? i : layer->slot == 1 ? j - at[1] : m - at[2];
-                move(dt, damping[along], layer->slab->relaxation, slope[i], &extra[first + i]);
+                const size_t one = layer->slot == 0 ? i : 0;
+                memory[i] = kept[one] * memory[i] - taken[one] * slope[i];
             }
         }
     }
 }
 
-static void move_all_slopes(struct consistent *c, const struct general_layer *layer, double dt,
-                            const double *u, double *extra)
+static void move_all_slopes(struct consistent *c, const struct general_layer *layer, const double *u,
+                            double *extra)
 {
     const struct general *g = c->general;
     for (int f = 0; f < 3; f++) {
@@ -210,15 +205,9 @@ static void move_all_slopes(struct consistent *c, const struct general_layer *la
             double *buffer = g->buffer[omp_get_thread_num()];
             if (!general_plane_counts(c, depth, m, 0, c->n[DEPTH])) continue;
             general_read(c, depth, m, &part, u, buffer);
-            move_slopes(c, layer, f, m, dt, extra, buffer);
+            move_slopes(c, layer, f, m, extra, buffer);
         }
     }
-}
-
-void general_layers_move_slopes(struct consistent *c, double dt, const double *middle, double *extra)
-{
-    for (size_t l = 0; l < c->general->layers; l++)
-        move_all_slopes(c, &c->general->layer[l], dt, middle, extra);
 }
 
 bool general_layer_row(const struct slab *slab, size_t j, size_t k, size_t *at)
@@ -280,27 +269,42 @@ void general_layers_take(const struct consistent *c, size_t at, size_t n, const 
     }
 }
 
+/* By the trapezoidal rule (Eq 11 of absorbing-faces.md). */
+void general_layers_prepare(struct consistent *c, double dt)
+{
+    for (size_t l = 0; l < c->general->layers; l++) {
+        struct general_layer *layer = &c->general->layer[l];
+        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+            for (size_t i = 0; i < layer->width; i++) {
+                const double q = layer->damping[at][i] * dt / 2, all = 1 + q + layer->slab->relaxation * dt / 2;
+                layer->kept[at][i] = 2 / all - 1;
+                layer->taken[at][i] = 2 * q / all;
+            }
+        moment_rows_eliminate(&layer->rows, layer->slab, dt);
+    }
+    pml_keep(c, dt);
+}
+
 static void move_moments(struct consistent *c, struct general_layer *layer, double dt, double *extra)
 {
     const size_t moments = general_layer_moments(c, layer->slab);
-    size_t rows, planes;
-    moment_rows_lines(c, layer->slab, &rows, &planes);
-    moment_rows_eliminate(&layer->rows, layer->slab, dt);
+    const size_t lines = moment_rows_lines(c, layer->slab);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t line = 0; line < (size_t)c->dimension * planes * rows; line++)
-        moment_rows_move(c, &layer->rows, layer->slab, dt, moments, line / (planes * rows), line % rows,
-                         line / rows % planes, extra);
+    for (size_t line = 0; line < (size_t)c->dimension * lines; line++)
+        moment_rows_move(c, &layer->rows, layer->slab, dt, moments, line / lines, line % lines, extra);
 }
 
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
                              const double *v, double *extra)
 {
     struct general *g = c->general;
-    general_look(c, u);
+    general_look(c, u); /* before its numbers go into work */
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t i = 0; i < c->model.unknowns; i++)
         g->work[i] = u[i] + to_middle * v[i];
-    general_layers_move_slopes(c, dt, g->work, extra);
+    general_layers_prepare(c, dt);
+    for (size_t l = 0; l < g->layers; l++)
+        move_all_slopes(c, &g->layer[l], g->work, extra);
     general_forces(c, u, extra, g->force);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = 0; from < g->moments; from += PIECE)

@@ -11,17 +11,21 @@ struct general_layer {
     size_t width; /* cells */
     const struct slab *slab;
     size_t at[3][3], n[3][3]; /* [family][slot] of its points */
-    double *damping[2];       /* [at] at its points along the slot */
+    double *damping[2];       /* [at] at its points along the slot, ... */
+    double *kept[2], *taken[2]; /* ... and what a step makes of it: psi := kept psi - taken slope */
     size_t psi[3], points[3]; /* [family] place in extra; points */
     struct moment_rows rows;
 };
 
-/* psi of a component in row j of plane m of a family's points: of those from *first to *end - 1 that lie in the layer,
- * which becomes *first .. *end - 1. NULL: none do. */
-const double *general_layer_psi(const struct general_layer *layer, int family, int component, size_t j, size_t m,
-                                const double *extra, size_t *first, size_t *end);
-/* Moves psi of all layers on by a step dt, u being `middle` in its middle. */
-void general_layers_move_slopes(struct consistent *c, double dt, const double *middle, double *extra);
+/* Factors of a step dt: of all psi and phi, and of velocities that layers damp besides. */
+void general_layers_prepare(struct consistent *c, double dt);
+/* Points of a layer in row j of plane m of a family: those from *first to *end - 1 that lie in it, which becomes
+ * *first .. *end - 1; *psi: where the memory of component 0 begins in the state's extra part, that of component i being
+ * i * points[family] behind. False: none do. */
+bool general_layer_points(const struct general_layer *layer, int family, size_t j, size_t m, size_t *first,
+                          size_t *end, size_t *psi);
+/* Which entry of kept[] and taken[] point i of row j in plane m has; along x those of the points after it follow. */
+size_t general_layer_place(const struct general_layer *layer, int family, size_t i, size_t j, size_t m);
 /* Numbers of phi of a slab stand from here on in g->pulled and g->middle. */
 size_t general_layer_moments(const struct consistent *c, const struct slab *slab);
 /* Where row j of plane k stands in the numbers of a component of a slab; false: not there. */

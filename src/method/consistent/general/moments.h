@@ -21,12 +21,12 @@ void moment_rows_free(struct moment_rows *rows);
 
 /* The elimination of a step dt by the trapezoidal rule. */
 void moment_rows_eliminate(struct moment_rows *rows, const struct slab *slab, double dt);
-/* Moves phi of a slab on by that step: of a component, in row j of plane k of the slab; of a layer across y in all rows
- * of the plane (j = 0), of one across depth in row j of all planes (k = 0). f in the middle of the step stands in
- * c->general->pulled from `moments` on, phi in the middle goes to c->general->middle. */
+/* Moves phi of a component of a slab on by that step: across x and y in plane `line`, across depth in row `line` of all
+ * planes. f in the middle of the step stands in c->general->pulled from `moments` on, phi in the middle goes to
+ * c->general->middle. */
 void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab, double dt,
-                      size_t moments, size_t component, size_t j, size_t k, double *extra);
-/* Rows and planes for which that is to be called. */
-void moment_rows_lines(const struct consistent *c, const struct slab *slab, size_t *rows, size_t *planes);
+                      size_t moments, size_t component, size_t line, double *extra);
+/* How many lines there are. */
+size_t moment_rows_lines(const struct consistent *c, const struct slab *slab);
 
 #endif

@@ -149,7 +149,7 @@ static bool lay_fields(const struct consistent *c, struct sweep *s)
     const size_t room = (SPAN * 3 * (DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
                          3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
                             s->stride +
-                        s->part_size + taken;
+                        (s->layered ? SPAN * 3 * DEPTH_FIELDS + 9 : 0) * s->stride + s->part_size + taken;
     s->root = numbers(s, s->volume);
     s->ready = numbers(s, 3 * planes * s->rows * s->stride + s->stride);
     s->size = array_new(planes * s->n[1], sizeof *s->size);

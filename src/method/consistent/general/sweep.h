@@ -110,6 +110,14 @@ struct sweep {
          * of y with the weights of values */                                                                     \
         void (*pulls)(bool apart, size_t width, const real *const in[PULL_FIELDS],                                \
                       const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                              \
+        /* Memory of absorbing layers at n points of a row: slope[i] += psi[i]; */                                \
+        void (*recall)(size_t n, const double *psi, real *slope);                                                 \
+        /* psi brought on by the slope less `half` of its rate before, by factors of one point or of each along   \
+         * the row; */                                                                                            \
+        void (*remember)(size_t n, bool along, const double *kept, const double *taken, real half,                \
+                         const real *rate, double *psi, real *slope);                                             \
+        /* out[i] += root[i] phi[i] */                                                                            \
+        void (*pull)(size_t n, const double *phi, const real *root, real *out);                                   \
         /* out[i] -= a one[i] + b other[i], i < n */                                                              \
         void (*keep)(size_t n, real a, const real *one, real b, const real *other, real *out);                    \
         /* out[i] := factor[i] in[i], i < n */                                                                    \

@@ -1,23 +1,43 @@
 /* What a sweep does where absorbing layers are (doc/theory/general-ground.md, section 5), for numbers of type REAL;
  * included by sweep_double.c and sweep_single.c. Their memory is in double precision.
  *
- * psi has been moved on before. Forces of stresses along a layer's axis are kept apart in rings of their own; once
+ * psi goes on by the slopes of u - dt/2 w, u being that of the step's end and w still the velocity in its middle:
+ * before the points' stresses are made, in planes that two threads need in a stage of its own. Forces of stresses along a layer's axis are kept apart in rings of their own; once
  * those of a plane are complete phi goes on along x and y, along depth when all planes are (STAGES). */
 
-/* Adds psi to the slopes of a row of points. */
-static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * points, int f, size_t m, size_t j)
+/* psi of the points of a row goes on, or has gone on already, and comes to their slopes; rate: w in the place of u. */
+static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * points,
+                       const struct NAME(sweep_row) * rate, int f, size_t m, size_t j)
+{
+    const struct general *g = pass->c->general;
+    const struct NAME(sweep_kernels) *kernels = NAME(taken_sweep_kernels)();
+    for (size_t l = 0; l < g->layers; l++) {
+        const struct general_layer *layer = &g->layer[l];
+        size_t first = 0, end = g->family[f].n[0], at;
+        if (!general_layer_points(layer, f, j, m, &first, &end, &at)) continue;
+        const enum at along = g->family[f].at[layer->slot];
+        const size_t place = general_layer_place(layer, f, first, j, m), n = end - first;
+        for (size_t component = 0; component < 3; component++) {
+            const size_t row = (3 * component + (size_t)layer->slot) * points->stride + first;
+            double *psi = pass->extra + at + component * layer->points[f];
+            if (rate == NULL)
+                kernels->recall(n, psi, points->scratch + row);
+            else
+                kernels->remember(n, layer->slot == 0, layer->kept[along] + place, layer->taken[along] + place,
+                                  (REAL)(pass->dt / 2), rate->scratch + row, psi, points->scratch + row);
+        }
+    }
+}
+
+/* Does a layer have points in plane m of the pairs? */
+static bool plane_is_layered(const struct pass *pass, size_t m)
 {
     const struct general *g = pass->c->general;
     for (size_t l = 0; l < g->layers; l++)
-        for (int component = 0; component < 3; component++) {
-            size_t first = 0, end = g->family[f].n[0];
-            const double *restrict psi =
-                general_layer_psi(&g->layer[l], f, component, j, m, pass->extra, &first, &end);
-            REAL *restrict slope =
-                points->scratch + (size_t)(3 * component + g->layer[l].slot) * points->stride + first;
-            for (size_t i = 0; psi != NULL && i < end - first; i++)
-                slope[i] += (REAL)psi[i];
-        }
+        for (int f = 0; f < 3; f++)
+            if (m >= g->layer[l].at[f][DEPTH] && m < g->layer[l].at[f][DEPTH] + g->layer[l].n[f][DEPTH])
+                return true;
+    return false;
 }
 
 /* Row of the ring of a part. */
@@ -111,16 +131,12 @@ static void take_forces(const struct pass *pass, const struct rings *r, size_t l
 }
 
 /* phi of a layer across x or y goes on in plane k. */
-static void move_along(const struct pass *pass, size_t l, size_t k, const struct rows *rows)
+static void move_along(const struct pass *pass, size_t l, size_t k)
 {
     const struct general_layer *layer = &pass->c->general->layer[l];
-    const struct block *in = &layer->slab->inside;
-    const size_t moments = general_layer_moments(pass->c, layer->slab);
-    const size_t from = layer->slot == 1 ? 0 : rows->from, end = layer->slot == 1 ? 1 : rows->end;
     for (size_t component = 0; component < 3; component++)
-        for (size_t j = from; j < end; j++)
-            moment_rows_move(pass->c, &layer->rows, layer->slab, pass->dt, moments, component, j,
-                             k - in->at[DEPTH], pass->extra);
+        moment_rows_move(pass->c, &layer->rows, layer->slab, pass->dt, general_layer_moments(pass->c, layer->slab),
+                         component, k, pass->extra);
 }
 
 /* What layers do in a plane whose forces are complete. */
@@ -129,7 +145,7 @@ static void layers_done(const struct pass *pass, const struct rings *r, size_t k
     for (size_t l = 0; pass->moving && l < pass->c->general->layers; l++) {
         if (!part_has(&pass->s->part[l], DEPTH, k)) continue;
         take_forces(pass, r, l, k, rows);
-        if (pass->c->general->layer[l].slot != DEPTH) move_along(pass, l, k, rows);
+        if (pass->c->general->layer[l].slot != DEPTH) move_along(pass, l, k);
     }
 }
 
@@ -152,11 +168,9 @@ static void add_moments(const struct pass *pass, const struct rings *r, bool ove
         for (size_t j = rows->from, at; j < rows->end; j++) {
             if (!general_layer_row(slab, j, k, &at)) continue;
             const size_t first = slab->inside.at[0];
-            const double *restrict phi = pass->extra + slab->phi + component * slab->inner + at;
-            const REAL *restrict root = (const REAL *)s->root + k * s->plane + j * s->n[0] + first;
-            REAL *restrict out = r->scaled + j * s->stride + first;
-            for (size_t i = 0; i < slab->inside.n[0]; i++)
-                out[i] += root[i] * (REAL)phi[i];
+            NAME(taken_sweep_kernels)
+            ()->pull(slab->inside.n[0], pass->extra + slab->phi + component * slab->inner + at,
+                     (const REAL *)s->root + k * s->plane + j * s->n[0] + first, r->scaled + j * s->stride + first);
         }
     }
 }
@@ -170,7 +184,7 @@ static void move_over_depth(const struct pass *pass, size_t from, size_t end)
         for (size_t component = 0; component < 3; component++)
             for (size_t j = from; j < end; j++)
                 moment_rows_move(pass->c, &layer->rows, layer->slab, pass->dt,
-                                 general_layer_moments(pass->c, layer->slab), component, j, 0, pass->extra);
+                                 general_layer_moments(pass->c, layer->slab), component, j, pass->extra);
     }
 }
 

@@ -1,12 +1,13 @@
 /* The order of a sweep (sweep.h) for numbers of type REAL; included by sweep_double.c and sweep_single.c.
  *
  * A thread has planes of its own. What its neighbours read of the displacements is brought on first (stage 0); then
- * come its points and the update of those planes whose neighbours are its own (1), last the others (4). In between the
- * memory of absorbing layers over depth goes on (2), and the planes that wait for it (3); all threads wait after each. Each sum is taken in one order: the same bits with any number of threads. */
+ * the memory of absorbing layers at points that two threads need (1), points and the update of those planes whose
+ * neighbours are a thread's own (2), last the others (5). In between memory over depth goes on (3), and the planes that
+ * wait for it (4); all threads wait after each. Each sum is taken in one order: the same bits with any number of threads. */
 #include "base/machine.h"
 #include "method/consistent/fused/settled.h"
 
-enum { STAGES = 5 };
+enum { BRING, MOVE_SHARED, POINTS, MOVE_OVER_DEPTH, GO_ON, FINISH, STAGES };
 
 /* Are all planes that the update of these reads those of the thread, and none waits? */
 static bool own(const struct pass *pass, size_t first, size_t from, size_t end)
@@ -18,6 +19,30 @@ static bool own(const struct pass *pass, size_t first, size_t from, size_t end)
     return (from == 0 || first >= from + SWEEP_REACH) && (end == s->n[2] || after <= end);
 }
 
+/* The first pair of planes that a thread needs of its planes' neighbours: two of them. */
+static size_t first_pair(const struct sweep *s, size_t from)
+{
+    return less(from + s->low[2], 2);
+}
+
+static enum task task_of(const struct pass *pass, size_t m)
+{
+    const struct sweep *s = pass->s;
+    if (!pass->moving || !plane_is_layered(pass, m)) return PULL;
+    for (int thread = 1; thread < s->threads; thread++) {
+        const size_t from = s->bound[thread], first = first_pair(s, from);
+        if (from > 0 && from < s->n[2] && m >= first && m < first + 2) return PULL;
+    }
+    return PULL_AND_MOVE;
+}
+
+/* Memory at the points that the thread before needs too. */
+static void move_shared(const struct pass *pass, struct rings *r, size_t from)
+{
+    for (size_t m = first_pair(pass->s, from); from > 0 && m < first_pair(pass->s, from) + 2; m++)
+        if (pass->moving && plane_is_layered(pass, m)) point_planes(pass, r, m, MOVE);
+}
+
 /* Planes from `from` to `end`. */
 static void sweep_points(const struct pass *pass, struct rings *r, size_t from, size_t end)
 {
@@ -26,11 +51,11 @@ static void sweep_points(const struct pass *pass, struct rings *r, size_t from, 
     for (size_t slot = 0; slot < SPAN; slot++)
         r->touched[slot] = (struct rows){0, 0};
     memset(r->force, 0, (3 * SPAN * unclamped(s, 1) * s->stride + s->part_size) * sizeof(REAL));
-    for (size_t m = less(from + s->low[2], 2); done < end; m++) {
+    for (size_t m = first_pair(s, from); done < end; m++) {
         if (m <= s->cells[2]) {
             for (; pass->moving && next < s->pair[m].base + SPAN && next + 2 < end; next++)
                 bring_plane(pass, next);
-            point_planes(pass, r, m);
+            point_planes(pass, r, m, task_of(pass, m));
         }
         if (m >= s->low[2] && m - s->low[2] < from) forget_plane(pass, r, m - s->low[2]);
         if (m >= done + s->low[2]) plane_done(pass, r, done++);
@@ -48,20 +73,22 @@ static void sweep_stage(const struct pass *pass, size_t thread, int stage)
     const struct sweep *s = pass->s;
     const size_t from = s->bound[thread], end = s->bound[thread + 1], threads = (size_t)pass->c->threads;
     struct rings r = rings_of(s, s->buffer[thread]);
-    if (from >= end && stage != 2) return;
-    if (stage == 0)
+    if (from >= end && stage != MOVE_OVER_DEPTH) return;
+    if (stage == BRING)
         for (size_t k = from; k < end; k++) {
             if (!pass->moving || k < from + 2 || k + 2 >= end) bring_plane(pass, k);
         }
-    else if (stage == 1)
+    else if (stage == MOVE_SHARED)
+        move_shared(pass, &r, from);
+    else if (stage == POINTS)
         sweep_points(pass, &r, from, end);
-    else if (stage == 2 && pass->moving)
+    else if (stage == MOVE_OVER_DEPTH && pass->moving)
         move_over_depth(pass, s->n[1] * thread / threads, s->n[1] * (thread + 1) / threads);
-    else if (stage == 3)
+    else if (stage == GO_ON)
         for (size_t k = from; k < end; k++) {
             if (waits(pass, k)) go_on_with_plane(pass, &r, k);
         }
-    else if (stage == 4)
+    else if (stage == FINISH)
         for (size_t first = from; first < end; first += SWEEP_PLANES)
             if (!own(pass, first, from, end)) finish_planes(pass, &r, first);
 }
@@ -105,7 +132,7 @@ static void sweep_over(struct pass *pass)
             sweep_stage(pass, (size_t)thread, stage);
             tiny_as_before(before);
         }
-        if (stage == 0 && !pass->moving) pass->level = s->quiet * largest_size(pass);
+        if (stage == BRING && !pass->moving) pass->level = s->quiet * largest_size(pass);
     }
     s->largest = largest_size(pass);
     part_exchange(pass->c, pass->out, 3, s->volume * sizeof(REAL), s->plane * sizeof(REAL));
@@ -158,27 +185,13 @@ void NAME(sweep_settle)(struct consistent *c, const struct drive *drive, double 
     NAME(settle)(&settled, dt, y, a);
 }
 
-/* The layers' memory psi goes on before u does, from u + dt/2 w; what phi needs is laid. */
-static void layers_begin(struct consistent *c, double dt, const REAL *u, const REAL *w, double *extra)
-{
-    struct general *g = c->general;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < c->model.unknowns; i++)
-        g->work[i] = (double)u[i] + dt / 2 * (double)w[i];
-    general_look(c, g->work);
-    general_layers_move_slopes(c, dt, g->work, extra);
-    for (size_t l = 0; l < g->layers; l++)
-        moment_rows_eliminate(&g->layer[l].rows, g->layer[l].slab, dt);
-    pml_keep(c, dt);
-}
-
 void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double dt, REAL *u, REAL *w,
                          double *y, double *a)
 {
     struct sweep *s = c->general->sweep;
     const struct watch *watch = &c->watch;
     double *extra = y + 2 * c->model.unknowns;
-    if (s->layered) layers_begin(c, dt, u, w, extra);
+    if (s->layered) general_layers_prepare(c, dt);
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = w[watch->entry[i]] * (s->layered ? pml_kept(c, watch->entry[i]) : 1);
     if (!s->known) find_reached(c, u, w);
