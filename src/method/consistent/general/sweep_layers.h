@@ -110,6 +110,43 @@ static void clamp_part(const struct pass *pass, const struct rings *r, const str
     }
 }
 
+/* Does plane k wait for all planes of a layer over depth? */
+static bool waits_for(const struct pass *pass, size_t l, size_t k)
+{
+    return pass->moving && pass->c->general->layer[l].slot == DEPTH && part_has(&pass->s->part[l], DEPTH, k);
+}
+
+/* Rows where the memory of layers over depth is not 0 after the step, in any plane: moments act on all across a layer,
+ * and points reach 2 rows and planes beyond what moves. */
+static void lay_deep(struct pass *pass)
+{
+    enum { REACH = 2 };
+    const struct sweep *s = pass->s;
+    for (size_t l = 0; pass->moving && l < pass->c->general->layers; l++) {
+        const struct sweep_part *part = &s->part[l];
+        const size_t after = part->at[DEPTH] + part->n[DEPTH] + REACH;
+        struct rows *deep = &pass->deep[l];
+        for (size_t k = less(part->at[DEPTH], REACH); k < after && k < s->n[DEPTH]; k++)
+            join(deep, s->reached[k].from, s->reached[k].end);
+        if (deep->from < deep->end) join(deep, less(deep->from, REACH), deep->end + REACH);
+        if (deep->end > s->n[1]) deep->end = s->n[1];
+    }
+}
+
+/* Adds the rows of plane k where the memory of layers is not 0. */
+static void join_layers(const struct pass *pass, size_t k, struct rows *rows)
+{
+    const struct sweep *s = pass->s;
+    if (!s->layered) return;
+    join(rows, pass->moving ? s->reached[k].from : 0, pass->moving ? s->reached[k].end : s->n[1]);
+    for (size_t l = 0; l < pass->c->general->layers; l++) {
+        const struct general_layer *layer = &pass->c->general->layer[l];
+        const size_t from = layer->slab->inside.at[1], end = from + layer->slab->inside.n[1];
+        if (layer->slot == 1 && rows->from < end && rows->end > from) join(rows, from, end);
+        if (waits_for(pass, l, k)) join(rows, pass->deep[l].from, pass->deep[l].end);
+    }
+}
+
 /* Forces f of a layer in plane k, which are complete, into the state. */
 static void take_forces(const struct pass *pass, const struct rings *r, size_t l, size_t k, const struct rows *rows)
 {
@@ -149,11 +186,11 @@ static void layers_done(const struct pass *pass, const struct rings *r, size_t k
     }
 }
 
-/* Does plane k wait for all planes of a layer over depth? */
+/* Does plane k wait for any? */
 static bool waits(const struct pass *pass, size_t k)
 {
-    for (size_t l = 0; pass->moving && l < pass->c->general->layers; l++)
-        if (pass->c->general->layer[l].slot == DEPTH && part_has(&pass->s->part[l], DEPTH, k)) return true;
+    for (size_t l = 0; l < pass->c->general->layers; l++)
+        if (waits_for(pass, l, k)) return true;
     return false;
 }
 

@@ -113,7 +113,7 @@ static void plane_done(const struct pass *pass, struct rings *r, size_t k)
         rows.end = touched->end - s->low[1] < s->n[1] ? touched->end - s->low[1] : s->n[1];
     }
     if (pass->drive->load != NULL) join(&rows, s->loaded[k].from, s->loaded[k].end);
-    if (s->layered) join(&rows, pass->moving ? s->reached[k].from : 0, pass->moving ? s->reached[k].end : s->n[1]);
+    join_layers(pass, k, &rows);
     struct rows *filled = &s->filled[k];
     const bool later = waits(pass, k);
     *filled = (struct rows){0, 0};

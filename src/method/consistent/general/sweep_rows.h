@@ -32,6 +32,7 @@ struct pass {
     double dt;     /* of the step, while moving */
     double level;  /* smaller displacements move nothing */
     double *extra; /* memory of absorbing layers */
+    struct rows deep[BOX_FACES]; /* of those over depth: rows where it may not be 0 */
 };
 
 static size_t unclamped(const struct sweep *s, int slot)

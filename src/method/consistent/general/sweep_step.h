@@ -125,6 +125,7 @@ static void sweep_over(struct pass *pass)
     struct sweep *s = pass->s;
     const int threads = pass->c->threads;
     lay_bounds(s, (size_t)threads);
+    lay_deep(pass);
     for (int stage = 0; stage < STAGES; stage++) {
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
         for (int thread = 0; thread < threads; thread++) {
