@@ -27,7 +27,8 @@ static void lay_layers(struct plain_scene *plain, bool hilly)
 
 /* A box with faces drawn by chance, of one rock or of two that meet at a tilted face, below a hill or not (of two and
  * below one the spacing is graded), with layers or none, and a load that begins at t = 0. */
-static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks, bool layers)
+static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks,
+                        bool layers)
 {
     static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
                                                BOUNDARY_SYMMETRY};
@@ -108,8 +109,9 @@ static void assert_one_by_one(bool layers)
         end(&other);
         grading_free(plain.scene.body.grading);
     }
-    print_message("# %d scenes, 40 steps: u %.1e, v %.1e, memory %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
-                  worst[0], worst[1], worst[2], worst[3], seen, watched);
+    print_message(
+        "# %d scenes, 40 steps: u %.1e, v %.1e, memory %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
+        worst[0], worst[1], worst[2], worst[3], seen, watched);
     for (size_t part = 0; part < PARTS; part++)
         assert_true(worst[part] < 1e-12);
     assert_true(seen < 1e-11);
@@ -162,8 +164,8 @@ static void assert_single(bool layers)
         end(&exact);
         grading_free(plain.scene.body.grading);
     }
-    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, memory %.1e, a %.1e; settled %.1e\n", scenes, worst[0],
-                  worst[1], worst[MEMORY], worst[ACCELERATION], watched);
+    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, memory %.1e, a %.1e; settled %.1e\n", scenes,
+                  worst[0], worst[1], worst[MEMORY], worst[ACCELERATION], watched);
     assert_true(worst[0] > 1e-8 && worst[0] < 1e-5); /* as the fused operator's (test_fused_step) */
     assert_true(worst[1] < 2e-5);
     assert_true(worst[MEMORY] < 2e-5);
@@ -236,9 +238,9 @@ static void test_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_by_one),    cmocka_unit_test(test_layers_one_by_one),
-        cmocka_unit_test(test_single),        cmocka_unit_test(test_layers_single),
-        cmocka_unit_test(test_bits),          cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_layers_one_by_one),
+        cmocka_unit_test(test_single),     cmocka_unit_test(test_layers_single),
+        cmocka_unit_test(test_bits),       cmocka_unit_test(test_kept),
         cmocka_unit_test(test_refused),
     };
     omp_set_num_threads(1);

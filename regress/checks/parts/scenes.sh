@@ -15,7 +15,7 @@ $marks"
 fine="&scene dimension = 3, end_time = 4.0 /
 &body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
 &boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
-&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
+&load face = 'z-', shape = 'square', centre = 1.3, 1.5, depth = 0.0, size = 1, 1, direction = 0, 0, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
 $watched"
 

@@ -232,8 +232,8 @@ void general_layers_forget(const struct consistent *c, size_t from, size_t end)
         for (size_t component = 0; component < (size_t)c->dimension; component++)
             for (size_t k = from, at; k < end; k++)
                 if (general_layer_row(slab, slab->inside.at[1], k, &at))
-                    memset(c->general->pulled + general_layer_moments(c, slab) + component * slab->inner + at, 0,
-                           plane * sizeof(double));
+                    memset(c->general->pulled + general_layer_moments(c, slab) + component * slab->inner + at,
+                           0, plane * sizeof(double));
     }
 }
 
@@ -276,7 +276,8 @@ void general_layers_prepare(struct consistent *c, double dt)
         struct general_layer *layer = &c->general->layer[l];
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
             for (size_t i = 0; i < layer->width; i++) {
-                const double q = layer->damping[at][i] * dt / 2, all = 1 + q + layer->slab->relaxation * dt / 2;
+                const double q = layer->damping[at][i] * dt / 2,
+                             all = 1 + q + layer->slab->relaxation * dt / 2;
                 layer->kept[at][i] = 2 / all - 1;
                 layer->taken[at][i] = 2 * q / all;
             }
@@ -308,7 +309,8 @@ void general_layers_remember(struct consistent *c, double dt, double to_middle, 
     general_forces(c, u, extra, g->force);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = 0; from < g->moments; from += PIECE)
-        general_layers_take(c, from, g->moments - from < PIECE ? g->moments - from : PIECE, g->pulled + from, extra);
+        general_layers_take(c, from, g->moments - from < PIECE ? g->moments - from : PIECE, g->pulled + from,
+                            extra);
     for (size_t l = 0; l < g->layers; l++)
         move_moments(c, &g->layer[l], dt, extra);
     g->made = true;

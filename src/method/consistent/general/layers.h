@@ -10,10 +10,10 @@ struct general_layer {
     bool high;
     size_t width; /* cells */
     const struct slab *slab;
-    size_t at[3][3], n[3][3]; /* [family][slot] of its points */
-    double *damping[2];       /* [at] at its points along the slot, ... */
+    size_t at[3][3], n[3][3];   /* [family][slot] of its points */
+    double *damping[2];         /* [at] at its points along the slot, ... */
     double *kept[2], *taken[2]; /* ... and what a step makes of it: psi := kept psi - taken slope */
-    size_t psi[3], points[3]; /* [family] place in extra; points */
+    size_t psi[3], points[3];   /* [family] place in extra; points */
     struct moment_rows rows;
 };
 

@@ -63,16 +63,17 @@ void moment_rows_eliminate(struct moment_rows *rows, const struct slab *slab, do
 
 /* Lanes `beside` each other, count values each, `own` apart:
  * (1 + dt/2 (alpha + D)) middle = phi - dt/2 D f,  phi := 2 middle - phi. */
-INLINED void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, const size_t beside, size_t own,
-                        const double *restrict force, double *restrict phi, double *restrict middle)
+INLINED void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, const size_t beside,
+                        size_t own, const double *restrict force, double *restrict phi,
+                        double *restrict middle)
 {
     const size_t count = rows->count;
     for (size_t i = 0; i < count; i++) {
         const double *f = force + i * own, *before = i > 0 ? f - own : f,
                      *after = i + 1 < count ? f + own : f;
         double *m = middle + i * own;
-        const double below = dt / 2 * rows->below[i], at = dt / 2 * rows->own[i], above = dt / 2 * rows->above[i],
-                     left = rows->left[i];
+        const double below = dt / 2 * rows->below[i], at = dt / 2 * rows->own[i],
+                     above = dt / 2 * rows->above[i], left = rows->left[i];
         for (size_t k = 0; k < lanes * beside; k += beside)
             m[k] = phi[i * own + k] - (below * before[k] + at * f[k] + above * after[k]);
         for (size_t k = 0; i > 0 && k < lanes * beside; k += beside)
@@ -95,15 +96,17 @@ size_t moment_rows_lines(const struct consistent *c, const struct slab *slab)
     return slab->inside.n[c->slot[slab->axis] == DEPTH ? 1 : DEPTH];
 }
 
-void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab, double dt,
-                      size_t moments, size_t component, size_t line, double *extra)
+void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab,
+                      double dt, size_t moments, size_t component, size_t line, double *extra)
 {
     const struct block *in = &slab->inside;
     const int slot = c->slot[slab->axis];
-    const size_t plane = in->n[0] * in->n[1], at = component * slab->inner + line * (slot == DEPTH ? in->n[0] : plane);
+    const size_t plane = in->n[0] * in->n[1],
+                 at = component * slab->inner + line * (slot == DEPTH ? in->n[0] : plane);
     double *force = c->general->pulled + moments + at, *middle = c->general->middle + moments + at;
     if (slot == 0)
         move_lanes(rows, dt, in->n[1], in->n[0], 1, force, extra + slab->phi + at, middle);
     else
-        move_lanes(rows, dt, in->n[0], 1, slot == 1 ? in->n[0] : plane, force, extra + slab->phi + at, middle);
+        move_lanes(rows, dt, in->n[0], 1, slot == 1 ? in->n[0] : plane, force, extra + slab->phi + at,
+                   middle);
 }

@@ -24,8 +24,8 @@ void moment_rows_eliminate(struct moment_rows *rows, const struct slab *slab, do
 /* Moves phi of a component of a slab on by that step: across x and y in plane `line`, across depth in row `line` of all
  * planes. f in the middle of the step stands in c->general->pulled from `moments` on, phi in the middle goes to
  * c->general->middle. */
-void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab, double dt,
-                      size_t moments, size_t component, size_t line, double *extra);
+void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab,
+                      double dt, size_t moments, size_t component, size_t line, double *extra);
 /* How many lines there are. */
 size_t moment_rows_lines(const struct consistent *c, const struct slab *slab);
 

@@ -1,9 +1,10 @@
 /* What a sweep does where absorbing layers are (doc/theory/general-ground.md, section 5), for numbers of type REAL;
  * included by sweep_double.c and sweep_single.c. Their memory is in double precision.
  *
- * psi goes on by the slopes of u - dt/2 w, u being that of the step's end and w still the velocity in its middle:
- * before the points' stresses are made, in planes that two threads need in a stage of its own. Forces of stresses along a layer's axis are kept apart in rings of their own; once
- * those of a plane are complete phi goes on along x and y, along depth when all planes are (STAGES). */
+ * psi goes on by the slopes of u - dt/2 w, u being that of the step's end and w still the velocity in its middle, right
+ * before the points' stresses are made; in planes that two threads need, in a stage of its own. Forces of stresses along
+ * a layer's axis are kept apart in rings. Once those of a plane are complete phi of layers across x and y goes on there;
+ * of layers across depth, once all planes are. */
 
 /* psi of the points of a row goes on, or has gone on already, and comes to their slopes; rate: w in the place of u. */
 static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * points,
@@ -23,8 +24,9 @@ static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * p
             if (rate == NULL)
                 kernels->recall(n, psi, points->scratch + row);
             else
-                kernels->remember(n, layer->slot == 0, layer->kept[along] + place, layer->taken[along] + place,
-                                  (REAL)(pass->dt / 2), rate->scratch + row, psi, points->scratch + row);
+                kernels->remember(n, layer->slot == 0, layer->kept[along] + place,
+                                  layer->taken[along] + place, (REAL)(pass->dt / 2), rate->scratch + row, psi,
+                                  points->scratch + row);
         }
     }
 }
@@ -41,7 +43,8 @@ static bool plane_is_layered(const struct pass *pass, size_t m)
 }
 
 /* Row of the ring of a part. */
-static REAL *part_row(const struct sweep_part *part, const struct rings *r, size_t k, size_t component, size_t row)
+static REAL *part_row(const struct sweep_part *part, const struct rings *r, size_t k, size_t component,
+                      size_t row)
 {
     return r->part + part->start +
            ((k % SPAN * 3 + component) * part->n[1] + row - part->at[1]) * part->stride;
@@ -67,8 +70,7 @@ static void keep_row(const struct pass *pass, const struct rings *r, size_t m, s
             const REAL *one = pull_row(s, r->pull, row, component, fields[slot][0]) + part->at[0],
                        *other = pull_row(s, r->pull, row, component, fields[slot][1]) + part->at[0];
             for (size_t d = 0; d < SPAN; d++)
-                if (part_has(part, DEPTH, s->pair[m].base + d))
-                    NAME(taken_sweep_kernels)
+                if (part_has(part, DEPTH, s->pair[m].base + d)) NAME(taken_sweep_kernels)
             ()->keep(part->n[0], weight[VALUE_MIDDLES + of][d], one, weight[VALUE_KNOTS + of][d], other,
                      part_row(part, r, s->pair[m].base + d, (size_t)component, row));
         }
@@ -93,8 +95,8 @@ static void clamp_end(size_t n, bool mirror, bool odd, REAL *end, REAL *next)
 }
 
 /* The same for all ends that a part has. */
-static void clamp_part(const struct pass *pass, const struct rings *r, const struct sweep_part *part, size_t k,
-                       size_t component)
+static void clamp_part(const struct pass *pass, const struct rings *r, const struct sweep_part *part,
+                       size_t k, size_t component)
 {
     const struct sweep *s = pass->s;
     for (int high = 0; high < 2; high++) {
@@ -148,7 +150,8 @@ static void join_layers(const struct pass *pass, size_t k, struct rows *rows)
 }
 
 /* Forces f of a layer in plane k, which are complete, into the state. */
-static void take_forces(const struct pass *pass, const struct rings *r, size_t l, size_t k, const struct rows *rows)
+static void take_forces(const struct pass *pass, const struct rings *r, size_t l, size_t k,
+                        const struct rows *rows)
 {
     const struct sweep *s = pass->s;
     const struct slab *slab = pass->c->general->layer[l].slab;
@@ -172,8 +175,8 @@ static void move_along(const struct pass *pass, size_t l, size_t k)
 {
     const struct general_layer *layer = &pass->c->general->layer[l];
     for (size_t component = 0; component < 3; component++)
-        moment_rows_move(pass->c, &layer->rows, layer->slab, pass->dt, general_layer_moments(pass->c, layer->slab),
-                         component, k, pass->extra);
+        moment_rows_move(pass->c, &layer->rows, layer->slab, pass->dt,
+                         general_layer_moments(pass->c, layer->slab), component, k, pass->extra);
 }
 
 /* What layers do in a plane whose forces are complete. */
@@ -195,8 +198,8 @@ static bool waits(const struct pass *pass, size_t k)
 }
 
 /* Adds phi, times root, to rows of plane k: of layers over depth, or of the others. */
-static void add_moments(const struct pass *pass, const struct rings *r, bool over_depth, size_t component, size_t k,
-                        const struct rows *rows)
+static void add_moments(const struct pass *pass, const struct rings *r, bool over_depth, size_t component,
+                        size_t k, const struct rows *rows)
 {
     const struct sweep *s = pass->s;
     for (size_t l = 0; l < pass->c->general->layers; l++) {
@@ -207,7 +210,8 @@ static void add_moments(const struct pass *pass, const struct rings *r, bool ove
             const size_t first = slab->inside.at[0];
             NAME(taken_sweep_kernels)
             ()->pull(slab->inside.n[0], pass->extra + slab->phi + component * slab->inner + at,
-                     (const REAL *)s->root + k * s->plane + j * s->n[0] + first, r->scaled + j * s->stride + first);
+                     (const REAL *)s->root + k * s->plane + j * s->n[0] + first,
+                     r->scaled + j * s->stride + first);
         }
     }
 }

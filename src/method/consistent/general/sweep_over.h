@@ -11,8 +11,6 @@
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
 enum { LANES = VECTOR_BYTES / sizeof(REAL) };
 
-enum { CACHE_LINE = 8 }; /* doubles */
-
 #define UNROLLED _Pragma("GCC unroll 32")
 
 #if defined(__GNUC__)
@@ -336,49 +334,7 @@ static void pulls(bool apart, size_t width, const REAL *const in[PULL_FIELDS],
         pulls_of(false, width, in, weight, out);
 }
 
-static void recall(size_t n, const double *restrict psi, REAL *restrict slope)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++)
-        slope[i] += (REAL)psi[i];
-}
-
-INLINED void remembered(const size_t step, size_t n, const double *restrict kept, const double *restrict taken,
-                        REAL half, const REAL *restrict rate, double *restrict psi, REAL *restrict slope)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        const double value = kept[step * i] * psi[i] - taken[step * i] * (double)(slope[i] - half * rate[i]);
-        psi[i] = value;
-        slope[i] += (REAL)value;
-    }
-}
-
-static void remember(size_t n, bool along, const double *kept, const double *taken, REAL half, const REAL *rate,
-                     double *psi, REAL *slope)
-{
-    for (size_t i = 0; i < n; i += CACHE_LINE) /* the next row's */
-        FETCH(psi + n + i);
-    if (along)
-        remembered(1, n, kept, taken, half, rate, psi, slope);
-    else
-        remembered(0, n, kept, taken, half, rate, psi, slope);
-}
-
-static void pull(size_t n, const double *restrict phi, const REAL *restrict root, REAL *restrict out)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++)
-        out[i] += root[i] * (REAL)phi[i];
-}
-
-static void keep(size_t n, REAL a, const REAL *restrict one, REAL b, const REAL *restrict other,
-                 REAL *restrict out)
-{
-#pragma omp simd
-    for (size_t i = 0; i < n; i++)
-        out[i] -= a * one[i] + b * other[i];
-}
+#include "method/consistent/general/sweep_memory_over.h"
 
 INLINED void finished(const int planes, size_t n, const REAL *weight, const REAL *const *in, size_t ahead,
                       REAL factor, const REAL *const *root, REAL *const *out)
@@ -433,6 +389,5 @@ static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in
         out[i] = factor[i] * in[i];
 }
 
-const struct NAME(sweep_kernels)
-    OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth, points, slopes, stresses,
-                                        pulls, recall, remember, pull, keep, scale, finish};
+const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {
+    bring, depth, points, slopes, stresses, pulls, recall, remember, pull, keep, scale, finish};

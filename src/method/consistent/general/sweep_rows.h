@@ -15,7 +15,7 @@ struct rings {
     REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
     REAL *part;  /* of each layer (struct sweep_part) */
     REAL *scaled, *passed, *zero;
-    double *taken; /* a row of a layer */
+    double *taken;             /* a row of a layer */
     struct rows touched[SPAN]; /* of `force` */
 };
 
@@ -29,9 +29,9 @@ struct pass {
     REAL *u, *out; /* out += factor a; with `moving` u += dt w before, w being out */
     REAL factor;
     bool moving;
-    double dt;     /* of the step, while moving */
-    double level;  /* smaller displacements move nothing */
-    double *extra; /* memory of absorbing layers */
+    double dt;                   /* of the step, while moving */
+    double level;                /* smaller displacements move nothing */
+    double *extra;               /* memory of absorbing layers */
     struct rows deep[BOX_FACES]; /* of those over depth: rows where it may not be 0 */
 };
 
@@ -166,7 +166,8 @@ static void read_row(const struct pass *pass, const REAL *u, REAL *ring, size_t 
 #include "method/consistent/general/sweep_layers.h"
 
 /* Rows of a ring that row j of points reads. */
-static void take_values(const struct sweep *s, REAL *ring, size_t j, int value, struct NAME(sweep_row) * points)
+static void take_values(const struct sweep *s, REAL *ring, size_t j, int value,
+                        struct NAME(sweep_row) * points)
 {
     for (int component = 0; component < 3; component++)
         for (size_t d = 0; d < SPAN; d++) {
@@ -176,8 +177,9 @@ static void take_values(const struct sweep *s, REAL *ring, size_t j, int value, 
 }
 
 /* Slopes of u at a row of points where layers are, with their memory. */
-static void slope_row_of(const struct pass *pass, const struct rings *r, const struct NAME(sweep_row) * points,
-                         int value, int f, size_t m, size_t j, enum task task)
+static void slope_row_of(const struct pass *pass, const struct rings *r,
+                         const struct NAME(sweep_row) * points, int value, int f, size_t m, size_t j,
+                         enum task task)
 {
     struct NAME(sweep_row) rate = *points;
     NAME(taken_sweep_kernels)()->slopes(points);
@@ -190,7 +192,8 @@ static void slope_row_of(const struct pass *pass, const struct rings *r, const s
 }
 
 /* Row j of the points of a family. */
-static void point_row(const struct pass *pass, const struct rings *r, int f, size_t m, size_t j, enum task task)
+static void point_row(const struct pass *pass, const struct rings *r, int f, size_t m, size_t j,
+                      enum task task)
 {
     const struct sweep *s = pass->s;
     const struct family *family = &pass->c->general->family[f];
@@ -251,7 +254,8 @@ static void write_row(const struct pass *pass, const struct rings *r, size_t m, 
             in[field] = pull_row(s, r->pull, row, component, field);
         for (size_t d = 0; d < SPAN; d++)
             out[d] = force_row(s, r, s->pair[m].base + d, (size_t)component, row);
-        NAME(taken_sweep_kernels)()->pulls(s->layered, s->width, in, s->pair[m].weight[component == DEPTH], out);
+        NAME(taken_sweep_kernels)
+        ()->pulls(s->layered, s->width, in, s->pair[m].weight[component == DEPTH], out);
     }
     keep_row(pass, r, m, row);
 }

@@ -3,7 +3,8 @@
  * A thread has planes of its own. What its neighbours read of the displacements is brought on first (stage 0); then
  * the memory of absorbing layers at points that two threads need (1), points and the update of those planes whose
  * neighbours are a thread's own (2), last the others (5). In between memory over depth goes on (3), and the planes that
- * wait for it (4); all threads wait after each. Each sum is taken in one order: the same bits with any number of threads. */
+ * wait for it (4); all threads wait after each. Each sum is taken in one order: the same bits with any number of
+ * threads. */
 #include "base/machine.h"
 #include "method/consistent/fused/settled.h"
 
@@ -139,10 +140,11 @@ static void sweep_over(struct pass *pass)
     part_exchange(pass->c, pass->out, 3, s->volume * sizeof(REAL), s->plane * sizeof(REAL));
 }
 
-static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, double *extra, REAL *work)
+static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, double *extra,
+                       REAL *work)
 {
-    struct pass pass = {.c = c, .s = c->general->sweep, .drive = drive, .factor = 1, .out = work,
-                        .extra = extra};
+    struct pass pass = {
+        .c = c, .s = c->general->sweep, .drive = drive, .factor = 1, .out = work, .extra = extra};
     pass.u = (REAL *)u; /* stands still */
     memset(work, 0, c->model.unknowns * sizeof *work);
     sweep_over(&pass);
@@ -169,8 +171,8 @@ static void find_reached(const struct consistent *c, const REAL *u, const REAL *
     s->known = true;
 }
 
-void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt, const REAL *u, double *extra,
-                       REAL *w, REAL *work)
+void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt, const REAL *u,
+                       double *extra, REAL *w, REAL *work)
 {
     c->general->sweep->known = false;
     accelerate(c, drive, u, extra, work);
