@@ -178,7 +178,7 @@ static void move_slopes(const struct consistent *c, const struct general_layer *
             continue;
         taken_point_kernels()->slopes(&plane, j, at[0], at[0] + n[0]);
         size_t first = at[0], end = at[0] + n[0], psi;
-        general_layer_points(layer, f, j, m, &first, &end, &psi);
+        if (!general_layer_points(layer, f, j, m, &first, &end, &psi)) continue;
         for (size_t axis = 0; axis < (size_t)c->dimension; axis++) {
             const double *slope = slope_row(&plane, c->slot[axis], layer->slot) + at[0];
             double *memory = extra + psi + axis * layer->points[f];

@@ -66,13 +66,6 @@ static void *kept(struct model *model, size_t *bytes)
     return sweep->kept;
 }
 
-static selas_status relax(struct model *model, const struct relaxing *relaxing)
-{
-    (void)model;
-    (void)relaxing;
-    return SELAS_UNSUPPORTED;
-}
-
 /* w, in single precision behind u. */
 static void share(struct model *model, struct spread *shares)
 {
@@ -80,7 +73,7 @@ static void share(struct model *model, struct spread *shares)
         model->core->share(model, ARRAY_UNKNOWNS, shares);
 }
 
-static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, relax};
+static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, NULL};
 
 /* Why steps cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)
@@ -92,6 +85,7 @@ static const char *obstacle(const struct consistent *c)
     if (c->options.unfused) return "method%fused = .true.";
     if (c->moving_loads > 0) return "no moving loads";
     if (c->model.damped) return "no dampers";
+    if (c->model.scene->whole != NULL) return "materials without q_p and q_s";
     return NULL;
 }
 

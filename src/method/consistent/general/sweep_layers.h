@@ -1,10 +1,10 @@
 /* What a sweep does where absorbing layers are (doc/theory/general-ground.md, section 5), for numbers of type REAL;
  * included by sweep_double.c and sweep_single.c. Their memory is in double precision.
  *
- * psi goes on by the slopes of u - dt/2 w, u being that of the step's end and w still the velocity in its middle, right
- * before the points' stresses are made; in planes that two threads need, in a stage of its own. Forces of stresses along
- * a layer's axis are kept apart in rings. Once those of a plane are complete phi of layers across x and y goes on there;
- * of layers across depth, once all planes are. */
+ * psi goes on by the slopes of u - dt/2 w, u being that of the step's end and w still the velocity in its middle,
+ * right before the points' stresses are made; in planes that two threads need, in a stage of its own. Forces of
+ * stresses along a layer's axis are kept apart in rings. Once those of a plane are complete phi of layers across x
+ * and y goes on there; of layers across depth, once all planes are. */
 
 /* psi of the points of a row goes on, or has gone on already, and comes to their slopes; rate: w in the place of u. */
 static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * points,
