@@ -27,6 +27,7 @@ held() {
 held pass 4 || failures=$((failures + 1))
 held pass 24 || failures=$((failures + 1))
 held sweep 4 || failures=$((failures + 1))
+held sweep-layers 4 || failures=$((failures + 1))
 held single 4 || failures=$((failures + 1))
 if grep -q "^single precision" pass_double/report.txt; then
     echo "not ok - a run in double precision says nothing of it"

@@ -12,9 +12,23 @@ static struct consistent_options general(void)
         .degree = 2, .sweeps = 3, .depth_exact = true, .general = true, .quiet = 1e-12};
 }
 
+/* Absorbing layers of all thicknesses behind faces drawn by chance, one of x, y and depth at least. */
+static void lay_layers(struct plain_scene *plain, bool hilly)
+{
+    const size_t sure = chance(3);
+    for (size_t face = 0; face < 6; face++) {
+        if ((face != 2 * sure + 1 && chance(2) == 0) || (face == FACE_Z_LOW && hilly)) continue;
+        plain->scene.boundary[face] = (struct boundary){.kind = BOUNDARY_TRANSMITTING,
+                                                        .absorber = ABSORBER_PML,
+                                                        .layer_points = 4 + (long)chance(8),
+                                                        .always = true};
+    }
+}
+
 /* A box with faces drawn by chance, of one rock or of two that meet at a tilted face, below a hill or not (of two and
- * below one the spacing is graded), and a load that begins at t = 0. */
-static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks)
+ * below one the spacing is graded), with layers or none, and a load that begins at t = 0. */
+static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool hilly, bool rocks,
+                        bool layers)
 {
     static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
                                                BOUNDARY_SYMMETRY};
@@ -28,6 +42,7 @@ static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool
         plain->scene.boundary[face].kind = kinds[chance(4)];
     plain->scene.boundary[4].kind = chance(3) == 0 ? BOUNDARY_SYMMETRY : BOUNDARY_FREE;
     if (hilly) plain->scene.boundary[4].kind = BOUNDARY_FREE;
+    if (layers) lay_layers(plain, hilly);
     plain->scene.body.layers = rocks ? 2 : 0;
     plain->layer[0] = (struct layer){.material = 0};
     plain->layer[1] = (struct layer){.material = 1, .top = .8, .slope = {.2, .1}};
@@ -48,24 +63,27 @@ static void drawn_scene(struct plain_scene *plain, struct topography *hill, bool
     load->history = (struct history){.kind = HISTORY_STEP};
 }
 
-/* u, v and a of two settled states. */
-static void compare(const struct stepped *one, const struct stepped *other, double worst[3])
+/* u, v, the layers' memory and a of two settled states. */
+enum { MEMORY = 2, ACCELERATION, PARTS };
+static void compare(const struct stepped *one, const struct stepped *other, double worst[PARTS])
 {
-    const size_t n = one->model->unknowns;
-    for (size_t part = 0; part < 3; part++)
-        worst[part] = fmax(worst[part], difference(n, part == 2 ? one->state.a : one->state.y + part * n,
-                                                   part == 2 ? other->state.a : other->state.y + part * n));
+    const size_t n = one->model->unknowns, extra = one->model->state_size - 2 * n;
+    for (size_t part = 0; part < PARTS; part++) {
+        const bool last = part == ACCELERATION;
+        worst[part] = fmax(worst[part], difference(part == MEMORY ? extra : n,
+                                                   last ? one->state.a : one->state.y + part * n,
+                                                   last ? other->state.a : other->state.y + part * n));
+    }
 }
 
-static void test_one_by_one(void **unused)
+static void assert_one_by_one(bool layers)
 {
-    (void)unused;
-    double worst[3] = {0}, seen = 0, watched = 0;
+    double worst[PARTS] = {0}, seen = 0, watched = 0;
     const int scenes = few_of(8, 2);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         struct topography hill;
-        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3);
+        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3, layers);
         struct consistent_options options = general();
         options.quiet = i % 4 < 2 ? 0 : 1e-15; /* what is left out differs: rows within reach of others */
         struct stepped one = begin(&plain, options, true, i % 3 != 0);
@@ -91,24 +109,37 @@ static void test_one_by_one(void **unused)
         end(&other);
         grading_free(plain.scene.body.grading);
     }
-    print_message("# %d scenes, 40 steps: u %.1e, v %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
-                  worst[0], worst[1], worst[2], seen, watched);
-    for (size_t part = 0; part < 3; part++)
+    print_message(
+        "# %d scenes, 40 steps: u %.1e, v %.1e, memory %.1e, a %.1e, receivers %.1e, settled %.1e\n", scenes,
+        worst[0], worst[1], worst[2], worst[3], seen, watched);
+    for (size_t part = 0; part < PARTS; part++)
         assert_true(worst[part] < 1e-12);
     assert_true(seen < 1e-11);
     assert_true(watched < 1e-11);
 }
 
-/* Single precision against double: rounding of u, w and the operator's sums, and no more. */
-static void test_single(void **unused)
+static void test_one_by_one(void **unused)
 {
     (void)unused;
-    double worst[3] = {0}, watched = 0;
+    assert_one_by_one(false);
+}
+
+/* Layers of faces that no wave leaves by damp velocities besides; those of other scenes do not. */
+static void test_layers_one_by_one(void **unused)
+{
+    (void)unused;
+    assert_one_by_one(true);
+}
+
+/* Single precision against double: rounding of u, w and the operator's sums, and no more. */
+static void assert_single(bool layers)
+{
+    double worst[PARTS] = {0}, watched = 0;
     const int scenes = few_of(4, 2);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
         struct topography hill;
-        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3);
+        drawn_scene(&plain, &hill, i % 2 == 1, i % 4 == 0 || i % 4 == 3, layers);
         struct consistent_options options = general();
         struct stepped exact = begin(&plain, options, true, i % 3 != 0);
         options.single = true;
@@ -125,32 +156,46 @@ static void test_single(void **unused)
         observed(&s, settled);
         for (size_t k = 0; k < 3 * PLACES; k++)
             if (k % 3 != 2) watched = fmax(watched, difference(3, seen + 3 * k, settled + 3 * k));
-        const double before = worst[2];
+        const double before = worst[ACCELERATION];
         compare(&s, &exact, worst);
         if (i % 3 == 0)
-            worst[2] = before; /* a is small beside the frequencies that round u: waves are long */
+            worst[ACCELERATION] = before; /* a is small beside the frequencies that round u: waves are long */
         end(&s);
         end(&exact);
         grading_free(plain.scene.body.grading);
     }
-    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, a %.1e; settled %.1e\n", scenes, worst[0], worst[1],
-                  worst[2], watched);
+    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, memory %.1e, a %.1e; settled %.1e\n", scenes,
+                  worst[0], worst[1], worst[MEMORY], worst[ACCELERATION], watched);
     assert_true(worst[0] > 1e-8 && worst[0] < 1e-5); /* as the fused operator's (test_fused_step) */
     assert_true(worst[1] < 2e-5);
-    assert_true(worst[2] < 2e-5);
+    assert_true(worst[MEMORY] < 2e-5);
+    assert_true(worst[ACCELERATION] < 2e-5);
     assert_true(watched < 1e-6);
+}
+
+static void test_single(void **unused)
+{
+    (void)unused;
+    assert_single(false);
+}
+
+static void test_layers_single(void **unused)
+{
+    (void)unused;
+    assert_single(true);
 }
 
 static void test_bits(void **unused)
 {
     (void)unused;
-    for (int single = 0; single < 2; single++) {
+    for (int kind = 0; kind < 4; kind++) {
         struct plain_scene plain;
         struct topography hill;
         struct consistent_options options = general();
-        drawn_scene(&plain, &hill, single == 0, false);
+        const bool single = kind % 2 == 1;
+        drawn_scene(&plain, &hill, !single, false, kind > 1);
         plain.scene.body.high[2] = 40 * .3;
-        options.single = single == 1;
+        options.single = single;
         assert_same_bits(&plain, options, NULL);
     }
 }
@@ -158,12 +203,12 @@ static void test_bits(void **unused)
 static void test_kept(void **unused)
 {
     (void)unused;
-    for (int single = 0; single < 2; single++) {
+    for (int kind = 0; kind < 4; kind++) {
         struct plain_scene plain;
         struct topography hill;
         struct consistent_options options = general();
-        drawn_scene(&plain, &hill, true, false);
-        options.single = single == 1;
+        drawn_scene(&plain, &hill, true, false, kind > 1);
+        options.single = kind % 2 == 1;
         assert_goes_on(&plain, options);
     }
 }
@@ -172,12 +217,13 @@ static void test_kept(void **unused)
 static void test_refused(void **unused)
 {
     (void)unused;
-    for (int kind = 0; kind < 4; kind++) {
+    for (int kind = 0; kind < 5; kind++) {
         struct plain_scene plain;
         struct consistent_options options = general();
         plain_box(&plain, kind == 0 ? 2 : 3, (double[3]){16, 16, kind == 1 ? 4 : 16}, 1);
         if (kind == 2) plain.scene.boundary[1].kind = BOUNDARY_TRANSMITTING;
         options.unfused = kind == 3;
+        if (kind == 4) plain.scene.whole = plain.scene.material; /* a part of damped ground */
         struct model *model = make(&plain, options);
         assert_null(model->one_pass);
         model_free(&model);
@@ -193,8 +239,10 @@ static void test_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_single),  cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_kept),       cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_one_by_one), cmocka_unit_test(test_layers_one_by_one),
+        cmocka_unit_test(test_single),     cmocka_unit_test(test_layers_single),
+        cmocka_unit_test(test_bits),       cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_refused),
     };
     omp_set_num_threads(1);
     seed_begin(5);

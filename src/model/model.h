@@ -185,7 +185,7 @@ struct model_one_pass {
     /* The same for that, in numbers. */
     void (*share)(struct model *model, struct spread *shares);
     /* From now on steps in one pass, and they alone, relax; the model is that of part 0. SELAS_UNSUPPORTED:
-     * not in one pass; SELAS_NO_MEMORY. */
+     * not in one pass; SELAS_NO_MEMORY. NULL: the model is never one of a part. */
     selas_status (*relax)(struct model *model, const struct relaxing *relaxing);
 };
 

@@ -1,6 +1,6 @@
 # Small scenes for restarts: every method, schemes of each kind, boundaries with memory. Sourced by
 # regress/checks/restart.sh and regress/hardening/kills. scene NAME writes NAME.nml; the names are in $scenes.
-scenes='layers damped damped-particles relaxing relaxing-single pass sweep single modified paper plate bar flying moving'
+scenes='layers damped damped-particles relaxing relaxing-single pass sweep sweep-layers sweep-single single modified paper plate bar flying moving'
 rock="&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /"
 steel="&material name = 'steel', density = 7800.0, young = 2e11, poisson = 0.3 /"
 marks="&snapshot every = 0.4, fields = 'velocity', 'stress' /
@@ -15,9 +15,15 @@ $marks"
 fine="&scene dimension = 3, end_time = 4.0 /
 &body material = 'rock', shape = 'box', low = 0, 0, 0, high = 3.5, 3.5, 3, spacing = 0.25 /
 &boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4, always = .true. /
-&load face = 'z-', shape = 'square', centre = 1.3, 1.5, 0, size = 1, 1, direction = 0, 0, 1
+&load face = 'z-', shape = 'square', centre = 1.3, 1.5, depth = 0.0, size = 1, 1, direction = 0, 0, 1
   history = 'ricker', frequency = 0.4, delay = 2.5 /
 $watched"
+
+# ground of the general operator, below a hill
+tilted="&material name = 'soil', density = 0.8, lambda = 0.6, mu = 0.4 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 1.3, dip = 12, strike = 30 /
+&topography shape = 'gaussian', height = 0.5, centre = 1.5, 1.7, width = 0.9 /"
 
 # closed boxes
 closed="&scene dimension = 3, end_time = 4.0 /
@@ -82,11 +88,19 @@ $closed
 END
     sweep) cat <<END ;; # the same of the general operator, below a hill
 $rock
-&material name = 'soil', density = 0.8, lambda = 0.6, mu = 0.4 /
-&layer material = 'soil', top = 0 /
-&layer material = 'rock', top = 1.3, dip = 12, strike = 30 /
-&topography shape = 'gaussian', height = 0.5, centre = 1.5, 1.7, width = 0.9 /
+$tilted
 $closed
+END
+    sweep-layers) cat <<END ;; # with layers
+$rock
+$fine
+$tilted
+END
+    sweep-single) cat <<END ;; # with layers in single precision
+&method precision = 'single' /
+$rock
+$fine
+$tilted
 END
     modified) cat <<END ;; # fourth order in time, dampers
 &scene dimension = 2, end_time = 4.0 /

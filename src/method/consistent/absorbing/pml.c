@@ -142,13 +142,34 @@ static void move_forces(const struct consistent *c, const struct slab *slab, dou
         move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->phi + i * slab->inner, NULL);
 }
 
+void pml_keep(const struct consistent *c, double dt)
+{
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        for (size_t i = 0; slab->drag != NULL && i < slab->inside.n[c->slot[slab->axis]]; i++)
+            slab->kept[i] = exp(-slab->drag[i] * dt);
+    }
+}
+
+double pml_kept(const struct consistent *c, size_t entry)
+{
+    const size_t at = entry % c->volume, place[3] = {at % c->n[0], at % c->plane / c->n[0], at / c->plane};
+    double kept = 1;
+    for (size_t s = 0; s < c->pml->slabs; s++) {
+        const struct slab *slab = &c->pml->slab[s];
+        const int slot = c->slot[slab->axis];
+        const size_t from = slab->inside.at[slot];
+        if (slab->drag != NULL && place[slot] >= from && place[slot] < from + slab->inside.n[slot])
+            kept *= slab->kept[place[slot] - from];
+    }
+    return kept;
+}
+
 /* v := exp(-rate dt) v in the slab (Eq 11). */
-static void drag(const struct consistent *c, const struct slab *slab, double dt, double *v)
+static void drag(const struct consistent *c, const struct slab *slab, double *v)
 {
     const struct block *in = &slab->inside;
     const int slot = c->slot[slab->axis];
-    for (size_t i = 0; i < in->n[slot]; i++)
-        slab->kept[i] = exp(-slab->drag[i] * dt);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t k = 0; k < in->n[2]; k++)
         for (size_t component = 0; component < (size_t)c->dimension; component++)
@@ -175,8 +196,9 @@ void pml_remember(struct consistent *c, double dt, double to_middle, const doubl
 
 void pml_damp(const struct consistent *c, double dt, double *v)
 {
+    pml_keep(c, dt);
     for (size_t s = 0; s < c->pml->slabs; s++)
-        if (c->pml->slab[s].drag != NULL) drag(c, &c->pml->slab[s], dt, v);
+        if (c->pml->slab[s].drag != NULL) drag(c, &c->pml->slab[s], v);
 }
 
 void pml_accelerate(const struct consistent *c, double factor, const double *extra, double *a)

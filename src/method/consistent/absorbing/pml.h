@@ -89,5 +89,9 @@ void pml_remember(struct consistent *c, double dt, double to_middle, const doubl
  * precision pml_fast_accelerate_single() and pml_fast_remember_single() serve (pml_fast.h) where
  * c->pml->single is not NULL. */
 void pml_damp(const struct consistent *c, double dt, double *v);
+/* What is left of velocities after a step so long: `kept` of the slabs. */
+void pml_keep(const struct consistent *c, double dt);
+/* The same of one velocity, an entry of u. */
+double pml_kept(const struct consistent *c, size_t entry);
 
 #endif

@@ -5,9 +5,7 @@
  *
  * f_ij the forces of the stresses along j, made with d_j u_i + psi_ij for every slope, F_j of them as of moments
  * (moments.h); steps by the trapezoidal rule as in absorbing/pml.c. */
-#include "method/consistent/absorbing/pml.h"
-#include "method/consistent/general/general.h"
-#include "method/consistent/general/moments.h"
+#include "method/consistent/general/layers.h"
 
 #include "base/memory.h"
 
@@ -15,16 +13,7 @@
 #include <omp.h>
 #include <string.h>
 
-struct general_layer {
-    int slot;
-    bool high;
-    size_t width; /* cells */
-    const struct slab *slab;
-    size_t at[3][3], n[3][3]; /* [family][slot] of its points */
-    double *damping[2];       /* [at] at its points along the slot */
-    size_t psi[3], points[3]; /* [family] place in extra; points */
-    struct moment_rows rows;
-};
+enum { PIECE = 4096 }; /* of numbers that a thread takes */
 
 /* Points of a layer along its slot: those of its cells, the knot of the face not among them. */
 static void lay_points(const struct consistent *c, struct general_layer *layer)
@@ -54,7 +43,9 @@ static bool lay_layer(struct consistent *c, const struct slab *slab, struct gene
     lay_points(c, layer);
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++) {
         layer->damping[at] = array_new(layer->width, sizeof(double));
-        if (layer->damping[at] == NULL) return false;
+        layer->kept[at] = array_new(layer->width, sizeof(double));
+        layer->taken[at] = array_new(layer->width, sizeof(double));
+        if (layer->damping[at] == NULL || layer->kept[at] == NULL || layer->taken[at] == NULL) return false;
         const size_t points = c->general->cells[layer->slot] + (at == AT_KNOTS ? 1 : 0);
         const size_t first = layer->high ? points - layer->width : 0;
         for (size_t i = 0; i < layer->width; i++)
@@ -95,8 +86,11 @@ void general_layers_free(struct consistent *c)
 {
     struct general *g = c->general;
     for (size_t l = 0; g->layer != NULL && l < g->layers; l++) {
-        for (int at = 0; at < 2; at++)
+        for (int at = 0; at < 2; at++) {
             array_free(g->layer[l].damping[at]);
+            array_free(g->layer[l].kept[at]);
+            array_free(g->layer[l].taken[at]);
+        }
         moment_rows_free(&g->layer[l].rows);
     }
     array_free(g->layer);
@@ -104,21 +98,20 @@ void general_layers_free(struct consistent *c)
     array_free(g->middle);
 }
 
-/* Points of a layer in row j of plane m, from *first to *end - 1, of those from .. end - 1; false: none. */
-static bool cut_row(const struct general_layer *layer, int f, size_t j, size_t m, size_t *first, size_t *end)
+bool general_layer_points(const struct general_layer *layer, int family, size_t j, size_t m, size_t *first,
+                          size_t *end, size_t *psi)
 {
-    const size_t *at = layer->at[f], *n = layer->n[f];
+    const size_t *at = layer->at[family], *n = layer->n[family];
     if (j < at[1] || j >= at[1] + n[1] || m < at[2] || m >= at[2] + n[2]) return false;
     *first = *first > at[0] ? *first : at[0];
     *end = *end < at[0] + n[0] ? *end : at[0] + n[0];
+    *psi = layer->psi[family] + ((m - at[2]) * n[1] + j - at[1]) * n[0] + *first - at[0];
     return *first < *end;
 }
 
-/* Where the memory of a component at a point stands, from the family's first. */
-static size_t memory_at(const struct general_layer *layer, int f, int component, size_t i, size_t j, size_t m)
+size_t general_layer_place(const struct general_layer *layer, int family, size_t i, size_t j, size_t m)
 {
-    const size_t *at = layer->at[f], *n = layer->n[f];
-    return (size_t)component * layer->points[f] + ((m - at[2]) * n[1] + j - at[1]) * n[0] + i - at[0];
+    return (size_t[]){i, j, m}[layer->slot] - layer->at[family][layer->slot];
 }
 
 void general_layers_add(const struct consistent *c, const struct point_plane *plane,
@@ -129,11 +122,11 @@ void general_layers_add(const struct consistent *c, const struct point_plane *pl
     const int f = (int)(family - g->family);
     for (size_t l = 0; l < g->layers; l++) {
         const struct general_layer *layer = &g->layer[l];
-        size_t first = from, last = end;
-        if (!cut_row(layer, f, j, m, &first, &last)) continue;
-        for (int axis = 0; axis < c->dimension; axis++) {
+        size_t first = from, last = end, at;
+        if (!general_layer_points(layer, f, j, m, &first, &last, &at)) continue;
+        for (size_t axis = 0; axis < (size_t)c->dimension; axis++) {
             double *restrict slope = slope_row(plane, c->slot[axis], layer->slot) + first;
-            const double *restrict psi = extra + layer->psi[f] + memory_at(layer, f, axis, first, j, m);
+            const double *restrict psi = extra + at + axis * layer->points[f];
             for (size_t i = 0; i < last - first; i++)
                 slope[i] += psi[i];
         }
@@ -159,13 +152,6 @@ void general_layers_pull(const struct consistent *c, const double *extra, double
     }
 }
 
-/* f at the end of a step, g in its middle (Eq 11 of absorbing-faces.md). */
-static void move(double dt, double damping, double relaxation, double g, double *memory)
-{
-    const double q = damping * dt / 2, middle = (*memory - q * g) / (1 + q + relaxation * dt / 2);
-    *memory = 2 * middle - *memory;
-}
-
 /* What a layer must read for points first .. end - 1 along each slot: control values, unclamped along x. */
 static struct part part_of(const struct consistent *c, const size_t first[2], const size_t end[2])
 {
@@ -180,30 +166,34 @@ static struct part part_of(const struct consistent *c, const size_t first[2], co
 
 /* Moves psi on at the points of a layer in plane m. */
 static void move_slopes(const struct consistent *c, const struct general_layer *layer, int f, size_t m,
-                        double dt, double *extra, double *buffer)
+                        double *extra, double *buffer)
 {
     const struct general *g = c->general;
     const struct family *family = &g->family[f];
     const struct point_plane plane = general_plane(c, family, false, buffer);
     const size_t *at = layer->at[f], *n = layer->n[f];
-    const double *damping = layer->damping[family->at[layer->slot]];
+    const enum at along = family->at[layer->slot];
     for (size_t j = at[1]; j < at[1] + n[1]; j++) {
         if (!general_row_is_loud(c, &g->taps[1][0][family->at[1]][j], &g->taps[2][0][family->at[2]][m]))
             continue;
         taken_point_kernels()->slopes(&plane, j, at[0], at[0] + n[0]);
-        for (int axis = 0; axis < c->dimension; axis++) {
+        size_t first = at[0], end = at[0] + n[0], psi;
+        if (!general_layer_points(layer, f, j, m, &first, &end, &psi)) continue;
+        for (size_t axis = 0; axis < (size_t)c->dimension; axis++) {
             const double *slope = slope_row(&plane, c->slot[axis], layer->slot) + at[0];
-            const size_t first = layer->psi[f] + memory_at(layer, f, axis, at[0], j, m);
+            double *memory = extra + psi + axis * layer->points[f];
+            const size_t place = general_layer_place(layer, f, at[0], j, m);
+            const double *kept = layer->kept[along] + place, *taken = layer->taken[along] + place;
             for (size_t i = 0; i < n[0]; i++) {
-                const size_t along = layer->slot == 0 ? i : layer->slot == 1 ? j - at[1] : m - at[2];
-                move(dt, damping[along], layer->slab->relaxation, slope[i], &extra[first + i]);
+                const size_t one = layer->slot == 0 ? i : 0;
+                memory[i] = kept[one] * memory[i] - taken[one] * slope[i];
             }
         }
     }
 }
 
-static void move_all_slopes(struct consistent *c, const struct general_layer *layer, double dt,
-                            const double *u, double *extra)
+static void move_all_slopes(struct consistent *c, const struct general_layer *layer, const double *u,
+                            double *extra)
 {
     const struct general *g = c->general;
     for (int f = 0; f < 3; f++) {
@@ -215,13 +205,12 @@ static void move_all_slopes(struct consistent *c, const struct general_layer *la
             double *buffer = g->buffer[omp_get_thread_num()];
             if (!general_plane_counts(c, depth, m, 0, c->n[DEPTH])) continue;
             general_read(c, depth, m, &part, u, buffer);
-            move_slopes(c, layer, f, m, dt, extra, buffer);
+            move_slopes(c, layer, f, m, extra, buffer);
         }
     }
 }
 
-/* Where row j of plane k stands in the numbers of a component of a slab; false: not there. */
-static bool slab_row(const struct slab *slab, size_t j, size_t k, size_t *at)
+bool general_layer_row(const struct slab *slab, size_t j, size_t k, size_t *at)
 {
     const struct block *in = &slab->inside;
     if (j < in->at[1] || j >= in->at[1] + in->n[1] || k < in->at[2] || k >= in->at[2] + in->n[2])
@@ -230,8 +219,7 @@ static bool slab_row(const struct slab *slab, size_t j, size_t k, size_t *at)
     return true;
 }
 
-/* Where the numbers of a slab begin in g->pulled and g->middle. */
-static size_t moments_of(const struct consistent *c, const struct slab *slab)
+size_t general_layer_moments(const struct consistent *c, const struct slab *slab)
 {
     return slab->phi - c->pml->slab[0].phi;
 }
@@ -243,9 +231,9 @@ void general_layers_forget(const struct consistent *c, size_t from, size_t end)
         const size_t plane = slab->inside.n[0] * slab->inside.n[1];
         for (size_t component = 0; component < (size_t)c->dimension; component++)
             for (size_t k = from, at; k < end; k++)
-                if (slab_row(slab, slab->inside.at[1], k, &at))
-                    memset(c->general->pulled + moments_of(c, slab) + component * slab->inner + at, 0,
-                           plane * sizeof(double));
+                if (general_layer_row(slab, slab->inside.at[1], k, &at))
+                    memset(c->general->pulled + general_layer_moments(c, slab) + component * slab->inner + at,
+                           0, plane * sizeof(double));
     }
 }
 
@@ -254,10 +242,10 @@ void general_layers_keep(const struct consistent *c, size_t component, size_t j,
 {
     for (size_t s = 0, at; s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
-        if (!slab_row(slab, j, k, &at)) continue;
+        if (!general_layer_row(slab, j, k, &at)) continue;
         const int slot = c->slot[slab->axis];
         const double *from = pull[slot] + slab->inside.at[0], weight = slot == DEPTH ? slope : value;
-        double *to = c->general->pulled + moments_of(c, slab) + component * slab->inner + at;
+        double *to = c->general->pulled + general_layer_moments(c, slab) + component * slab->inner + at;
         for (size_t i = 0; i < slab->inside.n[0]; i++)
             to[i] -= weight * from[i];
     }
@@ -270,6 +258,43 @@ void general_layers_start(struct consistent *c, const double *u, double *extra)
     memcpy(extra + c->pml->slab[0].phi + g->moments, g->pulled, g->moments * sizeof *extra);
 }
 
+void general_layers_take(const struct consistent *c, size_t at, size_t n, const double *end, double *extra)
+{
+    const struct general *g = c->general;
+    double *pulled = g->pulled + at, *forces = extra + c->pml->slab[0].phi + g->moments + at;
+    for (size_t i = 0; i < n; i++) { /* (G13b) */
+        const double after = end[i];
+        pulled[i] = (forces[i] + after) / 2;
+        forces[i] = after;
+    }
+}
+
+/* By the trapezoidal rule (Eq 11 of absorbing-faces.md). */
+void general_layers_prepare(struct consistent *c, double dt)
+{
+    for (size_t l = 0; l < c->general->layers; l++) {
+        struct general_layer *layer = &c->general->layer[l];
+        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+            for (size_t i = 0; i < layer->width; i++) {
+                const double q = layer->damping[at][i] * dt / 2,
+                             all = 1 + q + layer->slab->relaxation * dt / 2;
+                layer->kept[at][i] = 2 / all - 1;
+                layer->taken[at][i] = 2 * q / all;
+            }
+        moment_rows_eliminate(&layer->rows, layer->slab, dt);
+    }
+    pml_keep(c, dt);
+}
+
+static void move_moments(struct consistent *c, struct general_layer *layer, double dt, double *extra)
+{
+    const size_t moments = general_layer_moments(c, layer->slab);
+    const size_t lines = moment_rows_lines(c, layer->slab);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t line = 0; line < (size_t)c->dimension * lines; line++)
+        moment_rows_move(c, &layer->rows, layer->slab, dt, moments, line / lines, line % lines, extra);
+}
+
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
                              const double *v, double *extra)
 {
@@ -278,17 +303,15 @@ void general_layers_remember(struct consistent *c, double dt, double to_middle, 
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t i = 0; i < c->model.unknowns; i++)
         g->work[i] = u[i] + to_middle * v[i];
+    general_layers_prepare(c, dt);
     for (size_t l = 0; l < g->layers; l++)
-        move_all_slopes(c, &g->layer[l], dt, g->work, extra);
+        move_all_slopes(c, &g->layer[l], g->work, extra);
     general_forces(c, u, extra, g->force);
-    double *forces = extra + c->pml->slab[0].phi + g->moments;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < g->moments; i++) { /* (G13b) */
-        const double end = g->pulled[i];
-        g->pulled[i] = (forces[i] + end) / 2;
-        forces[i] = end;
-    }
+    for (size_t from = 0; from < g->moments; from += PIECE)
+        general_layers_take(c, from, g->moments - from < PIECE ? g->moments - from : PIECE, g->pulled + from,
+                            extra);
     for (size_t l = 0; l < g->layers; l++)
-        moment_rows_move(c, &g->layer[l].rows, g->layer[l].slab, dt, moments_of(c, g->layer[l].slab), extra);
+        move_moments(c, &g->layer[l], dt, extra);
     g->made = true;
 }

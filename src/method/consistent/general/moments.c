@@ -2,6 +2,7 @@
 #include "method/consistent/general/moments.h"
 #include "method/consistent/general/general.h"
 
+#include "base/machine.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -50,57 +51,62 @@ void moment_rows_free(struct moment_rows *rows)
 }
 
 /* 1 + dt/2 (alpha + D) = L U. */
-static void eliminate(struct moment_rows *rows, double relaxation, double dt)
+void moment_rows_eliminate(struct moment_rows *rows, const struct slab *slab, double dt)
 {
     for (size_t i = 0; i < rows->count; i++) {
-        rows->pivot[i] = 1 + dt / 2 * (relaxation + rows->own[i]);
+        rows->pivot[i] = 1 + dt / 2 * (slab->relaxation + rows->own[i]);
         if (i == 0) continue;
         rows->left[i] = dt / 2 * rows->below[i] / rows->pivot[i - 1];
         rows->pivot[i] -= rows->left[i] * dt / 2 * rows->above[i - 1];
     }
 }
 
-/* Lanes side by side, count values each, `own` apart:
+/* Lanes `beside` each other, count values each, `own` apart:
  * (1 + dt/2 (alpha + D)) middle = phi - dt/2 D f,  phi := 2 middle - phi. */
-static void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, const double *force,
-                       double *phi, double *middle, size_t own)
+INLINED void move_lanes(const struct moment_rows *rows, double dt, size_t lanes, const size_t beside,
+                        size_t own, const double *restrict force, double *restrict phi,
+                        double *restrict middle)
 {
     const size_t count = rows->count;
     for (size_t i = 0; i < count; i++) {
         const double *f = force + i * own, *before = i > 0 ? f - own : f,
                      *after = i + 1 < count ? f + own : f;
         double *m = middle + i * own;
-        for (size_t k = 0; k < lanes; k++)
-            m[k] = phi[i * own + k] -
-                   dt / 2 * (rows->below[i] * before[k] + rows->own[i] * f[k] + rows->above[i] * after[k]);
-        for (size_t k = 0; i > 0 && k < lanes; k++)
-            m[k] -= rows->left[i] * m[k - own];
+        const double below = dt / 2 * rows->below[i], at = dt / 2 * rows->own[i],
+                     above = dt / 2 * rows->above[i], left = rows->left[i];
+        for (size_t k = 0; k < lanes * beside; k += beside)
+            m[k] = phi[i * own + k] - (below * before[k] + at * f[k] + above * after[k]);
+        for (size_t k = 0; i > 0 && k < lanes * beside; k += beside)
+            m[k] -= left * m[k - own];
     }
     for (size_t i = count; i-- > 0;) {
-        double *m = middle + i * own;
-        for (size_t k = 0; i + 1 < count && k < lanes; k++)
-            m[k] -= dt / 2 * rows->above[i] * m[k + own];
-        for (size_t k = 0; k < lanes; k++) {
-            m[k] /= rows->pivot[i];
-            phi[i * own + k] = 2 * m[k] - phi[i * own + k];
+        double *m = middle + i * own, *p = phi + i * own;
+        const double above = dt / 2 * rows->above[i], part = 1 / rows->pivot[i];
+        for (size_t k = 0; i + 1 < count && k < lanes * beside; k += beside)
+            m[k] -= above * m[k + own];
+        for (size_t k = 0; k < lanes * beside; k += beside) {
+            m[k] *= part;
+            p[k] = 2 * m[k] - p[k];
         }
     }
 }
 
-void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
-                      size_t moments, double *extra)
+size_t moment_rows_lines(const struct consistent *c, const struct slab *slab)
+{
+    return slab->inside.n[c->slot[slab->axis] == DEPTH ? 1 : DEPTH];
+}
+
+void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab,
+                      double dt, size_t moments, size_t component, size_t line, double *extra)
 {
     const struct block *in = &slab->inside;
     const int slot = c->slot[slab->axis];
-    const size_t own[3] = {1, in->n[0], in->n[0] * in->n[1]};
-    const size_t lanes = slot == 0 ? 1 : in->n[0];
-    const size_t rows_y = slot == 1 ? 1 : in->n[1], planes = slot == 2 ? 1 : in->n[2];
-    eliminate(rows, slab->relaxation, dt);
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t line = 0; line < (size_t)c->dimension * planes * rows_y; line++) {
-        const size_t component = line / (planes * rows_y), k = line / rows_y % planes, j = line % rows_y;
-        const size_t at = component * slab->inner + k * own[2] + j * own[1];
-        move_lanes(rows, dt, lanes, c->general->pulled + moments + at, extra + slab->phi + at,
-                   c->general->middle + moments + at, own[slot]);
-    }
+    const size_t plane = in->n[0] * in->n[1],
+                 at = component * slab->inner + line * (slot == DEPTH ? in->n[0] : plane);
+    double *force = c->general->pulled + moments + at, *middle = c->general->middle + moments + at;
+    if (slot == 0)
+        move_lanes(rows, dt, in->n[1], in->n[0], 1, force, extra + slab->phi + at, middle);
+    else
+        move_lanes(rows, dt, in->n[0], 1, slot == 1 ? in->n[0] : plane, force, extra + slab->phi + at,
+                   middle);
 }

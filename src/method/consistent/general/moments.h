@@ -19,9 +19,14 @@ struct moment_rows {
 bool moment_rows_lay(struct moment_rows *rows, const struct consistent *c, const struct slab *slab);
 void moment_rows_free(struct moment_rows *rows);
 
-/* Moves phi of a slab on by a step of the trapezoidal rule; f in the middle of the step stands in c->general->pulled
- * from `moments` on, phi in the middle goes to c->general->middle. */
-void moment_rows_move(struct consistent *c, struct moment_rows *rows, const struct slab *slab, double dt,
-                      size_t moments, double *extra);
+/* The elimination of a step dt by the trapezoidal rule. */
+void moment_rows_eliminate(struct moment_rows *rows, const struct slab *slab, double dt);
+/* Moves phi of a component of a slab on by that step: across x and y in plane `line`, across depth in row `line` of all
+ * planes. f in the middle of the step stands in c->general->pulled from `moments` on, phi in the middle goes to
+ * c->general->middle. */
+void moment_rows_move(const struct consistent *c, const struct moment_rows *rows, const struct slab *slab,
+                      double dt, size_t moments, size_t component, size_t line, double *extra);
+/* How many lines there are. */
+size_t moment_rows_lines(const struct consistent *c, const struct slab *slab);
 
 #endif

@@ -20,15 +20,17 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
     const size_t n = model->unknowns;
     const struct watch *watch = &c->watch;
     void *work = c->hform->work;
+    double *extra = y + 2 * n;
     watch_sort(&c->watch);
     model->evaluations++;
+    if (c->pml != NULL) general_layers_start(c, y, extra);
     if (model->single) {
         for (size_t i = 0; i < 2 * n; i++)
             kept_u(c)[i] = (float)y[i];
-        sweep_begin_single(c, drive, dt, kept_u(c), kept_w(c), work);
+        sweep_begin_single(c, drive, dt, kept_u(c), extra, kept_w(c), work);
     } else {
         memcpy(c->general->sweep->kept, y + n, n * sizeof *y);
-        sweep_begin_double(c, drive, dt, y, c->general->sweep->kept, work);
+        sweep_begin_double(c, drive, dt, y, extra, c->general->sweep->kept, work);
     }
     for (size_t i = 0; i < watch->count; i++)
         a[watch->entry[i]] =
@@ -64,13 +66,6 @@ static void *kept(struct model *model, size_t *bytes)
     return sweep->kept;
 }
 
-static selas_status relax(struct model *model, const struct relaxing *relaxing)
-{
-    (void)model;
-    (void)relaxing;
-    return SELAS_UNSUPPORTED;
-}
-
 /* w, in single precision behind u. */
 static void share(struct model *model, struct spread *shares)
 {
@@ -78,7 +73,7 @@ static void share(struct model *model, struct spread *shares)
         model->core->share(model, ARRAY_UNKNOWNS, shares);
 }
 
-static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, relax};
+static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, NULL};
 
 /* Why steps cannot be made in one pass here; NULL: they can. */
 static const char *obstacle(const struct consistent *c)
@@ -90,7 +85,7 @@ static const char *obstacle(const struct consistent *c)
     if (c->options.unfused) return "method%fused = .true.";
     if (c->moving_loads > 0) return "no moving loads";
     if (c->model.damped) return "no dampers";
-    if (c->pml != NULL) return "no absorbing layers";
+    if (c->model.scene->whole != NULL) return "materials without q_p and q_s";
     return NULL;
 }
 

@@ -126,25 +126,44 @@ static bool lay_points(const struct consistent *c, struct sweep *s)
     return true;
 }
 
+/* Rings for forces along the axes of layers. */
+static void lay_parts(const struct consistent *c, struct sweep *s)
+{
+    s->layered = c->pml != NULL;
+    for (size_t l = 0; l < c->general->layers; l++) {
+        const struct general_layer *layer = &c->general->layer[l];
+        const struct block *in = &layer->slab->inside;
+        struct sweep_part *part = &s->part[l];
+        *part = (struct sweep_part){.n = {s->width, s->cells[1] + 2, s->n[2]}, .start = s->part_size};
+        part->at[layer->slot] = in->at[layer->slot] + (layer->slot == DEPTH ? 0 : s->low[layer->slot]);
+        part->n[layer->slot] = in->n[layer->slot];
+        part->stride = rounded(part->n[0], FUSED_VECTOR / s->number);
+        s->part_size += 3 * SPAN * part->n[1] * part->stride;
+    }
+}
+
 static bool lay_fields(const struct consistent *c, struct sweep *s)
 {
     const size_t planes = s->n[2], threads = (size_t)c->threads;
-    const size_t room = (2 * SPAN * 3 * DEPTH_FIELDS + 9 + STRESS_ROOM + 3 * SPAN * (s->cells[1] + 2) +
-                         s->n[1] + 2 * FUSED_ROWS + 2) *
-                        s->stride;
+    const size_t taken = s->stride * sizeof(double) / s->number; /* a row of doubles */
+    const size_t room = (SPAN * 3 * (DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
+                         3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
+                            s->stride +
+                        (s->layered ? SPAN * 3 * DEPTH_FIELDS + 9 : 0) * s->stride + s->part_size + taken;
     s->root = numbers(s, s->volume);
     s->ready = numbers(s, 3 * planes * s->rows * s->stride + s->stride);
     s->size = array_new(planes * s->n[1], sizeof *s->size);
     s->reached = array_new(planes, sizeof *s->reached);
     s->loaded = array_new(planes, sizeof *s->loaded);
     s->filled = array_new(planes, sizeof *s->filled);
+    s->waiting = array_new(planes, sizeof *s->waiting);
     s->bound = array_new(threads + 1, sizeof *s->bound);
     s->buffer = array_new(threads, sizeof *s->buffer);
     s->kept_bytes = (s->number == sizeof(double) ? 1 : 2) * c->model.unknowns * s->number;
     s->kept = array_new(1, s->kept_bytes);
     s->bytes += s->kept_bytes + planes * s->n[1] * sizeof *s->size;
     if (s->root == NULL || s->ready == NULL || s->size == NULL || s->reached == NULL || s->loaded == NULL ||
-        s->filled == NULL || s->bound == NULL || s->buffer == NULL || s->kept == NULL)
+        s->filled == NULL || s->waiting == NULL || s->bound == NULL || s->buffer == NULL || s->kept == NULL)
         return false;
     for (size_t i = 0; i < s->volume; i++)
         set(s, s->root, i, c->general->root[i]);
@@ -188,6 +207,7 @@ bool sweep_create(struct consistent *c)
     s->width = rounded(s->cells[0] + 2, FUSED_VECTOR / s->number);
     s->stride = s->width + FUSED_VECTOR / s->number;
     s->rows = rounded(s->n[1], FUSED_ROWS);
+    lay_parts(c, s);
     if (!lay_pairs(c, s) || !lay_inverse(c, s) || !lay_points(c, s) || !lay_fields(c, s)) return false;
     lay_loaded(c, s);
     c->general->bytes += s->bytes;
@@ -218,6 +238,7 @@ void sweep_free(struct sweep *s)
     array_free(s->reached);
     array_free(s->loaded);
     array_free(s->filled);
+    array_free(s->waiting);
     array_free(s->bound);
     array_free(s->kept);
     array_free(s);

@@ -10,11 +10,13 @@
 
 #include "base/processor.h"
 #include "method/consistent/fused/kernels.h"
-#include "method/consistent/general/general.h"
+#include "method/consistent/general/layers.h"
 
 /* Fields over depth: values and slopes at the middles, then at the knots. Taps of N; planes whose update is made
  * together, and those that N reaches beyond them. */
 enum sweep_field { VALUE_MIDDLES, SLOPE_MIDDLES, VALUE_KNOTS, SLOPE_KNOTS, DEPTH_FIELDS };
+/* Fields of pulls: those, and where absorbing layers are, of stresses along y, which else are among the values'. */
+enum { ACROSS_MIDDLES = DEPTH_FIELDS, ACROSS_KNOTS, PULL_FIELDS };
 enum { SWEEP_TAPS = 13, SWEEP_REACH = SWEEP_TAPS / 2, SWEEP_PLANES = 4, SPAN = 3 };
 /* Rows of stresses of a family: the six, then what pulls along depth below a hill. */
 enum { STRESS_ROOM = STRESSES + 3 };
@@ -28,6 +30,12 @@ struct rows {
 struct over_depth {
     size_t base;
     void *weight[2]; /* [odd]: [DEPTH_FIELDS][SPAN] */
+};
+
+/* Where the forces of stresses along the axis of a layer are kept apart: rows, columns and planes by slot, numbers of
+ * the unclamped splines along x and y; rows in the ring. */
+struct sweep_part {
+    size_t at[3], n[3], stride, start;
 };
 
 struct sweep {
@@ -47,11 +55,15 @@ struct sweep {
     void *hill[3][3];         /* [family]: s and its slopes, rows of `width` numbers */
     void *root;               /* [volume] */
     void *ready;              /* [component][planes][rows][stride]: N along x and y of the forces */
+    bool layered;             /* the body has absorbing layers: the same on all ranks */
+    struct sweep_part part[BOX_FACES];
+    size_t part_size; /* numbers of their rings */
     double quiet, largest;
     double *size;         /* [planes * n[1]]: largest displacement of each row */
     struct rows *reached; /* [planes]: u and w are 0 in other rows */
     struct rows *loaded;  /* [planes]: rows where loads act */
     struct rows *filled;  /* [planes]: rows of `ready` that are not 0 */
+    struct rows *waiting; /* [planes]: rows of forces */
     bool known;           /* `reached` and `largest` are right */
     void *kept;           /* w, and in single precision u before it */
     size_t kept_bytes;
@@ -62,43 +74,59 @@ struct sweep {
 };
 
 /* s and its slopes along x and y at the points of a row, f and its slope over depth (G16). */
-#define SWEEP_KERNELS(real, precision)                                                                            \
-    struct sweep_hill_##precision {                                                                               \
-        const real *drop, *slope[2];                                                                              \
-        real share, fall;                                                                                         \
-    };                                                                                                            \
+#define SWEEP_KERNELS(real, precision)                                                                              \
+    struct sweep_hill_##precision {                                                                                 \
+        const real *drop, *slope[2];                                                                                \
+        real share, fall;                                                                                           \
+    };                                                                                                              \
     /* A row of points of a family: moduli, factors of slopes along x, y and depth; y_knots, x_knots: where  \
-     * its points are; hill NULL: level. Runs as in points.h. */    \
-    struct sweep_row_##precision {                                                                                \
-        bool x_knots, y_knots;                                                                                    \
-        size_t width, stride;                                                                                     \
-        real factor[3];                                                                                           \
-        const real *lambda, *mu;                                                                                  \
-        const struct sweep_hill_##precision *hill;                                                                \
-        const struct run_of_points *run;                                                                          \
-        size_t runs;                                                                                              \
-        const double *stiffness;                                                                                  \
-        const real *value[3][SPAN], *slope[3][SPAN]; /* [component] over depth, rows of control values */         \
-        real *pull[3][SPAN], *slope_pull[3][SPAN];   /* the last of them is set, the others grow */               \
-        real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */       \
-    };                                                                                                            \
-    struct sweep_kernels_##precision {                                                                            \
-        /* u += dt w, n numbers; gives the largest |u| */                                                         \
-        real (*bring)(size_t n, real dt, const real *w, real *u);                                                 \
-        /* out[q][i] := sum over d of weight[q][d] in[d][i], i < n */                                             \
-        void (*depth)(size_t n, const real *const in[SPAN], const real weight[DEPTH_FIELDS][SPAN],                \
-                      real *const out[DEPTH_FIELDS]);                                                             \
-        void (*points)(const struct sweep_row_##precision *row);                                                  \
-        /* out[d][i] -= sum over q of weight[q][d] in[q][i], i < width */                                         \
-        void (*pulls)(size_t width, const real *const in[DEPTH_FIELDS],                                           \
-                      const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                              \
-        /* out[i] := factor[i] in[i], i < n */                                                                    \
-        void (*scale)(size_t n, const real *factor, const real *in, real *out);                                   \
+     * its points are; hill NULL: level. Runs as in points.h. */      \
+    struct sweep_row_##precision {                                                                                  \
+        bool x_knots, y_knots;                                                                                      \
+        size_t width, stride;                                                                                       \
+        real factor[3];                                                                                             \
+        const real *lambda, *mu;                                                                                    \
+        const struct sweep_hill_##precision *hill;                                                                  \
+        const struct run_of_points *run;                                                                            \
+        size_t runs;                                                                                                \
+        const double *stiffness;                                                                                    \
+        const real *value[3][SPAN], *slope[3][SPAN]; /* [component] over depth, rows of control values */           \
+        real *pull[3][SPAN], *slope_pull[3][SPAN];   /* the last of them is set, the others grow */                 \
+        real *across_pull[3][SPAN];                  /* of stresses() */                                            \
+        real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */         \
+    };                                                                                                              \
+    struct sweep_kernels_##precision {                                                                              \
+        /* u += dt w, n numbers; gives the largest |u| */                                                           \
+        real (*bring)(size_t n, real dt, const real *w, real *u);                                                   \
+        /* out[q][i] := sum over d of weight[q][d] in[d][i], i < n */                                               \
+        void (*depth)(size_t n, const real *const in[SPAN], const real weight[DEPTH_FIELDS][SPAN],                  \
+                      real *const out[DEPTH_FIELDS]);                                                               \
+        void (*points)(const struct sweep_row_##precision *row);                                                    \
+        /* The same in two: slopes at the points, [3 * component + slot] rows of the scratch, where others may    \
+         * change them; and the pulls of their stresses, those along y apart. */ \
+        void (*slopes)(const struct sweep_row_##precision *row);                                                    \
+        void (*stresses)(const struct sweep_row_##precision *row);                                                  \
+        /* out[d][i] -= sum over q of weight[q][d] in[q][i], i < width; apart: in[] has all PULL_FIELDS, those    \
+         * of y with the weights of values */ \
+        void (*pulls)(bool apart, size_t width, const real *const in[PULL_FIELDS],                                  \
+                      const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                                \
+        /* Memory of absorbing layers at n points of a row: slope[i] += psi[i]; */                                  \
+        void (*recall)(size_t n, const double *psi, real *slope);                                                   \
+        /* psi brought on by the slope less `half` of its rate before, by factors of one point or of each along   \
+         * the row; */ \
+        void (*remember)(size_t n, bool along, const double *kept, const double *taken, real half,                  \
+                         const real *rate, double *psi, real *slope);                                               \
+        /* out[i] += root[i] phi[i] */                                                                              \
+        void (*pull)(size_t n, const double *phi, const real *root, real *out);                                     \
+        /* out[i] -= a one[i] + b other[i], i < n */                                                                \
+        void (*keep)(size_t n, real a, const real *one, real b, const real *other, real *out);                      \
+        /* out[i] := factor[i] in[i], i < n */                                                                      \
+        void (*scale)(size_t n, const real *factor, const real *in, real *out);                                     \
         /* out[p][i] += factor root[p][i] sum over t of weight[p][t] in[p + t][i], p < planes, i < n; what is   \
-         * `ahead` numbers on, the next row, is asked for */ \
-        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,          \
-                       real factor, const real *const *root, real *const *out);                                   \
-    };                                                                                                            \
+         * `ahead` numbers on, the next row, is asked for */   \
+        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,            \
+                       real factor, const real *const *root, real *const *out);                                     \
+    };                                                                                                              \
     EACH_PROCESSOR(struct sweep_kernels_##precision, sweep_kernels_##precision)
 SWEEP_KERNELS(double, double)
 SWEEP_KERNELS(float, single)
@@ -108,12 +136,14 @@ SWEEP_KERNELS(float, single)
 bool sweep_create(struct consistent *c);
 void sweep_free(struct sweep *sweep);
 
-/* sweep_step.h. w := v + dt/2 a from w = v; a in `work`. */
+/* sweep_step.h. w := v + dt/2 a from w = v; a in `work`; extra: memory of absorbing layers, double in either
+ * precision, which stands behind u and v in y. */
 void sweep_begin_double(struct consistent *c, const struct drive *drive, double dt, const double *u,
-                        double *w, double *work);
-void sweep_begin_single(struct consistent *c, const struct drive *drive, double dt, const float *u, float *w,
-                        float *work);
-/* u += dt w, w += dt a at the new u, with the loads of the drive; entries of y and a that are watched. */
+                        double *extra, double *w, double *work);
+void sweep_begin_single(struct consistent *c, const struct drive *drive, double dt, const float *u,
+                        double *extra, float *w, float *work);
+/* u += dt w, w += dt a at the new u, with the loads of the drive, and the layers' memory; entries of y and a that are
+ * watched. */
 void sweep_advance_double(struct consistent *c, const struct drive *drive, double dt, double *u, double *w,
                           double *y, double *a);
 void sweep_advance_single(struct consistent *c, const struct drive *drive, double dt, float *u, float *w,

@@ -87,27 +87,45 @@ INLINED lanes slope_pull(const bool knots, const REAL *row)
 
 enum { XX, YY, ZZ, YZ, ZX, XY, DEPTH_X, DEPTH_Y, DEPTH_Z };
 
-INLINED void level_stresses(const bool knots, const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
+/* A slope along x, or along another slot, where `row` is its row of the scratch; `made`: it is there already. */
+INLINED lanes strain_x(const bool knots, const bool made, REAL factor, const REAL *row)
+{
+    if (made) return at(row);
+    return factor * slope_of(knots, row);
+}
+
+INLINED lanes strain_of(const bool knots, const bool made, REAL factor, const REAL *row)
+{
+    if (made) return at(row);
+    return factor * value_of(knots, row);
+}
+
+INLINED void level_stresses(const bool knots, const bool made, const struct NAME(sweep_row) * row,
+                            const REAL *in, REAL *out)
 {
     const size_t stride = row->stride, width = row->width;
     const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2], *lambda = row->lambda,
                *shear = row->mu;
 #define AT(component, slot) (in + (3 * (component) + (slot)) * stride + i)
     for (size_t i = 0; i < width; i += LANES) {
-        const lanes exx = x * slope_of(knots, AT(0, 0)), eyy = y * value_of(knots, AT(1, 1)),
-                    ezz = z * value_of(knots, AT(2, 2)), mu = at(shear + i), twice = mu + mu,
+        const lanes exx = strain_x(knots, made, x, AT(0, 0)), eyy = strain_of(knots, made, y, AT(1, 1)),
+                    ezz = strain_of(knots, made, z, AT(2, 2)), mu = at(shear + i), twice = mu + mu,
                     pressure = at(lambda + i) * (exx + eyy + ezz);
         put(out + XX * stride + i, pressure + twice * exx);
         put(out + YY * stride + i, pressure + twice * eyy);
         put(out + ZZ * stride + i, pressure + twice * ezz);
-        put(out + YZ * stride + i, mu * (z * value_of(knots, AT(1, 2)) + y * value_of(knots, AT(2, 1))));
-        put(out + ZX * stride + i, mu * (z * value_of(knots, AT(0, 2)) + x * slope_of(knots, AT(2, 0))));
-        put(out + XY * stride + i, mu * (y * value_of(knots, AT(0, 1)) + x * slope_of(knots, AT(1, 0))));
+        put(out + YZ * stride + i,
+            mu * (strain_of(knots, made, z, AT(1, 2)) + strain_of(knots, made, y, AT(2, 1))));
+        put(out + ZX * stride + i,
+            mu * (strain_of(knots, made, z, AT(0, 2)) + strain_x(knots, made, x, AT(2, 0))));
+        put(out + XY * stride + i,
+            mu * (strain_of(knots, made, y, AT(0, 1)) + strain_x(knots, made, x, AT(1, 0))));
     }
 }
 
 /* Below a surface that is not level: slopes along the axes (G17), and what pulls along the lattice's depth. */
-INLINED void tilted_stresses(const bool knots, const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
+INLINED void tilted_stresses(const bool knots, const bool made, const struct NAME(sweep_row) * row,
+                             const REAL *in, REAL *out)
 {
     const struct NAME(sweep_hill) hill = *row->hill;
     const size_t stride = row->stride, width = row->width;
@@ -120,9 +138,9 @@ INLINED void tilted_stresses(const bool knots, const struct NAME(sweep_row) * ro
         lanes x[3], y[3], z[3];
         UNROLLED for (size_t c = 0; c < 3; c++)
         {
-            const lanes down = factor[2] * value_of(knots, AT(c, 2));
-            x[c] = factor[0] * slope_of(knots, AT(c, 0)) - one * down;
-            y[c] = factor[1] * value_of(knots, AT(c, 1)) - two * down;
+            const lanes down = strain_of(knots, made, factor[2], AT(c, 2));
+            x[c] = strain_x(knots, made, factor[0], AT(c, 0)) - one * down;
+            y[c] = strain_of(knots, made, factor[1], AT(c, 1)) - two * down;
             z[c] = up * down;
         }
         const lanes mu = at(shear + i), twice = mu + mu, pressure = at(lambda + i) * (x[0] + y[1] + z[2]);
@@ -144,7 +162,8 @@ INLINED void tilted_stresses(const bool knots, const struct NAME(sweep_row) * ro
 #define SLOPE_AT(row) (knots ? (row)[i + 1] - (row)[i] : (row)[i + 2] - (row)[i])
 
 /* The same at points that are not isotropic. */
-INLINED void other_stresses(const bool knots, const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
+INLINED void other_stresses(const bool knots, const bool made, const struct NAME(sweep_row) * row,
+                            const REAL *in, REAL *out)
 {
     const struct NAME(sweep_hill) *hill = row->hill;
     const size_t stride = row->stride;
@@ -157,9 +176,10 @@ INLINED void other_stresses(const bool knots, const struct NAME(sweep_row) * row
                        two = hill == NULL ? 0 : hill->share * hill->slope[1][i] * up;
             REAL x[3], y[3], z[3], stress[STRESSES] = {0};
             for (size_t c = 0; c < 3; c++) {
-                const REAL *rows = in + 3 * c * stride, down = row->factor[2] * VALUE_AT(rows + 2 * stride);
-                x[c] = row->factor[0] * SLOPE_AT(rows) - one * down;
-                y[c] = row->factor[1] * VALUE_AT(rows + stride) - two * down;
+                const REAL *along = in + 3 * c * stride, *across = along + stride, *deep = across + stride;
+                const REAL down = made ? deep[i] : row->factor[2] * VALUE_AT(deep);
+                x[c] = (made ? along[i] : row->factor[0] * SLOPE_AT(along)) - one * down;
+                y[c] = (made ? across[i] : row->factor[1] * VALUE_AT(across)) - two * down;
                 z[c] = up * down;
             }
             const REAL strain[STRESSES] = {x[0], y[1], z[2], y[2] + z[1], z[0] + x[2], x[1] + y[0]};
@@ -178,10 +198,13 @@ INLINED void other_stresses(const bool knots, const struct NAME(sweep_row) * row
         }
 }
 
-/* Back along x, then along y: what stresses x, y, z of a component pull at. */
-INLINED void pulls_back(const bool x_knots, const bool y_knots, const struct NAME(sweep_row) * row,
-                        int component, const REAL *restrict x, const REAL *restrict y, const REAL *restrict z)
+/* Back along x, then along y: what stresses x, y, z of a component pull at; `apart`: those of y go into rows of their
+ * own. */
+INLINED void pulls_back(const bool x_knots, const bool y_knots, const bool apart,
+                        const struct NAME(sweep_row) * row, int component, const REAL *restrict x,
+                        const REAL *restrict y, const REAL *restrict z)
 {
+    REAL *const *across = row->across_pull[component];
     REAL *const *pull = row->pull[component], *const *slope = row->slope_pull[component];
     REAL *restrict p0 = pull[0], *restrict p1 = pull[1], *restrict p2 = pull[2];
     REAL *restrict s0 = slope[0], *restrict s1 = slope[1], *restrict s2 = slope[2];
@@ -191,37 +214,64 @@ INLINED void pulls_back(const bool x_knots, const bool y_knots, const struct NAM
         const lanes one = factor[0] * slope_pull(x_knots, x + i),
                     two = factor[1] * value_pull(x_knots, y + i),
                     three = factor[2] * value_pull(x_knots, z + i);
-        put(p0 + i, at(p0 + i) + (one - two));
+        lanes both = one, less = one;
+        if (!apart) {
+            both += two;
+            less -= two;
+        }
+        put(p0 + i, at(p0 + i) + less);
         put(s0 + i, at(s0 + i) + three);
         if (y_knots) {
-            put(p1 + i, at(p1 + i) + (one + two));
+            put(p1 + i, at(p1 + i) + both);
             put(s1 + i, at(s1 + i) + three);
         } else {
             put(p1 + i, at(p1 + i) + 6 * one);
             put(s1 + i, at(s1 + i) + 6 * three);
-            put(p2 + i, one + two);
+            put(p2 + i, both);
             put(s2 + i, three);
+        }
+        if (!apart) continue;
+        put(across[0] + i, at(across[0] + i) - two);
+        if (y_knots)
+            put(across[1] + i, at(across[1] + i) + two);
+        else
+            put(across[2] + i, two);
+    }
+}
+
+INLINED void slopes_of(const bool x_knots, const bool y_knots, const struct NAME(sweep_row) * row)
+{
+    const size_t stride = row->stride, width = row->width;
+    for (int c = 0; c < 3; c++) {
+        REAL *x = row->scratch + (size_t)(3 * c) * stride, *y = x + stride, *z = y + stride;
+        along_y(y_knots, width, row->value[c], row->slope[c], x, y, z);
+        for (size_t i = 0; i < width; i += LANES) {
+            put(x + i, row->factor[0] * slope_of(x_knots, x + i));
+            put(y + i, row->factor[1] * value_of(x_knots, y + i));
+            put(z + i, row->factor[2] * value_of(x_knots, z + i));
         }
     }
 }
 
-INLINED void points_of(const bool x_knots, const bool y_knots, const struct NAME(sweep_row) * row)
+/* made: the slopes are there, and pulls are kept apart. */
+INLINED void points_of(const bool x_knots, const bool y_knots, const bool made,
+                       const struct NAME(sweep_row) * row)
 {
     static const int level[3][3] = {{XX, XY, ZX}, {XY, YY, YZ}, {ZX, YZ, ZZ}};
     const size_t stride = row->stride;
     REAL *in = row->scratch, *out = in + 9 * stride;
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3 && !made; c++) {
         REAL *rows = in + (size_t)(3 * c) * stride;
         along_y(y_knots, row->width, row->value[c], row->slope[c], rows, rows + stride, rows + 2 * stride);
     }
     if (row->hill != NULL)
-        tilted_stresses(x_knots, row, in, out);
+        tilted_stresses(x_knots, made, row, in, out);
     else
-        level_stresses(x_knots, row, in, out);
-    if (row->runs > 0) other_stresses(x_knots, row, in, out);
+        level_stresses(x_knots, made, row, in, out);
+    if (row->runs > 0) other_stresses(x_knots, made, row, in, out);
     for (int c = 0; c < 3; c++) {
         const int along = row->hill != NULL ? DEPTH_X + c : level[c][2];
-        pulls_back(x_knots, y_knots, row, c, out + (size_t)level[c][0] * stride,
+        pulls_back(x_knots, y_knots, made, row, c, out + (size_t)level[c][0] * stride,
                    out + (size_t)level[c][1] * stride, out + (size_t)along * stride);
     }
 }
@@ -229,26 +279,62 @@ INLINED void points_of(const bool x_knots, const bool y_knots, const struct NAME
 static void points(const struct NAME(sweep_row) * row)
 {
     if (row->x_knots)
-        points_of(true, false, row);
+        points_of(true, false, false, row);
     else if (row->y_knots)
-        points_of(false, true, row);
+        points_of(false, true, false, row);
     else
-        points_of(false, false, row);
+        points_of(false, false, false, row);
 }
 
-static void pulls(size_t width, const REAL *const in[DEPTH_FIELDS], const REAL weight[DEPTH_FIELDS][SPAN],
-                  REAL *const out[SPAN])
+static void slopes(const struct NAME(sweep_row) * row)
+{
+    if (row->x_knots)
+        slopes_of(true, false, row);
+    else if (row->y_knots)
+        slopes_of(false, true, row);
+    else
+        slopes_of(false, false, row);
+}
+
+static void stresses(const struct NAME(sweep_row) * row)
+{
+    if (row->x_knots)
+        points_of(true, false, true, row);
+    else if (row->y_knots)
+        points_of(false, true, true, row);
+    else
+        points_of(false, false, true, row);
+}
+
+INLINED void pulls_of(const bool apart, size_t width, const REAL *const in[PULL_FIELDS],
+                      const REAL weight[DEPTH_FIELDS][SPAN], REAL *const out[SPAN])
 {
     REAL w[DEPTH_FIELDS][SPAN], *to[SPAN];
     memcpy(w, weight, sizeof w);
     memcpy(to, out, sizeof to);
-    const REAL *const from[DEPTH_FIELDS] = {in[0], in[1], in[2], in[3]};
+    const REAL *const from[PULL_FIELDS] = {in[0], in[1], in[2], in[3], in[4], in[5]};
     for (size_t i = 0; i < width; i += LANES) {
-        const lanes a = at(from[0] + i), b = at(from[1] + i), c = at(from[2] + i), d = at(from[3] + i);
+        lanes a = at(from[0] + i), c = at(from[2] + i);
+        const lanes b = at(from[1] + i), d = at(from[3] + i);
+        if (apart) {
+            a += at(from[4] + i);
+            c += at(from[5] + i);
+        }
         UNROLLED for (int s = 0; s < SPAN; s++)
             put(to[s] + i, at(to[s] + i) - w[0][s] * a - w[1][s] * b - w[2][s] * c - w[3][s] * d);
     }
 }
+
+static void pulls(bool apart, size_t width, const REAL *const in[PULL_FIELDS],
+                  const REAL weight[DEPTH_FIELDS][SPAN], REAL *const out[SPAN])
+{
+    if (apart)
+        pulls_of(true, width, in, weight, out);
+    else
+        pulls_of(false, width, in, weight, out);
+}
+
+#include "method/consistent/general/sweep_memory_over.h"
 
 INLINED void finished(const int planes, size_t n, const REAL *weight, const REAL *const *in, size_t ahead,
                       REAL factor, const REAL *const *root, REAL *const *out)
@@ -303,5 +389,5 @@ static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in
         out[i] = factor[i] * in[i];
 }
 
-const struct NAME(sweep_kernels)
-    OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth, points, pulls, scale, finish};
+const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {
+    bring, depth, points, slopes, stresses, pulls, recall, remember, pull, keep, scale, finish};

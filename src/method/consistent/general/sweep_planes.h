@@ -6,10 +6,8 @@ static void clamp_rows(const struct sweep *s, const struct rings *r, size_t k, s
 {
     for (int high = 0; high < 2; high++) {
         const size_t row = high ? unclamped(s, 1) - 1 : 0, next = high ? row - 1 : 1;
-        REAL *at = force_row(s, r, k, component, row), *to = force_row(s, r, k, component, next);
-        mix(s->width, 1, !s->mirror[1][high] ? -1 : component == 1 ? -1 : 1, at, to);
-        for (size_t i = 0; i < s->width && !s->mirror[1][high]; i++)
-            at[i] *= 2;
+        clamp_end(s->width, s->mirror[1][high], component == 1, force_row(s, r, k, component, row),
+                  force_row(s, r, k, component, next));
     }
 }
 
@@ -97,8 +95,10 @@ static void pass_along(const struct sweep *s, const struct rings *r, size_t comp
     }
 }
 
-static void forget_plane(const struct sweep *s, struct rings *r, size_t k)
+static void forget_plane(const struct pass *pass, struct rings *r, size_t k)
 {
+    const struct sweep *s = pass->s;
+    forget_parts(pass, r, k);
     memset(force_row(s, r, k, 0, 0), 0, 3 * unclamped(s, 1) * s->stride * sizeof(REAL));
     r->touched[k % SPAN] = (struct rows){0, 0};
 }
@@ -113,9 +113,13 @@ static void plane_done(const struct pass *pass, struct rings *r, size_t k)
         rows.end = touched->end - s->low[1] < s->n[1] ? touched->end - s->low[1] : s->n[1];
     }
     if (pass->drive->load != NULL) join(&rows, s->loaded[k].from, s->loaded[k].end);
+    join_layers(pass, k, &rows);
     struct rows *filled = &s->filled[k];
+    const bool later = waits(pass, k);
     *filled = (struct rows){0, 0};
+    s->waiting[k] = rows;
     if (rows.from >= rows.end) return;
+    layers_done(pass, r, k, &rows);
     filled->from = less(rows.from, SWEEP_REACH) / FUSED_ROWS * FUSED_ROWS;
     filled->end = rows.end + SWEEP_REACH < s->n[1] ? rows.end + SWEEP_REACH : s->n[1];
     for (size_t component = 0; component < 3; component++) {
@@ -125,9 +129,28 @@ static void plane_done(const struct pass *pass, struct rings *r, size_t k)
                       force_row(s, r, k, component, j + s->low[1]), r->scaled + j * s->stride);
         add_corners(pass, r, k, component, &rows);
         add_loads(pass, r, k, component);
-        pass_along(s, r, component, k, &rows, filled);
+        add_moments(pass, r, false, component, k, &rows);
+        if (!later) add_moments(pass, r, true, component, k, &rows);
+        if (later)
+            for (size_t j = rows.from; j < rows.end; j++)
+                memcpy(ready_row(s, component, k, j), r->scaled + j * s->stride, s->n[0] * sizeof(REAL));
+        else
+            pass_along(s, r, component, k, &rows, filled);
     }
-    forget_plane(s, r, k);
+    forget_plane(pass, r, k);
+}
+
+/* The rest of plane k, which has waited. */
+static void go_on_with_plane(const struct pass *pass, const struct rings *r, size_t k)
+{
+    const struct sweep *s = pass->s;
+    const struct rows *rows = &s->waiting[k];
+    for (size_t component = 0; component < 3 && rows->from < rows->end; component++) {
+        for (size_t j = rows->from; j < rows->end; j++)
+            memcpy(r->scaled + j * s->stride, ready_row(s, component, k, j), s->n[0] * sizeof(REAL));
+        add_moments(pass, r, true, component, k, rows);
+        pass_along(s, r, component, k, rows, &s->filled[k]);
+    }
 }
 
 /* N over depth and the update of planes first .. first + SWEEP_PLANES - 1. */
@@ -138,6 +161,8 @@ static void finish_planes(const struct pass *pass, const struct rings *r, size_t
     struct rows rows = {0, 0};
     for (size_t k = less(first, SWEEP_REACH); k < first + planes + SWEEP_REACH && k < s->n[2]; k++)
         join(&rows, s->filled[k].from, s->filled[k].end);
+    for (size_t k = first; pass->moving && k < first + planes; k++)
+        drag_plane(pass, k);
     for (size_t component = 0; component < 3; component++)
         for (size_t j = rows.from; j < rows.end; j++) {
             const REAL *in[SWEEP_TAPS + SWEEP_PLANES - 1], *root[SWEEP_PLANES];

@@ -5,16 +5,22 @@
 
 #include <string.h>
 
-enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS };
+enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS, P_ROWS = 3 * PULL_FIELDS };
 
 /* Rows of a thread's buffer, each with room before it. */
 struct rings {
-    REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS] */
-    REAL *scratch;
+    REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS], [PULL_FIELDS] */
+    REAL *rate;         /* as `value`, of w */
+    REAL *scratch, *rates;
     REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
+    REAL *part;  /* of each layer (struct sweep_part) */
     REAL *scaled, *passed, *zero;
+    double *taken;             /* a row of a layer */
     struct rows touched[SPAN]; /* of `force` */
 };
+
+/* What is done with a pair of planes: memory of layers goes on, or has gone on already, or it alone. */
+enum task { PULL_AND_MOVE, PULL, MOVE };
 
 struct pass {
     struct consistent *c;
@@ -23,7 +29,10 @@ struct pass {
     REAL *u, *out; /* out += factor a; with `moving` u += dt w before, w being out */
     REAL factor;
     bool moving;
-    double level; /* smaller displacements move nothing */
+    double dt;                   /* of the step, while moving */
+    double level;                /* smaller displacements move nothing */
+    double *extra;               /* memory of absorbing layers */
+    struct rows deep[BOX_FACES]; /* of those over depth: rows where it may not be 0 */
 };
 
 static size_t unclamped(const struct sweep *s, int slot)
@@ -35,11 +44,15 @@ static struct rings rings_of(const struct sweep *s, REAL *buffer)
 {
     struct rings r = {.value = buffer + GROUP};
     r.pull = r.value + (size_t)(SPAN * V_ROWS) * s->stride;
-    r.scratch = r.pull + (size_t)(SPAN * V_ROWS) * s->stride;
-    r.force = r.scratch + (size_t)(9 + STRESS_ROOM) * s->stride;
-    r.scaled = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
+    r.scratch = r.pull + (size_t)(SPAN * P_ROWS) * s->stride;
+    r.rate = r.scratch + (size_t)(9 + STRESS_ROOM) * s->stride;
+    r.rates = r.rate + (size_t)(s->layered ? SPAN * V_ROWS : 0) * s->stride;
+    r.force = r.rates + (size_t)(s->layered ? 9 : 0) * s->stride;
+    r.part = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
+    r.scaled = r.part + s->part_size;
     r.passed = r.scaled + s->n[1] * s->stride;
     r.zero = r.passed + FUSED_ROWS * s->stride;
+    r.taken = (double *)(r.zero + FUSED_ROWS * s->stride);
     return r;
 }
 
@@ -96,6 +109,11 @@ static REAL *ring_row(const struct sweep *s, REAL *ring, size_t row, int compone
     return ring + (row % SPAN * V_ROWS + (size_t)(component * DEPTH_FIELDS + field)) * s->stride;
 }
 
+static REAL *pull_row(const struct sweep *s, REAL *ring, size_t row, int component, int field)
+{
+    return ring + (row % SPAN * P_ROWS + (size_t)(component * PULL_FIELDS + field)) * s->stride;
+}
+
 /* out := a out + b in */
 static void mix(size_t n, REAL a, REAL b, const REAL *restrict in, REAL *restrict out)
 {
@@ -105,13 +123,13 @@ static void mix(size_t n, REAL a, REAL b, const REAL *restrict in, REAL *restric
 }
 
 /* The row of the unclamped splines at an end of y from that next to it (G5). */
-static void end_row(const struct sweep *s, const struct rings *r, bool high)
+static void end_row(const struct sweep *s, REAL *ring, bool high)
 {
     const size_t row = high ? unclamped(s, 1) - 1 : 0, next = high ? row - 1 : 1;
     for (int component = 0; component < 3; component++)
         for (int field = 0; field < DEPTH_FIELDS; field++) {
-            const REAL *in = ring_row(s, r->value, next, component, field);
-            REAL *out = ring_row(s, r->value, row, component, field);
+            const REAL *in = ring_row(s, ring, next, component, field);
+            REAL *out = ring_row(s, ring, row, component, field);
             if (s->mirror[1][high])
                 mix(s->width, 0, component == 1 ? -1 : 1, in, out);
             else
@@ -119,8 +137,8 @@ static void end_row(const struct sweep *s, const struct rings *r, bool high)
         }
 }
 
-/* Values and slopes over depth of row `row` of the unclamped splines. */
-static void read_row(const struct pass *pass, const struct rings *r, size_t m, size_t row)
+/* Values and slopes over depth of row `row` of the unclamped splines of u, or w in its place. */
+static void read_row(const struct pass *pass, const REAL *u, REAL *ring, size_t m, size_t row)
 {
     const struct sweep *s = pass->s;
     const size_t last = s->cells[0] + 1;
@@ -129,28 +147,58 @@ static void read_row(const struct pass *pass, const struct rings *r, size_t m, s
         const REAL *in[SPAN];
         REAL *out[DEPTH_FIELDS];
         for (size_t d = 0; d < SPAN; d++)
-            in[d] = pass->u + (size_t)component * s->volume + (s->pair[m].base + d) * s->plane +
+            in[d] = u + (size_t)component * s->volume + (s->pair[m].base + d) * s->plane +
                     (row - s->low[1]) * s->n[0];
         for (int field = 0; field < DEPTH_FIELDS; field++)
-            out[field] = ring_row(s, r->value, row, component, field) + s->low[0];
+            out[field] = ring_row(s, ring, row, component, field) + s->low[0];
         NAME(taken_sweep_kernels)()->depth(s->n[0], in, s->pair[m].weight[component == DEPTH], out);
         for (int field = 0; field < DEPTH_FIELDS; field++) {
-            REAL *to = ring_row(s, r->value, row, component, field);
+            REAL *to = ring_row(s, ring, row, component, field);
             const REAL sign = component == 0 ? -1 : 1;
             to[0] = s->mirror[0][0] ? sign * to[1] : 2 * to[0] - to[1];
             to[last] = s->mirror[0][1] ? sign * to[last - 1] : 2 * to[last] - to[last - 1];
         }
     }
-    if (row == 1) end_row(s, r, false);
-    if (row == s->cells[1] + 1) end_row(s, r, true);
+    if (row == 1) end_row(s, ring, false);
+    if (row == s->cells[1] + 1) end_row(s, ring, true);
+}
+
+#include "method/consistent/general/sweep_layers.h"
+
+/* Rows of a ring that row j of points reads. */
+static void take_values(const struct sweep *s, REAL *ring, size_t j, int value,
+                        struct NAME(sweep_row) * points)
+{
+    for (int component = 0; component < 3; component++)
+        for (size_t d = 0; d < SPAN; d++) {
+            points->value[component][d] = ring_row(s, ring, j + d, component, value);
+            points->slope[component][d] = ring_row(s, ring, j + d, component, value + 1);
+        }
+}
+
+/* Slopes of u at a row of points where layers are, with their memory. */
+static void slope_row_of(const struct pass *pass, const struct rings *r,
+                         const struct NAME(sweep_row) * points, int value, int f, size_t m, size_t j,
+                         enum task task)
+{
+    struct NAME(sweep_row) rate = *points;
+    NAME(taken_sweep_kernels)()->slopes(points);
+    if (task != PULL) {
+        take_values(pass->s, r->rate, j, value, &rate);
+        rate.scratch = r->rates;
+        NAME(taken_sweep_kernels)()->slopes(&rate);
+    }
+    add_memory(pass, points, task != PULL ? &rate : NULL, f, m, j);
 }
 
 /* Row j of the points of a family. */
-static void point_row(const struct pass *pass, const struct rings *r, int f, size_t m, size_t j)
+static void point_row(const struct pass *pass, const struct rings *r, int f, size_t m, size_t j,
+                      enum task task)
 {
     const struct sweep *s = pass->s;
     const struct family *family = &pass->c->general->family[f];
     const size_t at = m * s->points[f][0] + j, row = m * family->n[1] + j;
+    const int across = family->at[DEPTH] == AT_KNOTS ? ACROSS_KNOTS : ACROSS_MIDDLES;
     const enum sweep_field value = family->at[DEPTH] == AT_KNOTS ? VALUE_KNOTS : VALUE_MIDDLES;
     struct NAME(sweep_row) points = {.x_knots = family->at[0] == AT_KNOTS,
                                      .y_knots = family->at[1] == AT_KNOTS,
@@ -175,14 +223,19 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
             hill.slope[slot] = (const REAL *)s->hill[f][1 + slot] + j * s->width;
         points.hill = &hill;
     }
+    take_values(s, r->value, j, (int)value, &points);
     for (int component = 0; component < 3; component++)
         for (size_t d = 0; d < SPAN; d++) {
-            points.value[component][d] = ring_row(s, r->value, j + d, component, (int)value);
-            points.slope[component][d] = ring_row(s, r->value, j + d, component, (int)value + 1);
-            points.pull[component][d] = ring_row(s, r->pull, j + d, component, (int)value);
-            points.slope_pull[component][d] = ring_row(s, r->pull, j + d, component, (int)value + 1);
+            points.pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value);
+            points.slope_pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value + 1);
+            points.across_pull[component][d] = pull_row(s, r->pull, j + d, component, across);
         }
-    NAME(taken_sweep_kernels)()->points(&points);
+    if (!s->layered) {
+        NAME(taken_sweep_kernels)()->points(&points);
+        return;
+    }
+    slope_row_of(pass, r, &points, (int)value, f, m, j, task);
+    if (task != MOVE) NAME(taken_sweep_kernels)()->stresses(&points);
 }
 
 static REAL *force_row(const struct sweep *s, const struct rings *r, size_t k, size_t component, size_t row)
@@ -195,18 +248,27 @@ static void write_row(const struct pass *pass, const struct rings *r, size_t m, 
 {
     const struct sweep *s = pass->s;
     for (int component = 0; component < 3; component++) {
-        const REAL *in[DEPTH_FIELDS];
+        const REAL *in[PULL_FIELDS];
         REAL *out[SPAN];
-        for (int field = 0; field < DEPTH_FIELDS; field++)
-            in[field] = ring_row(s, r->pull, row, component, field);
+        for (int field = 0; field < PULL_FIELDS; field++)
+            in[field] = pull_row(s, r->pull, row, component, field);
         for (size_t d = 0; d < SPAN; d++)
             out[d] = force_row(s, r, s->pair[m].base + d, (size_t)component, row);
-        NAME(taken_sweep_kernels)()->pulls(s->width, in, s->pair[m].weight[component == DEPTH], out);
+        NAME(taken_sweep_kernels)
+        ()->pulls(s->layered, s->width, in, s->pair[m].weight[component == DEPTH], out);
     }
+    keep_row(pass, r, m, row);
+}
+
+/* Both fields that a row of points needs. */
+static void read_rows(const struct pass *pass, const struct rings *r, size_t m, size_t row, enum task task)
+{
+    read_row(pass, pass->u, r->value, m, row);
+    if (task != PULL) read_row(pass, pass->out, r->rate, m, row);
 }
 
 /* All points of pair m that move anything. */
-static void point_planes(const struct pass *pass, struct rings *r, size_t m)
+static void point_planes(const struct pass *pass, struct rings *r, size_t m, enum task task)
 {
     struct sweep *s = pass->s;
     const struct rows loud = loud_rows(pass, m);
@@ -215,15 +277,16 @@ static void point_planes(const struct pass *pass, struct rings *r, size_t m)
     const size_t most = s->cells[1] + 1, after = loud.end + s->low[1] + 1;
     const size_t end = after < most ? after : most;
     for (size_t slot = 0; slot < SPAN; slot++) /* the first two rows; what no point of a plane sets */
-        memset(ring_row(s, r->pull, slot, 0, 0), 0, (size_t)V_ROWS * s->stride * sizeof(REAL));
+        memset(pull_row(s, r->pull, slot, 0, 0), 0, (size_t)P_ROWS * s->stride * sizeof(REAL));
     for (size_t row = from; row < from + 2; row++)
-        read_row(pass, r, m, row);
+        read_rows(pass, r, m, row, task);
     for (size_t j = from; j < end; j++) {
-        if (j + 2 < unclamped(s, 1)) read_row(pass, r, m, j + 2);
+        if (j + 2 < unclamped(s, 1)) read_rows(pass, r, m, j + 2, task);
         for (int f = 0; f < 3; f++)
-            if (m < s->points[f][1] && j < s->points[f][0]) point_row(pass, r, f, m, j);
-        write_row(pass, r, m, j);
+            if (m < s->points[f][1] && j < s->points[f][0]) point_row(pass, r, f, m, j, task);
+        if (task != MOVE) write_row(pass, r, m, j);
     }
+    if (task == MOVE) return;
     for (size_t row = end; row < end + 2 && row < unclamped(s, 1); row++)
         write_row(pass, r, m, row);
     for (size_t k = s->pair[m].base; k < s->pair[m].base + SPAN; k++)

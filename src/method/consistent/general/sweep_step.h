@@ -1,18 +1,47 @@
 /* The order of a sweep (sweep.h) for numbers of type REAL; included by sweep_double.c and sweep_single.c.
  *
  * A thread has planes of its own. What its neighbours read of the displacements is brought on first (stage 0); then
- * come its points and the update of those planes whose neighbours are its own (1), last the others (2); all threads
- * wait in between. Each sum is taken in one order: the same bits with any number of threads. */
+ * the memory of absorbing layers at points that two threads need (1), points and the update of those planes whose
+ * neighbours are a thread's own (2), last the others (5). In between memory over depth goes on (3), and the planes that
+ * wait for it (4); all threads wait after each. Each sum is taken in one order: the same bits with any number of
+ * threads. */
 #include "base/machine.h"
 #include "method/consistent/fused/settled.h"
 
-enum { STAGES = 3 };
+enum { BRING, MOVE_SHARED, POINTS, MOVE_OVER_DEPTH, GO_ON, FINISH, STAGES };
 
-/* Are all planes that the update of these reads those of the thread? */
-static bool own(const struct sweep *s, size_t first, size_t from, size_t end)
+/* Are all planes that the update of these reads those of the thread, and none waits? */
+static bool own(const struct pass *pass, size_t first, size_t from, size_t end)
 {
+    const struct sweep *s = pass->s;
     const size_t after = first + SWEEP_PLANES + SWEEP_REACH;
+    for (size_t k = less(first, SWEEP_REACH); k < after; k++)
+        if (waits(pass, k)) return false;
     return (from == 0 || first >= from + SWEEP_REACH) && (end == s->n[2] || after <= end);
+}
+
+/* The first pair of planes that a thread needs of its planes' neighbours: two of them. */
+static size_t first_pair(const struct sweep *s, size_t from)
+{
+    return less(from + s->low[2], 2);
+}
+
+static enum task task_of(const struct pass *pass, size_t m)
+{
+    const struct sweep *s = pass->s;
+    if (!pass->moving || !plane_is_layered(pass, m)) return PULL;
+    for (int thread = 1; thread < s->threads; thread++) {
+        const size_t from = s->bound[thread], first = first_pair(s, from);
+        if (from > 0 && from < s->n[2] && m >= first && m < first + 2) return PULL;
+    }
+    return PULL_AND_MOVE;
+}
+
+/* Memory at the points that the thread before needs too. */
+static void move_shared(const struct pass *pass, struct rings *r, size_t from)
+{
+    for (size_t m = first_pair(pass->s, from); from > 0 && m < first_pair(pass->s, from) + 2; m++)
+        if (pass->moving && plane_is_layered(pass, m)) point_planes(pass, r, m, MOVE);
 }
 
 /* Planes from `from` to `end`. */
@@ -22,40 +51,47 @@ static void sweep_points(const struct pass *pass, struct rings *r, size_t from, 
     size_t next = from + 2, done = from, finished = from;
     for (size_t slot = 0; slot < SPAN; slot++)
         r->touched[slot] = (struct rows){0, 0};
-    memset(r->force, 0, 3 * SPAN * unclamped(s, 1) * s->stride * sizeof(REAL));
-    for (size_t m = less(from + s->low[2], 2); done < end; m++) {
+    memset(r->force, 0, (3 * SPAN * unclamped(s, 1) * s->stride + s->part_size) * sizeof(REAL));
+    for (size_t m = first_pair(s, from); done < end; m++) {
         if (m <= s->cells[2]) {
             for (; pass->moving && next < s->pair[m].base + SPAN && next + 2 < end; next++)
                 bring_plane(pass, next);
-            point_planes(pass, r, m);
+            point_planes(pass, r, m, task_of(pass, m));
         }
-        if (m >= s->low[2] && m - s->low[2] < from) forget_plane(s, r, m - s->low[2]);
+        if (m >= s->low[2] && m - s->low[2] < from) forget_plane(pass, r, m - s->low[2]);
         if (m >= done + s->low[2]) plane_done(pass, r, done++);
-        for (; finished < end && own(s, finished, from, end); finished += SWEEP_PLANES) {
+        for (; finished < end; finished += SWEEP_PLANES) {
             const size_t after = finished + SWEEP_PLANES + SWEEP_REACH;
+            if (!own(pass, finished, from, end)) continue;
             if (done < (after < end ? after : end)) break;
             finish_planes(pass, r, finished);
         }
-        while (finished < end && !own(s, finished, from, end) && finished < from + SWEEP_REACH)
-            finished += SWEEP_PLANES;
     }
 }
 
-static void sweep_stage(const struct pass *pass, int thread, int stage)
+static void sweep_stage(const struct pass *pass, size_t thread, int stage)
 {
     const struct sweep *s = pass->s;
-    const size_t from = s->bound[thread], end = s->bound[thread + 1];
+    const size_t from = s->bound[thread], end = s->bound[thread + 1], threads = (size_t)pass->c->threads;
     struct rings r = rings_of(s, s->buffer[thread]);
-    if (from >= end) return;
-    if (stage == 0)
+    if (from >= end && stage != MOVE_OVER_DEPTH) return;
+    if (stage == BRING)
         for (size_t k = from; k < end; k++) {
             if (!pass->moving || k < from + 2 || k + 2 >= end) bring_plane(pass, k);
         }
-    else if (stage == 1)
+    else if (stage == MOVE_SHARED)
+        move_shared(pass, &r, from);
+    else if (stage == POINTS)
         sweep_points(pass, &r, from, end);
-    else
+    else if (stage == MOVE_OVER_DEPTH && pass->moving)
+        move_over_depth(pass, s->n[1] * thread / threads, s->n[1] * (thread + 1) / threads);
+    else if (stage == GO_ON)
+        for (size_t k = from; k < end; k++) {
+            if (waits(pass, k)) go_on_with_plane(pass, &r, k);
+        }
+    else if (stage == FINISH)
         for (size_t first = from; first < end; first += SWEEP_PLANES)
-            if (!own(s, first, from, end)) finish_planes(pass, &r, first);
+            if (!own(pass, first, from, end)) finish_planes(pass, &r, first);
 }
 
 /* Largest displacement of all rows of all ranks. */
@@ -90,22 +126,25 @@ static void sweep_over(struct pass *pass)
     struct sweep *s = pass->s;
     const int threads = pass->c->threads;
     lay_bounds(s, (size_t)threads);
+    lay_deep(pass);
     for (int stage = 0; stage < STAGES; stage++) {
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
         for (int thread = 0; thread < threads; thread++) {
             const unsigned before = tiny_as_zero();
-            sweep_stage(pass, thread, stage);
+            sweep_stage(pass, (size_t)thread, stage);
             tiny_as_before(before);
         }
-        if (stage == 0 && !pass->moving) pass->level = s->quiet * largest_size(pass);
+        if (stage == BRING && !pass->moving) pass->level = s->quiet * largest_size(pass);
     }
     s->largest = largest_size(pass);
     part_exchange(pass->c, pass->out, 3, s->volume * sizeof(REAL), s->plane * sizeof(REAL));
 }
 
-static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, REAL *work)
+static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, double *extra,
+                       REAL *work)
 {
-    struct pass pass = {.c = c, .s = c->general->sweep, .drive = drive, .factor = 1, .out = work};
+    struct pass pass = {
+        .c = c, .s = c->general->sweep, .drive = drive, .factor = 1, .out = work, .extra = extra};
     pass.u = (REAL *)u; /* stands still */
     memset(work, 0, c->model.unknowns * sizeof *work);
     sweep_over(&pass);
@@ -132,11 +171,11 @@ static void find_reached(const struct consistent *c, const REAL *u, const REAL *
     s->known = true;
 }
 
-void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt, const REAL *u, REAL *w,
-                       REAL *work)
+void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt, const REAL *u,
+                       double *extra, REAL *w, REAL *work)
 {
     c->general->sweep->known = false;
-    accelerate(c, drive, u, work);
+    accelerate(c, drive, u, extra, work);
     for (size_t i = 0; i < c->model.unknowns; i++)
         w[i] += (REAL)(dt / 2) * work[i];
 }
@@ -145,7 +184,7 @@ void NAME(sweep_settle)(struct consistent *c, const struct drive *drive, double 
                         REAL *work, double *y, double *a)
 {
     const struct NAME(settled) settled = {c->model.unknowns, c->threads, u, w, work};
-    accelerate(c, drive, u, work);
+    accelerate(c, drive, u, y + 2 * c->model.unknowns, work);
     NAME(settle)(&settled, dt, y, a);
 }
 
@@ -154,8 +193,10 @@ void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double
 {
     struct sweep *s = c->general->sweep;
     const struct watch *watch = &c->watch;
+    double *extra = y + 2 * c->model.unknowns;
+    if (s->layered) general_layers_prepare(c, dt);
     for (size_t i = 0; i < watch->count; i++)
-        watch->before[i] = w[watch->entry[i]];
+        watch->before[i] = w[watch->entry[i]] * (s->layered ? pml_kept(c, watch->entry[i]) : 1);
     if (!s->known) find_reached(c, u, w);
     struct pass pass = {.c = c,
                         .s = s,
@@ -164,7 +205,9 @@ void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double
                         .out = w,
                         .factor = (REAL)dt,
                         .moving = true,
-                        .level = s->quiet * s->largest};
+                        .dt = dt,
+                        .level = s->quiet * s->largest,
+                        .extra = extra};
     sweep_over(&pass);
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
