@@ -144,7 +144,8 @@ static void lay_bounds(const struct fused *f)
         f->bound[thread++] = f->n[2];
 }
 
-/* The blocks of a thread that are the rank's own: all of u that others read is brought on before (stage 0), the rest on the way. */
+/* The blocks of a thread that are the rank's own: all of u that others read is brought on before (stage 0), the rest on
+ * the way. */
 static void pass_thread(const struct consistent *c, const struct drive *drive,
                         const struct fused_fields *fields, bool bring, double level, int thread, int stage)
 {
