@@ -39,7 +39,7 @@ struct tensor_plan {
     struct x_item *x;
     size_t pad, row; /* zeros left and right of each row of the x passes; length of a padded row */
     size_t thread_size;
-    struct row **rows;  /* [threads]: of the products over depth */
+    struct row *rows;   /* [threads * z_items] of the products over depth */
     double **buffer;    /* [threads]: z planes, padded x row, output planes of tensor_form */
     double *plane_sums; /* [n[2]] */
 };
@@ -99,12 +99,11 @@ static bool lay_buffers(struct tensor_plan *plan)
         plan->z_items * rounded(plan->plane) + plan->row + (size_t)plan->components * rounded(plan->plane);
     plan->buffer = array_new((size_t)plan->threads, sizeof *plan->buffer);
     plan->plane_sums = array_new(plan->n[2], sizeof *plan->plane_sums);
-    plan->rows = array_new((size_t)plan->threads, sizeof *plan->rows);
+    plan->rows = array_new((size_t)plan->threads * plan->z_items, sizeof *plan->rows);
     if (plan->buffer == NULL || plan->plane_sums == NULL || plan->rows == NULL) return false;
     for (int t = 0; t < plan->threads; t++) {
         plan->buffer[t] = array_new(plan->thread_size, sizeof **plan->buffer);
-        plan->rows[t] = array_new(plan->z_items, sizeof **plan->rows);
-        if (plan->buffer[t] == NULL || plan->rows[t] == NULL) return false;
+        if (plan->buffer[t] == NULL) return false;
     }
     return true;
 }
@@ -142,8 +141,6 @@ void tensor_plan_free(struct tensor_plan *plan)
     if (plan == NULL) return;
     for (int t = 0; plan->buffer != NULL && t < plan->threads; t++)
         array_free(plan->buffer[t]);
-    for (int t = 0; plan->rows != NULL && t < plan->threads; t++)
-        array_free(plan->rows[t]);
     array_free(plan->rows);
     array_free(plan->buffer);
     array_free(plan->plane_sums);
@@ -155,7 +152,7 @@ void tensor_plan_free(struct tensor_plan *plan)
 
 size_t tensor_plan_bytes(const struct tensor_plan *plan)
 {
-    return (size_t)plan->threads * (plan->thread_size * sizeof(double) + plan->z_items * sizeof **plan->rows);
+    return (size_t)plan->threads * (plan->thread_size * sizeof(double) + plan->z_items * sizeof *plan->rows);
 }
 
 static void take_row(const struct band *matrix, size_t at, double factor, struct row *row)
@@ -184,7 +181,7 @@ static void pass_down(const struct tensor_plan *plan, const struct passes *passe
                       const double *u)
 {
     const size_t plane = plan->plane, step = rounded(plane);
-    struct row *row = plan->rows[thread];
+    struct row *row = plan->rows + (size_t)thread * plan->z_items;
     for (size_t i = 0; i < plan->z_items; i++)
         if (plan->z[i].matrix != NULL) take_row(plan->z[i].matrix, k, 1, &row[i]);
     for (size_t at = 0; at < plane; at += PIECE)
@@ -257,16 +254,17 @@ double tensor_form(struct tensor_plan *plan, const double *w, const double *u)
 double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, const double *w, const double *u)
 {
     const size_t plane = plan->plane, step = rounded(plane);
+    const int components = plan->components;
 #pragma omp parallel for num_threads(plan->threads) schedule(static)
     for (size_t k = from; k < end; k++) {
         const int thread = omp_get_thread_num();
         double *out[3] = {NULL, NULL, NULL}, sum = 0;
-        for (int c = 0; c < plan->components; c++) {
+        for (int c = 0; c < components; c++) {
             out[c] = plan->buffer[thread] + plan->z_items * step + plan->row + (size_t)c * step;
             memset(out[c], 0, plane * sizeof **out);
         }
         tensor_plane(plan, thread, k, 1, u, out);
-        for (int c = 0; c < plan->components; c++)
+        for (int c = 0; c < components; c++)
             for (size_t i = 0; i < plane; i++)
                 sum += out[c][i] * w[(size_t)c * plan->volume + k * plane + i];
         plan->plane_sums[k] = sum;
