@@ -52,7 +52,8 @@ static struct rings rings_of(const struct sweep *s, REAL *buffer)
     r.scaled = r.part + s->part_size;
     r.passed = r.scaled + s->n[1] * s->stride;
     r.zero = r.passed + FUSED_ROWS * s->stride;
-    r.taken = (double *)(r.zero + FUSED_ROWS * s->stride);
+    void *taken = r.zero + FUSED_ROWS * s->stride;
+    r.taken = taken;
     return r;
 }
 
