@@ -24,12 +24,6 @@ struct x_item {
     const struct band *matrix;
 };
 
-/* Row of a matrix: times numbers from the one in column `first` on. */
-struct row {
-    double weight[MAX_TAPS];
-    size_t first, taps;
-};
-
 struct tensor_plan {
     size_t n[3], plane, volume; /* values in a plane, in a component */
     int components, inputs, threads;
@@ -39,8 +33,9 @@ struct tensor_plan {
     struct x_item *x;
     size_t pad, row; /* zeros left and right of each row of the x passes; length of a padded row */
     size_t thread_size;
-    struct row *rows;   /* [threads * z_items] of the products over depth */
-    double **buffer;    /* [threads]: z planes, padded x row, output planes of tensor_form */
+    size_t taps; /* entries in a row of a z matrix, at most */
+    double *
+        *buffer; /* [threads]: z planes, padded x row, output planes of tensor_form, rows of the z matrices */
     double *plane_sums; /* [n[2]] */
 };
 
@@ -54,6 +49,8 @@ static size_t find_z(struct tensor_plan *plan, const struct tensor_term *term)
     for (size_t i = 0; i < plan->z_items; i++)
         if (plan->z[i].in == term->in && plan->z[i].matrix == term->matrix[2]) return i;
     if (term->in >= plan->inputs) plan->inputs = term->in + 1;
+    if (term->matrix[2] != NULL && 2 * term->matrix[2]->half + 1 > plan->taps)
+        plan->taps = 2 * term->matrix[2]->half + 1;
     plan->z[plan->z_items] = (struct z_item){.in = term->in, .matrix = term->matrix[2]};
     return plan->z_items++;
 }
@@ -95,12 +92,11 @@ static bool lay_buffers(struct tensor_plan *plan)
 {
     plan->pad = rounded(plan->pad);
     plan->row = rounded(plan->n[0]) + 2 * plan->pad;
-    plan->thread_size =
-        plan->z_items * rounded(plan->plane) + plan->row + (size_t)plan->components * rounded(plan->plane);
+    plan->thread_size = plan->z_items * (rounded(plan->plane) + plan->taps) + plan->row +
+                        (size_t)plan->components * rounded(plan->plane);
     plan->buffer = array_new((size_t)plan->threads, sizeof *plan->buffer);
     plan->plane_sums = array_new(plan->n[2], sizeof *plan->plane_sums);
-    plan->rows = array_new((size_t)plan->threads * plan->z_items, sizeof *plan->rows);
-    if (plan->buffer == NULL || plan->plane_sums == NULL || plan->rows == NULL) return false;
+    if (plan->buffer == NULL || plan->plane_sums == NULL) return false;
     for (int t = 0; t < plan->threads; t++) {
         plan->buffer[t] = array_new(plan->thread_size, sizeof **plan->buffer);
         if (plan->buffer[t] == NULL) return false;
@@ -141,7 +137,6 @@ void tensor_plan_free(struct tensor_plan *plan)
     if (plan == NULL) return;
     for (int t = 0; plan->buffer != NULL && t < plan->threads; t++)
         array_free(plan->buffer[t]);
-    array_free(plan->rows);
     array_free(plan->buffer);
     array_free(plan->plane_sums);
     array_free(plan->z);
@@ -152,27 +147,37 @@ void tensor_plan_free(struct tensor_plan *plan)
 
 size_t tensor_plan_bytes(const struct tensor_plan *plan)
 {
-    return (size_t)plan->threads * (plan->thread_size * sizeof(double) + plan->z_items * sizeof *plan->rows);
+    return (size_t)plan->threads * plan->thread_size * sizeof(double);
 }
 
-static void take_row(const struct band *matrix, size_t at, double factor, struct row *row)
+/* Columns of a row that a matrix has. */
+struct columns {
+    size_t first, count;
+};
+
+static struct columns columns_of(const struct band *matrix, size_t row)
 {
-    const size_t half = matrix->half;
-    const size_t from = at < half ? half - at : 0;
-    const size_t end = matrix->n - at + half < 2 * half + 1 ? matrix->n - at + half : 2 * half + 1;
-    row->first = at + from - half;
-    row->taps = end - from;
-    for (size_t d = from; d < end; d++)
-        row->weight[d - from] = factor * matrix->value[d * matrix->n + at];
+    const size_t half = matrix->half, first = row < half ? 0 : row - half;
+    const size_t end = row + half < matrix->n ? row + half + 1 : matrix->n;
+    return (struct columns){first, end - first};
 }
 
-/* out[i] += factor * sum over d of row `at` of A times in[(at + d - half) * n + i], i < n. */
+/* Times a factor. */
+static void take_row(const struct band *matrix, size_t row, double factor, double *weight)
+{
+    const struct columns columns = columns_of(matrix, row);
+    for (size_t d = 0; d < columns.count; d++)
+        weight[d] = factor * matrix->value[(columns.first + d + matrix->half - row) * matrix->n + row];
+}
+
+/* out[i] += factor * sum over columns j of row `at` of A times in[j * n + i], i < n. */
 static void pass_across(const struct passes *passes, const struct band *matrix, size_t at, double factor,
                         const double *in, size_t n, double *out)
 {
-    struct row row;
-    take_row(matrix, at, factor, &row);
-    passes->over_rows(row.weight, row.taps, in + row.first * n, n, n, out, out);
+    const struct columns columns = columns_of(matrix, at);
+    double weight[MAX_TAPS] = {0};
+    take_row(matrix, at, factor, weight);
+    passes->over_rows(weight, columns.count, in + columns.first * n, n, n, out, out);
 }
 
 /* The products over depth in plane k, piece by piece of the plane: all those of an input while its planes are in the
@@ -181,21 +186,23 @@ static void pass_down(const struct tensor_plan *plan, const struct passes *passe
                       const double *u)
 {
     const size_t plane = plan->plane, step = rounded(plane);
-    struct row *row = plan->rows + (size_t)thread * plan->z_items;
+    double *weight = plan->buffer[thread] + plan->thread_size - plan->z_items * plan->taps;
     for (size_t i = 0; i < plan->z_items; i++)
-        if (plan->z[i].matrix != NULL) take_row(plan->z[i].matrix, k, 1, &row[i]);
+        if (plan->z[i].matrix != NULL) take_row(plan->z[i].matrix, k, 1, weight + i * plan->taps);
     for (size_t at = 0; at < plane; at += PIECE)
         for (int input = 0; input < plan->inputs; input++)
             for (size_t i = 0; i < plan->z_items; i++) {
                 const size_t n = plane - at < PIECE ? plane - at : PIECE;
-                const double *in = u + (size_t)input * plan->volume + at;
+                const struct band *matrix = plan->z[i].matrix;
+                const struct columns columns =
+                    matrix == NULL ? (struct columns){k, 1} : columns_of(matrix, k);
+                const double *in = u + (size_t)input * plan->volume + columns.first * plane + at;
                 double *out = plan->buffer[thread] + i * step + at;
                 if (plan->z[i].in != input) continue;
-                if (plan->z[i].matrix == NULL)
-                    memcpy(out, in + k * plane, n * sizeof *in);
+                if (matrix == NULL)
+                    memcpy(out, in, n * sizeof *in);
                 else
-                    passes->over_rows(row[i].weight, row[i].taps, in + row[i].first * plane, plane, n, NULL,
-                                      out);
+                    passes->over_rows(weight + i * plan->taps, columns.count, in, plane, n, NULL, out);
             }
 }
 
