@@ -175,7 +175,7 @@ static void pass_across(const struct passes *passes, const struct band *matrix, 
                         const double *in, size_t n, double *out)
 {
     const struct columns columns = columns_of(matrix, at);
-    double weight[MAX_TAPS] = {0};
+    double weight[MAX_TAPS];
     take_row(matrix, at, factor, weight);
     passes->over_rows(weight, columns.count, in + columns.first * n, n, n, out, out);
 }
@@ -192,13 +192,13 @@ static void pass_down(const struct tensor_plan *plan, const struct passes *passe
     for (size_t at = 0; at < plane; at += PIECE)
         for (int input = 0; input < plan->inputs; input++)
             for (size_t i = 0; i < plan->z_items; i++) {
+                if (plan->z[i].in != input) continue;
                 const size_t n = plane - at < PIECE ? plane - at : PIECE;
                 const struct band *matrix = plan->z[i].matrix;
                 const struct columns columns =
                     matrix == NULL ? (struct columns){k, 1} : columns_of(matrix, k);
                 const double *in = u + (size_t)input * plan->volume + columns.first * plane + at;
                 double *out = plan->buffer[thread] + i * step + at;
-                if (plan->z[i].in != input) continue;
                 if (matrix == NULL)
                     memcpy(out, in, n * sizeof *in);
                 else
