@@ -153,7 +153,7 @@ static void go_on_with_plane(const struct pass *pass, const struct rings *r, siz
     }
 }
 
-/* N over depth and the update of planes first .. first + SWEEP_PLANES - 1; not of the halo, which gets its neighbours'. */
+/* N over depth and the update of planes first .. first + SWEEP_PLANES - 1, if they are the rank's own. */
 static void finish_planes(const struct pass *pass, const struct rings *r, size_t first)
 {
     struct sweep *s = pass->s;
