@@ -42,6 +42,15 @@ static double cost_of(const struct consistent *c, size_t k)
     return plain + layer_cost(c->model.scene) * (1 - plain);
 }
 
+/* Half of what the planes from k on cost that go to one rank. */
+static double half_unit(const struct consistent *c, size_t k)
+{
+    double sum = 0;
+    for (size_t i = k; i < k + PART_UNIT && i < c->part.whole; i++)
+        sum += cost_of(c, i) / 2;
+    return sum;
+}
+
 /* Bounds of so many ranks, of costs as even as can be; false: there are too many ranks. */
 static bool share(const struct consistent *c, int ranks, size_t *bound)
 {
@@ -52,7 +61,7 @@ static bool share(const struct consistent *c, int ranks, size_t *bound)
     size_t rank = 0;
     for (size_t k = 0; k < c->part.whole; k++) {
         if (k % PART_UNIT == 0)
-            while (rank < count && done >= all * (double)rank / (double)count)
+            while (rank < count && done + half_unit(c, k) >= all * (double)rank / (double)count)
                 bound[rank++] = k;
         done += cost_of(c, k);
     }

@@ -153,10 +153,11 @@ static void go_on_with_plane(const struct pass *pass, const struct rings *r, siz
     }
 }
 
-/* N over depth and the update of planes first .. first + SWEEP_PLANES - 1. */
+/* N over depth and the update of planes first .. first + SWEEP_PLANES - 1, if they are the rank's own. */
 static void finish_planes(const struct pass *pass, const struct rings *r, size_t first)
 {
     struct sweep *s = pass->s;
+    if (first < pass->c->part.own || first >= pass->c->part.end) return;
     const size_t planes = s->n[2] - first < SWEEP_PLANES ? s->n[2] - first : SWEEP_PLANES;
     struct rows rows = {0, 0};
     for (size_t k = less(first, SWEEP_REACH); k < first + planes + SWEEP_REACH && k < s->n[2]; k++)
