@@ -28,7 +28,9 @@ selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, 
     *cloud = array_new(1, sizeof **cloud);
     if (*cloud != NULL) {
         (*cloud)->dimension = dimension;
-        (*cloud)->points = points;
+        (*cloud)->points = (*cloud)->whole = points;
+        (*cloud)->low = -INFINITY;
+        (*cloud)->high = INFINITY;
         (*cloud)->position = array_new(3 * points, sizeof(double));
         (*cloud)->volume = array_new(points, sizeof(double));
     }
@@ -49,33 +51,39 @@ void cloud_free(struct cloud **cloud)
     *cloud = NULL;
 }
 
-static selas_status box(const struct scene *scene, struct cloud **cloud, struct messages *messages)
+static void box_grid(const struct scene *scene, size_t grid[3])
 {
     const struct body *body = &scene->body;
-    const int dimension = scene->dimension;
-    size_t grid[3] = {1, 1, 1};
-    double step[3] = {0};
+    for (int c = 0; c < 3; c++)
+        grid[c] =
+            c < scene->dimension ? (size_t)fmax(1, round((body->high[c] - body->low[c]) / body->spacing)) : 1;
+}
+
+/* Planes from .. end - 1 over the last axis. */
+static selas_status box(const struct scene *scene, const size_t grid[3], size_t from, size_t end,
+                        struct cloud **cloud, struct messages *messages)
+{
+    const struct body *body = &scene->body;
+    const size_t last = (size_t)scene->dimension - 1, plane = grid[0] * grid[1] * grid[2] / grid[last];
+    const double step = (body->high[last] - body->low[last]) / (double)grid[last];
     double volume = 1;
-    for (int c = 0; c < dimension; c++) {
-        const double length = body->high[c] - body->low[c];
-        grid[c] = (size_t)fmax(1, round(length / body->spacing));
-        step[c] = length / (double)grid[c];
-        volume *= step[c];
-    }
-    const size_t points = grid[0] * grid[1] * grid[2];
+    for (int c = 0; c < scene->dimension; c++)
+        volume *= (body->high[c] - body->low[c]) / (double)grid[c];
     struct cloud *made = NULL;
-    const selas_status status = cloud_allocate(dimension, points, &made, messages);
+    const selas_status status = cloud_allocate(scene->dimension, plane * (end - from), &made, messages);
     if (status != SELAS_OK || made == NULL) return status;
-    size_t i = 0;
-    for (size_t z = 0; z < grid[2]; z++)
-        for (size_t y = 0; y < grid[1]; y++)
-            for (size_t x = 0; x < grid[0]; x++, i++) {
-                const size_t at[3] = {x, y, z};
-                for (int c = 0; c < dimension; c++)
-                    made->position[3 * i + (size_t)c] = body->low[c] + ((double)at[c] + 0.5) * step[c];
-                made->volume[i] = volume;
-            }
-    memcpy(made->grid, grid, sizeof grid);
+    made->first = plane * from;
+    made->whole = plane * grid[last];
+    if (from > 0) made->low = body->low[last] + (double)from * step;
+    if (end < grid[last]) made->high = body->low[last] + (double)end * step;
+    for (size_t i = 0; i < made->points; i++) {
+        const size_t k = made->first + i;
+        const size_t at[3] = {k % grid[0], k / grid[0] % grid[1], k / (grid[0] * grid[1])};
+        body_middle(body, scene->dimension, grid, at, made->position + 3 * i);
+        made->volume[i] = volume;
+    }
+    memcpy(made->grid, grid, sizeof made->grid);
+    made->spacing = body->spacing;
     *cloud = made;
     return SELAS_OK;
 }
@@ -124,6 +132,28 @@ double cloud_filling(const struct cloud *cloud, const struct body *body)
     return volume / body_volume(body, cloud->dimension);
 }
 
+bool cloud_in_planes(const struct scene *scene, size_t grid[3])
+{
+    const struct body *body = &scene->body;
+    if (body->shape != BODY_BOX || body->arrangement != ARRANGEMENT_LATTICE || body->jitter > 0 ||
+        scene->dimension < 2 || !(body->spacing > 0))
+        return false;
+    box_grid(scene, grid);
+    return true;
+}
+
+selas_status cloud_create_planes(const struct scene *scene, size_t from, size_t end, struct cloud **cloud,
+                                 struct messages *messages)
+{
+    size_t grid[3];
+    *cloud = NULL;
+    box_grid(scene, grid);
+    selas_status status = box(scene, grid, from, end, cloud, messages);
+    if (status == SELAS_OK && *cloud != NULL) status = cloud_surface(*cloud, &scene->body, messages);
+    if (status != SELAS_OK) cloud_free(cloud);
+    return status;
+}
+
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages)
 {
     const struct body *body = &scene->body;
@@ -140,8 +170,11 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
     }
     if (body->shape == BODY_PLATE_WITH_HOLE)
         status = cloud_plate(body, cloud, messages);
-    else
-        status = box(scene, cloud, messages);
+    else {
+        size_t grid[3];
+        box_grid(scene, grid);
+        status = box(scene, grid, 0, grid[scene->dimension - 1], cloud, messages);
+    }
     if (status != SELAS_OK || *cloud == NULL) return status;
     (*cloud)->spacing = body->spacing;
     if (body->jitter > 0) jitter(*cloud, body);

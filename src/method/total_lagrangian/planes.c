@@ -1,0 +1,201 @@
+/* Which points of the body a rank makes (doc/developers/ranks.md, "Memory of points"). Those of a lattice are made in
+ * planes over the last axis: the own ones, and as many about them as the rows need that forces on the own points take.
+ * Other points are made by every rank. */
+#include "method/total_lagrangian/setup.h"
+
+#include "base/memory.h"
+#include "parallel/few_ranks.h"
+
+#include <math.h>
+
+static double one(const void *context, size_t place)
+{
+    (void)context;
+    (void)place;
+    return 1;
+}
+
+/* Deals out `planes` of part->plane points each. */
+static selas_status deal(struct tl_model *tl, size_t planes, struct messages *messages)
+{
+    struct tl_part *part = &tl->part;
+    const selas_status status = ranks_at_most(part->ranks, planes, "planes over its last axis", messages);
+    if (status != SELAS_OK) return status;
+    const size_t ranks = (size_t)ranks_count(part->ranks);
+    part->bound = array_new(ranks + 1, sizeof *part->bound);
+    part->window = array_new(2 * ranks, sizeof *part->window);
+    part->piece = array_new(ranks, sizeof *part->piece);
+    if (part->bound == NULL || part->window == NULL || part->piece == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    ranks_deal(planes, one, NULL, ranks, part->bound);
+    for (size_t r = 0; r <= ranks; r++)
+        part->bound[r] *= part->plane; /* of points */
+    return SELAS_OK;
+}
+
+/* From plane to plane; may begin before the body and end behind it. */
+struct planes {
+    ptrdiff_t from, end;
+};
+
+static struct planes about(struct planes planes, ptrdiff_t more)
+{
+    return (struct planes){planes.from - more, planes.end + more};
+}
+
+/* Points of the part, which begins at plane `first`, in some of the body's planes. */
+static struct tl_range points_in(const struct tl_model *tl, const size_t grid[3], ptrdiff_t first,
+                                 struct planes planes)
+{
+    const ptrdiff_t last = (ptrdiff_t)grid[tl->model.scene->dimension - 1], plane = (ptrdiff_t)tl->part.plane;
+    if (planes.from < first || first == 0) planes.from = first;
+    if (planes.end > last) planes.end = last;
+    return (struct tl_range){(size_t)((planes.from - first) * plane), (size_t)((planes.end - first) * plane)};
+}
+
+/* Volume^(1/dimension) of the points of a lattice. */
+static double even_spacing(const struct scene *scene, const size_t grid[3])
+{
+    double volume = 1;
+    for (int c = 0; c < scene->dimension; c++)
+        volume *= (scene->body.high[c] - scene->body.low[c]) / (double)grid[c];
+    return pow(volume, 1.0 / scene->dimension);
+}
+
+/* Eqs M1 to M4; returns the planes of the part. */
+static struct planes choose(struct tl_model *tl, const size_t grid[3], struct planes own)
+{
+    struct tl_part *part = &tl->part;
+    const struct scene *scene = tl->model.scene;
+    const int last = scene->dimension - 1;
+    const ptrdiff_t planes = (ptrdiff_t)grid[last];
+    const double step = (scene->body.high[last] - scene->body.low[last]) / (double)planes;
+    const double spacing = even_spacing(scene, grid), radius = 1.5 * tl_reach(&tl->options) * spacing;
+    const ptrdiff_t pairs = (ptrdiff_t)ceil(tl_pair_radius(spacing) / step);
+    const ptrdiff_t search = (ptrdiff_t)ceil((1 + 1e-9) * radius / step);
+    const ptrdiff_t reach = search > pairs ? search : pairs;
+    const ptrdiff_t layers = 2 * (ptrdiff_t)tl_layers_within(scene, grid, (1 + 1e-9) * radius);
+    const ptrdiff_t block = TL_LONGEST_BLOCK / (ptrdiff_t)part->plane + 1;
+    const struct planes force = {own.from < planes - layers ? own.from : planes - layers - 1, own.end};
+    const struct planes gradient = about(force, reach + pairs), pair = about(force, reach + block);
+    const struct planes all = about(force, 2 * reach + (pairs > block ? pairs : block) + 2);
+    const bool begins = all.from + reach < layers + 2; /* the rows of its first plane are not those further below */
+    const ptrdiff_t first = begins ? 0 : all.from;
+    part->gradient = points_in(tl, grid, first, gradient);
+    part->transposed = points_in(tl, grid, first, force);
+    part->pair = points_in(tl, grid, first, pair);
+    part->reach = begins ? 0 : (size_t)reach;
+    part->layers = begins ? 0 : (size_t)layers;
+    return (struct planes){first, all.end < planes ? all.end : planes};
+}
+
+/* Deals out the planes of a lattice and makes the part of this rank. */
+static selas_status make_part(struct tl_model *tl, const size_t grid[3], struct messages *messages)
+{
+    struct tl_part *part = &tl->part;
+    const size_t planes = grid[tl->model.scene->dimension - 1];
+    part->plane = grid[0] * grid[1] * grid[2] / planes;
+    const selas_status status = deal(tl, planes, messages);
+    if (status != SELAS_OK) return status;
+    const size_t *bound = part->bound + ranks_me(part->ranks);
+    const struct planes own = {(ptrdiff_t)(bound[0] / part->plane), (ptrdiff_t)(bound[1] / part->plane)};
+    const struct planes all = choose(tl, grid, own);
+    part->own = bound[0] - (size_t)all.from * part->plane;
+    part->end = bound[1] - (size_t)all.from * part->plane;
+    return cloud_create_planes(tl->model.scene, (size_t)all.from, (size_t)all.end, &tl->cloud, messages);
+}
+
+/* Makes all points and deals them out. */
+static selas_status make_all(struct tl_model *tl, struct messages *messages)
+{
+    const struct scene *scene = tl->model.scene;
+    const struct tl_form *form = tl->options.form;
+    struct tl_part *part = &tl->part;
+    selas_status status =
+        form != NULL ? form->points(scene, &tl->cloud, messages) : cloud_create(scene, &tl->cloud, messages);
+    if (status != SELAS_OK) return status;
+    const size_t n = tl->cloud->points, *grid = tl->cloud->grid;
+    part->end = n;
+    part->gradient = part->transposed = part->pair = (struct tl_range){0, n};
+    if (part->ranks == NULL) return SELAS_OK;
+    part->plane = grid[0] > 0 ? n / grid[tl->cloud->dimension - 1] : 1;
+    status = deal(tl, n / part->plane, messages);
+    if (status != SELAS_OK) return status;
+    part->own = part->bound[ranks_me(part->ranks)];
+    part->end = part->bound[ranks_me(part->ranks) + 1];
+    return SELAS_OK;
+}
+
+selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
+{
+    size_t grid[3];
+    const struct scene *scene = tl->model.scene;
+    if (ranks_count(scene->ranks) > 1) tl->part.ranks = scene->ranks;
+    tl->part.shared = tl->part.ranks != NULL && tl->options.form == NULL && scene->materials == 1 &&
+                      cloud_in_planes(scene, grid);
+    return tl->part.shared ? make_part(tl, grid, messages) : make_all(tl, messages);
+}
+
+selas_status tl_make_below(const struct tl_model *tl, struct tl_model **below, struct messages *messages)
+{
+    const size_t reach = tl->part.reach, planes = tl->part.layers + 2 * reach + 2, plane = tl->part.plane;
+    struct tl_model *made = *below = array_new(1, sizeof *made);
+    if (made == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
+    made->model.scene = tl->model.scene;
+    made->options = tl->options;
+    made->part = (struct tl_part){.shared = true, .plane = plane};
+    made->part.gradient = made->part.pair = (struct tl_range){0, (planes - reach) * plane};
+    made->part.transposed = (struct tl_range){0, (planes - 2 * reach) * plane};
+    const selas_status status = cloud_create_planes(tl->model.scene, 0, planes, &made->cloud, messages);
+    return status == SELAS_OK ? tl_fill_points(made, messages) : status;
+}
+
+selas_status tl_agree(const struct tl_model *tl, selas_status status, struct messages *messages)
+{
+    return tl->part.shared ? ranks_agree(tl->part.ranks, status, messages) : status;
+}
+
+struct tl_range tl_summed(const struct tl_model *tl)
+{
+    if (tl->part.shared) return (struct tl_range){tl->part.own, tl->part.end};
+    return (struct tl_range){0, tl->cloud->points};
+}
+
+double tl_sum_in_order(struct tl_model *tl, void (*add)(struct tl_model *tl, const void *context, double *sum),
+                       const void *context)
+{
+    struct ranks *ranks = tl->part.shared ? tl->part.ranks : NULL;
+    double sum = 0;
+    for (int r = 0; r < ranks_count(ranks); r++) {
+        if (r == ranks_me(ranks)) add(tl, context, &sum);
+        ranks_spread(ranks, r, &sum, sizeof sum);
+    }
+    return sum;
+}
+
+double tl_plane_step(const struct tl_model *tl)
+{
+    const struct body *body = &tl->model.scene->body;
+    const int last = tl->cloud->dimension - 1;
+    return (body->high[last] - body->low[last]) / (double)tl->cloud->grid[last];
+}
+
+/* The plane of points that a place is nearest to. */
+static size_t plane_of(const struct tl_model *tl, const double place[3])
+{
+    const struct body *body = &tl->model.scene->body;
+    const int last = tl->cloud->dimension - 1;
+    const double planes = (double)tl->cloud->grid[last];
+    const double part = (place[last] - body->low[last]) / (body->high[last] - body->low[last]);
+    return (size_t)fmin(fmax(floor(part * planes), 0), planes - 1);
+}
+
+int tl_owner(const struct tl_model *tl, const double place[3])
+{
+    return tl_holder(&tl->model, plane_of(tl, place));
+}
+
+bool tl_owns(const struct tl_model *tl, const double place[3])
+{
+    return !tl->part.shared || tl_owner(tl, place) == ranks_me(tl->part.ranks);
+}
