@@ -55,20 +55,26 @@ static bool copy_row(struct tl_making *making, struct tl_rows *rows, size_t i, c
     return tl_rows_close(rows, i, &none, NULL, 0);
 }
 
-/* The plane below those that are made takes the rows of the first one that no face across the last axis is near. */
-static selas_status take_plane(struct tl_making *making, const struct tl_making *below, enum kind kind,
-                               struct messages *messages)
+/* First point of a plane of the body. */
+static size_t plane_at(const struct tl_model *tl, size_t number)
+{
+    return number * tl->part.plane - tl->cloud->first;
+}
+
+/* The plane `to` of a part takes the rows of the plane `from` of another one (planes of the body). */
+static selas_status take_plane(struct tl_making *making, size_t to, const struct tl_making *other, size_t from,
+                               enum kind kind, struct messages *messages)
 {
     struct tl_model *tl = making->tl;
     struct tl_rows *rows = rows_of(tl, kind);
-    const struct tl_rows *there = rows_of(below->tl, kind);
-    const size_t plane = tl->part.plane, first = made(tl, kind).from - plane, like = tl->part.layers * plane;
+    const struct tl_rows *there = rows_of(other->tl, kind);
+    const size_t first = plane_at(tl, to), like = plane_at(other->tl, from);
     uint32_t *taken = array_new(there->rows, sizeof *taken); /* 1 + the number of a row here */
     bool room = taken != NULL;
-    for (size_t k = 0; room && k < plane; k++) {
+    for (size_t k = 0; room && k < tl->part.plane; k++) {
         uint32_t *number = &taken[there->of[like + k]];
         if (*number == 0) {
-            room = copy_row(making, rows, first + k, below->tl, there, like + k);
+            room = copy_row(making, rows, first + k, other->tl, there, like + k);
             *number = rows->of[first + k] + 1;
         }
         rows->of[first + k] = *number - 1;
@@ -103,21 +109,85 @@ static bool begin_rows(struct tl_model *tl, enum kind kind)
     return (kind != VISCOUS || tl->site_v != NULL) && (!tl->part.shared || tl_rows_close(rows, 0, &none, NULL, 0));
 }
 
+static selas_status fill(struct tl_making *making, enum kind kind, struct messages *messages)
+{
+    static selas_status (*const fills[KINDS])(struct tl_making *, struct messages *) = {
+        tl_fill_gradient, tl_transpose, tl_make_hourglass, tl_make_viscosity};
+    const struct tl_form *form = making->tl->options.form;
+    return kind == GRADIENT && form != NULL ? form->gradients(making->tl, &making->near, messages)
+                                            : fills[kind](making, messages);
+}
+
+static void end(struct tl_making *making)
+{
+    neighbours_free(&making->near);
+    tl_work_free(&making->work);
+    *making = (struct tl_making){0};
+}
+
+/* One more part of the body beside one with rows of a kind up to the plane `from` (and not it): with those of
+ * from .. last. */
+static selas_status climb(const struct tl_model *tl, struct tl_making *reached, size_t from, size_t last,
+                          enum kind kind, struct messages *messages)
+{
+    struct tl_making next = {0};
+    struct tl_model *part = NULL;
+    const size_t more = tl->part.reach + 1;
+    selas_status status = tl_make_beside(tl, from - more, last + 1 + more, &part, messages);
+    if (status == SELAS_OK) {
+        part->part.pair = (struct tl_range){plane_at(part, from), plane_at(part, last + 1)};
+        status = begin(&next, part, messages);
+    }
+    if (status == SELAS_OK && !begin_rows(part, kind)) status = tl_no_memory(tl, messages);
+    if (status == SELAS_OK) status = take_plane(&next, from - 1, reached, from - 1, kind, messages);
+    if (status == SELAS_OK) status = fill(&next, kind, messages);
+    struct tl_model *old = reached->tl;
+    end(reached);
+    tl_free(old);
+    next.tl = part;
+    *reached = next;
+    return status;
+}
+
+/* Rows of pairs of several materials hang on what is below them, plane by plane: `made` gets those of the plane below
+ * its first ones from parts of the body from bottom to top. */
+static selas_status take_from_all_below(struct tl_making *making, enum kind kind, struct messages *messages)
+{
+    struct tl_making reached = {0};
+    struct tl_model *tl = making->tl, *first = NULL;
+    const size_t plane = tl->part.plane, wanted = (tl->cloud->first + made(tl, kind).from) / plane - 1;
+    selas_status status = tl_make_below(tl, &first, messages);
+    if (status == SELAS_OK) status = begin(&reached, first, messages);
+    if (status == SELAS_OK && !begin_rows(first, kind)) status = tl_no_memory(tl, messages);
+    if (status == SELAS_OK) status = fill(&reached, kind, messages);
+    reached.tl = first;
+    size_t up = first != NULL ? first->part.pair.end / plane : 0; /* planes that have rows */
+    while (status == SELAS_OK && up <= wanted) {
+        const size_t last = up + tl->part.layers < wanted ? up + tl->part.layers : wanted;
+        status = climb(tl, &reached, up, last, kind, messages);
+        up = last + 1;
+    }
+    if (status == SELAS_OK) status = take_plane(making, wanted, &reached, wanted, kind, messages);
+    struct tl_model *old = reached.tl;
+    end(&reached);
+    tl_free(old);
+    return status;
+}
+
 /* Rows of one kind of the part and, if there are any, of the first planes. */
 static selas_status make(struct tl_making *making, struct tl_making *below, enum kind kind, struct messages *messages)
 {
-    static selas_status (*const fill[KINDS])(struct tl_making *, struct messages *) = {
-        tl_fill_gradient, tl_transpose, tl_make_hourglass, tl_make_viscosity};
     struct tl_model *tl = making->tl;
-    selas_status status = SELAS_OK;
-    if (below != NULL && below->tl != NULL) status = make(below, NULL, kind, messages);
-    if (status == SELAS_OK && !begin_rows(tl, kind)) status = tl_no_memory(tl, messages);
-    if (status == SELAS_OK && below != NULL && below->tl != NULL)
-        status = take_plane(making, below, kind, messages);
-    if (status != SELAS_OK) return status;
-    if (kind == GRADIENT && tl->options.form != NULL)
-        return tl->options.form->gradients(tl, &making->near, messages);
-    return fill[kind](making, messages);
+    const size_t under = (tl->cloud->first + made(tl, kind).from) / tl->part.plane - 1;
+    const bool of_materials = (kind == PAIR || kind == VISCOUS) && tl->model.scene->materials > 1;
+    selas_status status = begin_rows(tl, kind) ? SELAS_OK : tl_no_memory(tl, messages);
+    if (status == SELAS_OK && below->tl != NULL && of_materials)
+        status = take_from_all_below(making, kind, messages);
+    if (status == SELAS_OK && below->tl != NULL && !of_materials) {
+        status = begin_rows(below->tl, kind) ? fill(below, kind, messages) : tl_no_memory(tl, messages);
+        if (status == SELAS_OK) status = take_plane(making, under, below, tl->part.layers, kind, messages);
+    }
+    return status == SELAS_OK ? fill(making, kind, messages) : status;
 }
 
 /* Ghosts of each point that has some. */
@@ -183,10 +253,8 @@ selas_status tl_make_rows(struct tl_model *tl, selas_status status, struct messa
         find_reach(&making, &below);
         status = make_others(&making, &below, messages);
     }
-    neighbours_free(&making.near);
-    neighbours_free(&below.near);
-    tl_work_free(&making.work);
-    tl_work_free(&below.work);
+    end(&making);
+    end(&below);
     tl_free(first);
     return status;
 }

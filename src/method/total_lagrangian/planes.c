@@ -131,23 +131,32 @@ selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
     size_t grid[3];
     const struct scene *scene = tl->model.scene;
     if (ranks_count(scene->ranks) > 1) tl->part.ranks = scene->ranks;
-    tl->part.shared = tl->part.ranks != NULL && tl->options.form == NULL && scene->materials == 1 &&
+    tl->part.shared = tl->part.ranks != NULL && tl->options.form == NULL &&
                       cloud_in_planes(scene, grid);
     return tl->part.shared ? make_part(tl, grid, messages) : make_all(tl, messages);
+}
+
+selas_status tl_make_beside(const struct tl_model *tl, size_t from, size_t end, struct tl_model **beside,
+                            struct messages *messages)
+{
+    struct tl_model *made = *beside = array_new(1, sizeof *made);
+    if (made == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
+    made->model.scene = tl->model.scene;
+    made->options = tl->options;
+    made->part = (struct tl_part){.shared = true, .plane = tl->part.plane};
+    const selas_status status = cloud_create_planes(tl->model.scene, from, end, &made->cloud, messages);
+    return status == SELAS_OK ? tl_fill_points(made, messages) : status;
 }
 
 selas_status tl_make_below(const struct tl_model *tl, struct tl_model **below, struct messages *messages)
 {
     const size_t reach = tl->part.reach, planes = tl->part.layers + 2 * reach + 2, plane = tl->part.plane;
-    struct tl_model *made = *below = array_new(1, sizeof *made);
-    if (made == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the model");
-    made->model.scene = tl->model.scene;
-    made->options = tl->options;
-    made->part = (struct tl_part){.shared = true, .plane = plane};
-    made->part.gradient = made->part.pair = (struct tl_range){0, (planes - reach) * plane};
-    made->part.transposed = (struct tl_range){0, (planes - 2 * reach) * plane};
-    const selas_status status = cloud_create_planes(tl->model.scene, 0, planes, &made->cloud, messages);
-    return status == SELAS_OK ? tl_fill_points(made, messages) : status;
+    const selas_status status = tl_make_beside(tl, 0, planes, below, messages);
+    if (status != SELAS_OK) return status;
+    struct tl_part *part = &(*below)->part;
+    part->gradient = part->pair = (struct tl_range){0, (planes - reach) * plane};
+    part->transposed = (struct tl_range){0, (planes - 2 * reach) * plane};
+    return SELAS_OK;
 }
 
 selas_status tl_agree(const struct tl_model *tl, selas_status status, struct messages *messages)

@@ -173,6 +173,9 @@ struct tl_model {
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
 /* planes.c: the points of the body, or a rank's part of them. SELAS_STOPPED: this rank has no work. */
 selas_status tl_make_points(struct tl_model *tl, struct messages *messages);
+/* Planes from .. end - 1 of the body, no rank's own, with no rows; free with tl_free(), whatever the status. */
+selas_status tl_make_beside(const struct tl_model *tl, size_t from, size_t end, struct tl_model **beside,
+                            struct messages *messages);
 /* The first planes of the body, of which the rows of those in its midst are taken. */
 selas_status tl_make_below(const struct tl_model *tl, struct tl_model **below, struct messages *messages);
 /* Together where memory is shared; else nothing to do. */
