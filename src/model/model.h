@@ -221,7 +221,8 @@ struct model {
     size_t points;             /* points of the body that users see */
     const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not
                                   stored. Ask model_position(). */
-    bool middles;              /* points of such a lattice are the middles of its cells, not their corners */
+    /* Where a point is that is not stored, in deck coordinates; NULL: at its place of that lattice. */
+    void (*place)(const struct scene *scene, size_t point, double position[3]);
     size_t grid[3];            /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
     size_t unknowns;           /* numbers in u */
     size_t whole_unknowns;     /* those of all ranks together; 0: one alone */

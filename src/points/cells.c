@@ -131,7 +131,7 @@ static selas_status cells_2d(struct cloud *cloud, const struct body *body, struc
 {
     struct neighbours near = {0};
     const selas_status status =
-        neighbours_find(&near, 2, cloud->points, cloud->position, 4 * body->spacing, false, messages);
+        neighbours_find(&near, 2, cloud->points, cloud->position, cells_radius(body, 2), false, messages);
     if (status != SELAS_OK) {
         neighbours_free(&near);
         return status;

@@ -37,11 +37,17 @@ struct cloud {
  * they cannot be made. On failure *cloud is NULL. */
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages);
 /* Points per axis of a scene whose points can be made plane by plane: those of a box in two or three dimensions on a
- * lattice. False: they cannot. */
+ * lattice, with so little jitter that each one's volume hangs on those within the reach of cloud_margin(). False: they
+ * cannot. */
 bool cloud_in_planes(const struct scene *scene, size_t grid[3]);
-/* The part of such a cloud with the planes from .. end - 1 over the last axis. SELAS_NO_MEMORY. */
+/* The part of such a cloud with the planes from .. end - 1 over the last axis (of a lattice with jitter: before it).
+ * SELAS_NO_MEMORY. */
 selas_status cloud_create_planes(const struct scene *scene, size_t from, size_t end, struct cloud **cloud,
                                  struct messages *messages);
+/* Planes at either end of such a part whose volumes are not those of the body. */
+size_t cloud_margin(const struct scene *scene);
+/* A point of such a cloud by its number in the body, deck coordinates. */
+void cloud_place(const struct scene *scene, size_t point, double position[3]);
 void cloud_free(struct cloud **cloud);
 
 /* The points' volumes over that of the body's box. */

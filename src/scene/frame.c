@@ -107,15 +107,6 @@ void lattice_from_deck(const struct body *body, const double position[3], double
     *down = grading_lattice(body->grading, *down);
 }
 
-void body_middle(const struct body *body, int dimension, const size_t grid[3], const size_t at[3],
-                 double place[3])
-{
-    for (int c = 0; c < 3; c++) {
-        const double step = (body->high[c] - body->low[c]) / (double)grid[c];
-        place[c] = c < dimension ? body->low[c] + ((double)at[c] + 0.5) * step : 0;
-    }
-}
-
 void lattice_to_deck(const struct body *body, const double place[3], double position[3])
 {
     double own[3] = {place[0], place[1], place[2]};

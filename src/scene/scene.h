@@ -278,9 +278,6 @@ void body_to_deck(const struct body *body, const double body_position[3], double
  * one. */
 void lattice_from_deck(const struct body *body, const double position[3], double place[3]);
 void lattice_to_deck(const struct body *body, const double place[3], double position[3]);
-/* Middle of a cell of a box that is cut into grid[axis] cells along each of its axes (the body's frame). */
-void body_middle(const struct body *body, int dimension, const size_t grid[3], const size_t at[3],
-                 double place[3]);
 void body_direction_from_deck(const struct body *body, const double direction[3], double body_direction[3]);
 void body_direction_to_deck(const struct body *body, const double body_direction[3], double direction[3]);
 

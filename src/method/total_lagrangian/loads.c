@@ -16,8 +16,9 @@
 
 double tl_probe_radius(const struct tl_model *tl)
 {
+    const struct body *body = &tl->model.scene->body;
     const double four = tl->options.central ? 2.5 * tl_plane_step(tl) : 0;
-    return fmax(tl->near.radius, four);
+    return fmax(tl->near.radius, four) + body->jitter * body->spacing;
 }
 
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,

@@ -62,31 +62,68 @@ static double even_spacing(const struct scene *scene, const size_t grid[3])
     return pow(volume, 1.0 / scene->dimension);
 }
 
-/* Eqs M1 to M4; returns the planes of the part. */
+/* Of points of even spacing, or of the largest that any has, the numbers of planes that rows reach over. */
+struct reaches {
+    ptrdiff_t row, pair, layers, block;
+};
+
+static struct reaches reaches_of(const struct tl_model *tl, const size_t grid[3], double spacing)
+{
+    const struct scene *scene = tl->model.scene;
+    const int last = scene->dimension - 1;
+    const double step = (scene->body.high[last] - scene->body.low[last]) / (double)grid[last];
+    const double radius = (1 + 1e-9) * 1.5 * tl_reach(&tl->options) * spacing;
+    const double moved = 2 * scene->body.jitter * scene->body.spacing; /* two points, towards each other */
+    const ptrdiff_t pair = (ptrdiff_t)ceil((tl_pair_radius(spacing) + moved) / step);
+    const ptrdiff_t search = (ptrdiff_t)ceil((radius + moved) / step);
+    return (struct reaches){.row = search > pair ? search : pair,
+                            .pair = pair,
+                            .layers = 2 * (ptrdiff_t)tl_layers_within(scene, grid, radius),
+                            .block = TL_LONGEST_BLOCK / (ptrdiff_t)tl->part.plane + 1};
+}
+
+/* Chooses which rows are made (Eqs M1 to M4); returns the planes of the part. */
 static struct planes choose(struct tl_model *tl, const size_t grid[3], struct planes own)
 {
     struct tl_part *part = &tl->part;
     const struct scene *scene = tl->model.scene;
-    const int last = scene->dimension - 1;
-    const ptrdiff_t planes = (ptrdiff_t)grid[last];
-    const double step = (scene->body.high[last] - scene->body.low[last]) / (double)planes;
-    const double spacing = even_spacing(scene, grid), radius = 1.5 * tl_reach(&tl->options) * spacing;
-    const ptrdiff_t pairs = (ptrdiff_t)ceil(tl_pair_radius(spacing) / step);
-    const ptrdiff_t search = (ptrdiff_t)ceil((1 + 1e-9) * radius / step);
-    const ptrdiff_t reach = search > pairs ? search : pairs;
-    const ptrdiff_t layers = 2 * (ptrdiff_t)tl_layers_within(scene, grid, (1 + 1e-9) * radius);
-    const ptrdiff_t block = TL_LONGEST_BLOCK / (ptrdiff_t)part->plane + 1;
-    const struct planes force = {own.from < planes - layers ? own.from : planes - layers - 1, own.end};
-    const struct planes gradient = about(force, reach + pairs), pair = about(force, reach + block);
-    const struct planes all = about(force, 2 * reach + (pairs > block ? pairs : block) + 2);
-    const bool begins = all.from + reach < layers + 2; /* the rows of its first plane are not those further below */
+    const double spacing = part->spacing > 0 ? part->spacing : even_spacing(scene, grid);
+    const struct reaches by = reaches_of(tl, grid, spacing);
+    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1], margin = (ptrdiff_t)cloud_margin(scene);
+    const bool even = !(scene->body.jitter > 0), at_top = own.from >= planes - by.layers;
+    const struct planes force = {even && at_top ? planes - by.layers - 1 : own.from, own.end};
+    const struct planes gradient = about(force, by.row + by.pair), pair = about(force, by.row + by.block);
+    const struct planes all = about(force, 2 * by.row + (by.pair > by.block ? by.pair : by.block) + 2 + margin);
+    /* are the rows of its first plane those of planes below it? */
+    const bool begins = even ? all.from + by.row < by.layers + 2 : all.from < 0;
     const ptrdiff_t first = begins ? 0 : all.from;
     part->gradient = points_in(tl, grid, first, gradient);
     part->transposed = points_in(tl, grid, first, force);
     part->pair = points_in(tl, grid, first, pair);
-    part->reach = begins ? 0 : (size_t)reach;
-    part->layers = begins ? 0 : (size_t)layers;
+    part->reach = begins || !even ? 0 : (size_t)by.row;
+    part->layers = begins || !even ? 0 : (size_t)by.layers;
     return (struct planes){first, all.end < planes ? all.end : planes};
+}
+
+/* Together: the largest spacing of points with jitter. */
+static selas_status find_spacing(struct tl_model *tl, const size_t grid[3], struct planes own,
+                                 struct messages *messages)
+{
+    struct tl_part *part = &tl->part;
+    const struct scene *scene = tl->model.scene;
+    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1];
+    const struct planes more = about(own, (ptrdiff_t)cloud_margin(scene));
+    const size_t from = more.from > 0 ? (size_t)more.from : 0, end = (size_t)(more.end < planes ? more.end : planes);
+    struct cloud *cloud = NULL;
+    const selas_status status =
+        tl_agree(tl, cloud_create_planes(scene, from, end, &cloud, messages), messages);
+    double spacing = 0;
+    for (ptrdiff_t i = own.from * (ptrdiff_t)part->plane; cloud != NULL && i < own.end * (ptrdiff_t)part->plane; i++)
+        spacing = fmax(spacing, pow(cloud->volume[(size_t)i - cloud->first], 1.0 / scene->dimension));
+    if (status == SELAS_OK) ranks_largest(part->ranks, 1, &spacing);
+    part->spacing = spacing;
+    cloud_free(&cloud);
+    return status;
 }
 
 /* Deals out the planes of a lattice and makes the part of this rank. */
@@ -95,10 +132,12 @@ static selas_status make_part(struct tl_model *tl, const size_t grid[3], struct 
     struct tl_part *part = &tl->part;
     const size_t planes = grid[tl->model.scene->dimension - 1];
     part->plane = grid[0] * grid[1] * grid[2] / planes;
-    const selas_status status = deal(tl, planes, messages);
+    selas_status status = deal(tl, planes, messages);
     if (status != SELAS_OK) return status;
     const size_t *bound = part->bound + ranks_me(part->ranks);
     const struct planes own = {(ptrdiff_t)(bound[0] / part->plane), (ptrdiff_t)(bound[1] / part->plane)};
+    if (tl->model.scene->body.jitter > 0) status = find_spacing(tl, grid, own, messages);
+    if (status != SELAS_OK) return status;
     const struct planes all = choose(tl, grid, own);
     part->own = bound[0] - (size_t)all.from * part->plane;
     part->end = bound[1] - (size_t)all.from * part->plane;
@@ -116,9 +155,10 @@ static selas_status make_all(struct tl_model *tl, struct messages *messages)
     if (status != SELAS_OK) return status;
     const size_t n = tl->cloud->points, *grid = tl->cloud->grid;
     part->end = n;
+    part->plane = 1;
     part->gradient = part->transposed = part->pair = (struct tl_range){0, n};
     if (part->ranks == NULL) return SELAS_OK;
-    part->plane = grid[0] > 0 ? n / grid[tl->cloud->dimension - 1] : 1;
+    if (grid[0] > 0) part->plane = n / grid[tl->cloud->dimension - 1];
     status = deal(tl, n / part->plane, messages);
     if (status != SELAS_OK) return status;
     part->own = part->bound[ranks_me(part->ranks)];
@@ -186,7 +226,7 @@ double tl_plane_step(const struct tl_model *tl)
 {
     const struct body *body = &tl->model.scene->body;
     const int last = tl->cloud->dimension - 1;
-    return (body->high[last] - body->low[last]) / (double)tl->cloud->grid[last];
+    return (body->high[last] - body->low[last]) / (double)(tl->cloud->whole / tl->part.plane);
 }
 
 /* The plane of points that a place is nearest to. */
@@ -194,14 +234,18 @@ static size_t plane_of(const struct tl_model *tl, const double place[3])
 {
     const struct body *body = &tl->model.scene->body;
     const int last = tl->cloud->dimension - 1;
-    const double planes = (double)tl->cloud->grid[last];
+    const double planes = (double)(tl->cloud->whole / tl->part.plane);
     const double part = (place[last] - body->low[last]) / (body->high[last] - body->low[last]);
     return (size_t)fmin(fmax(floor(part * planes), 0), planes - 1);
 }
 
 int tl_owner(const struct tl_model *tl, const double place[3])
 {
-    return tl_holder(&tl->model, plane_of(tl, place));
+    const size_t point = plane_of(tl, place) * tl->part.plane;
+    int rank = 0;
+    while (point >= tl->part.bound[rank + 1])
+        rank++;
+    return rank;
 }
 
 bool tl_owns(const struct tl_model *tl, const double place[3])

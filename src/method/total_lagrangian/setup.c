@@ -269,6 +269,7 @@ selas_status tl_transpose(struct tl_making *making, struct messages *messages)
 double tl_largest_spacing(const struct tl_model *tl)
 {
     double largest = 0;
+    if (tl->part.spacing > 0) return tl->part.spacing;
     for (size_t i = 0; i < tl->cloud->points; i++)
         largest = fmax(largest, tl->spacing[i]);
     return largest;

@@ -213,8 +213,9 @@ selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_
 int tl_holder(const struct model *model, size_t plane)
 {
     const struct tl_part *part = &((const struct tl_model *)model)->part;
+    const size_t points = model->grid[0] > 0 ? part->plane : 1;
     int rank = 0;
-    while (plane * part->plane >= part->bound[rank + 1])
+    while (plane * points >= part->bound[rank + 1])
         rank++;
     return rank;
 }

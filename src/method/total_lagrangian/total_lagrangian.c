@@ -235,8 +235,10 @@ static void fill_model(struct tl_model *tl)
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;
     model->points = tl->cloud->whole;
-    if (!tl->part.shared) model->position = tl->deck_position;
-    model->middles = tl->part.shared;
+    if (tl->part.shared)
+        model->place = cloud_place;
+    else
+        model->position = tl->deck_position;
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
     model->unknowns = d * n;
     model->state_size = 2 * d * n;

@@ -125,6 +125,7 @@ struct tl_part {
     struct tl_range gradient, transposed, pair; /* points whose rows are made: of pairs, the viscous ones too */
     size_t layers, reach;      /* planes: from a face on that may feel it, and that a row reaches over; 0: the part
                                   begins with the body */
+    double spacing;            /* the largest one of all points, if it is not that of each; else 0 */
     double neighbours, ghosts; /* in the gradients of all points, and of all ranks, for describe() */
 };
 
