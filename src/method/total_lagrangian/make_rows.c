@@ -18,7 +18,8 @@ static struct tl_rows *rows_of(struct tl_model *tl, enum kind kind)
 
 static struct tl_range made(const struct tl_model *tl, enum kind kind)
 {
-    const struct tl_range range[KINDS] = {tl->part.gradient, tl->part.transposed, tl->part.pair, tl->part.pair};
+    const struct tl_range range[KINDS] = {tl->part.gradient, tl->part.transposed, tl->part.pair,
+                                          tl->part.pair};
     return range[kind];
 }
 
@@ -45,8 +46,8 @@ static bool copy_row(struct tl_making *making, struct tl_rows *rows, size_t i, c
         if (of_q >= below->cloud->points) {
             double place[3];
             for (size_t c = 0; c < 3; c++)
-                place[c] = tl->site_position[3 * i + c] + (below->site_position[3 * of_q + c] -
-                                                           below->site_position[3 * q + c]);
+                place[c] = tl->site_position[3 * i + c] +
+                           (below->site_position[3 * of_q + c] - below->site_position[3 * q + c]);
             of_i = ghost_at(making, place);
             if (of_i == tl->sites) of_i = i;
         }
@@ -62,8 +63,8 @@ static size_t plane_at(const struct tl_model *tl, size_t number)
 }
 
 /* The plane `to` of a part takes the rows of the plane `from` of another one (planes of the body). */
-static selas_status take_plane(struct tl_making *making, size_t to, const struct tl_making *other, size_t from,
-                               enum kind kind, struct messages *messages)
+static selas_status take_plane(struct tl_making *making, size_t to, const struct tl_making *other,
+                               size_t from, enum kind kind, struct messages *messages)
 {
     struct tl_model *tl = making->tl;
     struct tl_rows *rows = rows_of(tl, kind);
@@ -91,7 +92,8 @@ static selas_status begin(struct tl_making *making, struct tl_model *tl, struct 
     const selas_status status = tl_make_ghosts(tl, most, messages);
     if (status != SELAS_OK) return status;
     if (tl->sites > INT32_MAX / 3)
-        return fail(messages, SELAS_UNSUPPORTED, "%zu points are more than this method can number", tl->sites);
+        return fail(messages, SELAS_UNSUPPORTED, "%zu points are more than this method can number",
+                    tl->sites);
     if (!tl_work_allocate(&making->work, 256)) return tl_no_memory(tl, messages);
     return tl->options.form != NULL
                ? neighbours_find(&making->near, d, tl->sites, tl->site_position, most, true, messages)
@@ -103,10 +105,12 @@ static bool begin_rows(struct tl_model *tl, enum kind kind)
     const size_t d = (size_t)tl->cloud->dimension, width[KINDS] = {d, d, 1, 2};
     struct tl_rows *rows = rows_of(tl, kind);
     static const struct tl_like none = {0};
-    if (!tl_rows_begin(rows, (int)d, kind == TRANSPOSED ? tl->sites : tl->cloud->points, width[kind])) return false;
+    if (!tl_rows_begin(rows, (int)d, kind == TRANSPOSED ? tl->sites : tl->cloud->points, width[kind]))
+        return false;
     if (kind == VISCOUS) tl->site_v = array_new(d * tl->sites, sizeof(double));
     /* the row of points of a part that have none */
-    return (kind != VISCOUS || tl->site_v != NULL) && (!tl->part.shared || tl_rows_close(rows, 0, &none, NULL, 0));
+    return (kind != VISCOUS || tl->site_v != NULL) &&
+           (!tl->part.shared || tl_rows_close(rows, 0, &none, NULL, 0));
 }
 
 static selas_status fill(struct tl_making *making, enum kind kind, struct messages *messages)
@@ -149,19 +153,19 @@ static selas_status climb(const struct tl_model *tl, struct tl_making *reached, 
     return status;
 }
 
-/* Rows of pairs of several materials hang on what is below them, plane by plane: `made` gets those of the plane below
- * its first ones from parts of the body from bottom to top. */
-static selas_status take_from_all_below(struct tl_making *making, enum kind kind, struct messages *messages)
+/* Rows of pairs of several materials hang on what is below them, plane by plane: the plane `wanted` gets those of
+ * parts of the body that are made one after the other from its bottom on. */
+static selas_status take_from_all_below(struct tl_making *making, size_t wanted, enum kind kind,
+                                        struct messages *messages)
 {
     struct tl_making reached = {0};
     struct tl_model *tl = making->tl, *first = NULL;
-    const size_t plane = tl->part.plane, wanted = (tl->cloud->first + made(tl, kind).from) / plane - 1;
     selas_status status = tl_make_below(tl, &first, messages);
     if (status == SELAS_OK) status = begin(&reached, first, messages);
     if (status == SELAS_OK && !begin_rows(first, kind)) status = tl_no_memory(tl, messages);
     if (status == SELAS_OK) status = fill(&reached, kind, messages);
     reached.tl = first;
-    size_t up = first != NULL ? first->part.pair.end / plane : 0; /* planes that have rows */
+    size_t up = first != NULL ? first->part.pair.end / tl->part.plane : 0; /* planes that have rows */
     while (status == SELAS_OK && up <= wanted) {
         const size_t last = up + tl->part.layers < wanted ? up + tl->part.layers : wanted;
         status = climb(tl, &reached, up, last, kind, messages);
@@ -175,14 +179,15 @@ static selas_status take_from_all_below(struct tl_making *making, enum kind kind
 }
 
 /* Rows of one kind of the part and, if there are any, of the first planes. */
-static selas_status make(struct tl_making *making, struct tl_making *below, enum kind kind, struct messages *messages)
+static selas_status make(struct tl_making *making, struct tl_making *below, enum kind kind,
+                         struct messages *messages)
 {
     struct tl_model *tl = making->tl;
     const size_t under = (tl->cloud->first + made(tl, kind).from) / tl->part.plane - 1;
     const bool of_materials = (kind == PAIR || kind == VISCOUS) && tl->model.scene->materials > 1;
     selas_status status = begin_rows(tl, kind) ? SELAS_OK : tl_no_memory(tl, messages);
     if (status == SELAS_OK && below->tl != NULL && of_materials)
-        status = take_from_all_below(making, kind, messages);
+        status = take_from_all_below(making, under, kind, messages);
     if (status == SELAS_OK && below->tl != NULL && !of_materials) {
         status = begin_rows(below->tl, kind) ? fill(below, kind, messages) : tl_no_memory(tl, messages);
         if (status == SELAS_OK) status = take_plane(making, under, below, tl->part.layers, kind, messages);
@@ -218,9 +223,8 @@ static selas_status return_rows(struct tl_model *tl, struct messages *messages)
 }
 
 /* Together where memory is shared: the largest distance of neighbours. */
-static void find_reach(struct tl_making *making, struct tl_making *below)
+static void find_reach(const struct tl_model *tl, struct tl_making *making, struct tl_making *below)
 {
-    const struct tl_model *tl = making->tl;
     double reach = tl_reach_of_rows(tl);
     if (below->tl != NULL) reach = fmax(reach, tl_reach_of_rows(below->tl));
     if (tl->part.shared) ranks_largest(tl->part.ranks, 1, &reach);
@@ -240,7 +244,7 @@ static selas_status make_others(struct tl_making *making, struct tl_making *belo
 
 selas_status tl_make_rows(struct tl_model *tl, selas_status status, struct messages *messages)
 {
-    struct tl_making making = {0}, below = {0};
+    struct tl_making making = {.tl = tl}, below = {0};
     struct tl_model *first = NULL; /* the first planes */
     if (status == SELAS_OK) status = begin(&making, tl, messages);
     if (status == SELAS_OK && tl->part.reach > 0) {
@@ -250,7 +254,7 @@ selas_status tl_make_rows(struct tl_model *tl, selas_status status, struct messa
     if (status == SELAS_OK) status = make(&making, &below, GRADIENT, messages);
     status = tl_agree(tl, status, messages);
     if (status == SELAS_OK) {
-        find_reach(&making, &below);
+        find_reach(tl, &making, &below);
         status = make_others(&making, &below, messages);
     }
     end(&making);

@@ -1,4 +1,4 @@
-/* Which points of the body a rank makes (doc/developers/ranks.md, "Memory of points"). Those of a lattice are made in
+/* Which points of the body a rank makes (doc/developers/ranks.md, Eqs R5 to R7). Those of a lattice are made in
  * planes over the last axis: the own ones, and as many about them as the rows need that forces on the own points take.
  * Other points are made by every rank. */
 #include "method/total_lagrangian/setup.h"
@@ -82,7 +82,7 @@ static struct reaches reaches_of(const struct tl_model *tl, const size_t grid[3]
                             .block = TL_LONGEST_BLOCK / (ptrdiff_t)tl->part.plane + 1};
 }
 
-/* Chooses which rows are made (Eqs M1 to M4); returns the planes of the part. */
+/* Chooses which rows are made (Eqs R5 to R7); returns the planes of the part. */
 static struct planes choose(struct tl_model *tl, const size_t grid[3], struct planes own)
 {
     struct tl_part *part = &tl->part;
@@ -93,7 +93,8 @@ static struct planes choose(struct tl_model *tl, const size_t grid[3], struct pl
     const bool even = !(scene->body.jitter > 0), at_top = own.from >= planes - by.layers;
     const struct planes force = {even && at_top ? planes - by.layers - 1 : own.from, own.end};
     const struct planes gradient = about(force, by.row + by.pair), pair = about(force, by.row + by.block);
-    const struct planes all = about(force, 2 * by.row + (by.pair > by.block ? by.pair : by.block) + 2 + margin);
+    const struct planes all =
+        about(force, 2 * by.row + (by.pair > by.block ? by.pair : by.block) + 2 + margin);
     /* are the rows of its first plane those of planes below it? */
     const bool begins = even ? all.from + by.row < by.layers + 2 : all.from < 0;
     const ptrdiff_t first = begins ? 0 : all.from;
@@ -113,12 +114,14 @@ static selas_status find_spacing(struct tl_model *tl, const size_t grid[3], stru
     const struct scene *scene = tl->model.scene;
     const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1];
     const struct planes more = about(own, (ptrdiff_t)cloud_margin(scene));
-    const size_t from = more.from > 0 ? (size_t)more.from : 0, end = (size_t)(more.end < planes ? more.end : planes);
+    const size_t from = more.from > 0 ? (size_t)more.from : 0,
+                 end = (size_t)(more.end < planes ? more.end : planes);
     struct cloud *cloud = NULL;
     const selas_status status =
         tl_agree(tl, cloud_create_planes(scene, from, end, &cloud, messages), messages);
     double spacing = 0;
-    for (ptrdiff_t i = own.from * (ptrdiff_t)part->plane; cloud != NULL && i < own.end * (ptrdiff_t)part->plane; i++)
+    for (ptrdiff_t i = own.from * (ptrdiff_t)part->plane;
+         cloud != NULL && i < own.end * (ptrdiff_t)part->plane; i++)
         spacing = fmax(spacing, pow(cloud->volume[(size_t)i - cloud->first], 1.0 / scene->dimension));
     if (status == SELAS_OK) ranks_largest(part->ranks, 1, &spacing);
     part->spacing = spacing;
@@ -171,8 +174,7 @@ selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
     size_t grid[3];
     const struct scene *scene = tl->model.scene;
     if (ranks_count(scene->ranks) > 1) tl->part.ranks = scene->ranks;
-    tl->part.shared = tl->part.ranks != NULL && tl->options.form == NULL &&
-                      cloud_in_planes(scene, grid);
+    tl->part.shared = tl->part.ranks != NULL && tl->options.form == NULL && cloud_in_planes(scene, grid);
     return tl->part.shared ? make_part(tl, grid, messages) : make_all(tl, messages);
 }
 
@@ -192,7 +194,7 @@ selas_status tl_make_below(const struct tl_model *tl, struct tl_model **below, s
 {
     const size_t reach = tl->part.reach, planes = tl->part.layers + 2 * reach + 2, plane = tl->part.plane;
     const selas_status status = tl_make_beside(tl, 0, planes, below, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || *below == NULL) return status;
     struct tl_part *part = &(*below)->part;
     part->gradient = part->pair = (struct tl_range){0, (planes - reach) * plane};
     part->transposed = (struct tl_range){0, (planes - 2 * reach) * plane};
@@ -210,7 +212,8 @@ struct tl_range tl_summed(const struct tl_model *tl)
     return (struct tl_range){0, tl->cloud->points};
 }
 
-double tl_sum_in_order(struct tl_model *tl, void (*add)(struct tl_model *tl, const void *context, double *sum),
+double tl_sum_in_order(struct tl_model *tl,
+                       void (*add)(struct tl_model *tl, const void *context, double *sum),
                        const void *context)
 {
     struct ranks *ranks = tl->part.shared ? tl->part.ranks : NULL;
@@ -226,7 +229,8 @@ double tl_plane_step(const struct tl_model *tl)
 {
     const struct body *body = &tl->model.scene->body;
     const int last = tl->cloud->dimension - 1;
-    return (body->high[last] - body->low[last]) / (double)(tl->cloud->whole / tl->part.plane);
+    const size_t planes = tl->cloud->whole / tl->part.plane;
+    return (body->high[last] - body->low[last]) / (double)planes;
 }
 
 /* The plane of points that a place is nearest to. */
@@ -234,9 +238,9 @@ static size_t plane_of(const struct tl_model *tl, const double place[3])
 {
     const struct body *body = &tl->model.scene->body;
     const int last = tl->cloud->dimension - 1;
-    const double planes = (double)(tl->cloud->whole / tl->part.plane);
+    const size_t planes = tl->cloud->whole / tl->part.plane;
     const double part = (place[last] - body->low[last]) / (body->high[last] - body->low[last]);
-    return (size_t)fmin(fmax(floor(part * planes), 0), planes - 1);
+    return (size_t)fmin(fmax(floor(part * (double)planes), 0), (double)planes - 1);
 }
 
 int tl_owner(const struct tl_model *tl, const double place[3])

@@ -89,7 +89,8 @@ selas_status tl_find_runs(struct tl_model *tl, struct messages *messages)
 {
     const size_t n = tl->cloud->points;
     const struct tl_part *part = &tl->part;
-    struct tl_blocks *gradient = &tl->gradient_blocks, *stress = &tl->stress_blocks, *force = &tl->force_blocks;
+    struct tl_blocks *gradient = &tl->gradient_blocks, *stress = &tl->stress_blocks,
+                     *force = &tl->force_blocks;
     if (!make_room(gradient, n, messages) || !make_room(stress, n, messages) ||
         !make_room(force, tl->sites, messages))
         return SELAS_NO_MEMORY;

@@ -118,8 +118,8 @@ selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
     count_all(tl);
     if (part->ranks == NULL) return SELAS_OK;
     double *told = array_new(2 * (size_t)ranks_count(part->ranks), sizeof *told);
-    const selas_status status =
-        tl_agree(tl, told != NULL ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"), messages);
+    const selas_status status = tl_agree(
+        tl, told != NULL ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"), messages);
     if (status == SELAS_OK && told != NULL) {
         const struct reach reach = reach_of(tl, part->own, part->end);
         const struct tl_range window = window_of(tl, &reach);
@@ -151,7 +151,8 @@ static struct tl_range halo(const struct tl_part *part, size_t from, size_t to)
 void tl_exchange(const struct tl_model *tl, double *a)
 {
     const struct tl_part *part = &tl->part;
-    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks), first = tl->cloud->first;
+    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks),
+                 first = tl->cloud->first;
     size_t pieces = 0;
     for (size_t r = 0; part->ranks != NULL && r < (size_t)ranks_count(part->ranks); r++) {
         const struct tl_range give = halo(part, me, r), get = halo(part, r, me);

@@ -210,7 +210,8 @@ selas_status tl_fill_points(struct tl_model *tl, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
     for (size_t i = 0; i < n; i++) {
         const double *x = tl->cloud->position + 3 * i;
-        tl->material[i] = scene_point_material(scene, tl->cloud->first + i, x[d - 1] - scene->body.low[d - 1]);
+        tl->material[i] =
+            scene_point_material(scene, tl->cloud->first + i, x[d - 1] - scene->body.low[d - 1]);
         tl->elastic[i] = elastic_of(tl->material[i], tl->options.law, scene->dimension, scene->plane);
         tl->mass[i] = tl->material[i]->density * tl->cloud->volume[i];
         /* of clouds points on faces have half volumes */

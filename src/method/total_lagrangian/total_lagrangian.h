@@ -122,10 +122,11 @@ struct tl_part {
     size_t *window;      /* [2 * ranks]: first point of the window of each rank, and the one after its last */
     struct ranks_piece *piece; /* [ranks], of an exchange */
     bool shared;               /* memory is */
-    struct tl_range gradient, transposed, pair; /* points whose rows are made: of pairs, the viscous ones too */
-    size_t layers, reach;      /* planes: from a face on that may feel it, and that a row reaches over; 0: the part
+    struct tl_range gradient, transposed,
+        pair;             /* points whose rows are made: of pairs, the viscous ones too */
+    size_t layers, reach; /* planes: from a face on that may feel it, and that a row reaches over; 0: the part
                                   begins with the body */
-    double spacing;            /* the largest one of all points, if it is not that of each; else 0 */
+    double spacing;       /* the largest one of all points, if it is not that of each; else 0 */
     double neighbours, ghosts; /* in the gradients of all points, and of all ranks, for describe() */
 };
 
@@ -182,7 +183,8 @@ selas_status tl_make_below(const struct tl_model *tl, struct tl_model **below, s
 /* Together where memory is shared; else nothing to do. */
 selas_status tl_agree(const struct tl_model *tl, selas_status status, struct messages *messages);
 /* Together where memory is shared: the sum with which add() goes on from 0, over the own points of rank after rank. */
-double tl_sum_in_order(struct tl_model *tl, void (*add)(struct tl_model *tl, const void *context, double *sum),
+double tl_sum_in_order(struct tl_model *tl,
+                       void (*add)(struct tl_model *tl, const void *context, double *sum),
                        const void *context);
 /* Own points for such sums: all, where memory is not shared. */
 struct tl_range tl_summed(const struct tl_model *tl);
@@ -266,8 +268,8 @@ void tl_part_free(struct tl_part *part);
 void tl_exchange(const struct tl_model *tl,
                  double *a); /* together: a like u of own points to the windows they are in */
 void tl_keep_window(const struct tl_model *tl, double *u); /* 0 outside */
-/* The rank that reads a value from `count` points about a place: the owner, where memory is shared, else the first whose
- * window has them. SELAS_UNSUPPORTED if no window has. */
+/* The rank that reads a value from `count` points about a place: the owner of the place, where memory is shared, else
+ * the first whose window has the points. SELAS_UNSUPPORTED if no window has. */
 selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
                             struct messages *messages);
 /* Entries of the model's class, on ranks. */
