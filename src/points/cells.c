@@ -145,8 +145,8 @@ static selas_status cells_2d(struct cloud *cloud, const struct body *body, struc
     neighbours_free(&near);
     for (size_t i = 0; i < cloud->points; i++)
         if (!(cloud->volume[i] > 0))
-            return fail(messages, SELAS_BAD_SCENE, "point %zu at (%g, %g) stands for no volume", i + 1,
-                        cloud->position[3 * i], cloud->position[3 * i + 1]);
+            return fail(messages, SELAS_BAD_SCENE, "point %zu at (%g, %g) stands for no volume",
+                        cloud->first + i + 1, cloud->position[3 * i], cloud->position[3 * i + 1]);
     return SELAS_OK;
 }
 

@@ -106,22 +106,21 @@ static struct planes choose(struct tl_model *tl, const size_t grid[3], struct pl
     return (struct planes){first, all.end < planes ? all.end : planes};
 }
 
-/* Together: the largest spacing of points with jitter. */
+/* Together, whatever the status so far: the largest spacing of points with jitter. */
 static selas_status find_spacing(struct tl_model *tl, const size_t grid[3], struct planes own,
-                                 struct messages *messages)
+                                 selas_status status, struct messages *messages)
 {
     struct tl_part *part = &tl->part;
     const struct scene *scene = tl->model.scene;
-    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1];
+    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1], plane = (ptrdiff_t)part->plane;
     const struct planes more = about(own, (ptrdiff_t)cloud_margin(scene));
-    const size_t from = more.from > 0 ? (size_t)more.from : 0,
-                 end = (size_t)(more.end < planes ? more.end : planes);
+    const size_t from = more.from > 0 ? (size_t)more.from : 0;
+    const size_t end = (size_t)(more.end < planes ? more.end : planes);
     struct cloud *cloud = NULL;
-    const selas_status status =
-        tl_agree(tl, cloud_create_planes(scene, from, end, &cloud, messages), messages);
+    if (status == SELAS_OK) status = cloud_create_planes(scene, from, end, &cloud, messages);
+    status = tl_agree(tl, status, messages);
     double spacing = 0;
-    for (ptrdiff_t i = own.from * (ptrdiff_t)part->plane;
-         cloud != NULL && i < own.end * (ptrdiff_t)part->plane; i++)
+    for (ptrdiff_t i = own.from * plane; status == SELAS_OK && cloud != NULL && i < own.end * plane; i++)
         spacing = fmax(spacing, pow(cloud->volume[(size_t)i - cloud->first], 1.0 / scene->dimension));
     if (status == SELAS_OK) ranks_largest(part->ranks, 1, &spacing);
     part->spacing = spacing;
@@ -133,17 +132,19 @@ static selas_status find_spacing(struct tl_model *tl, const size_t grid[3], stru
 static selas_status make_part(struct tl_model *tl, const size_t grid[3], struct messages *messages)
 {
     struct tl_part *part = &tl->part;
-    const size_t planes = grid[tl->model.scene->dimension - 1];
+    const size_t planes = grid[tl->model.scene->dimension - 1], me = (size_t)ranks_me(part->ranks);
+    struct planes own = {0, 0};
     part->plane = grid[0] * grid[1] * grid[2] / planes;
     selas_status status = deal(tl, planes, messages);
-    if (status != SELAS_OK) return status;
-    const size_t *bound = part->bound + ranks_me(part->ranks);
-    const struct planes own = {(ptrdiff_t)(bound[0] / part->plane), (ptrdiff_t)(bound[1] / part->plane)};
-    if (tl->model.scene->body.jitter > 0) status = find_spacing(tl, grid, own, messages);
+    if (status == SELAS_STOPPED) return status;
+    if (status == SELAS_OK)
+        own = (struct planes){(ptrdiff_t)(part->bound[me] / part->plane),
+                              (ptrdiff_t)(part->bound[me + 1] / part->plane)};
+    if (tl->model.scene->body.jitter > 0) status = find_spacing(tl, grid, own, status, messages);
     if (status != SELAS_OK) return status;
     const struct planes all = choose(tl, grid, own);
-    part->own = bound[0] - (size_t)all.from * part->plane;
-    part->end = bound[1] - (size_t)all.from * part->plane;
+    part->own = part->bound[me] - (size_t)all.from * part->plane;
+    part->end = part->bound[me + 1] - (size_t)all.from * part->plane;
     return cloud_create_planes(tl->model.scene, (size_t)all.from, (size_t)all.end, &tl->cloud, messages);
 }
 
