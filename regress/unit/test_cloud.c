@@ -188,6 +188,60 @@ static void jitter_follows_the_seed(void **state)
         cloud_free(&cloud[k]);
 }
 
+/* Planes `from` .. `end` - 1 of a cloud against the whole: points, volumes but for the margin, and the surface. */
+static void compare_part(const struct scene *scene, const struct cloud *whole, size_t from, size_t end)
+{
+    struct messages messages = {0};
+    struct cloud *part = NULL;
+    size_t grid[3], elements = 0;
+    assert_true(cloud_in_planes(scene, grid));
+    const size_t planes = grid[scene->dimension - 1], plane = whole->points / planes;
+    const size_t margin = plane * cloud_margin(scene), first = plane * from, last = plane * end;
+    assert_int_equal(cloud_create_planes(scene, from, end, &part, &messages), SELAS_OK);
+    assert_int_equal(part->first, first);
+    assert_int_equal(part->points, last - first);
+    assert_int_equal(part->whole, whole->points);
+    assert_memory_equal(part->grid, whole->grid, sizeof part->grid);
+    assert_memory_equal(part->position, whole->position + 3 * first, 3 * part->points * sizeof(double));
+    const size_t right = from > 0 ? first + margin : 0, over = end < planes ? last - margin : last;
+    assert_true(right < over);
+    assert_memory_equal(part->volume + (right - first), whole->volume + right,
+                        (over - right) * sizeof(double));
+    for (size_t e = 0; e < whole->elements; e++) {
+        const double place = whole->element[e].position[scene->dimension - 1];
+        if (place < part->low || place > part->high) continue;
+        assert_memory_equal(&part->element[elements], &whole->element[e], sizeof *part->element);
+        elements++;
+    }
+    assert_int_equal(part->elements, elements);
+    for (size_t i = 0; i < part->points; i++) {
+        double place[3];
+        cloud_place(scene, first + i, place);
+        assert_memory_equal(place, whole->position + 3 * (first + i), sizeof place);
+    }
+    cloud_free(&part);
+}
+
+static void parts_are_those_of_the_whole(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++)
+        for (int k = 0; k < 3; k++) {
+            struct box_scene box;
+            size_t grid[3];
+            make_box(&box, d, .6, .11);
+            box.scene.body.high[d - 1] = 3;
+            box.scene.body.jitter = .15 * k;
+            struct cloud *whole = make(&box.scene);
+            compare_part(&box.scene, whole, 0, 13);
+            compare_part(&box.scene, whole, 6, 19);
+            compare_part(&box.scene, whole, 14, 27);
+            cloud_free(&whole);
+            box.scene.body.jitter = 1; /* cells may reach anywhere */
+            assert_false(cloud_in_planes(&box.scene, grid));
+        }
+}
+
 static void bad_plates_are_refused(void **state)
 {
     (void)state;
@@ -285,7 +339,7 @@ int main(void)
         cmocka_unit_test(boxes_of_all_dimensions), cmocka_unit_test(cells_are_voronoi_cells),
         cmocka_unit_test(plates_have_their_area),  cmocka_unit_test(conformal_points_conform),
         cmocka_unit_test(jitter_follows_the_seed), cmocka_unit_test(bad_plates_are_refused),
-        cmocka_unit_test(points_come_from_files),
+        cmocka_unit_test(points_come_from_files),  cmocka_unit_test(parts_are_those_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

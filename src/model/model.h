@@ -221,11 +221,13 @@ struct model {
     size_t points;             /* points of the body that users see */
     const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not
                                   stored. Ask model_position(). */
-    size_t grid[3];            /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
-    size_t unknowns;           /* numbers in u */
-    size_t whole_unknowns;     /* those of all ranks together; 0: one alone */
-    bool replicated;           /* each rank has the state of the whole body: they share the work alone */
-    size_t state_size;         /* numbers in y */
+    /* Where a point is that is not stored, in deck coordinates; NULL: at its place of that lattice. */
+    void (*place)(const struct scene *scene, size_t point, double position[3]);
+    size_t grid[3];        /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
+    size_t unknowns;       /* numbers in u */
+    size_t whole_unknowns; /* those of all ranks together; 0: one alone */
+    bool replicated;       /* each rank has the state of the whole body: they share the work alone */
+    size_t state_size;     /* numbers in y */
     size_t component_stride, point_stride;
     size_t bytes;       /* memory held by the model */
     bool single;        /* steps in one pass keep the state in single precision; y is what others see of it */

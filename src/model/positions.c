@@ -1,6 +1,6 @@
 /* Where the points that users see are: stored, or those of a lattice that fills the body, whose corner points
- * are the body's corners: x_i = low + (high - low) i / cells on each axis of the body. A lattice needs no
- * memory for them. */
+ * are the body's corners: x_i = low + (high - low) i / cells on each axis of the body, or those that the model
+ * tells. Neither needs memory for them. */
 #include "model/model.h"
 
 #include <string.h>
@@ -9,6 +9,10 @@ void model_position(const struct model *model, size_t point, double position[3])
 {
     if (model->position != NULL) {
         memcpy(position, model->position + 3 * point, 3 * sizeof *position);
+        return;
+    }
+    if (model->place != NULL) {
+        model->place(model->scene, point, position);
         return;
     }
     const struct body *body = &model->scene->body;

@@ -131,7 +131,7 @@ static selas_status cells_2d(struct cloud *cloud, const struct body *body, struc
 {
     struct neighbours near = {0};
     const selas_status status =
-        neighbours_find(&near, 2, cloud->points, cloud->position, 4 * body->spacing, false, messages);
+        neighbours_find(&near, 2, cloud->points, cloud->position, cells_radius(body, 2), false, messages);
     if (status != SELAS_OK) {
         neighbours_free(&near);
         return status;
@@ -145,8 +145,8 @@ static selas_status cells_2d(struct cloud *cloud, const struct body *body, struc
     neighbours_free(&near);
     for (size_t i = 0; i < cloud->points; i++)
         if (!(cloud->volume[i] > 0))
-            return fail(messages, SELAS_BAD_SCENE, "point %zu at (%g, %g) stands for no volume", i + 1,
-                        cloud->position[3 * i], cloud->position[3 * i + 1]);
+            return fail(messages, SELAS_BAD_SCENE, "point %zu at (%g, %g) stands for no volume",
+                        cloud->first + i + 1, cloud->position[3 * i], cloud->position[3 * i + 1]);
     return SELAS_OK;
 }
 

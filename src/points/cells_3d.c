@@ -176,7 +176,7 @@ selas_status cells_3d(struct cloud *cloud, const struct body *body, struct messa
     const double close = 1.8 * body->spacing; /* most cells are done by the points within it */
     struct neighbours near = {0};
     const selas_status status =
-        neighbours_find(&near, 3, cloud->points, cloud->position, 3 * body->spacing, false, messages);
+        neighbours_find(&near, 3, cloud->points, cloud->position, cells_radius(body, 3), false, messages);
     if (status != SELAS_OK) {
         neighbours_free(&near);
         return status;

@@ -3,6 +3,7 @@
 #include "points/cloud.h"
 
 #include "base/memory.h"
+#include "points/cells.h"
 #include "points/lattice.h"
 
 #include <math.h>
@@ -28,7 +29,9 @@ selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, 
     *cloud = array_new(1, sizeof **cloud);
     if (*cloud != NULL) {
         (*cloud)->dimension = dimension;
-        (*cloud)->points = points;
+        (*cloud)->points = (*cloud)->whole = points;
+        (*cloud)->low = -INFINITY;
+        (*cloud)->high = INFINITY;
         (*cloud)->position = array_new(3 * points, sizeof(double));
         (*cloud)->volume = array_new(points, sizeof(double));
     }
@@ -49,56 +52,74 @@ void cloud_free(struct cloud **cloud)
     *cloud = NULL;
 }
 
-static selas_status box(const struct scene *scene, struct cloud **cloud, struct messages *messages)
+static void box_grid(const struct scene *scene, size_t grid[3])
 {
     const struct body *body = &scene->body;
-    const int dimension = scene->dimension;
-    size_t grid[3] = {1, 1, 1};
-    double step[3] = {0};
-    double volume = 1;
-    for (int c = 0; c < dimension; c++) {
-        const double length = body->high[c] - body->low[c];
-        grid[c] = (size_t)fmax(1, round(length / body->spacing));
-        step[c] = length / (double)grid[c];
-        volume *= step[c];
+    for (int c = 0; c < 3; c++)
+        grid[c] =
+            c < scene->dimension ? (size_t)fmax(1, round((body->high[c] - body->low[c]) / body->spacing)) : 1;
+}
+
+/* Middle of cell k of the body. */
+static void middle_of(const struct scene *scene, const size_t grid[3], size_t k, double place[3])
+{
+    const struct body *body = &scene->body;
+    const size_t at[3] = {k % grid[0], k / grid[0] % grid[1], k / (grid[0] * grid[1])};
+    for (int c = 0; c < 3; c++) {
+        const double step = (body->high[c] - body->low[c]) / (double)grid[c];
+        place[c] = c < scene->dimension ? body->low[c] + ((double)at[c] + 0.5) * step : 0;
     }
-    const size_t points = grid[0] * grid[1] * grid[2];
+}
+
+/* Planes from .. end - 1 over the last axis. */
+static selas_status box(const struct scene *scene, const size_t grid[3], size_t from, size_t end,
+                        struct cloud **cloud, struct messages *messages)
+{
+    const struct body *body = &scene->body;
+    const size_t last = (size_t)scene->dimension - 1, plane = grid[0] * grid[1] * grid[2] / grid[last];
+    const double step = (body->high[last] - body->low[last]) / (double)grid[last];
+    double volume = 1;
+    for (int c = 0; c < scene->dimension; c++)
+        volume *= (body->high[c] - body->low[c]) / (double)grid[c];
     struct cloud *made = NULL;
-    const selas_status status = cloud_allocate(dimension, points, &made, messages);
+    const selas_status status = cloud_allocate(scene->dimension, plane * (end - from), &made, messages);
     if (status != SELAS_OK || made == NULL) return status;
-    size_t i = 0;
-    for (size_t z = 0; z < grid[2]; z++)
-        for (size_t y = 0; y < grid[1]; y++)
-            for (size_t x = 0; x < grid[0]; x++, i++) {
-                const size_t at[3] = {x, y, z};
-                for (int c = 0; c < dimension; c++)
-                    made->position[3 * i + (size_t)c] = body->low[c] + ((double)at[c] + 0.5) * step[c];
-                made->volume[i] = volume;
-            }
-    memcpy(made->grid, grid, sizeof grid);
+    made->first = plane * from;
+    made->whole = plane * grid[last];
+    if (from > 0) made->low = body->low[last] + (double)from * step;
+    if (end < grid[last]) made->high = body->low[last] + (double)end * step;
+    for (size_t i = 0; i < made->points; i++) {
+        middle_of(scene, grid, made->first + i, made->position + 3 * i);
+        made->volume[i] = volume;
+    }
+    memcpy(made->grid, grid, sizeof made->grid);
+    made->spacing = body->spacing;
     *cloud = made;
     return SELAS_OK;
 }
 
-/* Moves each point by up to jitter * spacing along each axis; it stays inside its own lattice cell's reach of
+/* Moves point i of the body by up to jitter * spacing along each axis; it stays inside its own lattice cell's reach of
  * the box, and outside the hole. */
+static void move(const struct body *body, size_t dimension, size_t i, double x[3])
+{
+    double moved[3] = {0};
+    double distance = 0;
+    for (size_t c = 0; c < dimension; c++) {
+        const double random = random_uniform((unsigned long)body->seed, 3 * i + c);
+        const double margin = 0.05 * body->spacing;
+        moved[c] = x[c] + body->jitter * body->spacing * (2 * random - 1);
+        moved[c] = fmin(fmax(moved[c], body->low[c] + margin), body->high[c] - margin);
+        const double d = moved[c] - body->hole_centre[c];
+        distance += d * d;
+    }
+    if (body->shape == BODY_PLATE_WITH_HOLE && sqrt(distance) < body->hole_radius) return;
+    memcpy(x, moved, sizeof moved);
+}
+
 static void jitter(struct cloud *cloud, const struct body *body)
 {
-    for (size_t i = 0; i < cloud->points; i++) {
-        double *x = cloud->position + 3 * i;
-        double moved[3] = {0};
-        double distance = 0;
-        for (size_t c = 0; c < (size_t)cloud->dimension; c++) {
-            const double random = random_uniform((unsigned long)body->seed, 3 * i + c);
-            const double margin = 0.05 * body->spacing;
-            moved[c] = x[c] + body->jitter * body->spacing * (2 * random - 1);
-            moved[c] = fmin(fmax(moved[c], body->low[c] + margin), body->high[c] - margin);
-            const double d = moved[c] - body->hole_centre[c];
-            distance += d * d;
-        }
-        if (body->shape == BODY_PLATE_WITH_HOLE && sqrt(distance) < body->hole_radius) continue;
-        memcpy(x, moved, sizeof moved);
-    }
+    for (size_t i = 0; i < cloud->points; i++)
+        move(body, (size_t)cloud->dimension, cloud->first + i, cloud->position + 3 * i);
     memset(cloud->grid, 0, sizeof cloud->grid);
 }
 
@@ -124,6 +145,66 @@ double cloud_filling(const struct cloud *cloud, const struct body *body)
     return volume / body_volume(body, cloud->dimension);
 }
 
+/* No place of a box with jitter is further than D = sqrt(dimension) (step / 2 + jitter spacing) from a point. So those
+ * within R of one cut its cell down to what is within D of it, if 2 D < R, and others do not touch it. */
+static bool cells_are_near(const struct scene *scene, const size_t grid[3])
+{
+    const struct body *body = &scene->body;
+    double step = 0;
+    for (int c = 0; c < scene->dimension; c++)
+        step = fmax(step, (body->high[c] - body->low[c]) / (double)grid[c]);
+    const double distance = sqrt((double)scene->dimension) * (step / 2 + body->jitter * body->spacing);
+    return 2 * distance < 0.999 * cells_radius(body, scene->dimension);
+}
+
+bool cloud_in_planes(const struct scene *scene, size_t grid[3])
+{
+    const struct body *body = &scene->body;
+    if (body->shape != BODY_BOX || body->arrangement != ARRANGEMENT_LATTICE || scene->dimension < 2 ||
+        !(body->spacing > 0))
+        return false;
+    box_grid(scene, grid);
+    return !(body->jitter > 0) || cells_are_near(scene, grid);
+}
+
+size_t cloud_margin(const struct scene *scene)
+{
+    const struct body *body = &scene->body;
+    size_t grid[3];
+    const int last = scene->dimension - 1;
+    if (!(body->jitter > 0)) return 0;
+    box_grid(scene, grid);
+    const double step = (body->high[last] - body->low[last]) / (double)grid[last];
+    return (size_t)ceil((cells_radius(body, scene->dimension) + 2 * body->jitter * body->spacing) / step) + 1;
+}
+
+void cloud_place(const struct scene *scene, size_t point, double position[3])
+{
+    size_t grid[3];
+    double place[3];
+    box_grid(scene, grid);
+    middle_of(scene, grid, point, place);
+    if (scene->body.jitter > 0) move(&scene->body, (size_t)scene->dimension, point, place);
+    body_to_deck(&scene->body, place, position);
+}
+
+selas_status cloud_create_planes(const struct scene *scene, size_t from, size_t end, struct cloud **cloud,
+                                 struct messages *messages)
+{
+    size_t grid[3];
+    *cloud = NULL;
+    box_grid(scene, grid);
+    selas_status status = box(scene, grid, from, end, cloud, messages);
+    if (status != SELAS_OK || *cloud == NULL) return status;
+    if (scene->body.jitter > 0) {
+        jitter(*cloud, &scene->body);
+        status = cloud_cells(*cloud, &scene->body, messages);
+    }
+    if (status == SELAS_OK) status = cloud_surface(*cloud, &scene->body, messages);
+    if (status != SELAS_OK) cloud_free(cloud);
+    return status;
+}
+
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages)
 {
     const struct body *body = &scene->body;
@@ -140,8 +221,11 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
     }
     if (body->shape == BODY_PLATE_WITH_HOLE)
         status = cloud_plate(body, cloud, messages);
-    else
-        status = box(scene, cloud, messages);
+    else {
+        size_t grid[3];
+        box_grid(scene, grid);
+        status = box(scene, grid, 0, grid[scene->dimension - 1], cloud, messages);
+    }
     if (status != SELAS_OK || *cloud == NULL) return status;
     (*cloud)->spacing = body->spacing;
     if (body->jitter > 0) jitter(*cloud, body);

@@ -17,13 +17,17 @@ struct face_element {
     int face; /* enum face or FACES */
 };
 
+/* Of a body whose points are made in planes over its last axis, a part: the points first .. first + points - 1 in
+ * the body's order, and the elements of its surface whose last coordinate is low .. high. */
 struct cloud {
     int dimension;
     size_t points;
+    size_t first, whole; /* 0 and `points` where it is no part */
+    double low, high;
     double *position; /* [3 * points] */
     double *volume;   /* [points] */
     double spacing;   /* nominal */
-    size_t grid[3];   /* points per axis where they form a lattice (x fastest), else 0 */
+    size_t grid[3];   /* points per axis of the body where they form a lattice (x fastest), else 0 */
     size_t elements;
     struct face_element *element;
 };
@@ -32,6 +36,18 @@ struct cloud {
  * surface of the box if their volumes fill it to 2 %. SELAS_BAD_SCENE with the reason where
  * they cannot be made. On failure *cloud is NULL. */
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages);
+/* Points per axis of a scene whose points can be made plane by plane: those of a box in two or three dimensions on a
+ * lattice, with so little jitter that each one's volume hangs on those within the reach of cloud_margin(). False: they
+ * cannot. */
+bool cloud_in_planes(const struct scene *scene, size_t grid[3]);
+/* The part of such a cloud with the planes from .. end - 1 over the last axis (of a lattice with jitter: before it).
+ * SELAS_NO_MEMORY. */
+selas_status cloud_create_planes(const struct scene *scene, size_t from, size_t end, struct cloud **cloud,
+                                 struct messages *messages);
+/* Planes at either end of such a part whose volumes are not those of the body. */
+size_t cloud_margin(const struct scene *scene);
+/* A point of such a cloud by its number in the body, deck coordinates. */
+void cloud_place(const struct scene *scene, size_t point, double position[3]);
 void cloud_free(struct cloud **cloud);
 
 /* The points' volumes over that of the body's box. */
@@ -44,6 +60,7 @@ void hole_angles(const struct body *body, double *first, double *last);
 
 /* The parts, for those who build clouds: room for points (volumes 0) and for surface elements. */
 selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, struct messages *messages);
+/* Nothing to add: the element lies beside the part. */
 selas_status cloud_add_element(struct cloud *cloud, const struct face_element *element,
                                struct messages *messages);
 /* points/surface.c: elements of the box faces (and the hole) about one spacing wide. */

@@ -9,6 +9,8 @@ selas_status cloud_add_element(struct cloud *cloud, const struct face_element *e
                                struct messages *messages)
 {
     enum { CHUNK = 64 };
+    const double place = element->position[cloud->dimension - 1];
+    if (place < cloud->low || place > cloud->high) return SELAS_OK;
     if (cloud->elements % CHUNK == 0) {
         struct face_element *larger =
             realloc(cloud->element, (cloud->elements + CHUNK) * sizeof *cloud->element);

@@ -131,7 +131,8 @@ size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], size_t
     for (size_t z = 0; z < many[2]; z++)
         for (size_t y = 0; y < many[1]; y++)
             for (size_t x = 0; x < many[0]; x++) {
-                index[count] = first[0] + x + grid[0] * (first[1] + y + grid[1] * (first[2] + z));
+                index[count] =
+                    first[0] + x + grid[0] * (first[1] + y + grid[1] * (first[2] + z)) - tl->cloud->first;
                 weight[count] = w[0][x] * w[1][y] * w[2][z];
                 gradient[3 * count] = g[0][x] * w[1][y] * w[2][z];
                 gradient[3 * count + 1] = w[0][x] * g[1][y] * w[2][z];

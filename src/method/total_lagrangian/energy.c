@@ -23,7 +23,7 @@ void tl_weigh(struct model *model, const double *v, double *product)
 {
     const struct tl_model *tl = (const struct tl_model *)model;
     const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t i = 0; i < model->points; i++)
+    for (size_t i = 0; i < tl->cloud->points; i++)
         for (size_t k = d * i; k < d * (i + 1); k++)
             product[k] = tl->mass[i] * v[k];
 }

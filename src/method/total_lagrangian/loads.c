@@ -14,6 +14,13 @@
 #include <math.h>
 #include <string.h>
 
+double tl_probe_radius(const struct tl_model *tl)
+{
+    const struct body *body = &tl->model.scene->body;
+    const double four = tl->options.central ? 2.5 * tl_plane_step(tl) : 0;
+    return fmax(tl->near.radius, four) + body->jitter * body->spacing;
+}
+
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages)
 {
@@ -95,6 +102,13 @@ struct gather {
     struct messages *messages;
 };
 
+/* All points that a value at a place is taken from are this rank's. Where they are not, none of its own is one. */
+static bool within(const struct tl_model *tl, const double place[3])
+{
+    const double along = place[tl->cloud->dimension - 1], radius = tl_probe_radius(tl);
+    return along - radius >= tl->cloud->low && along + radius <= tl->cloud->high;
+}
+
 /* Adds a force (gradient NULL) or a moment tensor at a place. */
 static selas_status add_at(struct tl_model *tl, const double place[3], const double force[3],
                            const double *moment, struct gather *gather)
@@ -104,6 +118,7 @@ static selas_status add_at(struct tl_model *tl, const double place[3], const dou
     size_t index[TL_PROBE_ROOM];
     double weight[TL_PROBE_ROOM] = {0};
     double gradient[3 * TL_PROBE_ROOM] = {0};
+    if (!within(tl, place)) return SELAS_OK;
     const selas_status status = tl_probe(tl, place, &count, index, weight, gradient, gather->messages);
     if (status != SELAS_OK) return status;
     for (size_t k = 0; k < count; k++)
@@ -135,17 +150,24 @@ static void moment_in_body(const struct scene *scene, const struct load *load, d
         body_direction_from_deck(&scene->body, half + 3 * a, moment + 3 * a);
 }
 
+/* A load's patch about a place of the surface. */
+struct patch {
+    const struct load *load;
+    const double *centre, *direction;
+    double *force; /* [dimension * points] */
+};
+
 /* Area of the patch on the surface. */
-static double patch_area(const struct tl_model *tl, const struct load *load, const double centre[3])
+static void add_area(struct tl_model *tl, const void *context, double *area)
 {
-    double area = 0;
+    const struct patch *patch = context;
+    const struct load *load = patch->load;
     for (size_t e = 0; e < tl->cloud->elements; e++) {
         const struct face_element *element = &tl->cloud->element[e];
-        if (element->face == (int)load->face)
-            area += element->area * covered(load, face_axis(load->face), element->position, element->width,
-                                            centre, tl->cloud->dimension);
+        if (element->face == (int)load->face && tl_owns(tl, element->position))
+            *area += element->area * covered(load, face_axis(load->face), element->position, element->width,
+                                             patch->centre, tl->cloud->dimension);
     }
-    return area;
 }
 
 /* Fails if no element of the surface lies on a face. */
@@ -153,6 +175,7 @@ static selas_status need_surface(const struct tl_model *tl, enum face face, stru
 {
     for (size_t e = 0; e < tl->cloud->elements; e++)
         if (tl->cloud->element[e].face == (int)face) return SELAS_OK;
+    if (tl->part.shared) return SELAS_OK; /* of a box, on another rank */
     if (tl->cloud->elements > 0)
         return fail(messages, SELAS_BAD_SCENE,
                     "no point has its normal and area on face '%s' of the body's box low .. high",
@@ -178,36 +201,44 @@ static void uniform_stress(struct tl_model *tl, const double direction[3], enum 
     tl_divergence(tl);
 }
 
-static selas_status traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
-                                    const double direction[3], struct gather *gather)
+/* Forces of the uniform stress on the points under the patch, and their sum. */
+static void add_covered(struct tl_model *tl, const void *context, double *sum)
 {
+    const struct patch *patch = context;
     const struct body *body = &tl->model.scene->body;
     const size_t d = (size_t)tl->cloud->dimension;
-    const int axis = face_axis(load->face);
-    const double plane = face_plane(body, load->face);
+    const int axis = face_axis(patch->load->face);
+    const double plane = face_plane(body, patch->load->face);
     const double reach = fmin(2 * tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
-    double sum = 0;
-    const selas_status known = need_surface(tl, load->face, gather->messages);
-    if (known != SELAS_OK) return known;
-    uniform_stress(tl, direction, load->face);
-    for (size_t i = 0; i < tl->cloud->points; i++) {
+    const struct tl_range range = tl_summed(tl);
+    for (size_t i = range.from; i < range.end; i++) {
         const double *x = tl->cloud->position + 3 * i;
         if (fabs(x[axis] - plane) > reach) continue;
         const double wide = pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
         const double width[3] = {wide, wide, wide};
-        const double part = covered(load, axis, x, width, centre, tl->cloud->dimension);
+        const double part = covered(patch->load, axis, x, width, patch->centre, tl->cloud->dimension);
         for (size_t a = 0; a < d; a++) {
-            gather->force[d * i + a] = part * tl->force[d * i + a];
-            sum += gather->force[d * i + a] * direction[a];
+            patch->force[d * i + a] = part * tl->force[d * i + a];
+            *sum += patch->force[d * i + a] * patch->direction[a];
         }
     }
+}
+
+static selas_status traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
+                                    const double direction[3], struct gather *gather)
+{
+    const struct patch patch = {load, centre, direction, gather->force};
+    const selas_status known = need_surface(tl, load->face, gather->messages);
+    if (known != SELAS_OK) return known;
+    uniform_stress(tl, direction, load->face);
+    const double sum = tl_sum_in_order(tl, add_covered, &patch);
     /* what patches that cut points and scattered points lose or win */
-    const double area = patch_area(tl, load, centre);
+    const double area = tl_sum_in_order(tl, add_area, &patch);
     if (!(sum > 0.5 * area) || !(sum < 2 * area))
         return fail(
             gather->messages, SELAS_BAD_SCENE,
             "a load's patch is too small for the spacing: make it a point load, or the spacing smaller");
-    for (size_t k = 0; k < d * tl->cloud->points; k++)
+    for (size_t k = 0; k < (size_t)tl->cloud->dimension * tl->cloud->points; k++)
         gather->force[k] *= load->amplitude * area / sum;
     return SELAS_OK;
 }
@@ -298,6 +329,7 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
     selas_status status = SELAS_OK;
     if (gather.force == NULL || tl->load == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for loads");
+    status = tl_agree(tl, status, messages);
     for (size_t k = 0; k < scene->loads && status == SELAS_OK; k++) {
         const struct load *load = &scene->load[k];
         if (load_moves(load))
@@ -306,6 +338,7 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
         memset(gather.force, 0, n * sizeof(double));
         status = collect_load(tl, load, &gather);
         if (status == SELAS_OK) status = compress(tl, gather.force, &tl->load[k], messages);
+        status = tl_agree(tl, status, messages);
     }
     array_free(gather.force);
     return status;

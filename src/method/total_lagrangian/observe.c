@@ -10,17 +10,18 @@ selas_status tl_model_probe(struct model *model, const double position[3], struc
 {
     struct tl_model *tl = (struct tl_model *)model;
     size_t count = 0;
-    size_t index[TL_PROBE_ROOM];
+    size_t index[TL_PROBE_ROOM] = {0};
     double weight[TL_PROBE_ROOM];
     double gradient[3 * TL_PROBE_ROOM];
     double place[3];
     body_from_deck(&model->scene->body, position, place);
-    selas_status status = tl_probe(tl, place, &count, index, weight, gradient, messages);
+    const bool own = tl_owns(tl, place);
+    selas_status status = own ? tl_probe(tl, place, &count, index, weight, gradient, messages) : SELAS_OK;
     size_t heaviest = 0;
-    int holder = 0;
+    int holder = own ? 0 : tl_owner(tl, place);
     for (size_t k = 1; k < count; k++)
         if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
-    if (status == SELAS_OK) status = tl_find_holder(tl, count, index, &holder, messages);
+    if (status == SELAS_OK && own) status = tl_find_holder(tl, count, index, &holder, messages);
     if (holder != ranks_me(tl->part.ranks)) count = 0;
     if (status == SELAS_OK) status = probe_allocate(probe, count, messages);
     if (status != SELAS_OK) return status;
@@ -117,6 +118,8 @@ void tl_field(struct model *model, selas_field field, const double *y, const dou
         tl_sites(tl, y, NULL, tl->displacement, NULL);
         tl_gradients(tl);
     }
+    from -= tl->cloud->first;
+    end -= tl->cloud->first;
     for (size_t i = from; i < end; i++) {
         double *out = value + components * (i - from);
         if (!is_vector(field)) {

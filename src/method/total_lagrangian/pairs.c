@@ -46,30 +46,31 @@ static bool add_viscous(struct tl_model *tl, size_t i, const struct tl_work *wor
 }
 
 /* Rows of pairs of sites within a radius, which `add` makes from those near a point. */
-static selas_status pairs(struct tl_model *tl, struct tl_rows *rows, double radius,
+static selas_status pairs(struct tl_making *making, struct tl_rows *rows, double radius,
                           bool (*add)(struct tl_model *, size_t, const struct tl_work *),
-                          const struct neighbours *near, struct tl_work *work, struct messages *messages)
+                          struct messages *messages)
 {
-    const size_t layers = tl_layers_within(tl, radius);
-    for (size_t i = 0; i < tl->cloud->points; i++) {
+    struct tl_model *tl = making->tl;
+    const size_t layers = tl_layers_within(tl->model.scene, tl->cloud->grid, radius);
+    for (size_t i = tl->part.pair.from; i < tl->part.pair.end; i++) {
         struct tl_like like;
         tl_likes(tl, i, layers, &like);
         if (tl_rows_share(tl, rows, i, &like, true)) continue;
-        if (!tl_find_near(tl, near, i, radius, work) || !add(tl, i, work) ||
+        if (!tl_find_near(tl, &making->near, i, radius, &making->work) || !add(tl, i, &making->work) ||
             !tl_rows_close(rows, i, &like, tl->site_position, tl->cloud->spacing))
             return tl_no_memory(tl, messages);
     }
     return tl_rows_end(rows) ? SELAS_OK : tl_no_memory(tl, messages);
 }
 
-selas_status tl_make_hourglass(struct tl_model *tl, double radius, const struct neighbours *near,
-                               struct tl_work *work, struct messages *messages)
+selas_status tl_make_hourglass(struct tl_making *making, struct messages *messages)
 {
-    return pairs(tl, &tl->pair, radius, add_hourglass, near, work, messages);
+    struct tl_model *tl = making->tl;
+    return pairs(making, &tl->pair, tl_pair_radius(tl_largest_spacing(tl)), add_hourglass, messages);
 }
 
-selas_status tl_make_viscosity(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
-                               struct messages *messages)
+selas_status tl_make_viscosity(struct tl_making *making, struct messages *messages)
 {
-    return pairs(tl, &tl->viscous, tl_search_radius(tl), add_viscous, near, work, messages);
+    struct tl_model *tl = making->tl;
+    return pairs(making, &tl->viscous, tl_search_radius(tl), add_viscous, messages);
 }

@@ -140,7 +140,7 @@ void tl_likes(const struct tl_model *tl, size_t i, size_t layers, struct tl_like
         return;
     }
     for (size_t c = 0, stride = 1; c < (size_t)tl->cloud->dimension; stride *= grid[c++]) {
-        const size_t k = i / stride % grid[c];
+        const size_t k = (tl->cloud->first + i) / stride % grid[c];
         const bool between = k >= layers && k + layers < grid[c];
         like->inside = like->inside && between;
         if (k == 0) continue;
@@ -196,15 +196,15 @@ bool tl_rows_share(const struct tl_model *tl, struct tl_rows *rows, size_t i, co
     return false;
 }
 
-double tl_neighbours_of_a_point(const struct tl_model *tl)
+double tl_neighbours(const struct tl_model *tl, struct tl_range range)
 {
     const struct tl_rows *rows = &tl->gradient;
     double sum = 0;
-    for (size_t i = 0; i < rows->points; i++) {
+    for (size_t i = range.from; i < range.end; i++) {
         const size_t first = tl_first(rows, i);
         size_t last = tl_last(rows, i);
         if (last > first && rows->shift[last - 1] == 0) last--; /* what fills up the row */
         sum += (double)(last - first);
     }
-    return sum / (double)rows->points;
+    return sum;
 }

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 
-enum { LONGEST = 64 };
+enum { LONGEST = TL_LONGEST_BLOCK };
 
 static bool same_gradient(const struct tl_model *tl, size_t i, size_t j)
 {
@@ -38,33 +38,66 @@ static void cut(struct tl_blocks *blocks, size_t first, size_t count, bool run)
     }
 }
 
-static selas_status find(const struct tl_model *tl, size_t count,
-                         bool (*same)(const struct tl_model *, size_t, size_t), struct tl_blocks *blocks,
-                         struct messages *messages)
+static bool make_room(struct tl_blocks *blocks, size_t count, struct messages *messages)
 {
-    /* at most count / GROUP runs and one stretch more between them, each with one block that is not full */
-    blocks->block = array_new(2 * (count / GROUP) + count / LONGEST + 2, sizeof *blocks->block);
-    if (blocks->block == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", count);
-    size_t alone = 0; /* where the points begin that stand in no run */
-    for (size_t i = 0; i < count;) {
+    /* at most count / GROUP runs and one stretch more between them, each with one block that is not full; twice, for
+     * points and ghosts */
+    blocks->block = array_new(2 * (count / GROUP) + count / LONGEST + 4, sizeof *blocks->block);
+    if (blocks->block == NULL) fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", count);
+    return blocks->block != NULL;
+}
+
+/* Blocks of points from .. end - 1; returns whether there is a run. */
+static bool find(const struct tl_model *tl, size_t from, size_t end,
+                 bool (*same)(const struct tl_model *, size_t, size_t), struct tl_blocks *blocks)
+{
+    bool runs = false;
+    size_t alone = from; /* where the points begin that stand in no run */
+    for (size_t i = from; i < end;) {
         size_t next = i + 1;
-        while (next < count && same(tl, i, next))
+        while (next < end && same(tl, i, next))
             next++;
         if (next - i >= GROUP) {
             cut(blocks, alone, i - alone, false);
             cut(blocks, i, next - i, true);
             alone = next;
+            runs = true;
         }
         i = next;
     }
-    cut(blocks, alone, count - alone, false);
-    return SELAS_OK;
+    cut(blocks, alone, end - alone, false);
+    return runs;
+}
+
+/* Stresses of points in no run go by groups from the first of their block on, so that blocks are those of the whole
+ * body. Lines of a lattice are alike: with no run here there is none, and its points are one stretch. */
+static void cut_as_whole(const struct tl_model *tl, struct tl_blocks *blocks)
+{
+    const size_t whole = tl->cloud->whole, pieces = (whole + LONGEST - 1) / LONGEST, first = tl->cloud->first;
+    const struct tl_range *made = &tl->part.pair;
+    blocks->count = 0;
+    for (size_t p = (first + made->from) / LONGEST; p < pieces; p++) {
+        const size_t from = whole * p / pieces, to = whole * (p + 1) / pieces;
+        if (to > first + made->end) break;
+        if (from >= first + made->from)
+            blocks->block[blocks->count++] =
+                (struct tl_block){(uint32_t)(from - first), (uint16_t)(to - from), false};
+    }
 }
 
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages)
 {
-    selas_status status = find(tl, tl->cloud->points, same_gradient, &tl->gradient_blocks, messages);
-    if (status == SELAS_OK) status = find(tl, tl->cloud->points, same_stress, &tl->stress_blocks, messages);
-    if (status == SELAS_OK) status = find(tl, tl->sites, same_transposed, &tl->force_blocks, messages);
-    return status;
+    const size_t n = tl->cloud->points;
+    const struct tl_part *part = &tl->part;
+    struct tl_blocks *gradient = &tl->gradient_blocks, *stress = &tl->stress_blocks,
+                     *force = &tl->force_blocks;
+    if (!make_room(gradient, n, messages) || !make_room(stress, n, messages) ||
+        !make_room(force, tl->sites, messages))
+        return SELAS_NO_MEMORY;
+    find(tl, part->gradient.from, part->gradient.end, same_gradient, gradient);
+    const bool runs = find(tl, part->pair.from, part->pair.end, same_stress, stress);
+    if (part->shared && !runs) cut_as_whole(tl, stress);
+    find(tl, part->transposed.from, part->transposed.end, same_transposed, force);
+    find(tl, n, tl->sites, same_transposed, force);
+    return SELAS_OK;
 }

@@ -8,14 +8,19 @@
 #include <math.h>
 #include <string.h>
 
-double tl_radius(const struct tl_model *tl)
+double tl_reach(const struct tl_options *options)
 {
-    double length = tl->options.smoothing_length;
-    if (!(length > 0)) length = tl->options.central ? 0.8 : tl->options.degree == 2 ? 1.3 : 1.5;
-    return length * tl->options.kernel->support * tl->cloud->spacing;
+    double length = options->smoothing_length;
+    if (!(length > 0)) length = options->central ? 0.8 : options->degree == 2 ? 1.3 : 1.5;
+    return length * options->kernel->support;
 }
 
-static void work_free(struct tl_work *work)
+double tl_radius(const struct tl_model *tl)
+{
+    return tl_reach(&tl->options) * tl->cloud->spacing;
+}
+
+void tl_work_free(struct tl_work *work)
 {
     array_free(work->near);
     array_free(work->index);
@@ -26,9 +31,9 @@ static void work_free(struct tl_work *work)
     *work = (struct tl_work){0};
 }
 
-static bool work_allocate(struct tl_work *work, size_t room)
+bool tl_work_allocate(struct tl_work *work, size_t room)
 {
-    work_free(work);
+    tl_work_free(work);
     work->room = room;
     work->near = array_new(room, sizeof *work->near);
     work->index = array_new(room, sizeof *work->index);
@@ -46,7 +51,7 @@ bool tl_find_near(const struct tl_model *tl, const struct neighbours *near, size
     const double *x = tl->site_position + 3 * i;
     work->found = neighbours_within(near, x, radius, work->room, work->near);
     if (work->found <= work->room) return true;
-    if (!work_allocate(work, 2 * work->found)) return false;
+    if (!tl_work_allocate(work, 2 * work->found)) return false;
     work->found = neighbours_within(near, x, radius, work->room, work->near);
     return true;
 }
@@ -159,33 +164,34 @@ selas_status tl_no_memory(const struct tl_model *tl, struct messages *messages)
     return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu points", tl->cloud->points);
 }
 
-size_t tl_layers_within(const struct tl_model *tl, double radius)
+size_t tl_layers_within(const struct scene *scene, const size_t grid[3], double radius)
 {
     double least = radius;
-    for (size_t c = 0; c < (size_t)tl->cloud->dimension && tl->cloud->grid[0] > 0; c++) {
-        const struct body *body = &tl->model.scene->body;
-        least = fmin(least, (body->high[c] - body->low[c]) / (double)tl->cloud->grid[c]);
+    for (size_t c = 0; c < (size_t)scene->dimension && grid[0] > 0; c++) {
+        const struct body *body = &scene->body;
+        least = fmin(least, (body->high[c] - body->low[c]) / (double)grid[c]);
     }
     return (size_t)ceil(radius / least) + 1;
 }
 
-static selas_status fill_gradient(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
-                                  struct messages *messages)
+selas_status tl_fill_gradient(struct tl_making *making, struct messages *messages)
 {
+    struct tl_model *tl = making->tl;
+    struct tl_work *work = &making->work;
     const double most = tl_search_radius(tl);
-    const size_t layers = tl_layers_within(tl, most);
+    const size_t layers = tl_layers_within(tl->model.scene, tl->cloud->grid, most);
     struct tl_rows *rows = &tl->gradient;
-    for (size_t i = 0; i < tl->cloud->points; i++) {
+    for (size_t i = tl->part.gradient.from; i < tl->part.gradient.end; i++) {
         struct tl_like like;
         tl_likes(tl, i, layers, &like);
         if (tl_rows_share(tl, rows, i, &like, false)) continue;
-        const size_t count = fit_point(tl, near, i, most, work);
+        const size_t count = fit_point(tl, &making->near, i, most, work);
         if (count == 0)
             return fail(
                 messages, SELAS_BAD_SCENE,
                 "point %zu at (%g, %g, %g) has too few neighbours for a gradient of degree %d: the body is "
                 "too thin for its spacing",
-                i + 1, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1],
+                tl->cloud->first + i + 1, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1],
                 tl->cloud->position[3 * i + 2], tl->options.degree);
         bool room = count < SIZE_MAX;
         for (size_t k = 0; room && k < count; k++)
@@ -210,7 +216,7 @@ static bool own_weight(const struct tl_model *tl, size_t i, double own[3])
 }
 
 /* Largest distance of the neighbours in the gradients. */
-static double reach_of_rows(const struct tl_model *tl)
+double tl_reach_of_rows(const struct tl_model *tl)
 {
     const struct tl_rows *rows = &tl->gradient;
     double most = 0;
@@ -238,53 +244,32 @@ static bool add_transposed(struct tl_model *tl, size_t s, size_t i)
 }
 
 /* Rows of the sites over the points whose gradients they enter. */
-static selas_status transpose(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
-                              struct messages *messages)
+selas_status tl_transpose(struct tl_making *making, struct messages *messages)
 {
-    const double reach = reach_of_rows(tl);
-    const size_t layers = tl_layers_within(tl, reach) + tl_layers_within(tl, tl_search_radius(tl));
-    for (size_t s = 0; s < tl->sites; s++) {
+    struct tl_model *tl = making->tl;
+    struct tl_work *work = &making->work;
+    const size_t n = tl->cloud->points, *grid = tl->cloud->grid;
+    const struct tl_range *made = &tl->part.transposed;
+    const size_t layers = tl_layers_within(tl->model.scene, grid, making->reach) +
+                          tl_layers_within(tl->model.scene, grid, tl_search_radius(tl));
+    for (size_t s = made->from; s < tl->sites; s++) {
         struct tl_like like;
+        const size_t source = tl_source(tl, s);
+        if (source < made->from || source >= made->end) continue;
         tl_likes(tl, s, layers, &like);
         if (tl_rows_share(tl, &tl->transposed, s, &like, false)) continue;
-        bool room = tl_find_near(tl, near, s, reach, work);
-        for (size_t k = 0; room && k < work->found && work->near[k] < tl->cloud->points; k++)
+        bool room = tl_find_near(tl, &making->near, s, making->reach, work);
+        for (size_t k = 0; room && k < work->found && work->near[k] < n; k++)
             room = add_transposed(tl, s, work->near[k]);
         if (!room || !tl_rows_close(&tl->transposed, s, &like, NULL, 0)) return tl_no_memory(tl, messages);
     }
     return tl_rows_end(&tl->transposed) ? SELAS_OK : tl_no_memory(tl, messages);
 }
 
-/* Ghosts of each point that has some. */
-static selas_status return_rows(struct tl_model *tl, struct messages *messages)
-{
-    const size_t n = tl->cloud->points;
-    uint32_t *count = array_new(n + 1, sizeof *count);
-    bool room = count != NULL;
-    for (size_t g = 0; room && g < tl->ghosts; g++)
-        tl->sources += count[tl->ghost[g].source]++ == 0;
-    tl->source = array_new(tl->sources, sizeof *tl->source);
-    tl->returned_start = array_new(tl->sources + 1, sizeof *tl->returned_start);
-    tl->returned = array_new(tl->ghosts, sizeof *tl->returned);
-    room = room && tl->source != NULL && tl->returned_start != NULL && tl->returned != NULL;
-    for (size_t i = 0, s = 0; room && i < n; i++) {
-        if (count[i] == 0) continue;
-        tl->source[s] = i;
-        tl->returned_start[s + 1] = tl->returned_start[s] + count[i];
-        count[i] = (uint32_t)s++;
-    }
-    for (size_t g = 0; room && g < tl->ghosts; g++)
-        tl->returned[tl->returned_start[count[tl->ghost[g].source]]++] = (uint32_t)g;
-    for (size_t s = tl->sources; room && s > 0; s--) /* moved on while filling, and now back */
-        tl->returned_start[s] = tl->returned_start[s - 1];
-    if (room) tl->returned_start[0] = 0;
-    array_free(count);
-    return room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for %zu ghosts", tl->ghosts);
-}
-
-static double largest_spacing(const struct tl_model *tl)
+double tl_largest_spacing(const struct tl_model *tl)
 {
     double largest = 0;
+    if (tl->part.spacing > 0) return tl->part.spacing;
     for (size_t i = 0; i < tl->cloud->points; i++)
         largest = fmax(largest, tl->spacing[i]);
     return largest;
@@ -292,50 +277,5 @@ static double largest_spacing(const struct tl_model *tl)
 
 double tl_search_radius(const struct tl_model *tl)
 {
-    return 1.5 * tl_radius(tl) / tl->cloud->spacing * largest_spacing(tl);
-}
-
-static selas_status fill_rows(struct tl_model *tl, const struct neighbours *near, struct tl_work *work,
-                              struct messages *messages)
-{
-    const int dimension = tl->cloud->dimension;
-    const size_t n = tl->cloud->points, d = (size_t)dimension;
-    const bool viscous = tl->options.viscosity_alpha > 0 || tl->options.viscosity_beta > 0;
-    bool room = work_allocate(work, 256) && tl_rows_begin(&tl->gradient, dimension, n, d) &&
-                tl_rows_begin(&tl->transposed, dimension, tl->sites, d);
-    if (room && tl->options.hourglass > 0) room = tl_rows_begin(&tl->pair, dimension, n, 1);
-    if (room && viscous) {
-        tl->site_v = array_new(d * tl->sites, sizeof(double));
-        room = tl->site_v != NULL && tl_rows_begin(&tl->viscous, dimension, n, 2);
-    }
-    if (!room) return tl_no_memory(tl, messages);
-    selas_status status = tl->options.form != NULL ? tl->options.form->gradients(tl, near, messages)
-                                                   : fill_gradient(tl, near, work, messages);
-    if (status == SELAS_OK) status = transpose(tl, near, work, messages);
-    if (status == SELAS_OK) status = return_rows(tl, messages);
-    if (status == SELAS_OK && tl->options.hourglass > 0)
-        status = tl_make_hourglass(tl, 1.6 * (1 + 1e-9) * largest_spacing(tl), near, work, messages);
-    if (status == SELAS_OK && viscous) status = tl_make_viscosity(tl, near, work, messages);
-    return status;
-}
-
-selas_status tl_make_rows(struct tl_model *tl, struct messages *messages)
-{
-    struct neighbours near = {0};
-    struct tl_work work = {0};
-    const int d = tl->cloud->dimension;
-    const double most = tl_search_radius(tl), usual = most / 1.5;
-    selas_status status = tl_make_ghosts(tl, most, messages);
-    if (status == SELAS_OK && tl->sites > INT32_MAX / 3)
-        status =
-            fail(messages, SELAS_UNSUPPORTED, "%zu points are more than this method can number", tl->sites);
-    if (status == SELAS_OK)
-        status = tl->options.form != NULL
-                     ? neighbours_find(&near, d, tl->sites, tl->site_position, most, true, messages)
-                     : neighbours_cells(&near, d, tl->sites, tl->site_position, usual, messages);
-    if (status == SELAS_OK) status = fill_rows(tl, &near, &work, messages);
-    if (status == SELAS_OK) status = tl_find_runs(tl, messages);
-    neighbours_free(&near);
-    work_free(&work);
-    return status;
+    return 1.5 * tl_radius(tl) / tl->cloud->spacing * tl_largest_spacing(tl);
 }

@@ -12,27 +12,22 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Points from .. end - 1. */
-struct range {
-    size_t from, end;
-};
-
-static void widen(struct range *range, size_t point)
+static void widen(struct tl_range *range, size_t point)
 {
     if (point < range->from) range->from = point;
     if (point >= range->end) range->end = point + 1;
 }
 
 /* Adds what stands in the row of a point or site. */
-static void add_row(const struct tl_model *tl, const struct tl_rows *rows, size_t i, struct range *range)
+static void add_row(const struct tl_model *tl, const struct tl_rows *rows, size_t i, struct tl_range *range)
 {
     for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
         widen(range, tl_source(tl, tl_neighbour(rows, i, k)));
 }
 
-static struct range with_rows(const struct tl_model *tl, const struct tl_rows *rows, struct range range)
+static struct tl_range with_rows(const struct tl_model *tl, const struct tl_rows *rows, struct tl_range range)
 {
-    struct range wider = range;
+    struct tl_range wider = range;
     for (size_t i = range.from; rows->of != NULL && i < range.end; i++)
         add_row(tl, rows, i, &wider);
     return wider;
@@ -40,7 +35,7 @@ static struct range with_rows(const struct tl_model *tl, const struct tl_rows *r
 
 /* What the forces on a rank's own points take: A of points, H of points, displacements of points. */
 struct reach {
-    struct range own, stress, gradient, window;
+    struct tl_range own, stress, gradient, window;
 };
 
 static struct reach reach_of(const struct tl_model *tl, size_t from, size_t end)
@@ -52,14 +47,14 @@ static struct reach reach_of(const struct tl_model *tl, size_t from, size_t end)
             add_row(tl, &tl->transposed, tl->cloud->points + g, &reach.stress);
     reach.gradient = with_rows(tl, &tl->pair, reach.stress);
     reach.window = with_rows(tl, &tl->gradient, reach.gradient);
-    const struct range near = with_rows(tl, &tl->viscous, reach.own);
+    const struct tl_range near = with_rows(tl, &tl->viscous, reach.own);
     widen(&reach.window, near.from);
     widen(&reach.window, near.end - 1);
     return reach;
 }
 
 /* Blocks that have a site of the range, by the points that they are or mirror. */
-static void keep_blocks(const struct tl_model *tl, struct range range, struct tl_blocks *blocks)
+static void keep_blocks(const struct tl_model *tl, struct tl_range range, struct tl_blocks *blocks)
 {
     size_t kept = 0;
     for (size_t b = 0; b < blocks->count; b++) {
@@ -72,50 +67,69 @@ static void keep_blocks(const struct tl_model *tl, struct range range, struct tl
     blocks->count = kept;
 }
 
-/* Work for a plane of a lattice, or a point: neighbours. */
-static double cost(const void *context, size_t plane)
+/* The window; where memory is shared, that of places among the own points, too: of the points within `radius` of them,
+ * and their rows. */
+static struct tl_range window_of(const struct tl_model *tl, const struct reach *reach)
 {
-    const struct tl_model *tl = context;
-    double sum = 0;
-    for (size_t i = plane * tl->part.plane; i < (plane + 1) * tl->part.plane; i++)
-        sum += (double)(tl_last(&tl->gradient, i) - tl_first(&tl->gradient, i) + tl_last(&tl->transposed, i) -
-                        tl_first(&tl->transposed, i));
-    return sum;
+    struct tl_range window = reach->window, near = reach->own;
+    if (!tl->part.shared) return window;
+    const size_t more = tl->part.plane * (size_t)(0.5 + tl_probe_radius(tl) / tl_plane_step(tl));
+    near.from -= near.from < more ? near.from : more;
+    near.end += tl->cloud->points - near.end < more ? tl->cloud->points - near.end : more;
+    near = with_rows(tl, &tl->gradient, near);
+    widen(&window, near.from);
+    widen(&window, near.end - 1);
+    return window;
+}
+
+/* Windows of all ranks, told by each where memory is shared. Numbers of points are whole and small enough. */
+static void find_windows(struct tl_model *tl, const struct tl_range *own, double *told)
+{
+    struct tl_part *part = &tl->part;
+    const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
+    for (size_t r = 0; r < ranks; r++) {
+        struct tl_range window = *own;
+        if (!part->shared) window = reach_of(tl, part->bound[r], part->bound[r + 1]).window;
+        if (part->shared && r != me) continue;
+        told[2 * r] = (double)(tl->cloud->first + window.from);
+        told[2 * r + 1] = (double)(tl->cloud->first + window.end);
+    }
+    if (part->shared) ranks_largest(part->ranks, 2 * ranks, told);
+    for (size_t k = 0; k < 2 * ranks; k++)
+        part->window[k] = (size_t)told[k];
+}
+
+/* What describe() tells. */
+static void count_all(struct tl_model *tl)
+{
+    struct tl_part *part = &tl->part;
+    const struct tl_range range = tl_summed(tl);
+    double counts[2] = {tl_neighbours(tl, range), 0};
+    for (size_t g = 0; g < tl->ghosts; g++)
+        counts[1] += tl->ghost[g].source >= range.from && tl->ghost[g].source < range.end;
+    if (part->shared) ranks_sum(part->ranks, 2, counts);
+    part->neighbours = counts[0];
+    part->ghosts = counts[1];
 }
 
 selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
 {
     struct tl_part *part = &tl->part;
-    const size_t *grid = tl->cloud->grid;
-    part->end = tl->cloud->points;
-    if (ranks_count(tl->model.scene->ranks) == 1) return SELAS_OK;
-    part->ranks = tl->model.scene->ranks;
-    part->plane = grid[0] > 0 ? tl->cloud->points / grid[tl->cloud->dimension - 1] : 1;
-    const size_t planes = tl->cloud->points / part->plane;
-    const selas_status status = ranks_at_most(part->ranks, planes, "planes over its last axis", messages);
-    if (status != SELAS_OK) return status;
-    const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
-    part->bound = array_new(ranks + 1, sizeof *part->bound);
-    part->window = array_new(2 * ranks, sizeof *part->window);
-    if (part->bound == NULL || part->window == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
-    part->piece = array_new(ranks, sizeof *part->piece);
-    if (part->piece == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
-    ranks_deal(planes, cost, tl, ranks, part->bound);
-    for (size_t r = 0; r <= ranks; r++)
-        part->bound[r] *= part->plane; /* of points */
-    for (size_t r = 0; r < ranks; r++) {
-        const struct reach reach = reach_of(tl, part->bound[r], part->bound[r + 1]);
-        part->window[2 * r] = reach.window.from;
-        part->window[2 * r + 1] = reach.window.end;
-        if (r != me) continue;
+    count_all(tl);
+    if (part->ranks == NULL) return SELAS_OK;
+    double *told = array_new(2 * (size_t)ranks_count(part->ranks), sizeof *told);
+    const selas_status status = tl_agree(
+        tl, told != NULL ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"), messages);
+    if (status == SELAS_OK && told != NULL) {
+        const struct reach reach = reach_of(tl, part->own, part->end);
+        const struct tl_range window = window_of(tl, &reach);
+        find_windows(tl, &window, told);
         keep_blocks(tl, reach.gradient, &tl->gradient_blocks);
         keep_blocks(tl, reach.stress, &tl->stress_blocks);
         keep_blocks(tl, reach.own, &tl->force_blocks);
     }
-    part->own = part->bound[me];
-    part->end = part->bound[me + 1];
-    return SELAS_OK;
+    array_free(told);
+    return status;
 }
 
 void tl_part_free(struct tl_part *part)
@@ -126,58 +140,66 @@ void tl_part_free(struct tl_part *part)
 }
 
 /* Own points of rank `from` in the window of rank `to`. */
-static struct range halo(const struct tl_part *part, size_t from, size_t to)
+static struct tl_range halo(const struct tl_part *part, size_t from, size_t to)
 {
     const size_t low = part->bound[from] > part->window[2 * to] ? part->bound[from] : part->window[2 * to];
     const size_t high =
         part->bound[from + 1] < part->window[2 * to + 1] ? part->bound[from + 1] : part->window[2 * to + 1];
-    return (struct range){low, high > low ? high : low};
+    return (struct tl_range){low, high > low ? high : low};
 }
 
 void tl_exchange(const struct tl_model *tl, double *a)
 {
     const struct tl_part *part = &tl->part;
-    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks);
+    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks),
+                 first = tl->cloud->first;
     size_t pieces = 0;
     for (size_t r = 0; part->ranks != NULL && r < (size_t)ranks_count(part->ranks); r++) {
-        const struct range give = halo(part, me, r), get = halo(part, r, me);
+        const struct tl_range give = halo(part, me, r), get = halo(part, r, me);
         if (r == me || (give.end == give.from && get.end == get.from)) continue;
         part->piece[pieces++] = (struct ranks_piece){.with = (int)r,
-                                                     .send = a + d * give.from,
-                                                     .receive = a + d * get.from,
+                                                     .send = a + d * (give.from - first),
+                                                     .receive = a + d * (get.from - first),
                                                      .send_bytes = d * (give.end - give.from) * sizeof *a,
                                                      .receive_bytes = d * (get.end - get.from) * sizeof *a};
     }
     ranks_exchange(part->ranks, pieces, part->piece);
 }
 
+/* The window of a rank among the points of this one. */
+static struct tl_range window_here(const struct tl_model *tl, size_t rank)
+{
+    const size_t *window = tl->part.window + 2 * rank, first = tl->cloud->first;
+    return (struct tl_range){window[0] - first, window[1] - first};
+}
+
 void tl_keep_window(const struct tl_model *tl, double *u)
 {
-    const struct tl_part *part = &tl->part;
-    if (part->ranks == NULL) return;
-    const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks);
-    memset(u, 0, d * part->window[2 * me] * sizeof *u);
-    memset(u + d * part->window[2 * me + 1], 0,
-           d * (tl->cloud->points - part->window[2 * me + 1]) * sizeof *u);
+    if (tl->part.ranks == NULL) return;
+    const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_range window = window_here(tl, (size_t)ranks_me(tl->part.ranks));
+    memset(u, 0, d * window.from * sizeof *u);
+    memset(u + d * window.end, 0, d * (tl->cloud->points - window.end) * sizeof *u);
 }
 
 /* A rank can take stresses at points whose neighbours all are in its window. */
 static bool sees(const struct tl_model *tl, size_t rank, size_t count, const size_t *index)
 {
-    const size_t *window = tl->part.window + 2 * rank;
-    struct range range = {index[0], index[0] + 1};
+    const struct tl_range window = window_here(tl, rank);
+    struct tl_range range = {index[0], index[0] + 1};
     for (size_t k = 0; k < count; k++) {
         widen(&range, index[k]);
         add_row(tl, &tl->gradient, index[k], &range);
     }
-    return range.from >= window[0] && range.end <= window[1];
+    return range.from >= window.from && range.end <= window.end;
 }
 
 selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
                             struct messages *messages)
 {
-    const size_t ranks = (size_t)ranks_count(tl->part.ranks);
-    size_t rank = 0;
+    const size_t me = (size_t)ranks_me(tl->part.ranks);
+    const size_t ranks = tl->part.shared ? me + 1 : (size_t)ranks_count(tl->part.ranks);
+    size_t rank = tl->part.shared ? me : 0;
     while (tl->part.ranks != NULL && rank < ranks && !sees(tl, rank, count, index))
         rank++;
     *holder = (int)rank;
@@ -192,8 +214,9 @@ selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_
 int tl_holder(const struct model *model, size_t plane)
 {
     const struct tl_part *part = &((const struct tl_model *)model)->part;
+    const size_t points = model->grid[0] > 0 ? part->plane : 1;
     int rank = 0;
-    while (plane * part->plane >= part->bound[rank + 1])
+    while (plane * points >= part->bound[rank + 1])
         rank++;
     return rank;
 }
@@ -202,10 +225,12 @@ void tl_share(struct model *model, enum model_array array, struct spread *shares
 {
     const struct tl_model *tl = (const struct tl_model *)model;
     const struct tl_part *part = &tl->part;
-    const size_t d = (size_t)tl->cloud->dimension, *window = part->window + 2 * ranks_me(part->ranks);
-    const struct spread_run run = {d * window[0], d * window[0], d * (window[1] - window[0]),
-                                   d * (part->own - window[0]), d * (part->end - window[0])};
-    if (array == ARRAY_UNKNOWNS) spread_add(shares, model->unknowns, model->unknowns, &run);
+    const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_range window = window_here(tl, (size_t)ranks_me(part->ranks));
+    const struct spread_run run = {d * window.from, d * (tl->cloud->first + window.from),
+                                   d * (window.end - window.from), d * (part->own - window.from),
+                                   d * (part->end - window.from)};
+    if (array == ARRAY_UNKNOWNS) spread_add(shares, model->unknowns, model->whole_unknowns, &run);
 }
 
 /* The fastest of the own points, or the middle of those that are spoiled. */

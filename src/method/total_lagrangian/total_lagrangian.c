@@ -24,10 +24,10 @@ struct tl_options tl_default_options(void)
         .degree = 2, .hourglass = 0.1, .kernel = kernel_find("cubic"), .law = LAW_SAINT_VENANT_KIRCHHOFF};
 }
 
-static void destroy(struct model *model)
+void tl_free(struct tl_model *tl)
 {
-    struct tl_model *tl = of(model);
-    for (size_t k = 0; tl->load != NULL && k < model->scene->loads; k++) {
+    if (tl == NULL) return;
+    for (size_t k = 0; tl->load != NULL && k < tl->model.scene->loads; k++) {
         array_free(tl->load[k].point);
         array_free(tl->load[k].force);
     }
@@ -62,6 +62,11 @@ static void destroy(struct model *model)
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         array_free(arrays[k]);
     array_free(tl);
+}
+
+static void destroy(struct model *model)
+{
+    tl_free(of(model));
 }
 
 /* All forces but the dampers' into tl->force. */
@@ -113,11 +118,11 @@ static void initialise(struct model *model, double *y)
     const struct tl_model *tl = of(model);
     const struct body *body = &model->scene->body;
     const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t i = 0; i < model->points; i++) {
+    for (size_t i = 0; i < tl->cloud->points; i++) {
         double displacement[3];
         double velocity[3];
         double own[3];
-        initial_at(model->scene, model->position + 3 * i, displacement, velocity);
+        initial_at(model->scene, tl->deck_position + 3 * i, displacement, velocity);
         body_direction_from_deck(body, displacement, own);
         memcpy(y + d * i, own, d * sizeof *y);
         body_direction_from_deck(body, velocity, own);
@@ -140,9 +145,9 @@ static void describe(const struct model *model,
     tell(context, "law", elastic_law_name(tl->options.law));
     snprintf(text, sizeof text, "%s", tl->options.kernel->name);
     tell(context, "kernel", text);
-    snprintf(text, sizeof text, "%.1f", tl_neighbours_of_a_point(tl));
+    snprintf(text, sizeof text, "%.1f", tl->part.neighbours / (double)tl->cloud->whole);
     tell(context, "neighbours a point", text);
-    snprintf(text, sizeof text, "%zu", tl->ghosts);
+    snprintf(text, sizeof text, "%.0f", tl->part.ghosts);
     tell(context, "ghosts", text);
     snprintf(text, sizeof text, "%g", tl->options.hourglass);
     tell(context, "hourglass control", text);
@@ -189,7 +194,7 @@ static const struct model_operator nonlinear_operator = {
     .shorten = tl_shorten,
 };
 
-static selas_status fill_points(struct tl_model *tl, struct messages *messages)
+selas_status tl_fill_points(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
     const size_t n = tl->cloud->points;
@@ -205,7 +210,8 @@ static selas_status fill_points(struct tl_model *tl, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", n);
     for (size_t i = 0; i < n; i++) {
         const double *x = tl->cloud->position + 3 * i;
-        tl->material[i] = scene_point_material(scene, i, x[d - 1] - scene->body.low[d - 1]);
+        tl->material[i] =
+            scene_point_material(scene, tl->cloud->first + i, x[d - 1] - scene->body.low[d - 1]);
         tl->elastic[i] = elastic_of(tl->material[i], tl->options.law, scene->dimension, scene->plane);
         tl->mass[i] = tl->material[i]->density * tl->cloud->volume[i];
         /* of clouds points on faces have half volumes */
@@ -229,12 +235,15 @@ static void fill_model(struct tl_model *tl)
     const bool viscous = tl->site_v != NULL;
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;
-    model->points = n;
-    model->position = tl->deck_position;
+    model->points = tl->cloud->whole;
+    if (tl->part.shared)
+        model->place = cloud_place;
+    else
+        model->position = tl->deck_position;
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
     model->unknowns = d * n;
     model->state_size = 2 * d * n;
-    if (tl->part.ranks != NULL) model->whole_unknowns = d * n;
+    if (tl->part.ranks != NULL) model->whole_unknowns = d * model->points;
     model->component_stride = 1;
     model->point_stride = d;
     model->damped = tl->damper != NULL || viscous;
@@ -280,19 +289,24 @@ selas_status total_lagrangian_create(const struct scene *scene, const struct tl_
     tl->model.core = &core;
     tl->options = *options;
     const struct tl_form *form = options->form;
-    selas_status status =
-        form != NULL ? form->points(scene, &tl->cloud, messages) : cloud_create(scene, &tl->cloud, messages);
+    selas_status status = tl_make_points(tl, messages);
+    if (status == SELAS_STOPPED) {
+        destroy(&tl->model);
+        return status;
+    }
     if (status == SELAS_OK && options->central && tl->cloud->grid[0] == 0)
         status =
             fail(messages, SELAS_UNSUPPORTED,
                  "method%%gradient = 'central' needs points on a lattice without jitter; take 'quadratic' or "
                  "'linear'");
-    if (status == SELAS_OK) status = fill_points(tl, messages);
-    if (status == SELAS_OK) status = tl_make_rows(tl, messages);
+    if (status == SELAS_OK) status = tl_fill_points(tl, messages);
+    status = tl_make_rows(tl, status, messages);
     if (status == SELAS_OK && form != NULL) status = form->hold(tl, messages);
     if (status == SELAS_OK) status = allocate_numbers(tl, messages);
+    status = tl_agree(tl, status, messages);
     if (status == SELAS_OK) status = tl_make_loads(tl, messages);
     if (status == SELAS_OK) status = tl_make_dampers(tl, messages);
+    status = tl_agree(tl, status, messages);
     if (status == SELAS_OK) status = tl_share_points(tl, messages);
     if (status != SELAS_OK) {
         destroy(&tl->model);

@@ -107,7 +107,13 @@ struct tl_load {
     double *force; /* [dimension * count], amplitude included */
 };
 
-/* The points of a rank (share.c); alone, all. */
+/* Points from .. end - 1. */
+struct tl_range {
+    size_t from, end;
+};
+
+/* The points of a rank (share.c); alone, all. Where memory is shared (planes.c) the cloud is a part of the body, and
+ * numbers of points are those of the part, but for those of `bound` and `window`. */
 struct tl_part {
     struct ranks *ranks; /* NULL: alone */
     size_t own, end;     /* own points: own .. end - 1 */
@@ -115,6 +121,13 @@ struct tl_part {
     size_t *bound;       /* [ranks + 1]: own points of each rank */
     size_t *window;      /* [2 * ranks]: first point of the window of each rank, and the one after its last */
     struct ranks_piece *piece; /* [ranks], of an exchange */
+    bool shared;               /* memory is */
+    struct tl_range gradient, transposed,
+        pair;             /* points whose rows are made: of pairs, the viscous ones too */
+    size_t layers, reach; /* planes: from a face on that may feel it, and that a row reaches over; 0: the part
+                                  begins with the body */
+    double spacing;       /* the largest one of all points, if it is not that of each; else 0 */
+    double neighbours, ghosts; /* in the gradients of all points, and of all ranks, for describe() */
 };
 
 struct tl_model {
@@ -160,8 +173,33 @@ struct tl_model {
 
 /* ghosts.c: sites beyond and on the faces. */
 selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages *messages);
-/* setup.c: gradient weights, hourglass pairs, viscosity pairs. */
-selas_status tl_make_rows(struct tl_model *tl, struct messages *messages);
+/* planes.c: the points of the body, or a rank's part of them. SELAS_STOPPED: this rank has no work. */
+selas_status tl_make_points(struct tl_model *tl, struct messages *messages);
+/* Planes from .. end - 1 of the body, no rank's own, with no rows; free with tl_free(), whatever the status. */
+selas_status tl_make_beside(const struct tl_model *tl, size_t from, size_t end, struct tl_model **beside,
+                            struct messages *messages);
+/* The first planes of the body, of which the rows of those in its midst are taken. */
+selas_status tl_make_below(const struct tl_model *tl, struct tl_model **below, struct messages *messages);
+/* Together where memory is shared; else nothing to do. */
+selas_status tl_agree(const struct tl_model *tl, selas_status status, struct messages *messages);
+/* Together where memory is shared: the sum with which add() goes on from 0, over the own points of rank after rank. */
+double tl_sum_in_order(struct tl_model *tl,
+                       void (*add)(struct tl_model *tl, const void *context, double *sum),
+                       const void *context);
+/* Own points for such sums: all, where memory is not shared. */
+struct tl_range tl_summed(const struct tl_model *tl);
+/* Spacing of a lattice over the last axis. */
+double tl_plane_step(const struct tl_model *tl);
+/* The rank that a place of the body's frame belongs to, where memory is shared. */
+int tl_owner(const struct tl_model *tl, const double place[3]);
+/* It is this one, or memory is not shared. */
+bool tl_owns(const struct tl_model *tl, const double place[3]);
+/* The numbers that belong to each point: mass, material, place; where the points are. */
+selas_status tl_fill_points(struct tl_model *tl, struct messages *messages);
+void tl_free(struct tl_model *tl); /* NULL is fine */
+/* make_rows.c: gradient weights, hourglass pairs, viscosity pairs. Together where memory is shared, whatever the
+ * status so far. */
+selas_status tl_make_rows(struct tl_model *tl, selas_status status, struct messages *messages);
 /* Points before one that may share its row; `sure` of them do, but for ghosts. `inside`: no ghost is near. */
 struct tl_like {
     size_t before, sure, point[3];
@@ -176,7 +214,7 @@ bool tl_rows_close(struct tl_rows *rows, size_t i, const struct tl_like *like, c
 bool tl_rows_end(struct tl_rows *rows);
 void tl_rows_free(struct tl_rows *rows);
 size_t tl_rows_bytes(const struct tl_rows *rows);
-double tl_neighbours_of_a_point(const struct tl_model *tl); /* mean number in the gradients */
+double tl_neighbours(const struct tl_model *tl, struct tl_range range); /* in the gradients of these points */
 void tl_likes(const struct tl_model *tl, size_t i, size_t layers, struct tl_like *like);
 /* Takes the row of a point that is sure to have the same; false if there is none. */
 bool tl_rows_share(const struct tl_model *tl, struct tl_rows *rows, size_t i, const struct tl_like *like,
@@ -184,7 +222,9 @@ bool tl_rows_share(const struct tl_model *tl, struct tl_rows *rows, size_t i, co
 bool tl_near(double a, double b, double scale); /* the same but for the rounding of positions */
 /* runs.c: cuts the points into blocks, after all rows are there. */
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages);
-double tl_radius(const struct tl_model *tl);        /* of the weights, in length */
+enum { TL_LONGEST_BLOCK = 64 };
+double tl_reach(const struct tl_options *options);  /* of the weights, in spacings */
+double tl_radius(const struct tl_model *tl);        /* the same in length */
 double tl_search_radius(const struct tl_model *tl); /* the largest a point's weights may take */
 /* Neighbours that a quadratic fit should have: those of a point inside a lattice; linear ones take what there
  * is. */
@@ -201,6 +241,8 @@ bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis);
 /* loads.c */
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
+/* How far from a place the points are at most that tl_probe() takes. */
+double tl_probe_radius(const struct tl_model *tl);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
 /* energy.c: adds what the loads of a drive pull at the points to tl->force; entries of the
@@ -220,14 +262,14 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
                 const double *a, double *value);
 void tl_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
               size_t end, double *value);
-/* share.c: after all else of the set-up, shares the points and keeps the blocks that the own ones need. SELAS_STOPPED:
- * this rank has no work. */
+/* share.c: together, after all else of the set-up: finds the windows and keeps the blocks that the own points need. */
 selas_status tl_share_points(struct tl_model *tl, struct messages *messages);
 void tl_part_free(struct tl_part *part);
 void tl_exchange(const struct tl_model *tl,
                  double *a); /* together: a like u of own points to the windows they are in */
 void tl_keep_window(const struct tl_model *tl, double *u); /* 0 outside */
-/* The first rank that reads a value from `count` points. SELAS_UNSUPPORTED if the windows of all are too small. */
+/* The rank that reads a value from `count` points about a place: the owner of the place, where memory is shared, else
+ * the first whose window has the points. SELAS_UNSUPPORTED if no window has. */
 selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
                             struct messages *messages);
 /* Entries of the model's class, on ranks. */
