@@ -127,7 +127,7 @@ static void write_precision(FILE *out, const struct recorder *recorder)
             size[i % 6 / 3] = fmax(size[i % 6 / 3], fabs(recorder->trace[r].value[i]));
         if (size[0] == 0.0 || size[1] == 0.0) continue;
         const double turned = recorder->stepper->dt * size[1] / size[0];
-        worst = fmax(worst, 0x1p-24 * ((3.0 + 1.0 / turned) * sqrt(steps) + 2.0 * steps * turned));
+        worst = fmax(worst, 0x1p-24 * ((3.0 + 1.5 / turned) * sqrt(steps) + 2.0 * steps * turned));
     }
     if (recorder->model->single && worst > 0.0)
         fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",
