@@ -115,9 +115,7 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
     }
 }
 
-/* What rounding of the state adds: each step rounds u and the sums of a anew, and the weights in single
- * precision are those of a ground whose waves are a little faster or slower (doc/developers/performance.md, F3); each
- * operator of damped ground adds as much. */
+/* What rounding of the state adds (doc/developers/performance.md, F3); each operator of damped ground adds as much. */
 static void write_precision(FILE *out, const struct recorder *recorder)
 {
     const double steps = (double)recorder->last_step;
@@ -127,9 +125,9 @@ static void write_precision(FILE *out, const struct recorder *recorder)
         double size[2] = {0.0, 0.0};
         for (size_t i = 0; i < 6 * recorder->rows; i++)
             size[i % 6 / 3] = fmax(size[i % 6 / 3], fabs(recorder->trace[r].value[i]));
-        if (size[0] == 0.0) continue;
+        if (size[0] == 0.0 || size[1] == 0.0) continue;
         const double turned = recorder->stepper->dt * size[1] / size[0];
-        worst = fmax(worst, 0x1p-24 * (3.0 * sqrt(steps) + 2.0 * steps * turned));
+        worst = fmax(worst, 0x1p-24 * ((3.0 + 1.5 / turned) * sqrt(steps) + 2.0 * steps * turned));
     }
     if (recorder->model->single && worst > 0.0)
         fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",

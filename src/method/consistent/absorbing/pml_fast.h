@@ -35,9 +35,11 @@ enum { PART_LAMBDA = 3, PART_MU = 4, FAST_PARTS = 5, FAST_CROSSES = 2 };
 /* Roles of the axes. */
 enum role { ROLE_S, ROLE_B, ROLE_F };
 
-/* A matrix over rows: each group of rows of the result with those that it is made from. */
+/* A matrix over rows: each group of rows of the result with those that it is made from. With `changes` the weights of
+ * the input in the middle are the sums of all, and the others are taken of differences from it. */
 struct row_group {
     size_t to, rows, from, inputs;
+    bool changes;
     void *weight; /* [inputs][rows] */
 };
 struct row_table {

@@ -19,9 +19,11 @@ static const struct NAME(pml_kernels) * kernels(void)
 static void apply_group(const struct row_group *group, const REAL *in, size_t in_step, size_t width, bool add,
                         REAL *out, size_t out_step)
 {
-    (add ? kernels()->add : kernels()->set)[group->rows]((const REAL *)group->weight, group->inputs,
-                                                         in + group->from * in_step, in_step, width, out,
-                                                         out_step);
+    const struct NAME(pml_kernels) *k = kernels();
+    (add              ? k->add
+     : group->changes ? k->change
+                      : k->set)[group->rows]((const REAL *)group->weight, group->inputs,
+                                             in + group->from * in_step, in_step, width, out, out_step);
 }
 
 static void apply(const struct row_table *table, const REAL *in, size_t width, size_t step, bool add,

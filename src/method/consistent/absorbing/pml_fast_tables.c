@@ -58,6 +58,23 @@ static bool lay_group(struct row_group *group, const struct band *band, double f
     return group->weight != NULL;
 }
 
+/* Floats: the rows from now on take differences, so that their rounding does not act on an even displacement like a
+ * load. */
+static void take_changes(struct row_table *table, const struct band *band, double factor, size_t row,
+                         size_t column)
+{
+    for (size_t g = 0; g < table->groups; g++) {
+        struct row_group *group = &table->group[g];
+        for (size_t r = 0; group->inputs > 0 && r < group->rows; r++) {
+            double sum = 0;
+            for (size_t t = 0; t < group->inputs; t++)
+                sum += factor * band_get(band, row + group->to + r, column + group->from + t);
+            put(group->weight, group->inputs / 2 * group->rows + r, sum, true);
+        }
+        group->changes = group->inputs > 0;
+    }
+}
+
 /* Rows or columns of a matrix. */
 struct span {
     size_t from, n;
@@ -208,6 +225,8 @@ bool pml_lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool
             lay_across(fast, &fast->pull[i], term_of(&terms->pull, i, i), region, inside, single) &&
             (j == DEPTH || second->matrix[DEPTH] == NULL ||
              lay_over_b(fast, &fast->bare[i], second, 1, single));
+        if (good && single)
+            take_changes(&fast->second[i], second->matrix[j], second->factor, inside.from, region.from);
     }
     return good && lay_crosses(fast, terms, inside, region, single) &&
            lay_overs(fast, terms, inside, region, single) &&

@@ -6,13 +6,15 @@
 #include "base/processor.h"
 #include "method/consistent/absorbing/pml_fast.h"
 
-/* What the functions do is said in pml_loops.h; set, add and along by the number of rows. */
+/* What the functions do is said in pml_loops.h; set, add, change and along by the number of rows. */
 #define PML_KERNELS(real, precision)                                                                         \
     struct pml_kernels_##precision {                                                                         \
         void (*set[FAST_ROWS + 1])(const real *weight, size_t inputs, const real *in, size_t in_step,        \
                                    size_t width, real *out, size_t out_step);                                \
         void (*add[FAST_ROWS + 1])(const real *weight, size_t inputs, const real *in, size_t in_step,        \
                                    size_t width, real *out, size_t out_step);                                \
+        void (*change[FAST_ROWS + 1])(const real *weight, size_t inputs, const real *in, size_t in_step,     \
+                                      size_t width, real *out, size_t out_step);                             \
         void (*along[FAST_ROWS + 1])(const real *matrix, size_t taps, const real *in, size_t in_step,        \
                                      size_t width, real *out);                                               \
         void (*load)(const real *u, const real *v, real factor, size_t rows, size_t step_row, size_t n,      \

@@ -13,38 +13,51 @@ INLINED const lanes *at(const REAL *place)
     return (const lanes *)place;
 }
 
-/* out row r := (add: out row r) + sum over t of weight[t * of + r] times in row t, `count` vectors. */
-INLINED void rows_block(const int rows, const int of, const int count, const bool add,
+/* What sums of rows begin with: 0, what is there, or (CHANGE) the sum of the weights times the input in the
+ * middle, where that sum stands in the place of the middle's weight and the other inputs are less the middle. */
+enum begin { SET, ADD, CHANGE };
+
+/* out row r := (ADD: out row r) + sum over t of weight[t * of + r] times in row t, `count` vectors. */
+INLINED void rows_block(const int rows, const int of, const int count, const enum begin begin,
                         const REAL *restrict weight, size_t inputs, const REAL *in, size_t in_step, REAL *out,
                         size_t out_step)
 {
-    lanes sum[FAST_ROWS][MOST_VECTORS];
-    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] =
-        add ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
+    lanes sum[FAST_ROWS][MOST_VECTORS], middle[MOST_VECTORS];
+    UNROLLED for (int v = 0; begin == CHANGE && v < count; v++) middle[v] =
+        *at(in + inputs / 2 * in_step + v * LANES);
+    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++)
+    {
+        sum[r][v] = begin == ADD ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
+        if (begin == CHANGE) sum[r][v] = weight[inputs / 2 * (size_t)of + (size_t)r] * middle[v];
+    }
     for (size_t t = 0; t < inputs; t++, weight += of, in += in_step)
-        UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] +=
-            weight[r] * *at(in + v * LANES);
+        UNROLLED for (int v = 0; v < count; v++)
+        {
+            lanes value = *at(in + v * LANES);
+            if (begin == CHANGE) value -= middle[v];
+            UNROLLED for (int r = 0; r < rows; r++) sum[r][v] += weight[r] * value;
+        }
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) *
         (lanes *)(out + (size_t)r * out_step + v * LANES) = sum[r][v];
 }
 
 /* Rows in two halves where not all sums of two vectors find registers, since one vector alone would need a
  * weight for each multiplication. Few rows: four vectors, as few sums wait for each other. */
-INLINED void rows_all(const int rows, const bool add, const REAL *weight, size_t inputs, const REAL *in,
-                      size_t in_step, size_t width, REAL *out, size_t out_step)
+INLINED void rows_all(const int rows, const enum begin begin, const REAL *weight, size_t inputs,
+                      const REAL *in, size_t in_step, size_t width, REAL *out, size_t out_step)
 {
     const int half = FEW_REGISTERS && rows > 6 ? rows / 2 : rows;
     const int count = FEW_REGISTERS && rows < 3 ? MOST_VECTORS : 2;
     const size_t together = (size_t)count * LANES;
     size_t i = 0;
     for (; i + together <= width; i += together) {
-        rows_block(half, rows, count, add, weight, inputs, in + i, in_step, out + i, out_step);
+        rows_block(half, rows, count, begin, weight, inputs, in + i, in_step, out + i, out_step);
         if (half < rows)
-            rows_block(rows - half, rows, count, add, weight + half, inputs, in + i, in_step,
+            rows_block(rows - half, rows, count, begin, weight + half, inputs, in + i, in_step,
                        out + i + (size_t)half * out_step, out_step);
     }
     for (; i < width; i += LANES)
-        rows_block(rows, rows, 1, add, weight, inputs, in + i, in_step, out + i, out_step);
+        rows_block(rows, rows, 1, begin, weight, inputs, in + i, in_step, out + i, out_step);
 }
 
 /* out row r += matrix by diagonals times in row r, with its neighbours. */
@@ -67,12 +80,17 @@ INLINED void along_all(const int rows, const REAL *restrict matrix, size_t taps,
     static void set_##rows(const REAL *weight, size_t inputs, const REAL *in, size_t in_step, size_t width,  \
                            REAL *out, size_t out_step)                                                       \
     {                                                                                                        \
-        rows_all(rows, false, weight, inputs, in, in_step, width, out, out_step);                            \
+        rows_all(rows, SET, weight, inputs, in, in_step, width, out, out_step);                              \
     }                                                                                                        \
     static void add_##rows(const REAL *weight, size_t inputs, const REAL *in, size_t in_step, size_t width,  \
                            REAL *out, size_t out_step)                                                       \
     {                                                                                                        \
-        rows_all(rows, true, weight, inputs, in, in_step, width, out, out_step);                             \
+        rows_all(rows, ADD, weight, inputs, in, in_step, width, out, out_step);                              \
+    }                                                                                                        \
+    static void change_##rows(const REAL *weight, size_t inputs, const REAL *in, size_t in_step,             \
+                              size_t width, REAL *out, size_t out_step)                                      \
+    {                                                                                                        \
+        rows_all(rows, CHANGE, weight, inputs, in, in_step, width, out, out_step);                           \
     }                                                                                                        \
     static void along_##rows(const REAL *matrix, size_t taps, const REAL *in, size_t in_step, size_t width,  \
                              REAL *out)                                                                      \
@@ -160,4 +178,4 @@ static bool loud(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
         NULL, name##_1, name##_2, name##_3, name##_4, name##_5, name##_6, name##_7, name##_8, name##_9       \
     }
 const struct NAME(pml_kernels) OF_PROCESSOR(NAME(pml_kernels)) = {
-    BY_ROWS(set), BY_ROWS(add), BY_ROWS(along), load, store, sum_up, move, loud};
+    BY_ROWS(set), BY_ROWS(add), BY_ROWS(change), BY_ROWS(along), load, store, sum_up, move, loud};

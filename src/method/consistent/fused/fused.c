@@ -246,16 +246,38 @@ void fused_shorten(void *table, size_t n)
     }
 }
 
+/* The weight of the value in the middle becomes the sum of all (passes_over.h, DIFFERENCES). */
+static void sum_in_middle(double *weight, size_t taps, size_t apart, size_t middle)
+{
+    double sum = 0;
+    for (size_t t = 0; t < taps; t++)
+        sum += weight[t * apart];
+    weight[middle * apart] = sum;
+}
+
 static void shorten_all(struct fused *f)
 {
+    const size_t narrow = (size_t)f->narrow, deep = (size_t)f->deep, group = FUSED_VECTOR / f->number;
+    for (int which = SIDE_S_EVEN; which <= SIDE_S_ODD; which++) {
+        for (size_t i = 0; i < f->width; i++)
+            sum_in_middle((double *)f->x[which] + i / group * narrow * group + i % group, narrow, group,
+                          narrow / 2);
+        for (size_t i = 0; i < f->n[1]; i++)
+            if (!f->plain[i / FUSED_ROWS])
+                sum_in_middle((double *)f->y[which] + i * narrow, narrow, 1, narrow / 2);
+    }
     for (int which = 0; which < SIDE_MATRICES; which++) {
-        const size_t taps = (size_t)(which == SIDE_N_EVEN || which == SIDE_N_ODD ? f->wide : f->narrow);
+        const size_t taps = which <= SIDE_N_ODD ? (size_t)f->wide : narrow;
         fused_shorten(f->x[which], taps * f->width);
         fused_shorten(f->y[which], taps * rounded(f->n[1], FUSED_ROWS));
     }
-    for (int component = 0; component < 3; component++)
+    for (int component = 0; component < 3; component++) {
+        double *stiff = f->z[component][OVER_DEPTH_A];
+        for (size_t k = 0; k < f->n[2]; k++)
+            sum_in_middle(stiff + k * deep, deep, 1, deep / 2 - k % FUSED_PLANES);
         for (int which = 0; which < OVER_DEPTH_MATRICES; which++)
-            fused_shorten(f->z[component][which], (size_t)f->deep * rounded(f->n[2], FUSED_PLANES));
+            fused_shorten(f->z[component][which], deep * rounded(f->n[2], FUSED_PLANES));
+    }
 }
 
 /* Tables and rings for numbers of so many bytes; NULL: no memory. */

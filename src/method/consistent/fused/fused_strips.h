@@ -36,11 +36,12 @@ static REAL *row_of(const struct strip *s, REAL *ring, enum fused_row field, siz
 
 /* out := init + matrix `side` of y times a field, rows j .. j + 3; init may be out. Rows beyond the ends are
  * read, times 0. */
-static void y_pass(const struct strip *s, struct span span, bool wide, enum fused_side side,
-                   enum fused_row field, size_t j, const REAL *init, REAL *out)
+static void y_pass(const struct strip *s, struct span span, enum fused_side side, enum fused_row field,
+                   size_t j, const REAL *init, REAL *out)
 {
     const struct fused *f = s->f;
     const REAL *rows[FUSED_MOST_TAPS];
+    const bool wide = side <= SIDE_N_ODD, stiff = !wide && side <= SIDE_S_ODD;
     const size_t taps = (size_t)(wide ? f->wide : f->narrow);
     const REAL *weight = (const REAL *)f->y[side] + j * taps;
     const size_t ring = s->in_ring->rows[field];
@@ -51,19 +52,21 @@ static void y_pass(const struct strip *s, struct span span, bool wide, enum fuse
     }
     const bool plain = f->plain[j / FUSED_ROWS];
     const int of = wide ? s->sweeps : 0;
-    (plain ? s->kernel->of[of].y : s->kernel->of[of].y_ends)(weight, rows, init + span.at, span.n, f->stride,
-                                                             out + span.at);
+    NAME(fused_y) *pass = plain ? s->kernel->of[of].y : s->kernel->of[of].y_ends;
+    if (stiff) pass = plain ? s->kernel->y_stiff : s->kernel->y_stiff_ends;
+    pass(weight, rows, init + span.at, span.n, f->stride, out + span.at);
 }
 
 /* Narrow passes are made for wide ones, which read beyond the window. */
-static void x_pass(const struct strip *s, bool wide, enum fused_side side, const REAL *in, const REAL *init,
-                   REAL *out)
+static void x_pass(const struct strip *s, enum fused_side side, const REAL *in, const REAL *init, REAL *out)
 {
     const struct fused *f = s->f;
+    const bool wide = side <= SIDE_N_ODD, stiff = !wide && side <= SIDE_S_ODD;
     const struct span span = wide ? s->own : s->all;
     const size_t taps = (size_t)(wide ? f->wide : f->narrow);
-    s->kernel->of[wide ? s->sweeps : 0].x((const REAL *)f->x[side] + span.at * taps, in + span.at,
-                                          init + span.at, span.n, f->stride, out + span.at);
+    NAME(fused_x) *pass = stiff ? s->kernel->x_stiff : s->kernel->of[wide ? s->sweeps : 0].x;
+    pass((const REAL *)f->x[side] + span.at * taps, in + span.at, init + span.at, span.n, f->stride,
+         out + span.at);
 }
 
 /* The passes along x that need nothing of y: g = C_z u_z + N_x G_x b_x, and what goes into a_y and a_z. */
@@ -72,18 +75,18 @@ static void first_rows(const struct strip *s, size_t j)
     const struct fused *f = s->f;
     REAL *ring = s->ring, *spare = s->spare;
     REAL *ay = row_of(s, ring, ROW_AY, j), *az = row_of(s, ring, ROW_AZ, j);
-    x_pass(s, false, SIDE_G_FIRST, row_of(s, ring, ROW_BX_MIXED, j), s->zero, spare);
-    x_pass(s, true, SIDE_N_EVEN, spare, row_of(s, ring, ROW_CZ, j), row_of(s, ring, ROW_G, j));
+    x_pass(s, SIDE_G_FIRST, row_of(s, ring, ROW_BX_MIXED, j), s->zero, spare);
+    x_pass(s, SIDE_N_EVEN, spare, row_of(s, ring, ROW_CZ, j), row_of(s, ring, ROW_G, j));
     if (j < s->from || j >= s->end) return;
     const REAL *before = s->zero;
     if (!f->bulk) {
-        x_pass(s, false, SIDE_S_EVEN, row_of(s, ring, ROW_BY_SHEAR, j), s->zero, spare);
-        x_pass(s, true, SIDE_N_EVEN, spare, ay, ay);
-        x_pass(s, false, SIDE_S_EVEN, row_of(s, ring, ROW_BZ, j), s->zero, spare);
+        x_pass(s, SIDE_S_EVEN, row_of(s, ring, ROW_BY_SHEAR, j), s->zero, spare);
+        x_pass(s, SIDE_N_EVEN, spare, ay, ay);
+        x_pass(s, SIDE_S_EVEN, row_of(s, ring, ROW_BZ, j), s->zero, spare);
         before = spare;
     }
-    x_pass(s, false, SIDE_G_FIRST, row_of(s, ring, ROW_CX, j), before, spare);
-    x_pass(s, true, SIDE_N_EVEN, spare, az, az);
+    x_pass(s, SIDE_G_FIRST, row_of(s, ring, ROW_CX, j), before, spare);
+    x_pass(s, SIDE_N_EVEN, spare, az, az);
 }
 
 /* Narrow passes over y. */
@@ -92,12 +95,12 @@ static void second_rows(const struct strip *s, size_t j)
     const struct fused *f = s->f;
     REAL *t1 = row_of(s, s->ring, ROW_T1, j), *t2 = row_of(s, s->ring, ROW_T2, j);
     REAL *t3 = row_of(s, s->ring, ROW_T3, j), *t4 = row_of(s, s->ring, ROW_T4, j);
-    y_pass(s, s->all, false, SIDE_G_FIRST, ROW_BY_MIXED, j, s->zero, t1);
-    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BX_SHEAR, j, s->zero, t2);
-    y_pass(s, s->own, false, SIDE_S_ODD, ROW_BY, j, s->zero, t3);
-    y_pass(s, s->own, false, SIDE_G_SECOND, ROW_G, j, t3, t3);
-    if (!f->bulk) y_pass(s, s->own, false, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
-    y_pass(s, s->own, false, SIDE_G_FIRST, ROW_CY, j, f->bulk ? s->zero : t4, t4);
+    y_pass(s, s->all, SIDE_G_FIRST, ROW_BY_MIXED, j, s->zero, t1);
+    if (!f->bulk) y_pass(s, s->own, SIDE_S_EVEN, ROW_BX_SHEAR, j, s->zero, t2);
+    y_pass(s, s->own, SIDE_S_ODD, ROW_BY, j, s->zero, t3);
+    y_pass(s, s->own, SIDE_G_SECOND, ROW_G, j, t3, t3);
+    if (!f->bulk) y_pass(s, s->own, SIDE_S_EVEN, ROW_BZ, j, s->zero, t4);
+    y_pass(s, s->own, SIDE_G_FIRST, ROW_CY, j, f->bulk ? s->zero : t4, t4);
 }
 
 /* Wide passes over y, and along x of what waited for them. */
@@ -107,13 +110,13 @@ static void third_rows(const struct strip *s, size_t j)
     REAL *ring = s->ring, *spare = s->spare;
     REAL *ax = row_of(s, ring, ROW_AX, j), *ay = row_of(s, ring, ROW_AY, j), *az = row_of(s, ring, ROW_AZ, j);
     REAL *divergence = row_of(s, ring, ROW_CZ, j);
-    y_pass(s, s->all, true, SIDE_N_EVEN, ROW_T1, j, divergence, divergence);
-    if (!f->bulk) y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T2, j, ax, ax);
-    y_pass(s, s->own, true, SIDE_N_ODD, ROW_T3, j, f->bulk ? s->zero : ay, ay);
-    y_pass(s, s->own, true, SIDE_N_EVEN, ROW_T4, j, az, az);
-    x_pass(s, false, SIDE_S_ODD, row_of(s, ring, ROW_BX, j), s->zero, spare);
-    x_pass(s, false, SIDE_G_SECOND, divergence, spare, spare);
-    x_pass(s, true, SIDE_N_ODD, spare, f->bulk ? s->zero : ax, ax);
+    y_pass(s, s->all, SIDE_N_EVEN, ROW_T1, j, divergence, divergence);
+    if (!f->bulk) y_pass(s, s->own, SIDE_N_EVEN, ROW_T2, j, ax, ax);
+    y_pass(s, s->own, SIDE_N_ODD, ROW_T3, j, f->bulk ? s->zero : ay, ay);
+    y_pass(s, s->own, SIDE_N_EVEN, ROW_T4, j, az, az);
+    x_pass(s, SIDE_S_ODD, row_of(s, ring, ROW_BX, j), s->zero, spare);
+    x_pass(s, SIDE_G_SECOND, divergence, spare, spare);
+    x_pass(s, SIDE_N_ODD, spare, f->bulk ? s->zero : ax, ax);
 }
 
 /* Passes over depth for row j of FUSED_PLANES planes; planes that are not there have weight 0. */

@@ -25,7 +25,9 @@
             fused_y_##precision *y, *y_ends;                                                                 \
             fused_depth_##precision *depth[2][2]; /* [B is a matrix of its own][A is 0] */                   \
             fused_mixed_##precision *mixed[2][2]; /* [B is a matrix of its own][of u_z] */                   \
-        } of[3]; /* one, two and three sweeps; the first is the narrow one too */                            \
+        } of[3];                      /* one, two and three sweeps; the first is that of G too */            \
+        fused_x_##precision *x_stiff; /* S */                                                                \
+        fused_y_##precision *y_stiff, *y_stiff_ends;                                                         \
         real (*measure)(size_t n, size_t rows, size_t step, const real *u, real *column);                    \
         real (*drift)(size_t n, size_t rows, size_t step, real dt, const real *w, real *u, real *column);    \
         real (*relax)(size_t n, size_t rows, size_t step, const struct fused_relax *relax, const real *w,    \

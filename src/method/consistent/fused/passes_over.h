@@ -17,6 +17,11 @@ INLINED const lanes *at(const REAL *place)
     return (const lanes *)place;
 }
 
+/* Floats take sums with S and A of differences from a value in the middle, whose weight is the sum of the row's
+ * (fused.c, shorten_all): most rows have the sum 0, and their rounding would act on an even displacement like a
+ * load. */
+enum { DIFFERENCES = sizeof(REAL) < sizeof(double) };
+
 #if defined(__GNUC__)
 #define FETCH(place) __builtin_prefetch(place, 0, 2)
 #else
@@ -34,15 +39,18 @@ INLINED void over_depth(const int taps, const int begin, const int end, const RE
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
         lanes sum[OVER_DEPTH_MATRICES][FUSED_PLANES] = {0};
+        const lanes middle = *at(in[taps / 2] + i);
         UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
         {
             const lanes value = *at(in[t] + i);
+            lanes change = value;
+            if (DIFFERENCES && t != taps / 2) change -= middle;
             if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
             if (end < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
                 *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
             UNROLLED for (int m = begin; m < end; m++)
                 UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
-                weight[m][r * taps + t - r] * value;
+                weight[m][r * taps + t - r] * (m == OVER_DEPTH_A ? change : value);
         }
         UNROLLED for (int m = begin; m < end; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
             (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
@@ -61,11 +69,14 @@ INLINED void mixed_sums(const int taps, const bool normal, const int begin, cons
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
         lanes sum[OVER_DEPTH_MATRICES + 1][FUSED_PLANES] = {0};
+        lanes middle = *at(in[taps / 2] + i);
+        if (normal) middle += axial * *at(other[taps / 2] + i);
         UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
         {
             const lanes shear = *at(in[t] + i), more = *at(other[t] + i);
             lanes value[] = {shear, shear + mixed * more, shear, more};
             if (normal) value[OVER_DEPTH_A] += axial * more;
+            if (DIFFERENCES && t != taps / 2) value[OVER_DEPTH_A] -= middle;
             if (begin == 0) FETCH(in[t] + i + ahead);
             if (begin == 0) FETCH(other[t] + i + ahead);
             UNROLLED for (int m = begin; m < end; m++)
@@ -118,9 +129,9 @@ INLINED void mixed_over_depth(const int taps, const bool bare, const bool normal
 }
 
 /* Along x: out := init + matrix in, FUSED_ROWS rows, all from the same column on; entries beyond the row are
- * read, times 0. */
-INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in, const REAL *init,
-                     size_t width, size_t stride, REAL *out)
+ * read, times 0. `stiff`: the matrix is S. */
+INLINED void along_x(const int taps, const bool stiff, const REAL *restrict matrix, const REAL *in,
+                     const REAL *init, size_t width, size_t stride, REAL *out)
 {
     for (size_t i = 0; i < width; i += LANES) {
         const size_t group = i / GROUP * GROUP;
@@ -129,26 +140,40 @@ INLINED void along_x(const int taps, const REAL *restrict matrix, const REAL *in
         UNROLLED for (int t = 0; t < taps; t++)
         {
             const lanes weight = *at(matrix + group * (size_t)taps + (size_t)t * GROUP + i - group);
-            UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] +=
-                weight * *at(in + (size_t)r * stride + i + t - taps / 2);
+            UNROLLED for (int r = 0; r < FUSED_ROWS; r++)
+            {
+                const REAL *middle = in + (size_t)r * stride + i;
+                lanes value = *at(middle + t - taps / 2);
+                if (stiff && DIFFERENCES && t != taps / 2) value -= *at(middle);
+                sum[r] += weight * value;
+            }
         }
         UNROLLED for (int r = 0; r < FUSED_ROWS; r++) * (lanes *)(out + (size_t)r * stride + i) = sum[r];
     }
 }
 
 /* Across rows: out := init + sum over t of weights times row t, FUSED_ROWS rows of the result from taps +
- * FUSED_ROWS - 1 rows. `step` from the weights of one row to the next: 0 where all are the same. */
-INLINED void across_y(const int taps, const REAL *restrict weight, const size_t step, const REAL *const *in,
-                      const REAL *init, size_t width, size_t stride, REAL *out)
+ * FUSED_ROWS - 1 rows. `step` from the weights of one row to the next: 0 where all are the same (of S: with the
+ * sum 0). */
+INLINED void across_y(const int taps, const bool stiff, const REAL *restrict weight, const size_t step,
+                      const REAL *const *in, const REAL *init, size_t width, size_t stride, REAL *out)
 {
     for (size_t i = 0; i < width; i += LANES) {
         lanes sum[FUSED_ROWS];
         UNROLLED for (int r = 0; r < FUSED_ROWS; r++) sum[r] = *at(init + (size_t)r * stride + i);
+        const lanes first = *at(in[taps / 2] + i);
         UNROLLED for (int t = 0; t < taps + FUSED_ROWS - 1; t++)
         {
             const lanes value = *at(in[t] + i);
-            UNROLLED for (int r = 0; r < FUSED_ROWS; r++) if (t >= r && t - r < taps) sum[r] +=
-                weight[(size_t)r * step + (size_t)(t - r)] * value;
+            lanes change = value;
+            if (stiff && DIFFERENCES) change -= first;
+            UNROLLED for (int r = 0; r < FUSED_ROWS; r++) if (t >= r && t - r < taps)
+            {
+                if (stiff && DIFFERENCES && step > 0 && t - r == taps / 2) change = value;
+                if (stiff && DIFFERENCES && step > 0 && t - r != taps / 2)
+                    change = value - *at(in[r + taps / 2] + i);
+                sum[r] += weight[(size_t)r * step + (size_t)(t - r)] * change;
+            }
         }
         UNROLLED for (int r = 0; r < FUSED_ROWS; r++) * (lanes *)(out + (size_t)r * stride + i) = sum[r];
     }
@@ -314,23 +339,28 @@ static void spread(size_t rows, size_t step, const REAL *restrict weight, const 
         mixed_over_depth(deep, bare, normal, in, other, weight, share, n, ahead, result);                    \
     }
 
-/* One function for each pass and number of taps. */
-#define PASSES(wide, deep)                                                                                   \
-    static void x_##wide(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride,  \
+/* Along x and across y. */
+#define SIDES(name, taps, stiff)                                                                             \
+    static void x_##name(const REAL *matrix, const REAL *in, const REAL *init, size_t width, size_t stride,  \
                          REAL *out)                                                                          \
     {                                                                                                        \
-        along_x(wide, matrix, in, init, width, stride, out);                                                 \
+        along_x(taps, stiff, matrix, in, init, width, stride, out);                                          \
     }                                                                                                        \
-    static void y_##wide(const REAL *weight, const REAL *const *in, const REAL *init, size_t width,          \
+    static void y_##name(const REAL *weight, const REAL *const *in, const REAL *init, size_t width,          \
                          size_t stride, REAL *out)                                                           \
     {                                                                                                        \
-        across_y(wide, weight, 0, in, init, width, stride, out);                                             \
+        across_y(taps, stiff, weight, 0, in, init, width, stride, out);                                      \
     }                                                                                                        \
-    static void ends_##wide(const REAL *weight, const REAL *const *in, const REAL *init, size_t width,       \
+    static void ends_##name(const REAL *weight, const REAL *const *in, const REAL *init, size_t width,       \
                             size_t stride, REAL *out)                                                        \
     {                                                                                                        \
-        across_y(wide, weight, wide, in, init, width, stride, out);                                          \
-    }                                                                                                        \
+        across_y(taps, stiff, weight, taps, in, init, width, stride, out);                                   \
+    }
+SIDES(stiff, 5, true)
+
+/* One function for each pass and number of taps. */
+#define PASSES(wide, deep)                                                                                   \
+    SIDES(wide, wide, false)                                                                                 \
     DEPTH(two_##deep, deep, 0, 2)                                                                            \
     DEPTH(three_##deep, deep, 0, 3)                                                                          \
     DEPTH(two_bulk_##deep, deep, 1, 2)                                                                       \
@@ -357,5 +387,13 @@ PASSES(13, 17)
             }                                                                                                \
         }                                                                                                    \
     }
-const struct NAME(fused_kernels) OF_PROCESSOR(NAME(fused_kernels)) = {
-    {OF(5, 9), OF(9, 13), OF(13, 17)}, measure, drift, relax, kick, weigh, spread};
+const struct NAME(fused_kernels) OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9), OF(9, 13), OF(13, 17)},
+                                                                      x_stiff,
+                                                                      y_stiff,
+                                                                      ends_stiff,
+                                                                      measure,
+                                                                      drift,
+                                                                      relax,
+                                                                      kick,
+                                                                      weigh,
+                                                                      spread};
