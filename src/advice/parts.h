@@ -29,6 +29,8 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 void look_at_clearance(struct adviser *adviser);
 /* Receivers in the midst of a point source. */
 void look_at_nearness(struct adviser *adviser);
+/* Moment tensors beside interfaces of general ground. */
+void look_at_interfaces(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */

@@ -50,6 +50,57 @@ void look_at_nearness(struct adviser *adviser)
            scene->receiver[receiver].name, least * wanted, load + 1, near(&scene->load[load]), wanted, finer);
 }
 
+/* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes evenly. */
+static double bend(const struct scene *scene, const double place[3], int axis, double away)
+{
+    double worst = 0.0, sides[2] = {0.0, 0.0};
+    const struct rock here = ground_at(scene, place);
+    for (int side = -1; side <= 1; side += 2) {
+        double there[3] = {place[0], place[1], place[2]};
+        there[axis] += side * away;
+        const struct rock rock = ground_at(scene, there);
+        sides[0] += 0.5 * (rock.lambda + 2.0 * rock.mu);
+        sides[1] += 0.5 * rock.mu;
+    }
+    worst = fabs(sides[0] / (here.lambda + 2.0 * here.mu) - 1.0);
+    return here.mu > 0.0 ? fmax(worst, fabs(sides[1] / here.mu - 1.0)) : worst;
+}
+
+/* The general operator averages the rock over 2.5 spacings on either side of an interface, and so the strain that a moment
+ * tensor there acts on (measured: doc/theory/general-ground.md, section 7). */
+void look_at_interfaces(struct adviser *adviser)
+{
+    static const double reach = 2.5, step = 0.1, slight = 0.05;
+    const struct scene *scene = adviser->scene;
+    const struct deck_group *group = scene->method.group;
+    const bool asked =
+        group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general");
+    double least = reach;
+    size_t load = 0;
+    if (strcmp(scene->method.variant, "consistent") != 0 || !(asked || ground_needs_general(scene))) return;
+    for (size_t k = 0; k < scene->loads; k++) {
+        if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
+        double place[3] = {0.0, 0.0, 0.0};
+        body_from_deck(&scene->body, scene->load[k].centre, place);
+        const double spacing = body_spacing_at(&scene->body, place);
+        for (int axis = 0; axis < scene->dimension; axis++)
+            for (double away = step; away < least; away += step) {
+                if (bend(scene, place, axis, away * spacing) <= slight) continue;
+                least = away;
+                load = k;
+            }
+    }
+    if (least == reach) return;
+    advise(adviser,
+           "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
+           "the general "
+           "operator, which averages the rock there, may be wrong by a tenth of the velocity, and by more "
+           "than half of it "
+           "beside the interface itself; body%%spacing = %.3g or a source farther off would do%s",
+           load + 1, least, reach, scene->body.spacing * least / reach,
+           ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
+}
+
 /* Rays up a dip come back down it, also from the sides (a soil of half the speed, 1.5 thick, box of 3.6 x 2.4:
  * regress/checks/fitted.sh): what is beyond the box is not there. */
 void look_at_tilted(struct adviser *adviser)
