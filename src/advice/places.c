@@ -50,27 +50,30 @@ void look_at_nearness(struct adviser *adviser)
            scene->receiver[receiver].name, least * wanted, load + 1, near(&scene->load[load]), wanted, finer);
 }
 
-/* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes evenly. */
+/* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes
+ * evenly. */
 static double bend(const struct scene *scene, const double place[3], int axis, double away)
 {
-    double worst = 0.0, sides[2] = {0.0, 0.0};
+    double sides[2] = {0.0, 0.0};
     const struct rock here = ground_at(scene, place);
     for (int side = -1; side <= 1; side += 2) {
-        double there[3] = {place[0], place[1], place[2]};
-        there[axis] += side * away;
+        double there[3];
+        for (int c = 0; c < 3; c++)
+            there[c] = place[c] + (c == axis ? side * away : 0.0);
         const struct rock rock = ground_at(scene, there);
         sides[0] += 0.5 * (rock.lambda + 2.0 * rock.mu);
         sides[1] += 0.5 * rock.mu;
     }
-    worst = fabs(sides[0] / (here.lambda + 2.0 * here.mu) - 1.0);
+    const double worst = fabs(sides[0] / (here.lambda + 2.0 * here.mu) - 1.0);
     return here.mu > 0.0 ? fmax(worst, fabs(sides[1] / here.mu - 1.0)) : worst;
 }
 
-/* The general operator averages the rock over 2.5 spacings on either side of an interface, and so the strain that a moment
- * tensor there acts on (measured: doc/theory/general-ground.md, section 7). */
+/* The general operator averages the rock over 2.5 spacings on either side of an interface, and so the strain that
+ * a moment tensor there acts on (measured: doc/theory/general-ground.md, section 6). */
 void look_at_interfaces(struct adviser *adviser)
 {
-    static const double reach = 2.5, step = 0.1, slight = 0.05;
+    enum { STEPS = 10 }; /* in a spacing */
+    static const double reach = 3.0, slight = 0.05;
     const struct scene *scene = adviser->scene;
     const struct deck_group *group = scene->method.group;
     const bool asked =
@@ -84,9 +87,9 @@ void look_at_interfaces(struct adviser *adviser)
         body_from_deck(&scene->body, scene->load[k].centre, place);
         const double spacing = body_spacing_at(&scene->body, place);
         for (int axis = 0; axis < scene->dimension; axis++)
-            for (double away = step; away < least; away += step) {
-                if (bend(scene, place, axis, away * spacing) <= slight) continue;
-                least = away;
+            for (int n = 1; n < least * STEPS; n++) {
+                if (bend(scene, place, axis, n * spacing / STEPS) <= slight) continue;
+                least = (double)n / STEPS;
                 load = k;
             }
     }
