@@ -42,6 +42,34 @@ refused() { # refused WORDS SCENE SED [ACCURACY]: the plan of a changed scene is
         echo "not ok - not refused: $1"
     fi
 }
+cat >"$out/graded.nml" <<'END'
+&scene dimension = 3, end_time = 10.0, accuracy = 0.05 /
+&material name = 'soil', density = 1.0, p_speed = 1.0, s_speed = 0.5 /
+&material name = 'rock', density = 1.3, p_speed = 2.6, s_speed = 1.5 /
+&body shape = 'half-space', material = 'rock', grading = 3.0 /
+&layer material = 'soil', top = 0.0 /
+&layer material = 'rock', top = 1.0 /
+&load face = 'z-', shape = 'square', centre = 0, 0, 0, size = 1.2, 1.2, direction = 0, 0, 1, history = 'gaussian', width = 1.1, delay = 5.5 /
+&receiver name = 'r0', position = 0, 0, 0 /
+&receiver name = 'r1', position = 1, 0, 0 /
+&receiver name = 'below', position = 1, 0, 2.5 /
+&reference kind = 'layered' /
+&output plots = .false. /
+END
+"$build/selas" -q "$out/graded.nml" "output%directory=$out/run" >"$out/log" 2>&1
+reached=$(vector)
+if grep -q '^operator: general' "$out/run/report.txt" && grep -q '^spacing over depth: .* growing' "$out/run/report.txt" &&
+    awk -v e="$reached" 'BEGIN { exit !(e != "" && e <= .05 && e >= .01) }'; then
+    echo "ok - a graded spacing: error $reached where .05 is wanted"
+else
+    echo "not ok - a graded spacing: error $reached where .05 is wanted"
+    cat "$out/log"
+fi
+if "$build/selas" check "$out/graded.nml" load%kind=moment-tensor load%face= load%shape= load%size= load%direction= load%moment=1,1,1,0,0,0 load%centre=0,0,1.2 2>&1 | grep -q "moment tensors in layered ground without"; then
+    echo "ok - refused: moment tensors on a graded spacing"
+else
+    echo "not ok - not refused: moment tensors on a graded spacing"
+fi
 refused 'begins with a jump' w9 's/centre=.8/centre=.15/'
 refused "receiver 'a' is in the initial wave already" w9 's/position=1.1/position=.85/'
 refused 'disturb' w5 "s/kind='roller'/kind='free'/"

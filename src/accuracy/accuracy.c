@@ -50,7 +50,8 @@ const char *accuracy_gradient(const struct scene *scene)
 const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene)
 {
     if (scene->body.topography != NULL) return "level ground, without &topography";
-    if (scene->body.most_stretch > 1) return "an even spacing, without body%grading";
+    if (scene->body.most_stretch > 1 && kind != &accuracy_ground)
+        return "an even spacing, without body%grading, but on half-spaces and boxes of ground";
     if (ground_is_damped(scene) && kind != &accuracy_ground)
         return "materials without q_p and q_s, but on half-spaces and boxes of ground";
     if (kind->variant != NULL && strcmp(kind->variant, scene->method.variant) != 0) return kind->served;

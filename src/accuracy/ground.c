@@ -84,7 +84,7 @@ static double work_of(const struct scene *scene)
     const struct body *body = &scene->body;
     double points = 1, all = 1;
     for (int c = 0; c < 3; c++) {
-        const double count = (body->high[c] - body->low[c]) / body->spacing + 1;
+        const double count = body_cells(body, c) + 1;
         points *= count;
         all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
     }

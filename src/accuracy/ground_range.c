@@ -28,6 +28,16 @@ static const char *faces_refusal(const struct scene *scene)
     return NULL;
 }
 
+/* The general operator misplaces moment tensors beside an interface, the more the coarser the trial's lattice is. */
+static bool moment_in_general(const struct scene *scene, const struct load *load)
+{
+    const struct deck_group *group = scene->method.group;
+    const bool asked =
+        group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general");
+    return load->kind == LOAD_MOMENT_TENSOR && body_is_layered(&scene->body) &&
+           (asked || scene->body.most_stretch > 1);
+}
+
 const char *ground_refusal(const struct scene *scene)
 {
     if (!body_is_box(&scene->body)) return "half-spaces and boxes";
@@ -36,6 +46,8 @@ const char *ground_refusal(const struct scene *scene)
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].shape == LOAD_FACE) return "loads on a square or a disc or at points";
         if (load_moves(&scene->load[k])) return "loads that do not move";
+        if (moment_in_general(scene, &scene->load[k]))
+            return "moment tensors in layered ground without body%grading and method%operator = 'general'";
     }
     return faces_refusal(scene);
 }
@@ -55,6 +67,7 @@ static bool ratios_within(const struct scene *scene, double low, double high)
 const char *ground_range_refusal(const struct scene *scene)
 {
     if (ground_is_damped(scene)) return "materials without q_p and q_s";
+    if (scene->body.most_stretch > 1) return "an even spacing, without body%grading";
     if (!ratios_within(scene, .1, LAW_RATIO)) return "Poisson's ratios of .1 to .4";
     return points_act(scene) ? "loads on a square or a disc" : NULL;
 }

@@ -60,7 +60,7 @@ struct surface_ground surface_ground_of(const struct scene *scene, double spacin
     if (body->layers == 0 || body->layer[0].top > 0) add_layer(&ground, scene_material_at(scene, 0), 0);
     for (size_t k = 0; k < body->layers; k++)
         add_layer(&ground, &scene->material[body->layer[k].material], body->layer[k].top);
-    ground.tuned = ground.layers > 1;
+    ground.tuned = ground.layers > 1 && !(body->most_stretch > 1);
     for (int face = 0; face <= FACE_Z_HIGH; face++) {
         const struct boundary *boundary = &scene->boundary[face];
         if (!boundary_has_layer(boundary)) continue;
