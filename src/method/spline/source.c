@@ -37,7 +37,9 @@ static const double legendre[MOMENTS][MOMENTS] = {{1},
 /* Weights at distances `away` (in cells) with these moments. */
 static void solve(const double away[WIDE], const double moment[MOMENTS], double weight[WIDE])
 {
-    static const double reach = .5 * WIDE;
+    double reach = .5 * WIDE;
+    for (int b = 0; b < WIDE; b++)
+        reach = fmax(reach, fabs(away[b]) + .5);
     double bell[WIDE], value[WIDE][MOMENTS] = {{0}}, wanted[MOMENTS] = {0}, matrix[MOMENTS * MOMENTS] = {0};
     for (int j = 0; j < MOMENTS; j++)
         for (int k = 0; k <= j; k++)
@@ -63,11 +65,32 @@ static void solve(const double away[WIDE], const double moment[MOMENTS], double 
     }
 }
 
+/* The seven control values of the unclamped spline next to an open end, where x is too near for as many on either side;
+ * the first of them is twice that on the end less its neighbour. Degree 2. */
+static bool end_images(const struct spline *spline, double x, int end, struct images *images)
+{
+    const ptrdiff_t last = (ptrdiff_t)spline->count - 1, step = end == 0 ? 1 : -1;
+    const double *at = spline->greville + (end == 0 ? 0 : last);
+    if (spline->degree != 2 || spline->mirror[end] || last < WIDE) return false;
+    images->gap = fabs(at[step * WIDE] - at[step]) / (WIDE - 1);
+    const double toward = (x - at[0]) * (double)step;
+    if (toward < 0 || toward > .5 * WIDE * images->gap) return false;
+    for (ptrdiff_t b = 0; b < WIDE; b++) {
+        images->index[b] = (size_t)(end == 0 ? b : last - b);
+        images->sign[b] = 1;
+        images->position[b] = at[0] + (double)step * ((double)b - .5) * images->gap;
+        if (b > 0 && fabs(at[step * b] - images->position[b]) > 1e-6 * images->gap) return false;
+    }
+    return true;
+}
+
 bool source_at(const struct spline *spline, bool odd, bool slope, double x, struct tuned_point *point)
 {
     struct images images;
     double away[WIDE], moment[MOMENTS], weight[WIDE];
-    if (spline->degree == TUNED_DEGREE || !spline_images(spline, odd, x, WIDE, &images)) return false;
+    if (spline->degree == TUNED_DEGREE) return false;
+    const bool inside = spline_images(spline, odd, x, WIDE, &images);
+    if (!inside && !end_images(spline, x, 0, &images) && !end_images(spline, x, 1, &images)) return false;
     for (int b = 0; b < WIDE; b++)
         away[b] = (images.position[b] - x) / images.gap;
     set_moments(spline->degree, slope, moment);
@@ -77,6 +100,12 @@ bool source_at(const struct spline *spline, bool odd, bool slope, double x, stru
         point->index[b] = images.index[b];
         point->value[b] = slope ? 0 : weight[b] * images.sign[b];
         point->slope[b] = slope ? weight[b] * images.sign[b] / images.gap : 0;
+    }
+    if (!inside) {
+        point->value[1] -= point->value[0];
+        point->value[0] *= 2;
+        point->slope[1] -= point->slope[0];
+        point->slope[0] *= 2;
     }
     return true;
 }

@@ -146,12 +146,20 @@ void mass_solve(struct consistent *c, const struct mass_factors *factors, double
 
 /* loads.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
+/* Moment tensors again, once the general operator has its ground. */
+selas_status forces_in_ground(struct consistent *c, struct messages *messages);
 void forces_free(struct consistent *c);
 size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
  */
 void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
                            double *line);
+/* The same for a moment tensor: of higher order, halved on symmetry planes. */
+void consistent_source_line(const struct consistent *c, int axis, bool odd, bool slope, double x,
+                            double *line);
+/* field += factor * product of the lines, by axis. */
+void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
+                            double *field);
 bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
 void sparse_free(struct sparse *sparse);
 /* Adds loads and the pull of moving faces, as vectors given, in plane k. */

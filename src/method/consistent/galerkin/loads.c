@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "method/consistent/galerkin/moving_load.h"
 #include "method/consistent/galerkin/surface.h"
+#include "method/consistent/general/glut.h"
 #include "method/spline/disc.h"
 #include "method/spline/source.h"
 
@@ -109,21 +110,26 @@ double sparse_dot(const struct consistent *c, const struct sparse *sparse, const
     return sum;
 }
 
-/* field += factor * product of the three lines, component by component. */
-static void add_product(const struct consistent *c, const struct workspace *w, int component, double factor)
+void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
+                            double *field)
 {
     static const double one[1] = {1};
-    const double *line[3] = {one, one, one};
+    const double *by_slot[3] = {one, one, one};
     for (int axis = 0; axis < c->dimension; axis++)
-        line[c->slot[axis]] = w->line[axis];
-    double *out = w->field + (size_t)component * c->volume;
+        by_slot[c->slot[axis]] = line[axis];
+    double *out = field + (size_t)component * c->volume;
     for (size_t k = 0; k < c->n[2]; k++) {
-        const double depth = line[2][c->part.first + k];
+        const double depth = by_slot[2][c->part.first + k];
         if (depth == 0) continue;
         for (size_t j = 0; j < c->n[1]; j++)
             for (size_t i = 0; i < c->n[0]; i++)
-                out[k * c->plane + j * c->n[0] + i] += factor * line[0][i] * line[1][j] * depth;
+                out[k * c->plane + j * c->n[0] + i] += factor * by_slot[0][i] * by_slot[1][j] * depth;
     }
+}
+
+static void add_product(const struct consistent *c, const struct workspace *w, int component, double factor)
+{
+    consistent_add_product(c, w->line, component, factor, w->field);
 }
 
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
@@ -154,8 +160,8 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
     point_line(c, axis, odd, slope, half, false, x, line);
 }
 
-/* The same for a moment tensor. */
-static void moment_line(const struct consistent *c, int axis, bool odd, bool slope, double x, double *line)
+void consistent_source_line(const struct consistent *c, int axis, bool odd, bool slope, double x,
+                            double *line)
 {
     point_line(c, axis, odd, slope, true, true, x, line);
 }
@@ -222,40 +228,42 @@ static void body_force(struct consistent *c, const struct load *load, const doub
     }
 }
 
-/* M in the body's frame; below a surface that is not level what it pulls at along the lattice (G17). */
-static void own_moment(const struct consistent *c, const struct load *load, const double centre[3],
-                       double moment[3][3])
+/* M in the body's frame. */
+static void own_moment(const struct consistent *c, const struct load *load, double moment[3][3])
 {
     static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     const double(*frame)[3] = c->model.scene->body.frame;
     const bool rotated = c->model.scene->body.rotated;
-    const struct metric metric = consistent_metric(c, centre);
-    for (int i = 0; i < c->dimension; i++) {
-        double row[3] = {0};
+    for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++) {
             moment[i][j] = rotated ? 0 : load->moment[place[i][j]];
             for (int k = 0; rotated && k < 3; k++)
                 for (int l = 0; l < 3; l++)
                     moment[i][j] += frame[k][i] * load->moment[place[k][l]] * frame[l][j];
-            row[c->slot[j]] = moment[i][j];
         }
-        if (c->surface != NULL || c->model.scene->body.grading != NULL)
-            moment[i][c->dimension - 1] = metric_pull(&metric, row);
-    }
 }
 
-/* The density -M_ij d/dx_j delta gives M_ij dN/dx_j at the source. */
-static void moment_tensor(struct consistent *c, const struct load *load, const double centre[3],
+/* The density -M_ij d/dx_j delta gives M_ij dN/dx_j at the source; below a surface that is not level what M pulls at
+ * along the lattice (G17). */
+static bool moment_tensor(struct consistent *c, const struct load *load, const double centre[3],
                           struct workspace *w)
 {
-    double moment[3][3];
-    own_moment(c, load, centre, moment);
+    double moment[3][3], by_slot[3][3] = {{0}};
+    const struct metric metric = consistent_metric(c, centre);
+    own_moment(c, load, moment);
+    for (int i = 0; i < c->dimension; i++)
+        for (int j = 0; j < c->dimension; j++)
+            by_slot[c->slot[i]][c->slot[j]] = moment[i][j];
+    if (c->general != NULL && !general_add_glut(c, centre, by_slot, w->field)) return false;
     for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++) {
+            const double pull = c->slot[j] == DEPTH ? metric_pull(&metric, by_slot[c->slot[i]])
+                                                    : by_slot[c->slot[i]][c->slot[j]];
             for (int axis = 0; axis < c->dimension; axis++)
-                moment_line(c, axis, axis == i, axis == j, centre[axis], w->line[axis]);
-            if (moment[i][j] != 0) add_product(c, w, i, moment[i][j]);
+                consistent_source_line(c, axis, axis == i, axis == j, centre[axis], w->line[axis]);
+            if (pull != 0) add_product(c, w, i, pull);
         }
+    return true;
 }
 
 static selas_status load_create(struct consistent *c, const struct load *load, struct sparse *sparse,
@@ -277,7 +285,7 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
     if (load->kind == LOAD_TRACTION)
         good = traction(c, load, centre, direction, w);
     else if (load->kind == LOAD_MOMENT_TENSOR)
-        moment_tensor(c, load, centre, w);
+        good = moment_tensor(c, load, centre, w);
     else if (load->shape == LOAD_POINT || load->shape == LOAD_FACE)
         body_force(c, load, centre, direction, w);
     else
@@ -347,6 +355,22 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
     for (int face = 0; status == SELAS_OK && face < 2 * c->dimension; face++)
         if (c->moving[face] && !motion_create(c, face, &w))
             status = fail(messages, SELAS_NO_MEMORY, "no memory for a moving face");
+    workspace_free(&w);
+    return status;
+}
+
+selas_status forces_in_ground(struct consistent *c, struct messages *messages)
+{
+    const struct scene *scene = c->model.scene;
+    struct workspace w = {NULL};
+    selas_status status = SELAS_OK;
+    for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
+        if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
+        if (w.field == NULL && !workspace_new(c, &w))
+            return fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+        sparse_free(&c->load[k]);
+        status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+    }
     workspace_free(&w);
     return status;
 }

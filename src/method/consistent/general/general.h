@@ -129,6 +129,8 @@ void general_corner_pull(const struct corner *corner, double slope[3][3], int co
  * SELAS_NO_MEMORY. */
 selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
 void general_free_family(struct family *family);
+/* Weight of a point, with the map's Jacobian. */
+double general_weight(const struct consistent *c, const struct family *family, const size_t at[3]);
 
 /* hill.c: false: no memory. */
 bool general_lay_hill(struct consistent *c);

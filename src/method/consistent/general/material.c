@@ -15,6 +15,14 @@ static double weight_of(const struct consistent *c, int slot, enum at at, size_t
     return at == AT_KNOTS && (i == 0 || i == spline->cells) ? spacing / 2 : spacing;
 }
 
+double general_weight(const struct consistent *c, const struct family *family, const size_t at[3])
+{
+    double weight = general_metric_at(c, family, at[0], at[1], at[2]).jacobian / 3;
+    for (int slot = 0; slot < 3; slot++)
+        weight *= weight_of(c, slot, family->at[slot], at[slot]);
+    return weight;
+}
+
 /* Sums over the points about each control value: weight times density, and weight. */
 struct sums {
     double *mass, *even;

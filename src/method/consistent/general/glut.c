@@ -1,0 +1,303 @@
+/* What a moment tensor beside an interface pulls at: the rock at the points about it is averaged
+ * (doc/theory/general-ground.md, section 5). */
+#include "method/consistent/general/glut.h"
+#include "method/consistent/general/piece.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const int pair[STRESSES][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+
+struct rock general_rock_at(const struct consistent *c, const double place[3])
+{
+    double real[3] = {place[0], place[1], place[2]};
+    consistent_to_ground(c, real);
+    return ground_at(c->model.scene, real);
+}
+
+static double spacing_of(const struct spline *spline)
+{
+    return (spline->high - spline->low) / (double)spline->cells;
+}
+
+/* The direction in which log M rises about the source. False: in none, or across a symmetry plane nearby. */
+static bool find_normal(struct glut *g)
+{
+    enum { REACH = 6 };
+    static const double slight = 1e-9;
+    const struct consistent *c = g->c;
+    const int beside = c->dimension == 2 ? 0 : REACH;
+    double rise[3] = {0};
+    for (int k = -REACH; k <= REACH; k++)
+        for (int j = -beside; j <= beside; j++)
+            for (int i = -REACH; i <= REACH; i++) {
+                const int step[3] = {i, j, k};
+                double place[3] = {0};
+                for (int axis = 0; axis < c->dimension; axis++)
+                    place[axis] = g->centre[axis] + step[c->slot[axis]] * spacing_of(c->spline[axis]);
+                const struct rock rock = general_rock_at(c, place);
+                const double level = log(rock.lambda + 2 * rock.mu) * exp(-(i * i + j * j + k * k) / 8.);
+                for (int slot = 0; slot < 3; slot++)
+                    rise[slot] += step[slot] * level;
+            }
+    const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+    for (int axis = 0; axis < c->dimension; axis++)
+        if (fabs(rise[c->slot[axis]]) >= fabs(rise[c->slot[g->across]])) g->across = axis;
+    for (int slot = 0; slot < 3; slot++)
+        g->normal[slot] = length > slight ? rise[slot] / length : 0;
+    const struct spline *spline = c->spline[g->across];
+    const double near = 2 * REACH * spacing_of(spline), at = g->centre[g->across];
+    return length > slight && !(spline->mirror[0] && at - spline->low < near) &&
+           !(spline->mirror[1] && spline->high - at < near);
+}
+
+/* (G18) */
+static void part_moment(struct glut *g, double moment[3][3])
+{
+    const double *n = g->normal, bulk = g->lambda + 2 * g->mu;
+    double pull[3] = {0}, along = 0, trace = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            pull[i] += moment[i][j] * n[j];
+    for (int i = 0; i < 3; i++)
+        along += pull[i] * n[i];
+    for (int i = 0; i < 3; i++) {
+        g->slip[i] = (pull[i] - along * n[i]) / g->mu;
+        pull[i] = along * n[i] / bulk + g->slip[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        trace += n[i] * pull[i];
+        for (int j = 0; j < 3; j++)
+            g->strain[i][j] = (n[i] * pull[j] + n[j] * pull[i]) / 2;
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            g->tangent[i][j] = moment[i][j] - 2 * g->mu * g->strain[i][j] - (i == j ? g->lambda * trace : 0);
+}
+
+/* (G19): first what the slope at the source is of the slopes at the knots. */
+static void find_share(struct glut *g)
+{
+    const size_t last = g->c->spline[g->across]->cells;
+    double sum = 0, *share = g->share, *upper = g->row[0];
+    consistent_source_line(g->c, g->across, true, true, g->centre[g->across], share);
+    for (size_t k = 0; k <= last; k++) {
+        const bool end = k == 0 || k == last;
+        const double diagonal = (end ? 1. / 3 : 2. / 3) - (k > 0 ? upper[k - 1] / 6 : 0);
+        sum += share[k];
+        share[k] = (-sum * g->spacing / (end ? 2 : 1) - (k > 0 ? share[k - 1] / 6 : 0)) / diagonal;
+        upper[k] = 1. / 6 / diagonal;
+    }
+    for (size_t k = last; k-- > 0;)
+        share[k] -= upper[k] * share[k + 1];
+}
+
+/* Adds C of a point of a family. */
+static void add_stiffness(const struct family *family, const size_t at[3], double factor,
+                          double stiffness[STRESSES][STRESSES])
+{
+    const size_t row = at[2] * family->n[1] + at[1], point = row * family->n[0] + at[0];
+    for (size_t r = family->first_run[row]; r < family->first_run[row + 1]; r++) {
+        const struct run_of_points *run = &family->run[r];
+        if (at[0] < run->from || at[0] >= run->from + run->count) continue;
+        const double *number = family->stiffness + run->at + at[0] - run->from;
+        for (int p = 0; p < STRESSES; p++)
+            for (int q = p; q < STRESSES; q++, number += run->count) {
+                stiffness[p][q] += factor * *number;
+                if (q != p) stiffness[q][p] += factor * *number;
+            }
+        return;
+    }
+    for (int p = 0; p < STRESSES; p++) {
+        stiffness[p][p] += factor * family->mu[point] * (p < 3 ? 2 : 1);
+        for (int q = 0; p < 3 && q < 3; q++)
+            stiffness[p][q] += factor * family->lambda[point];
+    }
+}
+
+/* C of a family in its plane `number` across, between the points about the source. False: the window has none. */
+static bool find_stiffness(const struct glut *g, const struct family *family, size_t number,
+                           double stiffness[STRESSES][STRESSES])
+{
+    const struct consistent *c = g->c;
+    size_t from[3] = {0}, count[3] = {1, 1, 1};
+    double rest[3] = {0};
+    memset(stiffness, 0, STRESSES * sizeof *stiffness);
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const int slot = c->slot[axis];
+        const struct spline *spline = c->spline[axis];
+        const size_t first = slot == DEPTH ? c->general->first : 0;
+        from[slot] = number;
+        if (axis != g->across) {
+            const bool knots = family->at[slot] == AT_KNOTS;
+            const double t = (g->centre[axis] - spline->low) / spacing_of(spline) - (knots ? 0 : .5);
+            from[slot] = (size_t)fmin(fmax(floor(t), 0), (double)spline->cells - (knots ? 1 : 2));
+            rest[slot] = fmin(fmax(t - (double)from[slot], 0), 1);
+            count[slot] = 2;
+        }
+        if (from[slot] < first || from[slot] + count[slot] > family->n[slot] + first) return false;
+        from[slot] -= first;
+    }
+    for (size_t n = 0; n < count[0] * count[1] * count[2]; n++) {
+        const size_t step[3] = {n % count[0], n / count[0] % count[1], n / (count[0] * count[1])};
+        double part = 1;
+        size_t at[3];
+        for (int slot = 0; slot < 3; slot++) {
+            part *= step[slot] == 1 ? rest[slot] : 1 - rest[slot];
+            at[slot] = from[slot] + step[slot];
+        }
+        if (part != 0) add_stiffness(family, at, part / general_weight(c, family, at), stiffness);
+    }
+    return true;
+}
+
+static void stress_of(double stiffness[STRESSES][STRESSES], double strain[3][3], double stress[3][3])
+{
+    for (int p = 0; p < STRESSES; p++) {
+        double sum = 0;
+        for (int q = 0; q < STRESSES; q++)
+            sum += stiffness[p][q] * strain[pair[q][0]][pair[q][1]] * (q < 3 ? 1 : 2);
+        stress[pair[p][0]][pair[p][1]] = stress[pair[p][1]][pair[p][0]] = sum;
+    }
+}
+
+/* Adds `share` of a stress at x of the axis across to a set of lines. */
+static void add_stress(struct glut *g, int set, double x, double share, double stress[3][3])
+{
+    const struct consistent *c = g->c;
+    double place[3] = {g->centre[0], g->centre[1], g->centre[2]};
+    place[g->across] = x;
+    const struct metric metric = consistent_metric(c, place);
+    for (int i = 0; i < 3; i++)
+        stress[i][DEPTH] = metric_pull(&metric, stress[i]);
+    for (int component = 0; component < c->dimension; component++)
+        for (int direction = 0; direction < c->dimension; direction++) {
+            const double factor = share * stress[c->slot[component]][c->slot[direction]];
+            double *line = g->line[set][component][direction];
+            consistent_point_line(c, g->across, g->across == component, g->across == direction, false, x,
+                                  g->row[0]);
+            for (size_t i = 0; factor != 0 && i < c->spline[g->across]->count; i++)
+                line[i] += factor * g->row[0][i];
+        }
+}
+
+/* (G22), to be differentiated along slot b. */
+static void find_slow(const struct glut *g, double stiffness[STRESSES][STRESSES], int b, double stress[3][3])
+{
+    const double *n = g->normal, *slip = g->slip;
+    double strain[3][3], normal[3][3], pressed[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            strain[i][j] = g->lag * (n[i] * g->tangent[j][b] + g->tangent[i][b] * n[j]) / 2;
+            normal[i][j] = n[i] * n[j];
+        }
+    stress_of(stiffness, strain, stress);
+    stress_of(stiffness, normal, pressed);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const double shear = slip[i] * ((j == b) - normal[j][b]) + slip[j] * ((i == b) - normal[i][b]);
+            stress[i][j] += g->stay[ALONG_SHEAR] * shear / 2 +
+                            g->stay[ALONG_SPREAD] * slip[b] * ((i == j) - normal[i][j]) +
+                            g->stay[ALONG_RATIO] * slip[b] * pressed[i][j];
+        }
+}
+
+static void add_points(struct glut *g, const struct family *family)
+{
+    static const double least = 1e-5;
+    const struct consistent *c = g->c;
+    const struct spline *spline = c->spline[g->across];
+    const bool knots = family->at[c->slot[g->across]] == AT_KNOTS;
+    for (size_t k = 0; k < spline->cells + (knots ? 1 : 0); k++) {
+        const double end = k == 0 || k == spline->cells ? .5 : 1;
+        const double share = (knots ? g->share[k] * end : (g->share[k] + g->share[k + 1]) / 2) / 3;
+        const double x = spline->low + ((double)k + (knots ? 0 : .5)) * g->spacing;
+        double stiffness[STRESSES][STRESSES], stress[3][3];
+        if (fabs(share) < least || !find_stiffness(g, family, k, stiffness)) continue;
+        stress_of(stiffness, g->strain, stress);
+        add_stress(g, 0, x, share, stress);
+        for (int axis = 0; axis < c->dimension; axis++) {
+            if (axis == g->across) continue;
+            find_slow(g, stiffness, c->slot[axis], stress);
+            add_stress(g, 1 + axis, x, share, stress);
+        }
+    }
+}
+
+/* Second derivative of an axis's functions at x, from slopes half a cell on either side. */
+static void curvature_line(struct glut *g, int axis, bool odd, double *line)
+{
+    const struct spline *spline = g->c->spline[axis];
+    const double h = spacing_of(spline), x = g->centre[axis];
+    double half = 1;
+    memset(line, 0, spline->count * sizeof *line);
+    for (int side = -1; side <= 1; side += 2) {
+        const double place = x + side * h / 2;
+        const bool beyond[2] = {spline->mirror[0] && place < spline->low,
+                                spline->mirror[1] && place > spline->high};
+        const double sign = (beyond[0] || beyond[1]) && !odd ? -1 : 1,
+                     plane = beyond[0] ? spline->low : spline->high;
+        if (beyond[0] || beyond[1]) half = fabs(x - plane) < 1e-9 * h ? .5 : 1;
+        consistent_source_line(g->c, axis, odd, true, beyond[0] || beyond[1] ? 2 * plane - place : place,
+                               g->row[1]);
+        for (size_t i = 0; i < spline->count; i++)
+            line[i] += side * sign * g->row[1][i] / h;
+    }
+    for (size_t i = 0; i < spline->count; i++)
+        line[i] *= half;
+}
+
+/* Products of the lines across with those along the interface. */
+static void add_lines(struct glut *g, double *const work[3], double *field)
+{
+    const struct consistent *c = g->c;
+    for (int set = 0; set <= c->dimension; set++)
+        for (int n = 0; n < c->dimension * c->dimension && set != 1 + g->across; n++) {
+            const int component = n / c->dimension, direction = n % c->dimension;
+            double *line[3] = {work[0], work[1], work[2]};
+            line[g->across] = g->line[set][component][direction];
+            for (int axis = 0; axis < c->dimension; axis++) {
+                const bool odd = axis == component;
+                if (axis == g->across) continue;
+                if (axis == direction && set == 1 + axis)
+                    curvature_line(g, axis, odd, line[axis]);
+                else
+                    consistent_source_line(c, axis, odd, axis == direction || set == 1 + axis,
+                                           g->centre[axis], line[axis]);
+            }
+            consistent_add_product(c, line, component, 1, field);
+        }
+}
+
+bool general_add_glut(const struct consistent *c, const double centre[3], double moment[3][3], double *field)
+{
+    enum { SETS = 4 * 3 * 3, ALL = SETS + 6 };
+    struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
+    size_t most = 0;
+    if (general_is_part(c->model.scene) || !find_normal(&g)) return true;
+    const struct rock rock = general_rock_at(c, centre);
+    g.lambda = rock.lambda;
+    g.mu = rock.mu;
+    g.spacing = spacing_of(c->spline[g.across]);
+    for (int axis = 0; axis < c->dimension; axis++)
+        most = c->spline[axis]->count > most ? c->spline[axis]->count : most;
+    double *room = array_new(ALL * most, sizeof *room);
+    if (room == NULL) return false;
+    for (size_t n = 0; n < SETS; n++)
+        g.line[n / 9][n / 3 % 3][n % 3] = room + n * most;
+    g.share = room + SETS * most;
+    g.row[0] = g.share + most;
+    g.row[1] = g.row[0] + most;
+    double *const work[3] = {g.row[1] + most, g.row[1] + 2 * most, g.row[1] + 3 * most};
+    part_moment(&g, moment);
+    find_share(&g);
+    general_find_lag(&g);
+    for (int f = 0; f < 3; f++)
+        add_points(&g, &c->general->family[f]);
+    add_lines(&g, work, field);
+    memcpy(moment, g.tangent, sizeof g.tangent);
+    array_free(room);
+    return true;
+}

@@ -1,0 +1,38 @@
+/* Moment tensors in averaged ground (doc/theory/general-ground.md, section 5). */
+#ifndef SELAS_METHOD_CONSISTENT_GENERAL_GLUT_H
+#define SELAS_METHOD_CONSISTENT_GENERAL_GLUT_H
+
+#include "method/consistent/general/general.h"
+
+/* Stresses along an interface in plane strain (G20a): 2 mu, 2 mu lambda / M, lambda / M. */
+enum along { ALONG_SHEAR, ALONG_SPREAD, ALONG_RATIO, ALONGS };
+
+/* A moment tensor beside an interface. */
+struct glut {
+    const struct consistent *c;
+    double centre[3];         /* by axis, of the lattice */
+    int across;               /* the axis nearest to the interface's normal */
+    double spacing;           /* along it */
+    double normal[3];         /* by slot, as all that follows */
+    double lambda, mu;        /* at the source */
+    double strain[3][3];      /* Gamma_n M (G18) */
+    double tangent[3][3];     /* what is left of M for strains along the interface */
+    double slip[3];           /* the part of M n along the interface, over mu */
+    double lag, stay[ALONGS]; /* (G20), (G21): lengths, and lengths times stresses */
+    double *share;            /* [knots] of the axis across (G19) */
+    double
+        *line[4][3]
+             [3]; /* [count] by component and direction, by axis; 1 ..: to be differentiated along an axis */
+    double *row[2]; /* [largest count] work */
+};
+
+/* Adds to `field` [dimension * volume] the forces of a moment tensor, by slot, whose place `centre` in the lattice
+ * lies beside an interface, but those of strains along it, which `moment` then holds. False: no memory. */
+bool general_add_glut(const struct consistent *c, const double centre[3], double moment[3][3], double *field);
+
+/* lag.c: sets lag and stay. */
+void general_find_lag(struct glut *glut);
+/* Rock at a place of the lattice, by axis. */
+struct rock general_rock_at(const struct consistent *c, const double place[3]);
+
+#endif
