@@ -170,7 +170,7 @@ sph-figures: $(BUILD)/selas ## Figs 4-13 and 15-19 of He & Seaid (2016), in outp
 gallery: $(BUILD)/selas ## a picture of each kind of scene: doc/gallery.md
 	@sh regress/studies/gallery $(BUILD)
 
-consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/consistent-tables.md
+consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/tables/consistent-tables.txt
 	@sh regress/studies/consistent-tables $(BUILD)
 
 tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/verification/tables.md (some 20 minutes; installs calculix-ccx)
