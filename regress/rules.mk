@@ -173,7 +173,7 @@ gallery: $(BUILD)/selas ## a picture of each kind of scene: doc/gallery.md
 consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/tables/consistent-tables.txt
 	@sh regress/studies/consistent-tables $(BUILD)
 
-tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/verification/tables.md (some 20 minutes; installs calculix-ccx)
+tables: ## rerun Tables 1-4 of He & Seaid (2016) into bar.txt, beam.txt, plate.txt of doc/verification/tables (some 20 minutes; installs calculix-ccx)
 	@sh regress/setup tables
 	@$(MAKE) --no-print-directory all
 	@regress/studies/tables/run $(BUILD)
