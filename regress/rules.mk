@@ -178,7 +178,7 @@ tables: ## rerun Tables 1-4 of He & Seaid (2016) into bar.txt, beam.txt, plate.t
 	@$(MAKE) --no-print-directory all
 	@regress/studies/tables/run $(BUILD)
 
-stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots of doc/verification/stability.md (minutes)
+stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots: doc/verification/tables/stability.txt (minutes)
 	@sh regress/studies/stability/run $(BUILD)
 
 accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/verification/accuracy.md (some 20 minutes)
