@@ -170,15 +170,15 @@ sph-figures: $(BUILD)/selas ## Figs 4-13 and 15-19 of He & Seaid (2016), in outp
 gallery: $(BUILD)/selas ## a picture of each kind of scene: doc/gallery.md
 	@sh regress/studies/gallery $(BUILD)
 
-consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/consistent-tables.md
+consistent-tables: $(BUILD)/selas $(BUILD)/test/test_dispersion ## errors of the consistent method beside those wanted: doc/verification/tables/consistent-tables.txt
 	@sh regress/studies/consistent-tables $(BUILD)
 
-tables: ## rerun Tables 1-4 of He & Seaid (2016) into doc/verification/tables.md (some 20 minutes; installs calculix-ccx)
+tables: ## rerun Tables 1-4 of He & Seaid (2016) into bar.txt, beam.txt, plate.txt of doc/verification/tables (some 20 minutes; installs calculix-ccx)
 	@sh regress/setup tables
 	@$(MAKE) --no-print-directory all
 	@regress/studies/tables/run $(BUILD)
 
-stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots of doc/verification/stability.md (minutes)
+stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability-spectrum ## hard cases, sweeps and plots: doc/verification/tables/stability.txt (minutes)
 	@sh regress/studies/stability/run $(BUILD)
 
 accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/verification/accuracy.md (some 20 minutes)

@@ -1,6 +1,6 @@
 /* scene%accuracy for plane waves in bars and boxes by the consistent method (doc/verification/accuracy.md, section 5).
  *
- * What the lattice and the scheme make of a wave of frequency omega is known (doc/theory/consistent-method.md,
+ * What the lattice and the scheme make of a wave of frequency omega is known (doc/theory/consistent-splines.md,
  * section 11): it travels as with the speed c (1 + e(omega)). To first order the error of a history is
  * therefore
  *

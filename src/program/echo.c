@@ -120,7 +120,7 @@ static void tell(const struct scene *scene, const double *small, const double *l
     }
 }
 
-/* The deck, its splines not tuned: how far tuned ones reach hangs on the size of the box (consistent-method.md,
+/* The deck, its splines not tuned: how far tuned ones reach hangs on the size of the box (consistent-splines.md,
  * section 14), which is no echo. */
 static selas_status open_plain(const struct echo_deck *deck, selas_simulation **simulation)
 {

@@ -31,7 +31,7 @@ table1() {
     echo '## Table 1: the bar, errors of the velocity at t = .12 ms'
     echo
     echo '"-" marks what the paper found unstable. "closed form" is the smearing by alpha = 2.5 alone, without any time scheme'
-    echo '([updated Lagrangian](../theory/sph-updated-lagrangian.md)). Stages by the paper'"'"'s Eq 28; `stepping%force` beyond'
+    echo '(doc/theory/sph-updated-lagrangian.md). Stages by the paper'"'"'s Eq 28; `stepping%force` beyond'
     echo 'the limit.'
     echo
     echo '| NP | step | scheme | L1 paper | L1 ours | L1 closed form | L2 paper | L2 ours | L2 closed form | CPU paper | CPU ours | particle evaluations |'

@@ -1,5 +1,5 @@
 /* Gradients of the cloud method: antisymmetric pair weights that sum by parts and are exact for linear
- * fields, as near as may be to those of moving least squares (doc/theory/cloud-method.md, Eqs 1 to 7).
+ * fields, as near as may be to those of moving least squares (doc/theory/cloud-method.md, Eqs 1 to 6).
  *
  * For each axis c the pairs a_ij = -a_ji minimise sum (a_ij - a0_ij)^2 / w_ij under
  *     sum_j a_ij = -B_i / 2,   sum_j a_ij (x_j - x_i) = V_i e_c        (B_i = n_c A_i on faces, else 0);
