@@ -81,3 +81,31 @@ done
 off=$(far dip90 r1 5 dip-90 r2 5 -1)
 check "layers that dip towards x and towards -x are mirror images: $off apart" less "$off" 1e-10
 check 'and neither is the level one' less 0.01 "$(far dip90 r1 5 general r1 5)"
+
+# A moment tensor beside an interface: the general operator, whose rock there is averaged, against the layered one.
+cat >"$out/moment.nml" <<'END'
+&scene dimension = 2, end_time = 6.54 /
+&stepping time_step = 0.006 /
+&material name = 'rock', density = 1, p_speed = 2.93027, s_speed = 1 /
+&material name = 'soil', density = .9, p_speed = 1.3318, s_speed = 0.602 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 0.632 /
+&body material = 'rock', shape = 'half-space', spacing = 0.05 /
+&load kind = 'moment-tensor', centre = 0, 0.652, moment = -0.82, 0.37, 0, 0.81, 0, 0, history = 'gaussian', width = 0.471, delay = 2.356 /
+&receiver name = 'r1', position = 0.981, 0.0 /
+&receiver name = 'r2', position = -0.969, 0.0 /
+&receiver name = 'r3', position = 0.831, 1.408 /
+&output plots = .false. /
+END
+for depth in 0.612 0.652 0.7; do
+    for run in layered general; do
+        "$build/selas" -q "$out/moment.nml" load%centre=0,$depth method%operator=$run output%directory="$out/$run$depth"
+    done
+    for receiver in r1 r2 r3; do
+        for column in 5 6; do
+            off=$(far "general$depth" $receiver $column "layered$depth" $receiver $column)
+            check "a moment tensor at $depth, interface at 0.632: $receiver, column $column: general operator $off from the layered, less than .01" \
+                less "$off" 0.01
+        done
+    done
+done

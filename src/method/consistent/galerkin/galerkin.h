@@ -146,8 +146,12 @@ void mass_solve(struct consistent *c, const struct mass_factors *factors, double
 
 /* loads.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
-/* Moment tensors again, once the general operator has its ground. */
-selas_status forces_in_ground(struct consistent *c, struct messages *messages);
+/* Adds to `field` [dimension * volume] forces of a moment tensor, by slot, at `centre` of the lattice; `moment` then
+ * holds what is left to act on the splines' strain. False: no memory. */
+typedef bool moment_beside(const struct consistent *c, const double centre[3], double moment[3][3],
+                           double *field);
+/* Makes the moment tensors again. */
+selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages);
 void forces_free(struct consistent *c);
 size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
@@ -160,8 +164,10 @@ void consistent_source_line(const struct consistent *c, int axis, bool odd, bool
 /* field += factor * product of the lines, by axis. */
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
                             double *field);
+/* sparse.c: keeps the entries of a dense field that are not zero. False: no memory. */
 bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
 void sparse_free(struct sparse *sparse);
+size_t sparse_bytes(const struct consistent *c, const struct sparse *sparse);
 /* Adds loads and the pull of moving faces, as vectors given, in plane k. */
 void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
                 const struct sparse *pull, int component, size_t k, double *plane);

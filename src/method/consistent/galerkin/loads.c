@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "method/consistent/galerkin/moving_load.h"
 #include "method/consistent/galerkin/surface.h"
-#include "method/consistent/general/glut.h"
 #include "method/spline/disc.h"
 #include "method/spline/source.h"
 
@@ -17,10 +16,11 @@
 
 /* Work space of set-up: a dense field, and the 1-D weights of the three axes. */
 struct workspace {
-    double *field;   /* [dimension * volume] */
-    double *line[3]; /* [count] by axis */
-    double *face;    /* [counts of a face's two axes]: disc */
-    double *work;    /* [largest count] */
+    double *field;         /* [dimension * volume] */
+    double *line[3];       /* [count] by axis */
+    double *face;          /* [counts of a face's two axes]: disc */
+    double *work;          /* [largest count] */
+    moment_beside *beside; /* NULL: moment tensors act on the splines' strain */
 };
 
 static bool workspace_new(const struct consistent *c, struct workspace *w)
@@ -46,68 +46,6 @@ static void workspace_free(struct workspace *w)
     array_free(w->work);
     for (int axis = 0; axis < 3; axis++)
         array_free(w->line[axis]);
-}
-
-/* Keeps the entries of a dense field that are not zero. */
-bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse)
-{
-    const size_t planes = (size_t)c->dimension * c->n[DEPTH];
-    size_t count = 0;
-    for (size_t i = 0; i < (size_t)c->dimension * c->volume; i++)
-        count += field[i] != 0;
-    sparse->start = array_new(planes + 1, sizeof *sparse->start);
-    sparse->index = array_new(count, sizeof *sparse->index);
-    sparse->value = array_new(count, sizeof *sparse->value);
-    if (sparse->start == NULL || sparse->index == NULL || sparse->value == NULL) return false;
-    count = 0;
-    for (size_t plane = 0; plane < planes; plane++) {
-        sparse->start[plane] = count;
-        for (size_t i = 0; i < c->plane; i++) {
-            if (field[plane * c->plane + i] == 0) continue;
-            sparse->index[count] = i;
-            sparse->value[count++] = field[plane * c->plane + i];
-        }
-    }
-    sparse->start[planes] = count;
-    return true;
-}
-
-void sparse_free(struct sparse *sparse)
-{
-    array_free(sparse->start);
-    array_free(sparse->index);
-    array_free(sparse->value);
-}
-
-void sparse_add(const struct consistent *c, const struct sparse *sparse, int component, size_t k,
-                double factor, double *plane)
-{
-    const size_t at = (size_t)component * c->n[DEPTH] + k;
-    for (size_t e = sparse->start[at]; e < sparse->start[at + 1]; e++)
-        plane[sparse->index[e]] += factor * sparse->value[e];
-}
-
-void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
-                const struct sparse *pull, int component, size_t k, double *plane)
-{
-    const struct scene *scene = c->model.scene;
-    for (size_t l = 0; drive->load != NULL && l < scene->loads; l++)
-        if (drive->load[l] != 0)
-            sparse_add(c, &load[l], component, k, drive->load[l] * scene->load[l].amplitude, plane);
-    for (int face = 0; drive->motion != NULL && face < 2 * c->dimension; face++)
-        if (c->moving[face]) sparse_add(c, &pull[face], component, k, -drive->motion[face], plane);
-}
-
-double sparse_dot(const struct consistent *c, const struct sparse *sparse, const double *field)
-{
-    double sum = 0;
-    for (size_t component = 0; component < (size_t)c->dimension; component++)
-        for (size_t k = c->part.own; k < c->part.end; k++) {
-            const size_t plane = component * c->n[DEPTH] + k;
-            for (size_t e = sparse->start[plane]; e < sparse->start[plane + 1]; e++)
-                sum += sparse->value[e] * field[plane * c->plane + sparse->index[e]];
-        }
-    return sum;
 }
 
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
@@ -254,7 +192,7 @@ static bool moment_tensor(struct consistent *c, const struct load *load, const d
     for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++)
             by_slot[c->slot[i]][c->slot[j]] = moment[i][j];
-    if (c->general != NULL && !general_add_glut(c, centre, by_slot, w->field)) return false;
+    if (w->beside != NULL && !w->beside(c, centre, by_slot, w->field)) return false;
     for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++) {
             const double pull = c->slot[j] == DEPTH ? metric_pull(&metric, by_slot[c->slot[i]])
@@ -359,7 +297,7 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
     return status;
 }
 
-selas_status forces_in_ground(struct consistent *c, struct messages *messages)
+selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages)
 {
     const struct scene *scene = c->model.scene;
     struct workspace w = {NULL};
@@ -367,19 +305,13 @@ selas_status forces_in_ground(struct consistent *c, struct messages *messages)
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
         if (w.field == NULL && !workspace_new(c, &w))
-            return fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+        w.beside = beside;
         sparse_free(&c->load[k]);
-        status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+        if (status == SELAS_OK) status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
     }
     workspace_free(&w);
     return status;
-}
-
-static size_t sparse_bytes(const struct consistent *c, const struct sparse *sparse)
-{
-    const size_t planes = (size_t)c->dimension * c->n[DEPTH];
-    if (sparse->start == NULL) return 0;
-    return (planes + 1) * sizeof(size_t) + sparse->start[planes] * (sizeof(size_t) + sizeof(double));
 }
 
 size_t forces_bytes(const struct consistent *c)

@@ -1,5 +1,6 @@
 /* The general operator: making, acceleration, M v and energies (doc/theory/general-ground.md). */
 #include "method/consistent/general/general.h"
+#include "method/consistent/general/glut.h"
 #include "method/consistent/general/sweep.h"
 
 #include "base/memory.h"
@@ -148,7 +149,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     if (status == SELAS_OK) status = general_material(c, mass, messages);
     if (status == SELAS_OK) general_lay_corners(c);
-    if (status == SELAS_OK) status = forces_in_ground(c, messages);
+    if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, messages);
     status = ranks_agree(c->part.ranks, status, messages);
     if (status == SELAS_OK && !general_scale(c, mass))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);

@@ -20,15 +20,12 @@ struct glut {
     double slip[3];           /* the part of M n along the interface, over mu */
     double lag, stay[ALONGS]; /* (G20), (G21): lengths, and lengths times stresses */
     double *share;            /* [knots] of the axis across (G19) */
-    double
-        *line[4][3]
-             [3]; /* [count] by component and direction, by axis; 1 ..: to be differentiated along an axis */
-    double *row[2]; /* [largest count] work */
+    double *line[4][3][3]; /* [count] by component and direction; 1 + axis: to be differentiated along it */
+    double *row[2];        /* [largest count] work */
 };
 
-/* Adds to `field` [dimension * volume] the forces of a moment tensor, by slot, whose place `centre` in the lattice
- * lies beside an interface, but those of strains along it, which `moment` then holds. False: no memory. */
-bool general_add_glut(const struct consistent *c, const double centre[3], double moment[3][3], double *field);
+/* What lies beside an interface acts by (G18) to (G22); `moment` keeps the part of strains along it. */
+moment_beside general_add_glut;
 
 /* lag.c: sets lag and stay. */
 void general_find_lag(struct glut *glut);

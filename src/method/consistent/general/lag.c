@@ -25,8 +25,7 @@ static size_t samples(const struct column *column)
     return (column->knots - 1 + 2 * BEFORE) * MANY;
 }
 
-/* Means (G11) at knots and middles, one after the other, of what is given MANY times a cell from BEFORE cells before the first
- * knot. */
+/* Means (G11) at knots and middles, one after the other, of samples that begin BEFORE cells before the first knot. */
 static void average(const struct column *column, const double *fine, double *at)
 {
     for (size_t q = 0; q + 1 < 2 * column->knots; q++) {
