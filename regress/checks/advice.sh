@@ -153,11 +153,13 @@ deck=graded.nml
 told "a receiver near a source between coarse points" "receiver 'r' is 2.4 from load 1, .* nearer than 4 spacings (2.[5-9][0-9]*)"
 untold "the same on an even lattice" body%grading=1
 untold "a receiver farther off" receiver%position=2,2,3.5
-told "a moment tensor beside an interface" "load 1 is a moment tensor about 1.[67] spacings from where the rock changes: .* body%spacing = 0.1[34][0-9]* .* 'layered'" body%grading=1 load%centre=2,2,1.4 receiver%position=2,2,3.5
-untold "a moment tensor farther off" body%grading=1 load%centre=2,2,1.8 receiver%position=2,2,3.5
-untold "a force beside an interface" body%grading=1 load%centre=2,2,1.4 load%kind=body-force load%shape=point load%direction=0,0,1 load%moment= receiver%position=2,2,3.5
-sed -i "/^&method/d" graded.nml
-untold "the same by the layered operator" body%grading=1 load%centre=2,2,1.4 receiver%position=2,2,3.5
+tilted='layer(2)%dip=1 body%grading=1 receiver%position=2,2,3.5'
+told "a moment tensor beside a tilted interface" "load 1 is a moment tensor about 1.[67] spacings from where the rock changes: .* body%spacing = 0.1[34][0-9]* " $tilted load%centre=2,2,1.44
+untold "one beside a level interface" body%grading=1 load%centre=2,2,1.4 receiver%position=2,2,3.5 'material(1)%s_speed=0.6'
+told "one beside a level interface of strong contrast" "1.[67] spacings .* a twentieth .* 'layered'" body%grading=1 load%centre=2,2,1.4 receiver%position=2,2,3.5
+untold "a moment tensor farther off" $tilted load%centre=2,2,1.9
+untold "a force beside an interface" $tilted load%centre=2,2,1.4 load%kind=body-force load%shape=point load%direction=0,0,1 load%moment=
+sed -i '/^&method/d' graded.nml
 told "a grading of level layers" "body%grading brings the general operator" receiver%position=2,2,3.5
 deck=
 "$selas" -q good.nml receiver%position=3.9,2 output%directory=out

@@ -68,12 +68,24 @@ static double bend(const struct scene *scene, const double place[3], int axis, d
     return here.mu > 0.0 ? fmax(worst, fabs(sides[1] / here.mu - 1.0)) : worst;
 }
 
-/* The general operator averages the rock over 2.5 spacings on either side of an interface, and so the strain that
- * a moment tensor there acts on (measured: doc/theory/general-ground.md, section 6). */
+/* The greater of the shear moduli at the ends over the lesser, along depth. */
+static double contrast(const struct scene *scene, const double place[3], double away)
+{
+    double modulus[2];
+    for (int side = 0; side < 2; side++) {
+        double there[3] = {place[0], place[1], place[2]};
+        there[scene->dimension - 1] += side == 0 ? -away : away;
+        modulus[side] = ground_at(scene, there).mu;
+    }
+    return fmax(modulus[0], modulus[1]) / fmin(modulus[0], modulus[1]);
+}
+
+/* What (G21) to (G25) leave beside interfaces that slope or end, or of strong contrast (doc/theory/general-ground.md,
+ * section 7). */
 void look_at_interfaces(struct adviser *adviser)
 {
     enum { STEPS = 10 }; /* in a spacing */
-    static const double reach = 3.0, slight = 0.05;
+    static const double reach = 3.0, slight = 0.05, strong = 10.0;
     const struct scene *scene = adviser->scene;
     const struct deck_group *group = scene->method.group;
     const bool asked =
@@ -86,6 +98,7 @@ void look_at_interfaces(struct adviser *adviser)
         double place[3] = {0.0, 0.0, 0.0};
         body_from_deck(&scene->body, scene->load[k].centre, place);
         const double spacing = body_spacing_at(&scene->body, place);
+        if (!ground_is_general(scene) && contrast(scene, place, reach * spacing) <= strong) continue;
         for (int axis = 0; axis < scene->dimension; axis++)
             for (int n = 1; n < least * STEPS; n++) {
                 if (bend(scene, place, axis, n * spacing / STEPS) <= slight) continue;
@@ -96,11 +109,12 @@ void look_at_interfaces(struct adviser *adviser)
     if (least == reach) return;
     advise(adviser,
            "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
-           "the general "
-           "operator, which averages the rock there, may be wrong by a tenth of the velocity, and by more "
-           "than half of it "
-           "beside the interface itself; body%%spacing = %.3g or a source farther off would do%s",
-           load + 1, least, reach, scene->body.spacing * least / reach,
+           "velocities by the general operator may be wrong by %s; body%%spacing = %.3g or a source farther "
+           "off would do%s",
+           load + 1, least, reach,
+           ground_is_general(scene) ? "a tenth where that is not level"
+                                    : "a twentieth where moduli are 1 : 10",
+           scene->body.spacing * least / reach,
            ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 

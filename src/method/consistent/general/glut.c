@@ -1,5 +1,5 @@
 /* What a moment tensor beside an interface pulls at: the rock at the points about it is averaged
- * (doc/theory/general-ground.md, section 5). */
+ * (doc/theory/general-ground.md, section 6). */
 #include "method/consistent/general/glut.h"
 #include "method/consistent/general/piece.h"
 
@@ -53,7 +53,7 @@ static bool find_normal(struct glut *g)
            !(spline->mirror[1] && spline->high - at < near);
 }
 
-/* (G18) */
+/* (G21) */
 static void part_moment(struct glut *g, double moment[3][3])
 {
     const double *n = g->normal, bulk = g->lambda + 2 * g->mu;
@@ -77,7 +77,7 @@ static void part_moment(struct glut *g, double moment[3][3])
             g->tangent[i][j] = moment[i][j] - 2 * g->mu * g->strain[i][j] - (i == j ? g->lambda * trace : 0);
 }
 
-/* (G19): first what the slope at the source is of the slopes at the knots. */
+/* (G22): first what the slope at the source is of the slopes at the knots. */
 static void find_share(struct glut *g)
 {
     const size_t last = g->c->spline[g->across]->cells;
@@ -183,7 +183,7 @@ static void add_stress(struct glut *g, int set, double x, double share, double s
         }
 }
 
-/* (G22), to be differentiated along slot b. */
+/* (G25), to be differentiated along slot b. */
 static void find_slow(const struct glut *g, double stiffness[STRESSES][STRESSES], int b, double stress[3][3])
 {
     const double *n = g->normal, *slip = g->slip;

@@ -1,10 +1,10 @@
-/* Moment tensors in averaged ground (doc/theory/general-ground.md, section 5). */
+/* Moment tensors in averaged ground (doc/theory/general-ground.md, section 6). */
 #ifndef SELAS_METHOD_CONSISTENT_GENERAL_GLUT_H
 #define SELAS_METHOD_CONSISTENT_GENERAL_GLUT_H
 
 #include "method/consistent/general/general.h"
 
-/* Stresses along an interface in plane strain (G20a): 2 mu, 2 mu lambda / M, lambda / M. */
+/* Stresses along an interface in plane strain (G24): 2 mu, 2 mu lambda / M, lambda / M. */
 enum along { ALONG_SHEAR, ALONG_SPREAD, ALONG_RATIO, ALONGS };
 
 /* A moment tensor beside an interface. */
@@ -15,16 +15,16 @@ struct glut {
     double spacing;           /* along it */
     double normal[3];         /* by slot, as all that follows */
     double lambda, mu;        /* at the source */
-    double strain[3][3];      /* Gamma_n M (G18) */
+    double strain[3][3];      /* Gamma_n M (G21) */
     double tangent[3][3];     /* what is left of M for strains along the interface */
     double slip[3];           /* the part of M n along the interface, over mu */
-    double lag, stay[ALONGS]; /* (G20), (G21): lengths, and lengths times stresses */
-    double *share;            /* [knots] of the axis across (G19) */
+    double lag, stay[ALONGS]; /* (G23), (G24): lengths, and lengths times stresses */
+    double *share;            /* [knots] of the axis across (G22) */
     double *line[4][3][3]; /* [count] by component and direction; 1 + axis: to be differentiated along it */
     double *row[2];        /* [largest count] work */
 };
 
-/* What lies beside an interface acts by (G18) to (G22); `moment` keeps the part of strains along it. */
+/* What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
 moment_beside general_add_glut;
 
 /* lag.c: sets lag and stay. */

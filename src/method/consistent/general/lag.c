@@ -1,5 +1,5 @@
 /* How far displacements and stresses of the lattice stay behind the exact ones beside an interface
- * (doc/theory/general-ground.md, section 5). */
+ * (doc/theory/general-ground.md, section 6). */
 #include "method/consistent/general/glut.h"
 #include "method/consistent/general/piece.h"
 
@@ -106,7 +106,7 @@ static void sample(const struct glut *glut, const struct column *column, double 
     }
 }
 
-/* (G20). Far from interfaces the lattice's displacement runs even with the exact one: at most knots. */
+/* (G23). Far from interfaces the lattice's displacement runs even with the exact one: at most knots. */
 static double find_lag(const struct glut *glut, const struct column *column, const double *soft)
 {
     const struct spline *spline = glut->c->spline[glut->across];
@@ -130,7 +130,7 @@ static double find_lag(const struct glut *glut, const struct column *column, con
            glut->spacing;
 }
 
-/* (G21) */
+/* (G24) */
 static double find_stay(const struct glut *glut, const struct column *column, const double *along)
 {
     double at[2 * MOST_KNOTS], stress[MOST_KNOTS], ahead[MOST_KNOTS], got = 0, parts = 0;
