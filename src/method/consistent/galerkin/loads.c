@@ -17,35 +17,31 @@
 /* Work space of set-up: a dense field, and the 1-D weights of the three axes. */
 struct workspace {
     double *field;         /* [dimension * volume] */
-    double *line[3];       /* [count] by axis */
-    double *face;          /* [counts of a face's two axes]: disc */
+    double *line[3];       /* [count] by axis; the first holds all that follows */
     double *work;          /* [largest count] */
+    double *face;          /* [counts of a face's two axes]: disc */
     moment_beside *beside; /* NULL: moment tensors act on the splines' strain */
 };
 
 static bool workspace_new(const struct consistent *c, struct workspace *w)
 {
-    *w = (struct workspace){.field = array_new((size_t)c->dimension * c->volume, sizeof *w->field)};
-    bool good = w->field != NULL;
     size_t largest = 1;
-    for (int axis = 0; axis < c->dimension; axis++) {
-        const size_t count = c->spline[axis]->count;
-        w->line[axis] = array_new(count, sizeof(double));
-        good = good && w->line[axis] != NULL;
-        largest = count > largest ? count : largest;
-    }
-    w->face = array_new(largest * largest, sizeof *w->face);
-    w->work = array_new(largest, sizeof *w->work);
-    return good && w->face != NULL && w->work != NULL;
+    for (int axis = 0; axis < c->dimension; axis++)
+        largest = c->spline[axis]->count > largest ? c->spline[axis]->count : largest;
+    *w = (struct workspace){.field = array_new((size_t)c->dimension * c->volume, sizeof *w->field),
+                            .line[0] = array_new((4 + largest) * largest, sizeof(double))};
+    if (w->field == NULL || w->line[0] == NULL) return false;
+    w->line[1] = w->line[0] + largest;
+    w->line[2] = w->line[1] + largest;
+    w->work = w->line[2] + largest;
+    w->face = w->work + largest;
+    return true;
 }
 
 static void workspace_free(struct workspace *w)
 {
     array_free(w->field);
-    array_free(w->face);
-    array_free(w->work);
-    for (int axis = 0; axis < 3; axis++)
-        array_free(w->line[axis]);
+    array_free(w->line[0]);
 }
 
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
@@ -300,15 +296,14 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
 selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages)
 {
     const struct scene *scene = c->model.scene;
-    struct workspace w = {NULL};
+    struct workspace w;
     selas_status status = SELAS_OK;
+    if (!workspace_new(c, &w)) status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+    w.beside = beside;
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
-        if (w.field == NULL && !workspace_new(c, &w))
-            status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
-        w.beside = beside;
         sparse_free(&c->load[k]);
-        if (status == SELAS_OK) status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+        status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
     }
     workspace_free(&w);
     return status;

@@ -249,13 +249,12 @@ static void curvature_line(struct glut *g, int axis, bool odd, double *line)
         line[i] *= half;
 }
 
-/* Products of the lines across with those along the interface. */
-static void add_lines(struct glut *g, double *const work[3], double *field)
+/* Products of a set's lines across with those along the interface. */
+static void add_lines(struct glut *g, int set, double *const work[3], double *field)
 {
     const struct consistent *c = g->c;
-    for (int set = 0; set <= c->dimension; set++)
-        for (int n = 0; n < c->dimension * c->dimension && set != 1 + g->across; n++) {
-            const int component = n / c->dimension, direction = n % c->dimension;
+    for (int component = 0; component < c->dimension; component++)
+        for (int direction = 0; direction < c->dimension; direction++) {
             double *line[3] = {work[0], work[1], work[2]};
             line[g->across] = g->line[set][component][direction];
             for (int axis = 0; axis < c->dimension; axis++) {
@@ -296,7 +295,8 @@ bool general_add_glut(const struct consistent *c, const double centre[3], double
     general_find_lag(&g);
     for (int f = 0; f < 3; f++)
         add_points(&g, &c->general->family[f]);
-    add_lines(&g, work, field);
+    for (int set = 0; set <= c->dimension; set++)
+        if (set != 1 + g.across) add_lines(&g, set, work, field);
     memcpy(moment, g.tangent, sizeof g.tangent);
     array_free(room);
     return true;

@@ -110,7 +110,7 @@ static void sample(const struct glut *glut, const struct column *column, double 
 static double find_lag(const struct glut *glut, const struct column *column, const double *soft)
 {
     const struct spline *spline = glut->c->spline[glut->across];
-    double at[2 * MOST_KNOTS], control[MOST_KNOTS + 1], ahead[MOST_KNOTS], got = 0, parts = 0;
+    double at[2 * MOST_KNOTS] = {0}, control[MOST_KNOTS + 1] = {0}, ahead[MOST_KNOTS], got = 0, parts = 0;
     average(column, soft, at);
     for (size_t q = 0; q + 1 < 2 * column->knots; q++)
         at[q] = 1 / at[q];
@@ -133,7 +133,7 @@ static double find_lag(const struct glut *glut, const struct column *column, con
 /* (G24) */
 static double find_stay(const struct glut *glut, const struct column *column, const double *along)
 {
-    double at[2 * MOST_KNOTS], stress[MOST_KNOTS], ahead[MOST_KNOTS], got = 0, parts = 0;
+    double at[2 * MOST_KNOTS] = {0}, stress[MOST_KNOTS] = {0}, ahead[MOST_KNOTS], got = 0, parts = 0;
     average(column, along, at);
     balance(column, at, stress);
     for (size_t k = 0; k < column->knots; k++) {
@@ -157,7 +157,7 @@ void general_find_lag(struct glut *glut)
                                   .knots = (size_t)(to - from) + 1,
                                   .here = centre - from,
                                   .end = {from == 0, to == cells}};
-    double soft[MOST_FINE], along[ALONGS][MOST_FINE];
+    double soft[MOST_FINE] = {0}, along[ALONGS][MOST_FINE] = {{0}};
     sample(glut, &column, soft, along);
     glut->lag = find_lag(glut, &column, soft);
     for (int p = 0; p < ALONGS; p++)
