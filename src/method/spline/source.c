@@ -34,12 +34,9 @@ static const double legendre[MOMENTS][MOMENTS] = {{1},
                                                   {.375, 0, -3.75, 0, 4.375},
                                                   {0, 1.875, 0, -8.75, 0, 7.875}};
 
-/* Weights at distances `away` (in cells) with these moments. */
-static void solve(const double away[WIDE], const double moment[MOMENTS], double weight[WIDE])
+/* Weights at distances `away` (in cells) with these moments, a bell that is 0 from `reach` on. */
+static void solve(const double away[WIDE], double reach, const double moment[MOMENTS], double weight[WIDE])
 {
-    double reach = .5 * WIDE;
-    for (int b = 0; b < WIDE; b++)
-        reach = fmax(reach, fabs(away[b]) + .5);
     double bell[WIDE], value[WIDE][MOMENTS] = {{0}}, wanted[MOMENTS] = {0}, matrix[MOMENTS * MOMENTS] = {0};
     for (int j = 0; j < MOMENTS; j++)
         for (int k = 0; k <= j; k++)
@@ -91,10 +88,13 @@ bool source_at(const struct spline *spline, bool odd, bool slope, double x, stru
     if (spline->degree == TUNED_DEGREE) return false;
     const bool inside = spline_images(spline, odd, x, WIDE, &images);
     if (!inside && !end_images(spline, x, 0, &images) && !end_images(spline, x, 1, &images)) return false;
-    for (int b = 0; b < WIDE; b++)
+    double farthest = 0;
+    for (int b = 0; b < WIDE; b++) {
         away[b] = (images.position[b] - x) / images.gap;
+        farthest = fmax(farthest, fabs(away[b]));
+    }
     set_moments(spline->degree, slope, moment);
-    solve(away, moment, weight);
+    solve(away, inside ? .5 * WIDE : farthest + .5, moment, weight);
     point->count = WIDE;
     for (size_t b = 0; b < WIDE; b++) {
         point->index[b] = images.index[b];
