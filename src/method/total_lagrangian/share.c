@@ -69,28 +69,38 @@ static void widen_window(const struct tl_model *tl, bool *window)
     memset(window + from, true, end - from);
 }
 
-/* Adds the points within the radius of values at places to the own ones, about those of them that have neighbours
- * which are not, and their rows. False: no memory. */
-static bool widen_about(const struct tl_model *tl, const bool *own, bool *window)
+/* Adds what a value at a place of the deck is taken from, where the point that weighs most is an own one. What is wrong
+ * with the place is told where its probe is made. */
+static void widen_to(struct tl_model *tl, const double position[3], const bool *own, bool *window)
 {
-    const size_t n = tl->cloud->points;
-    const double radius = tl_probe_radius(tl) + tl->cloud->spacing;
-    bool *near = array_new(n, sizeof *near);
-    uint32_t *found = array_new(n, sizeof *found);
-    const bool room = near != NULL && found != NULL;
-    for (size_t i = 0; room && i < n; i++) {
-        bool inside = true;
-        for (size_t k = tl_first(&tl->gradient, i); own[i] && k < tl_last(&tl->gradient, i); k++)
-            inside = inside && own[tl_source(tl, tl_neighbour(&tl->gradient, i, k))];
-        if (inside) continue;
-        const size_t count = neighbours_within(&tl->near, tl->cloud->position + 3 * i, radius, n, found);
-        for (size_t k = 0; k < count; k++)
-            near[found[k]] = true;
+    size_t count = 0, heaviest = 0, index[TL_PROBE_ROOM] = {0};
+    double place[3], weight[TL_PROBE_ROOM], gradient[3 * TL_PROBE_ROOM];
+    struct messages unheard = {0};
+    body_from_deck(&tl->model.scene->body, position, place);
+    const selas_status status = tl_probe(tl, place, &count, index, weight, gradient, &unheard);
+    messages_free(&unheard);
+    for (size_t k = 1; status == SELAS_OK && k < count; k++)
+        if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
+    for (size_t k = 0; status == SELAS_OK && own[index[heaviest]] && k < count; k++) {
+        window[index[k]] = true;
+        mark_row(tl, &tl->gradient, index[k], window);
     }
-    if (room) mark_rows(tl, &tl->gradient, near, window);
-    array_free(near);
-    array_free(found);
-    return room;
+}
+
+/* The same of all receivers and profiles. */
+static void widen_to_places(struct tl_model *tl, const bool *own, bool *window)
+{
+    const struct scene *scene = tl->model.scene;
+    for (size_t k = 0; k < scene->receivers; k++)
+        widen_to(tl, scene->receiver[k].position, own, window);
+    for (size_t p = 0; p < scene->profiles; p++) {
+        const struct profile *profile = &scene->profile[p];
+        for (size_t k = 0; k < profile->points; k++) {
+            double position[3];
+            profile_position(profile, k, position);
+            widen_to(tl, position, own, window);
+        }
+    }
 }
 
 /* What describe() tells. */
@@ -116,7 +126,7 @@ static bool find_own(struct tl_model *tl, struct reach *reach)
         if (marks[k] == NULL) return false;
     find_reach(tl, reach);
     if (part->shared) widen_window(tl, reach->window);
-    if (!part->shared && !widen_about(tl, reach->own, reach->window)) return false;
+    if (!part->shared) widen_to_places(tl, reach->own, reach->window);
     struct tl_set here = {0};
     const bool room = tl_set_marked(reach->window, tl->cloud->points, &here) &&
                       tl_set_cut(&here, (size_t)0 - tl->cloud->first, tl->cloud->whole, window) &&
