@@ -109,6 +109,9 @@ struct model_core {
     /* Together: adds how an array like u, or the extra part of the state, lies in that of all ranks. NULL: a
      * model that is alone. */
     void (*share)(struct model *model, enum model_array array, struct spread *shares);
+    /* Together: brings an array like u, of which each rank has what is its own, to what all ranks have of it. Ranks of
+     * a model with this have arrays of the whole body: it has no `holder` and no `share`. NULL: another model. */
+    void (*complete)(struct model *model, double *u);
     void (*energy)(struct model *model, const double *y, struct energy *energy); /* ranks: together */
     /* Power of the loads and power absorbed by dampers at this instant (both >= 0 when energy goes in / out);
      * on ranks each one's part of it. */
@@ -259,6 +262,16 @@ static inline void model_remember(struct model *model, double dt, double *y)
     double *v = y + model->unknowns;
     model->memory->remember(model, dt, y, v, v + model->unknowns);
     model->memory->drag(model, dt, v);
+}
+
+/* Together: brings state and acceleration to what all ranks have of them, where ranks have arrays of the whole body
+ * with their own part alone; y is made of arrays like u. */
+static inline void model_complete(struct model *model, double *y, double *a)
+{
+    if (model->core->complete == NULL) return;
+    model->core->complete(model, a);
+    for (size_t k = 0; k + model->unknowns <= model->state_size; k += model->unknowns)
+        model->core->complete(model, y + k);
 }
 
 /* Frees the model and sets the pointer to NULL. */

@@ -60,10 +60,8 @@ static selas_status create_one(struct recorder *recorder, const struct profile *
         return fail(messages, SELAS_NO_MEMORY, "no memory for the profile '%s'", profile->name);
     selas_status status = SELAS_OK;
     for (size_t i = 0; i < profile->points && status == SELAS_OK; i++) {
-        const double s = profile->points > 1 ? (double)i / (double)(profile->points - 1) : 0.0;
         double position[3];
-        for (int axis = 0; axis < 3; axis++)
-            position[axis] = (1.0 - s) * profile->from[axis] + s * profile->to[axis];
+        profile_position(profile, i, position);
         status = recorder->model->core->probe(recorder->model, position, &record->probe[i], messages);
     }
     if (status == SELAS_OK) choose_steps(recorder, record);

@@ -119,6 +119,7 @@ static bool write_fields(struct recorder *recorder, const struct snapshot_record
                          const struct state *state, hid_t group)
 {
     bool good = true;
+    model_complete(recorder->model, state->y, state->a);
     for (int f = 0; f <= SELAS_ENERGY; f++) {
         const selas_field field = (selas_field)f;
         const size_t components = (size_t)field_components(field);

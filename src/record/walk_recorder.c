@@ -65,8 +65,9 @@ static void pass_entries(struct walk *walk, struct recorder *recorder, size_t en
 static void pass_state(struct walk *walk, const struct recorder *recorder, struct state *state)
 {
     struct model *model = model_computed(recorder->model);
-    const bool shared = ranks_count(walk->ranks) > 1 && !model->replicated;
+    const bool shared = ranks_count(walk->ranks) > 1 && model->core->share != NULL;
     struct spread shares = {0};
+    if (walk->mode != SET_READ) model_complete(model, state->y, state->a);
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);
     walk_shared(walk, "a", H5T_NATIVE_DOUBLE, 1, state->a, model->unknowns, shared ? &shares : NULL);
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);

@@ -158,6 +158,14 @@ struct profile {
     unsigned fields; /* bit 1 << selas_field */
 };
 
+/* Point i of a profile, deck coordinates. */
+static inline void profile_position(const struct profile *profile, size_t i, double position[3])
+{
+    const double s = profile->points > 1 ? (double)i / (double)(profile->points - 1) : 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        position[axis] = (1.0 - s) * profile->from[axis] + s * profile->to[axis];
+}
+
 struct snapshot {
     double every; /* 0: use `time` */
     size_t times;

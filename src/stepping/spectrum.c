@@ -40,13 +40,19 @@ static uint64_t seed_after(uint64_t seed, size_t numbers)
     return seed;
 }
 
+/* Ranks that share vectors; NULL: each has them whole. */
+static struct ranks *sharing(const struct model *model)
+{
+    return model->core->complete == NULL ? model->scene->ranks : NULL;
+}
+
 /* Which of the unknowns of the whole body this rank has; alone, all. */
 static void find_shares(struct model *model, struct spread *shares)
 {
     const size_t n = model->unknowns;
     const struct spread_run all = {0, 0, n, 0, n};
     *shares = (struct spread){0};
-    if (ranks_count(model->scene->ranks) > 1)
+    if (ranks_count(sharing(model)) > 1)
         model->core->share(model, ARRAY_UNKNOWNS, shares);
     else
         spread_add(shares, n, n, &all);
@@ -63,12 +69,19 @@ static void make_noise(const struct spread *shares, uint64_t first, double *x)
     }
 }
 
+/* At rest; `a` in the whole of what a rank has. */
+static void accelerate(struct model *model, const double *u, const double *v, double *a)
+{
+    const struct drive quiet = {.time = 0.0};
+    model->spatial->accelerate(model, &quiet, 0.0, u, v, a);
+    if (model->core->complete != NULL) model->core->complete(model, a);
+}
+
 /* y's u part := random, made admissible (prescribed components zero) by one call of the operator into a. */
 static void first_vector(struct model *model, const struct spread *shares, double *y, double *a)
 {
-    const struct drive quiet = {.time = 0.0};
     make_noise(shares, 20061, y);
-    model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
+    accelerate(model, y, NULL, a);
 }
 
 struct tridiagonal {
@@ -105,7 +118,7 @@ static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
 /* Together: x.y over the whole body, summed in its order from rank to rank: the same bits for any number of them. */
 static double dot(struct model *model, const struct spread *shares, const double *x, const double *y)
 {
-    struct ranks *ranks = model->scene->ranks;
+    struct ranks *ranks = sharing(model);
     const int me = ranks_me(ranks), last = ranks_count(ranks) - 1;
     double sum = 0.0;
     for (size_t r = 0; r < shares->runs; r++) {
@@ -151,10 +164,9 @@ static double mass_norm(struct model *model, const struct spread *shares, double
  * part, and q that vector over its norm. */
 static double rayleigh(struct model *model, const struct spread *shares, double *y, double norm, double *a)
 {
-    const struct drive quiet = {.time = 0.0};
     struct energy energy = {0};
     if (model->spatial->weigh == NULL) model->core->energy(model, y, &energy);
-    model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
+    accelerate(model, y, NULL, a);
     if (model->spatial->weigh == NULL) return 2.0 * energy.strain;
     return -dot(model, shares, a, y + model->unknowns) / norm;
 }
@@ -202,7 +214,6 @@ static double euclidean_norm(struct model *model, const struct spread *shares, c
 static double power_iteration(struct model *model, const struct spread *shares, double *y, double *a)
 {
     const size_t n = model->unknowns;
-    const struct drive quiet = {.time = 0.0};
     double theta = 0.0;
     first_vector(model, shares, y, a);
     for (int j = 0; j < POWER_STEPS; j++) {
@@ -210,7 +221,7 @@ static double power_iteration(struct model *model, const struct spread *shares, 
         if (!(norm > 0.0)) return 0.0;
         for (size_t i = 0; i < n; i++)
             y[i] = a[i] / norm;
-        model->spatial->accelerate(model, &quiet, 0.0, y, NULL, a);
+        accelerate(model, y, NULL, a);
         if (j >= POWER_STEPS - POWER_TAIL) theta = fmax(theta, euclidean_norm(model, shares, a));
     }
     return theta;
@@ -257,7 +268,6 @@ selas_status largest_frequency(struct model *model, double *omega, double *error
 selas_status largest_damping(struct model *model, double speed, double *rate, struct messages *messages)
 {
     const size_t n = model->unknowns;
-    const struct drive quiet = {.time = 0.0};
     const double scale = 1e-6 * speed; /* quadratic viscosities vanish against linear ones */
     double *u = array_new(n, sizeof *u);
     double *v = array_new(n, sizeof *v);
@@ -273,7 +283,7 @@ selas_status largest_damping(struct model *model, double speed, double *rate, st
             if (j > POWER_STEPS - POWER_TAIL) *rate = fmax(*rate, norm / scale);
             for (size_t i = 0; i < n; i++)
                 v[i] = norm > 0.0 ? scale * a[i] / norm : 0.0;
-            model->spatial->accelerate(model, &quiet, 0.0, u, v, a);
+            accelerate(model, u, v, a);
         }
     }
     array_free(u);

@@ -242,6 +242,7 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
     d->core = damped_core;
     if (first->core->holder == NULL) d->core.holder = NULL;
     if (first->core->share == NULL) d->core.share = NULL;
+    if (first->core->complete == NULL) d->core.complete = NULL;
     model->core = &d->core;
     model->energy_calls = (unsigned)(d->parts * (1 + mechanisms_of(d)));
     model->spatial = &spatial;

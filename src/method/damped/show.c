@@ -125,6 +125,12 @@ static int holder_of(const struct model *model, size_t plane)
     return first->core->holder(first, plane);
 }
 
+static void complete(struct model *model, double *u)
+{
+    struct model *first = first_of(model);
+    first->core->complete(first, u);
+}
+
 static void share(struct model *model, enum model_array array, struct spread *shares)
 {
     struct damped *d = damped_of(model);
@@ -219,6 +225,7 @@ const struct model_core damped_core = {
     .field = field_of,
     .holder = holder_of,
     .share = share,
+    .complete = complete,
     .energy = energy,
     .power = power,
     .loss = loss,

@@ -32,15 +32,17 @@ void tl_energy(struct model *model, const double *y, struct energy *energy)
 {
     struct tl_model *tl = (struct tl_model *)model;
     const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_set *own = &tl->part.own;
     tl_sites(tl, y, NULL, tl->displacement, NULL);
     tl_gradients(tl);
     energy->strain = tl_strain_energy(tl);
     energy->kinetic = 0;
-    for (size_t i = tl->part.own; i < tl->part.end; i++)
-        for (size_t c = 0; c < d; c++) {
-            const double v = y[model->unknowns + d * i + c];
-            energy->kinetic += 0.5 * tl->mass[i] * v * v;
-        }
+    for (size_t r = 0; r < own->count; r++)
+        for (size_t i = own->range[r].from; i < own->range[r].end; i++)
+            for (size_t c = 0; c < d; c++) {
+                const double v = y[model->unknowns + d * i + c];
+                energy->kinetic += 0.5 * tl->mass[i] * v * v;
+            }
     double sums[2] = {energy->kinetic, energy->strain};
     ranks_sum(tl->part.ranks, 2, sums);
     *energy = (struct energy){sums[0], sums[1]};
@@ -53,7 +55,7 @@ static double motion_power(struct tl_model *tl, const double *velocity)
     const size_t d = (size_t)tl->cloud->dimension;
     double power = 0;
     for (size_t g = 0; g < tl->ghosts; g++) /* those of own points alone are known */
-        if (tl->ghost[g].source < tl->part.own || tl->ghost[g].source >= tl->part.end)
+        if (!tl_set_has(&tl->part.own, tl->ghost[g].source))
             memset(tl->force + d * (tl->cloud->points + g), 0, d * sizeof *tl->force);
     tl_ghost_hourglass(tl);
     for (size_t g = 0; g < tl->ghosts; g++)
@@ -63,12 +65,31 @@ static double motion_power(struct tl_model *tl, const double *velocity)
     return power;
 }
 
+/* Adds the product of force and velocity at the own points. */
+static void add_power(const struct tl_model *tl, const double *force, const double *v, double *sum)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_set *own = &tl->part.own;
+    for (size_t r = 0; r < own->count; r++)
+        for (size_t k = d * own->range[r].from; k < d * own->range[r].end; k++)
+            *sum += force[k] * v[k];
+}
+
+static void add_damping(const struct tl_model *tl, const double *v, double *sum)
+{
+    const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_set *own = &tl->part.own;
+    for (size_t r = 0; r < own->count; r++)
+        for (size_t k = d * own->range[r].from; k < d * own->range[r].end; k++)
+            *sum += tl->damper[k] * v[k] * v[k];
+}
+
 void tl_power(struct model *model, const struct drive *drive, const double *y, double *load, double *absorbed)
 {
     struct tl_model *tl = (struct tl_model *)model;
     const size_t n = model->unknowns;
-    const size_t d = (size_t)tl->cloud->dimension, own = d * tl->part.own, end = d * tl->part.end;
     const double *v = y + n;
+    double viscous = 0;
     *load = 0;
     *absorbed = 0;
     if (tl->moving && drive->velocity != NULL) {
@@ -81,13 +102,11 @@ void tl_power(struct model *model, const struct drive *drive, const double *y, d
         tl_sites(tl, y, v, drive->displacement, drive->velocity);
         memset(tl->force, 0, n * sizeof *tl->force);
         tl_viscosity(tl);
-        for (size_t k = own; k < end; k++)
-            *absorbed -= tl->force[k] * v[k];
+        add_power(tl, tl->force, v, &viscous);
+        *absorbed = -viscous;
     }
-    for (size_t k = own; tl->damper != NULL && k < end; k++)
-        *absorbed += tl->damper[k] * v[k] * v[k];
+    if (tl->damper != NULL) add_damping(tl, v, absorbed);
     memset(tl->force, 0, n * sizeof *tl->force);
     tl_add_loads(tl, drive);
-    for (size_t k = own; k < end; k++)
-        *load += tl->force[k] * v[k];
+    add_power(tl, tl->force, v, load);
 }

@@ -109,12 +109,21 @@ static void force_block(struct tl_model *tl, const struct tl_block *block)
     (block->run ? taken_tl_run_loops()->force : taken_tl_point_loops()->force)[axis](tl, block);
 }
 
-void tl_gradients(struct tl_model *tl)
+static void gradients_of(struct tl_model *tl, const struct tl_blocks *blocks)
 {
-    const struct tl_blocks *blocks = &tl->gradient_blocks;
 #pragma omp parallel for schedule(static) if (tl->cloud->points > TL_SERIAL)
     for (size_t k = 0; k < blocks->count; k++)
         gradient_block(tl, &blocks->block[k]);
+}
+
+void tl_gradients(struct tl_model *tl)
+{
+    gradients_of(tl, &tl->gradient_blocks);
+}
+
+void tl_all_gradients(struct tl_model *tl)
+{
+    gradients_of(tl, tl->all_gradients.count > 0 ? &tl->all_gradients : &tl->gradient_blocks);
 }
 
 void tl_stresses(struct tl_model *tl)
@@ -184,65 +193,79 @@ double tl_strain_energy(struct tl_model *tl)
 {
     double (*const hourglass[])(const struct tl_model *, size_t) = {hourglass_energy_1, hourglass_energy_2,
                                                                     hourglass_energy_3};
+    const struct tl_set *own = &tl->part.own;
     double sum = 0;
     if (tl->extra != NULL) ghost_gradients(tl);
-    for (size_t i = tl->part.own; i < tl->part.end; i++) {
-        double H[9];
-        struct elastic elastic = tl->elastic[i];
-        if (tl->linear) elastic.law = LAW_LINEAR;
-        tl_tensor(tl, i, H);
-        sum += tl->cloud->volume[i] * elastic_energy(&elastic, H);
-        if (tl->extra != NULL) sum += hourglass[tl->cloud->dimension - 1](tl, i);
-    }
+    for (size_t r = 0; r < own->count; r++)
+        for (size_t i = own->range[r].from; i < own->range[r].end; i++) {
+            double H[9];
+            struct elastic elastic = tl->elastic[i];
+            if (tl->linear) elastic.law = LAW_LINEAR;
+            tl_tensor(tl, i, H);
+            sum += tl->cloud->volume[i] * elastic_energy(&elastic, H);
+            if (tl->extra != NULL) sum += hourglass[tl->cloud->dimension - 1](tl, i);
+        }
     return sum;
 }
 
-/* Minus the derivative of the hourglass energy of the own points by the displacement of each ghost. */
-void tl_ghost_hourglass(struct tl_model *tl)
+/* Minus the derivative of the hourglass energy of point i by the displacement of each ghost. */
+static void ghost_hourglass(struct tl_model *tl, size_t i)
 {
     const size_t n = tl->cloud->points;
     const size_t d = (size_t)tl->cloud->dimension;
-    for (size_t i = tl->part.own; tl->extra != NULL && i < tl->part.end; i++)
-        for (size_t k = tl_first(&tl->pair, i); k < tl_last(&tl->pair, i); k++) {
-            const size_t j = tl_neighbour(&tl->pair, i, k);
-            double X[3];
-            double e[3];
-            if (j < n) continue;
-            mismatch(tl, d, i, j, X, e);
-            for (size_t a = 0; a < d; a++)
-                tl->force[d * j + a] -= 0.5 * tl->pair.weight[k] * e[a];
-        }
+    for (size_t k = tl_first(&tl->pair, i); k < tl_last(&tl->pair, i); k++) {
+        const size_t j = tl_neighbour(&tl->pair, i, k);
+        double X[3];
+        double e[3];
+        if (j < n) continue;
+        mismatch(tl, d, i, j, X, e);
+        for (size_t a = 0; a < d; a++)
+            tl->force[d * j + a] -= 0.5 * tl->pair.weight[k] * e[a];
+    }
+}
+
+void tl_ghost_hourglass(struct tl_model *tl)
+{
+    const struct tl_set *own = &tl->part.own;
+    for (size_t r = 0; tl->extra != NULL && r < own->count; r++)
+        for (size_t i = own->range[r].from; i < own->range[r].end; i++)
+            ghost_hourglass(tl, i);
 }
 
 /* Monaghan's viscosity (He & Seaid 2016, Eqs 16 and 17, r_ij a vector) along the line of each approaching
  * pair in its present position, added to tl->force: m_i m_j Pi_ij |W'(X_ij)|, so momentum and angular
  * momentum stay. A mirrored point pushes as its source would; the reaction falls on the mirror image. */
-void tl_viscosity(struct tl_model *tl)
+static void viscous_force(struct tl_model *tl, size_t i)
 {
     const size_t d = (size_t)tl->cloud->dimension;
-#pragma omp parallel for schedule(static) if (tl->part.end - tl->part.own > TL_SERIAL)
-    for (size_t i = tl->part.own; i < tl->part.end; i++) {
-        const double speed = tl->material[i]->p_speed;
-        for (size_t k = tl_first(&tl->viscous, i); k < tl_last(&tl->viscous, i); k++) {
-            const size_t j = tl_neighbour(&tl->viscous, i, k);
-            double r[3] = {0};
-            double square = 0;
-            double approach = 0;
-            for (size_t a = 0; a < d; a++) {
-                r[a] = tl->site_position[3 * i + a] - tl->site_position[3 * j + a];
-                if (!tl->linear) r[a] += tl->site_u[d * i + a] - tl->site_u[d * j + a];
-                square += r[a] * r[a];
-                approach += r[a] * (tl->site_v[d * i + a] - tl->site_v[d * j + a]);
-            }
-            if (approach >= 0) continue;
-            const double h = tl->viscous.weight[2 * k + 1];
-            const double phi = h * approach / (square + 0.01 * h * h);
-            const double pressure =
-                (-tl->options.viscosity_alpha * speed + tl->options.viscosity_beta * phi) * phi /
-                tl->material[i]->density;
-            const double push = tl->viscous.weight[2 * k] * pressure / sqrt(square);
-            for (size_t a = 0; a < d; a++)
-                tl->force[d * i + a] += push * r[a];
+    const double speed = tl->material[i]->p_speed;
+    for (size_t k = tl_first(&tl->viscous, i); k < tl_last(&tl->viscous, i); k++) {
+        const size_t j = tl_neighbour(&tl->viscous, i, k);
+        double r[3] = {0};
+        double square = 0;
+        double approach = 0;
+        for (size_t a = 0; a < d; a++) {
+            r[a] = tl->site_position[3 * i + a] - tl->site_position[3 * j + a];
+            if (!tl->linear) r[a] += tl->site_u[d * i + a] - tl->site_u[d * j + a];
+            square += r[a] * r[a];
+            approach += r[a] * (tl->site_v[d * i + a] - tl->site_v[d * j + a]);
         }
+        if (approach >= 0) continue;
+        const double h = tl->viscous.weight[2 * k + 1];
+        const double phi = h * approach / (square + 0.01 * h * h);
+        const double pressure = (-tl->options.viscosity_alpha * speed + tl->options.viscosity_beta * phi) *
+                                phi / tl->material[i]->density;
+        const double push = tl->viscous.weight[2 * k] * pressure / sqrt(square);
+        for (size_t a = 0; a < d; a++)
+            tl->force[d * i + a] += push * r[a];
     }
+}
+
+void tl_viscosity(struct tl_model *tl)
+{
+    const struct tl_set *own = &tl->part.own;
+#pragma omp parallel for schedule(static) if (own->points > TL_SERIAL)
+    for (size_t r = 0; r < own->count; r++)
+        for (size_t i = own->range[r].from; i < own->range[r].end; i++)
+            viscous_force(tl, i);
 }

@@ -116,7 +116,7 @@ void tl_field(struct model *model, selas_field field, const double *y, const dou
     if (field == SELAS_ACCELERATION) own = a;
     if (!is_vector(field)) {
         tl_sites(tl, y, NULL, tl->displacement, NULL);
-        tl_gradients(tl);
+        tl_all_gradients(tl);
     }
     from -= tl->cloud->first;
     end -= tl->cloud->first;

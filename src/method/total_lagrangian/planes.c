@@ -23,10 +23,7 @@ static selas_status deal(struct tl_model *tl, size_t planes, struct messages *me
     if (status != SELAS_OK) return status;
     const size_t ranks = (size_t)ranks_count(part->ranks);
     part->bound = array_new(ranks + 1, sizeof *part->bound);
-    part->window = array_new(2 * ranks, sizeof *part->window);
-    part->piece = array_new(ranks, sizeof *part->piece);
-    if (part->bound == NULL || part->window == NULL || part->piece == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    if (part->bound == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
     ranks_deal(planes, one, NULL, ranks, part->bound);
     for (size_t r = 0; r <= ranks; r++)
         part->bound[r] *= part->plane; /* of points */
@@ -82,6 +79,12 @@ static struct reaches reaches_of(const struct tl_model *tl, const size_t grid[3]
                             .block = TL_LONGEST_BLOCK / (ptrdiff_t)tl->part.plane + 1};
 }
 
+/* Planes that are made on either side of the own ones (Eq. R7). */
+static ptrdiff_t beside(const struct scene *scene, const struct reaches *by)
+{
+    return 2 * by->row + (by->pair > by->block ? by->pair : by->block) + 2 + (ptrdiff_t)cloud_margin(scene);
+}
+
 /* Chooses which rows are made (Eqs R5 to R7); returns the planes of the part. */
 static struct planes choose(struct tl_model *tl, const size_t grid[3], struct planes own)
 {
@@ -89,12 +92,11 @@ static struct planes choose(struct tl_model *tl, const size_t grid[3], struct pl
     const struct scene *scene = tl->model.scene;
     const double spacing = part->spacing > 0 ? part->spacing : even_spacing(scene, grid);
     const struct reaches by = reaches_of(tl, grid, spacing);
-    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1], margin = (ptrdiff_t)cloud_margin(scene);
+    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1];
     const bool even = !(scene->body.jitter > 0), at_top = own.from >= planes - by.layers;
     const struct planes force = {even && at_top ? planes - by.layers - 1 : own.from, own.end};
     const struct planes gradient = about(force, by.row + by.pair), pair = about(force, by.row + by.block);
-    const struct planes all =
-        about(force, 2 * by.row + (by.pair > by.block ? by.pair : by.block) + 2 + margin);
+    const struct planes all = about(force, beside(scene, &by));
     /* are the rows of its first plane those of planes below it? */
     const bool begins = even ? all.from + by.row < by.layers + 2 : all.from < 0;
     const ptrdiff_t first = begins ? 0 : all.from;
@@ -134,7 +136,6 @@ static selas_status make_part(struct tl_model *tl, const size_t grid[3], struct 
     struct tl_part *part = &tl->part;
     const size_t planes = grid[tl->model.scene->dimension - 1], me = (size_t)ranks_me(part->ranks);
     struct planes own = {0, 0};
-    part->plane = grid[0] * grid[1] * grid[2] / planes;
     selas_status status = deal(tl, planes, messages);
     if (status == SELAS_STOPPED) return status;
     if (status == SELAS_OK)
@@ -143,12 +144,10 @@ static selas_status make_part(struct tl_model *tl, const size_t grid[3], struct 
     if (tl->model.scene->body.jitter > 0) status = find_spacing(tl, grid, own, status, messages);
     if (status != SELAS_OK) return status;
     const struct planes all = choose(tl, grid, own);
-    part->own = part->bound[me] - (size_t)all.from * part->plane;
-    part->end = part->bound[me + 1] - (size_t)all.from * part->plane;
     return cloud_create_planes(tl->model.scene, (size_t)all.from, (size_t)all.end, &tl->cloud, messages);
 }
 
-/* Makes all points and deals them out. */
+/* Makes all points; divide.c deals them out when their rows are there. */
 static selas_status make_all(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
@@ -158,16 +157,22 @@ static selas_status make_all(struct tl_model *tl, struct messages *messages)
         form != NULL ? form->points(scene, &tl->cloud, messages) : cloud_create(scene, &tl->cloud, messages);
     if (status != SELAS_OK) return status;
     const size_t n = tl->cloud->points, *grid = tl->cloud->grid;
-    part->end = n;
-    part->plane = 1;
+    part->plane = grid[0] > 0 ? n / grid[tl->cloud->dimension - 1] : 1;
     part->gradient = part->transposed = part->pair = (struct tl_range){0, n};
-    if (part->ranks == NULL) return SELAS_OK;
-    if (grid[0] > 0) part->plane = n / grid[tl->cloud->dimension - 1];
-    status = deal(tl, n / part->plane, messages);
-    if (status != SELAS_OK) return status;
-    part->own = part->bound[ranks_me(part->ranks)];
-    part->end = part->bound[ranks_me(part->ranks) + 1];
-    return SELAS_OK;
+    return part->ranks != NULL ? ranks_at_most(part->ranks, n, "points", messages) : SELAS_OK;
+}
+
+/* Memory is shared over the planes of a lattice where these are across its longest axis, or where a rank has as many
+ * of its own as it makes besides. */
+static bool pays(const struct tl_model *tl, const size_t grid[3])
+{
+    const struct scene *scene = tl->model.scene;
+    const size_t last = (size_t)scene->dimension - 1;
+    bool longest = true;
+    for (size_t c = 0; c < last; c++)
+        longest = longest && grid[c] <= grid[last];
+    const struct reaches by = reaches_of(tl, grid, even_spacing(scene, grid));
+    return longest || grid[last] / (size_t)ranks_count(tl->part.ranks) >= 2 * (size_t)beside(scene, &by);
 }
 
 selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
@@ -175,7 +180,10 @@ selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
     size_t grid[3];
     const struct scene *scene = tl->model.scene;
     if (ranks_count(scene->ranks) > 1) tl->part.ranks = scene->ranks;
-    tl->part.shared = tl->part.ranks != NULL && tl->options.form == NULL && cloud_in_planes(scene, grid);
+    if (tl->part.ranks != NULL && tl->options.form == NULL && cloud_in_planes(scene, grid)) {
+        tl->part.plane = grid[0] * grid[1] * grid[2] / grid[scene->dimension - 1];
+        tl->part.shared = pays(tl, grid);
+    }
     return tl->part.shared ? make_part(tl, grid, messages) : make_all(tl, messages);
 }
 
@@ -209,7 +217,8 @@ selas_status tl_agree(const struct tl_model *tl, selas_status status, struct mes
 
 struct tl_range tl_summed(const struct tl_model *tl)
 {
-    if (tl->part.shared) return (struct tl_range){tl->part.own, tl->part.end};
+    const size_t *bound = tl->part.bound, me = (size_t)ranks_me(tl->part.ranks), first = tl->cloud->first;
+    if (tl->part.shared) return (struct tl_range){bound[me] - first, bound[me + 1] - first};
     return (struct tl_range){0, tl->cloud->points};
 }
 

@@ -131,7 +131,7 @@ INLINED void control_run(const struct tl_model *tl, const struct tl_block *block
                          const size_t first, const size_t last, lanes force[MOST], lanes moment[MOST][MOST])
 {
     const struct tl_rows *rows = &tl->pair;
-    const double *origin = tl->place + d * block->first;
+    const double *origin = tl->place + d * block->origin;
     const double *u = tl->site_u + d * i, *H = tl->H + d * i;
     for (size_t k = tl_first(rows, block->first), end = tl_last(rows, block->first); k < end; k++) {
         const ptrdiff_t shift = rows->shift[k];

@@ -17,12 +17,16 @@ static bool same_transposed(const struct tl_model *tl, size_t i, size_t j)
     return (i < n) == (j < n) && tl->transposed.of[i] == tl->transposed.of[j];
 }
 
+static bool same_law(const struct elastic *one, const struct elastic *other)
+{
+    return one->law == other->law && one->mu == other->mu && one->plane_lambda == other->plane_lambda &&
+           one->lambda == other->lambda;
+}
+
 /* Same law and volume, and hourglass pairs to the same places. */
 static bool same_stress(const struct tl_model *tl, size_t i, size_t j)
 {
-    const struct elastic *one = &tl->elastic[i], *other = &tl->elastic[j];
-    return one->law == other->law && one->mu == other->mu && one->plane_lambda == other->plane_lambda &&
-           one->lambda == other->lambda &&
+    return same_law(&tl->elastic[i], &tl->elastic[j]) &&
            tl_near(tl->cloud->volume[i], tl->cloud->volume[j], tl->cloud->volume[i]) &&
            (tl->pair.of == NULL || tl->pair.of[i] == tl->pair.of[j]);
 }
@@ -34,7 +38,7 @@ static void cut(struct tl_blocks *blocks, size_t first, size_t count, bool run)
     for (size_t p = 0; p < pieces; p++) {
         const size_t from = count * p / pieces, to = count * (p + 1) / pieces;
         blocks->block[blocks->count++] =
-            (struct tl_block){(uint32_t)(first + from), (uint16_t)(to - from), run};
+            (struct tl_block){(uint32_t)(first + from), (uint32_t)(first + from), (uint16_t)(to - from), run};
     }
 }
 
@@ -80,8 +84,8 @@ static void cut_as_whole(const struct tl_model *tl, struct tl_blocks *blocks)
         const size_t from = whole * p / pieces, to = whole * (p + 1) / pieces;
         if (to > first + made->end) break;
         if (from >= first + made->from)
-            blocks->block[blocks->count++] =
-                (struct tl_block){(uint32_t)(from - first), (uint16_t)(to - from), false};
+            blocks->block[blocks->count++] = (struct tl_block){
+                (uint32_t)(from - first), (uint32_t)(from - first), (uint16_t)(to - from), false};
     }
 }
 
@@ -100,4 +104,62 @@ selas_status tl_find_runs(struct tl_model *tl, struct messages *messages)
     find(tl, part->transposed.from, part->transposed.end, same_transposed, force);
     find(tl, n, tl->sites, same_transposed, force);
     return SELAS_OK;
+}
+
+static bool is_needed(const struct tl_model *tl, const bool *needed, size_t from, size_t end)
+{
+    bool any = false;
+    for (size_t s = from; s < end; s++)
+        any = any || needed[tl_source(tl, s)];
+    return any;
+}
+
+/* Sites that one piece of a block has: GROUP; all, where groups of points of one law are found one after the other. */
+static size_t piece_of(const struct tl_model *tl, const struct tl_block *block, bool stress)
+{
+    const size_t end = (size_t)block->first + block->count;
+    for (size_t i = (size_t)block->first + 1; stress && !block->run && i < end; i++)
+        if (!same_law(&tl->elastic[block->first], &tl->elastic[i])) return block->count;
+    return GROUP;
+}
+
+/* The needed pieces of a block, those that follow each other as one; a run's have GROUP sites at least. Returns how
+ * many there are, written where `kept` is not NULL. */
+static size_t keep_pieces(const struct tl_model *tl, const bool *needed, const struct tl_block *block,
+                          size_t piece, struct tl_block *kept)
+{
+    const size_t last = (size_t)block->first + block->count;
+    size_t count = 0;
+    for (size_t from = block->first, end; from < last; from = end) {
+        end = from + piece < last ? from + piece : last;
+        if (!is_needed(tl, needed, from, end)) continue;
+        while (end < last && is_needed(tl, needed, end, end + piece < last ? end + piece : last))
+            end = end + piece < last ? end + piece : last;
+        const size_t first = block->run && end - from < GROUP ? end - GROUP : from;
+        if (kept != NULL)
+            kept[count] =
+                (struct tl_block){(uint32_t)first, block->origin, (uint16_t)(end - first), block->run};
+        count++;
+    }
+    return count;
+}
+
+bool tl_keep_blocks(const struct tl_model *tl, const bool *needed, bool stress, struct tl_blocks *blocks,
+                    struct tl_blocks *all)
+{
+    struct tl_blocks kept = {0};
+    for (size_t b = 0; b < blocks->count; b++)
+        kept.count +=
+            keep_pieces(tl, needed, &blocks->block[b], piece_of(tl, &blocks->block[b], stress), NULL);
+    kept.block = array_new(kept.count, sizeof *kept.block);
+    if (kept.block == NULL) return false;
+    for (size_t b = 0, at = 0; b < blocks->count; b++)
+        at += keep_pieces(tl, needed, &blocks->block[b], piece_of(tl, &blocks->block[b], stress),
+                          kept.block + at);
+    if (all != NULL)
+        *all = *blocks;
+    else
+        array_free(blocks->block);
+    *blocks = kept;
+    return true;
 }

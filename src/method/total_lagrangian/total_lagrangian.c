@@ -48,6 +48,7 @@ void tl_free(struct tl_model *tl)
                             tl->gradient_blocks.block,
                             tl->stress_blocks.block,
                             tl->force_blocks.block,
+                            tl->all_gradients.block,
                             tl->mass,
                             tl->damper,
                             tl->held,
@@ -87,15 +88,17 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
 {
     struct tl_model *tl = of(model);
     const size_t d = (size_t)tl->cloud->dimension;
+    const struct tl_set *own = &tl->part.own;
     all_forces(tl, drive, u, v);
     tl_keep_window(tl, a);
-#pragma omp parallel for schedule(static) if (tl->part.end - tl->part.own > TL_SERIAL)
-    for (size_t i = tl->part.own; i < tl->part.end; i++)
-        for (size_t k = d * i; k < d * (i + 1); k++) {
-            const double damper = tl->damper != NULL ? tl->damper[k] : 0;
-            const double force = damper > 0 && v != NULL ? tl->force[k] - damper * v[k] : tl->force[k];
-            a[k] = force / (tl->mass[i] + half_step * damper);
-        }
+#pragma omp parallel for schedule(static) if (own->points > TL_SERIAL)
+    for (size_t r = 0; r < own->count; r++)
+        for (size_t i = own->range[r].from; i < own->range[r].end; i++)
+            for (size_t k = d * i; k < d * (i + 1); k++) {
+                const double damper = tl->damper != NULL ? tl->damper[k] : 0;
+                const double force = damper > 0 && v != NULL ? tl->force[k] - damper * v[k] : tl->force[k];
+                a[k] = force / (tl->mass[i] + half_step * damper);
+            }
     for (size_t k = 0; k < tl->held_count; k++)
         a[tl->held[k]] = 0;
     tl_exchange(tl, a);
@@ -179,6 +182,19 @@ static const struct model_core shared_core = {
     .unseen = tl_unseen,
     .describe = describe,
 };
+/* Every rank has all points, and what is right there on demand alone. */
+static const struct model_core divided_core = {
+    .destroy = destroy,
+    .initialise = initialise,
+    .probe = tl_model_probe,
+    .observe = tl_observe,
+    .field = tl_field,
+    .complete = tl_complete,
+    .energy = tl_energy,
+    .power = tl_power,
+    .unseen = tl_unseen,
+    .describe = describe,
+};
 /* Hooke's law makes the model linear as a whole (without viscosity). */
 static const struct model_operator linear_operator = {
     .accelerate = accelerate,
@@ -231,7 +247,7 @@ static void fill_model(struct tl_model *tl)
     struct model *model = &tl->model;
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t n = tl->cloud->points;
-    if (tl->part.ranks != NULL) model->core = &shared_core;
+    if (tl->part.ranks != NULL) model->core = tl->part.shared ? &shared_core : &divided_core;
     const bool viscous = tl->site_v != NULL;
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;

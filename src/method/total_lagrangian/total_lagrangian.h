@@ -7,6 +7,7 @@
 
 #include "kernel/kernel.h"
 #include "method/total_lagrangian/elastic_law.h"
+#include "method/total_lagrangian/sets.h"
 #include "model/model.h"
 #include "parallel/ranks.h"
 #include "points/cloud.h"
@@ -81,6 +82,7 @@ static inline size_t tl_neighbour(const struct tl_rows *rows, size_t i, size_t k
  * row: runs.c. */
 struct tl_block {
     uint32_t first;
+    uint32_t origin; /* the first point of the run's block where it is whole: pairs have its distances */
     uint16_t count;
     bool run;
 };
@@ -107,21 +109,23 @@ struct tl_load {
     double *force; /* [dimension * count], amplitude included */
 };
 
-/* Points from .. end - 1. */
-struct tl_range {
-    size_t from, end;
+/* What goes to another rank and what comes from it. */
+struct tl_halo {
+    struct tl_set give, get;
 };
 
-/* The points of a rank (share.c); alone, all. Where memory is shared (planes.c) the cloud is a part of the body, and
- * numbers of points are those of the part, but for those of `bound` and `window`. */
+/* The points of a rank (divide.c, share.c); alone, all. Where memory is shared (planes.c) the cloud is a part of the
+ * body, and numbers of points are those of the part, but for those of `bound`, `owned` and `window`. */
 struct tl_part {
-    struct ranks *ranks; /* NULL: alone */
-    size_t own, end;     /* own points: own .. end - 1 */
-    size_t plane;        /* points of a plane of a lattice over its last axis, else 1 */
-    size_t *bound;       /* [ranks + 1]: own points of each rank */
-    size_t *window;      /* [2 * ranks]: first point of the window of each rank, and the one after its last */
-    struct ranks_piece *piece; /* [ranks], of an exchange */
-    bool shared;               /* memory is */
+    struct ranks *ranks;           /* NULL: alone */
+    struct tl_set own;             /* own points, in pieces for threads */
+    size_t plane;                  /* points of a plane of a lattice over its last axis, else 1 */
+    size_t *bound;                 /* [ranks + 1]: own points of each rank, where memory is shared */
+    struct tl_set *owned, *window; /* [ranks]: own points and those of the window of each rank */
+    struct tl_halo *halo;          /* [ranks] */
+    struct ranks_piece *piece;     /* [ranks], of an exchange */
+    double *packed;                /* what it sends and gets */
+    bool shared;                   /* memory is */
     struct tl_range gradient, transposed,
         pair;             /* points whose rows are made: of pairs, the viscous ones too */
     size_t layers, reach; /* planes: from a face on that may feel it, and that a row reaches over; 0: the part
@@ -148,7 +152,9 @@ struct tl_model {
     size_t sources, *source;   /* points that have ghosts */
     size_t *returned_start;    /* [sources + 1]: their ghosts, numbered from 0, ... */
     uint32_t *returned;        /* ... stand in here */
-    struct tl_blocks gradient_blocks, stress_blocks, force_blocks; /* of the points; the last of the sites */
+    /* of the points, the last of the sites; on ranks those that the own points need */
+    struct tl_blocks gradient_blocks, stress_blocks, force_blocks;
+    struct tl_blocks all_gradients;   /* of points that every rank has; else empty */
     struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
     struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
     double *mass;                     /* [points] */
@@ -223,6 +229,10 @@ bool tl_near(double a, double b, double scale); /* the same but for the rounding
 /* runs.c: cuts the points into blocks, after all rows are there. */
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages);
 enum { TL_LONGEST_BLOCK = 64 };
+/* Keeps of the blocks what has a site that is a needed point (needed[points]) or mirrors one; stress: groups of points
+ * that are rounded together stay so. `all` gets what there was, or is NULL. False: no memory. */
+bool tl_keep_blocks(const struct tl_model *tl, const bool *needed, bool stress, struct tl_blocks *blocks,
+                    struct tl_blocks *all);
 double tl_reach(const struct tl_options *options);  /* of the weights, in spacings */
 double tl_radius(const struct tl_model *tl);        /* the same in length */
 double tl_search_radius(const struct tl_model *tl); /* the largest a point's weights may take */
@@ -262,6 +272,8 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
                 const double *a, double *value);
 void tl_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
               size_t end, double *value);
+/* divide.c: tl->part.owned and own. Together; false: no memory. */
+bool tl_divide(struct tl_model *tl);
 /* share.c: together, after all else of the set-up: finds the windows and keeps the blocks that the own points need. */
 selas_status tl_share_points(struct tl_model *tl, struct messages *messages);
 void tl_part_free(struct tl_part *part);
@@ -275,6 +287,7 @@ selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_
 /* Entries of the model's class, on ranks. */
 int tl_holder(const struct model *model, size_t plane);
 void tl_share(struct model *model, enum model_array array, struct spread *shares);
+void tl_complete(struct model *model, double *u);
 void tl_unseen(struct model *model, const double *y, struct unseen *found);
 void tl_describe_part(const struct tl_model *tl,
                       void (*tell)(void *context, const char *key, const char *value), void *context);
@@ -287,6 +300,7 @@ enum { TL_SERIAL = 3000 };
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
               const double *velocity);
 void tl_gradients(struct tl_model *tl);
+void tl_all_gradients(struct tl_model *tl); /* of all points here, on ranks too */
 void tl_stresses(struct tl_model *tl);
 void tl_divergence(struct tl_model *tl); /* of A, with the hourglass forces */
 void tl_forces(struct tl_model *tl);     /* the last two */
