@@ -177,14 +177,15 @@ static bool pays(const struct tl_model *tl, const size_t grid[3])
 
 selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
 {
-    size_t grid[3];
     const struct scene *scene = tl->model.scene;
+    size_t grid[3] = {0};
+    bool planes = false;
     if (ranks_count(scene->ranks) > 1) tl->part.ranks = scene->ranks;
     if (tl->part.ranks != NULL && tl->options.form == NULL && cloud_in_planes(scene, grid)) {
         tl->part.plane = grid[0] * grid[1] * grid[2] / grid[scene->dimension - 1];
-        tl->part.shared = pays(tl, grid);
+        planes = tl->part.shared = pays(tl, grid);
     }
-    return tl->part.shared ? make_part(tl, grid, messages) : make_all(tl, messages);
+    return planes ? make_part(tl, grid, messages) : make_all(tl, messages);
 }
 
 selas_status tl_make_beside(const struct tl_model *tl, size_t from, size_t end, struct tl_model **beside,

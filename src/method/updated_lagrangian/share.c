@@ -1,4 +1,4 @@
-/* Updated-Lagrangian particles on ranks (doc/developers/ranks.md, Eq. R8): particles move and meet others, so each rank
+/* Updated-Lagrangian particles on ranks (doc/developers/ranks.md, Eq. R9): particles move and meet others, so each rank
  * keeps the state of the whole body. It works out the rates of some blocks of particles, and gets those of the others
  * from the ranks that do. Each sum is over the same numbers in the same order as in one process. */
 #include "method/updated_lagrangian/updated_lagrangian.h"
