@@ -25,20 +25,21 @@ static double spacing_of(const struct spline *spline)
 /* The direction in which log M rises about the source. False: in none, or across a symmetry plane nearby. */
 static bool find_normal(struct glut *g)
 {
-    enum { REACH = 6 };
+    enum { REACH = 6, FINE = 3 }; /* spacings; places in one */
     static const double slight = 1e-9;
     const struct consistent *c = g->c;
-    const int beside = c->dimension == 2 ? 0 : REACH;
+    const int far = REACH * FINE, beside = c->dimension == 2 ? 0 : far;
     double rise[3] = {0};
-    for (int k = -REACH; k <= REACH; k++)
+    for (int k = -far; k <= far; k++)
         for (int j = -beside; j <= beside; j++)
-            for (int i = -REACH; i <= REACH; i++) {
-                const int step[3] = {i, j, k};
+            for (int i = -far; i <= far; i++) {
+                const double step[3] = {(double)i / FINE, (double)j / FINE, (double)k / FINE};
                 double place[3] = {0};
                 for (int axis = 0; axis < c->dimension; axis++)
                     place[axis] = g->centre[axis] + step[c->slot[axis]] * spacing_of(c->spline[axis]);
                 const struct rock rock = general_rock_at(c, place);
-                const double level = log(rock.lambda + 2 * rock.mu) * exp(-(i * i + j * j + k * k) / 8.);
+                const double away = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+                const double level = log(rock.lambda + 2 * rock.mu) * exp(-away / 8);
                 for (int slot = 0; slot < 3; slot++)
                     rise[slot] += step[slot] * level;
             }

@@ -157,9 +157,10 @@ void general_find_lag(struct glut *glut)
                                   .knots = (size_t)(to - from) + 1,
                                   .here = centre - from,
                                   .end = {from == 0, to == cells}};
+    const double along_normal = glut->normal[glut->c->slot[glut->across]];
     double soft[MOST_FINE] = {0}, along[ALONGS][MOST_FINE] = {{0}};
     sample(glut, &column, soft, along);
-    glut->lag = find_lag(glut, &column, soft);
+    glut->lag = find_lag(glut, &column, soft) * along_normal;
     for (int p = 0; p < ALONGS; p++)
-        glut->stay[p] = find_stay(glut, &column, along[p]);
+        glut->stay[p] = find_stay(glut, &column, along[p]) * along_normal;
 }
