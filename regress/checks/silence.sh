@@ -205,7 +205,7 @@ cat >moment.nml <<'END'
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
 &body material = 'rock', shape = 'box', low = 0, 0, 0, high = 2, 2, 2, spacing = 0.2 /
 &load kind = 'moment-tensor', centre = 1, 1, 1, moment = 0, 0, 0, 1, 0, 0, history = 'gaussian', width = 1, delay = 5 /
-&receiver name = 'r', position = 1.9, 1, 1 /
+&receiver name = 'r', position = 1.9, 1.9, 1 /
 END
 told "a moment tensor on total-Lagrangian points" "moment tensors on total-Lagrangian points were .* 'consistent', would be right" check moment.nml
 untold "a moment tensor on splines" check moment.nml method%name=smoothed-point method%gradient=

@@ -9,11 +9,30 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Spacings that a force and a moment tensor are wide on splines of degree 2 (doc/theory/sources.md). At 5 to 8
- * points a wavelength velocities nearer to a force were .01 to .09 wrong, to a moment tensor .03 to .3. */
-static double near(const struct load *load)
+static bool by_general_operator(const struct scene *scene)
 {
-    return load->kind == LOAD_MOMENT_TENSOR ? 4.0 : load->shape == LOAD_POINT ? 2.0 : 0.0;
+    const struct deck_group *group = scene->method.group;
+    return (group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general")) ||
+           ground_needs_general(scene);
+}
+
+/* Less than three spacings below a free surface. */
+static bool shallow(const struct scene *scene, const double position[3])
+{
+    double place[3] = {0.0, 0.0, 0.0};
+    const int axis = scene->dimension - 1;
+    lattice_from_deck(&scene->body, position, place);
+    return boundary_is_free(&scene->boundary[2 * axis]) &&
+           place[axis] - scene->body.low[axis] < 3.0 * scene->body.spacing;
+}
+
+/* Spacings from a force and a moment tensor within which velocities were .01 to .09 and .02 to .3 wrong; where both
+ * lie near a free surface of the general operator .01 to .24 (doc/theory/sources.md, table 1). */
+static double near(const struct scene *scene, const struct load *load, const double receiver[3])
+{
+    if (load->kind != LOAD_MOMENT_TENSOR) return load->shape == LOAD_POINT ? 2.0 : 0.0;
+    return by_general_operator(scene) && shallow(scene, load->centre) && shallow(scene, receiver) ? 10.0
+                                                                                                  : 6.0;
 }
 
 static double spacing_at(const struct scene *scene, const double position[3])
@@ -26,17 +45,18 @@ static double spacing_at(const struct scene *scene, const double position[3])
 void look_at_nearness(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
-    double least = INFINITY, wanted = 0.0;
+    double least = INFINITY, wanted = 0.0, spacings = 0.0;
     size_t load = 0, receiver = 0;
     if (strcmp(scene->method.variant, "consistent") != 0) return;
     for (size_t k = 0; k < scene->loads; k++)
         for (size_t r = 0; r < scene->receivers; r++) {
             const double *from = scene->load[k].centre, *to = scene->receiver[r].position;
             const double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]),
-                         enough = near(&scene->load[k]) * spacing_at(scene, from);
+                         width = near(scene, &scene->load[k], to), enough = width * spacing_at(scene, from);
             if (way >= 0.999 * enough || way / enough >= least) continue;
             least = way / enough;
             wanted = enough;
+            spacings = width;
             load = k;
             receiver = r;
         }
@@ -47,7 +67,7 @@ void look_at_nearness(struct adviser *adviser)
     advise(adviser,
            "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
            "%.0f spacings (%.3g) velocities may be some per cent wrong; a receiver farther off%s would do",
-           scene->receiver[receiver].name, least * wanted, load + 1, near(&scene->load[load]), wanted, finer);
+           scene->receiver[receiver].name, least * wanted, load + 1, spacings, wanted, finer);
 }
 
 /* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes
@@ -87,12 +107,9 @@ void look_at_interfaces(struct adviser *adviser)
     enum { STEPS = 10 }; /* in a spacing */
     static const double reach = 3.0, slight = 0.05, strong = 10.0;
     const struct scene *scene = adviser->scene;
-    const struct deck_group *group = scene->method.group;
-    const bool asked =
-        group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general");
     double least = reach;
     size_t load = 0;
-    if (strcmp(scene->method.variant, "consistent") != 0 || !(asked || ground_needs_general(scene))) return;
+    if (strcmp(scene->method.variant, "consistent") != 0 || !by_general_operator(scene)) return;
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
         double place[3] = {0.0, 0.0, 0.0};
