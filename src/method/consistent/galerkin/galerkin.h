@@ -150,7 +150,7 @@ selas_status forces_create(struct consistent *c, struct messages *messages);
  * holds what is left to act on the splines' strain. False: no memory. */
 typedef bool moment_beside(const struct consistent *c, const double centre[3], double moment[3][3],
                            double *field);
-/* Makes the moment tensors again. */
+/* Together: makes the moment tensors again. */
 selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages);
 void forces_free(struct consistent *c);
 size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */

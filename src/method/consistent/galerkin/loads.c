@@ -299,11 +299,13 @@ selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struc
     struct workspace w;
     selas_status status = SELAS_OK;
     if (!workspace_new(c, &w)) status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+    status = ranks_agree(c->part.ranks, status, messages);
     w.beside = beside;
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
         sparse_free(&c->load[k]);
         status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+        status = ranks_agree(c->part.ranks, status, messages);
     }
     workspace_free(&w);
     return status;

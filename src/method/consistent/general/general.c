@@ -149,8 +149,8 @@ selas_status general_create(struct consistent *c, struct messages *messages)
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     if (status == SELAS_OK) status = general_material(c, mass, messages);
     if (status == SELAS_OK) general_lay_corners(c);
-    if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, messages);
     status = ranks_agree(c->part.ranks, status, messages);
+    if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, messages);
     if (status == SELAS_OK && !general_scale(c, mass))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     array_free(mass);

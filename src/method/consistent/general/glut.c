@@ -118,18 +118,17 @@ static void add_stiffness(const struct family *family, const size_t at[3], doubl
     }
 }
 
-/* C of a family in its plane `number` across, between the points about the source. False: the window has none. */
-static bool find_stiffness(const struct glut *g, const struct family *family, size_t number,
+/* C of a family in its plane `number` across, between the points about the source; 0 on ranks that do not own the
+ * first of these over depth. */
+static void find_stiffness(const struct glut *g, const struct family *family, size_t number,
                            double stiffness[STRESSES][STRESSES])
 {
     const struct consistent *c = g->c;
     size_t from[3] = {0}, count[3] = {1, 1, 1};
     double rest[3] = {0};
-    memset(stiffness, 0, STRESSES * sizeof *stiffness);
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
         const struct spline *spline = c->spline[axis];
-        const size_t first = slot == DEPTH ? c->general->first : 0;
         from[slot] = number;
         if (axis != g->across) {
             const bool knots = family->at[slot] == AT_KNOTS;
@@ -138,9 +137,10 @@ static bool find_stiffness(const struct glut *g, const struct family *family, si
             rest[slot] = fmin(fmax(t - (double)from[slot], 0), 1);
             count[slot] = 2;
         }
-        if (from[slot] < first || from[slot] + count[slot] > family->n[slot] + first) return false;
-        from[slot] -= first;
     }
+    const size_t own = c->part.first + c->part.own, end = c->part.first + c->part.end;
+    if (from[DEPTH] < own || (from[DEPTH] >= end && end < c->part.whole)) return;
+    from[DEPTH] -= c->general->first;
     for (size_t n = 0; n < count[0] * count[1] * count[2]; n++) {
         const size_t step[3] = {n % count[0], n / count[0] % count[1], n / (count[0] * count[1])};
         double part = 1;
@@ -151,7 +151,6 @@ static bool find_stiffness(const struct glut *g, const struct family *family, si
         }
         if (part != 0) add_stiffness(family, at, part / general_weight(c, family, at), stiffness);
     }
-    return true;
 }
 
 static void stress_of(double stiffness[STRESSES][STRESSES], double strain[3][3], double stress[3][3])
@@ -205,23 +204,35 @@ static void find_slow(const struct glut *g, double stiffness[STRESSES][STRESSES]
         }
 }
 
-static void add_points(struct glut *g, const struct family *family)
+/* Share of (G22) of a family's plane `number` across. */
+static double share_of(const struct glut *g, bool knots, size_t number)
+{
+    const double end = number == 0 || number == g->c->spline[g->across]->cells ? .5 : 1;
+    return (knots ? g->share[number] * end : (g->share[number] + g->share[number + 1]) / 2) / 3;
+}
+
+/* `stiffness`: work, [STRESSES][STRESSES] for each knot across. */
+static void add_points(struct glut *g, const struct family *family, double (*stiffness)[STRESSES][STRESSES])
 {
     static const double least = 1e-5;
     const struct consistent *c = g->c;
     const struct spline *spline = c->spline[g->across];
     const bool knots = family->at[c->slot[g->across]] == AT_KNOTS;
-    for (size_t k = 0; k < spline->cells + (knots ? 1 : 0); k++) {
-        const double end = k == 0 || k == spline->cells ? .5 : 1;
-        const double share = (knots ? g->share[k] * end : (g->share[k] + g->share[k + 1]) / 2) / 3;
+    const size_t planes = spline->cells + (knots ? 1 : 0);
+    memset(stiffness, 0, planes * sizeof *stiffness);
+    for (size_t k = 0; k < planes; k++)
+        if (fabs(share_of(g, knots, k)) >= least) find_stiffness(g, family, k, stiffness[k]);
+    ranks_sum(c->part.ranks, planes * STRESSES * STRESSES, &stiffness[0][0][0]);
+    for (size_t k = 0; k < planes; k++) {
+        const double share = share_of(g, knots, k);
         const double x = spline->low + ((double)k + (knots ? 0 : .5)) * g->spacing;
-        double stiffness[STRESSES][STRESSES], stress[3][3];
-        if (fabs(share) < least || !find_stiffness(g, family, k, stiffness)) continue;
-        stress_of(stiffness, g->strain, stress);
+        double stress[3][3];
+        if (fabs(share) < least) continue;
+        stress_of(stiffness[k], g->strain, stress);
         add_stress(g, 0, x, share, stress);
         for (int axis = 0; axis < c->dimension; axis++) {
             if (axis == g->across) continue;
-            find_slow(g, stiffness, c->slot[axis], stress);
+            find_slow(g, stiffness[k], c->slot[axis], stress);
             add_stress(g, 1 + axis, x, share, stress);
         }
     }
@@ -273,7 +284,7 @@ static void add_lines(struct glut *g, int set, double *const work[3], double *fi
 
 bool general_add_glut(const struct consistent *c, const double centre[3], double moment[3][3], double *field)
 {
-    enum { SETS = 4 * 3 * 3, ALL = SETS + 6 };
+    enum { SETS = 4 * 3 * 3, ALL = SETS + 6 + STRESSES * STRESSES };
     struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
     size_t most = 0;
     if (general_is_part(c->model.scene) || !find_normal(&g)) return true;
@@ -283,8 +294,12 @@ bool general_add_glut(const struct consistent *c, const double centre[3], double
     g.spacing = spacing_of(c->spline[g.across]);
     for (int axis = 0; axis < c->dimension; axis++)
         most = c->spline[axis]->count > most ? c->spline[axis]->count : most;
-    double *room = array_new(ALL * most, sizeof *room);
-    if (room == NULL) return false;
+    double *room = array_new(ALL * most, sizeof *room), failed = room == NULL;
+    ranks_largest(c->part.ranks, 1, &failed);
+    if (failed != 0) {
+        array_free(room);
+        return false;
+    }
     for (size_t n = 0; n < SETS; n++)
         g.line[n / 9][n / 3 % 3][n % 3] = room + n * most;
     g.share = room + SETS * most;
@@ -295,7 +310,7 @@ bool general_add_glut(const struct consistent *c, const double centre[3], double
     find_share(&g);
     general_find_lag(&g);
     for (int f = 0; f < 3; f++)
-        add_points(&g, &c->general->family[f]);
+        add_points(&g, &c->general->family[f], (double(*)[STRESSES][STRESSES])(work[2] + most));
     for (int set = 0; set <= c->dimension; set++)
         if (set != 1 + g.across) add_lines(&g, set, work, field);
     memcpy(moment, g.tangent, sizeof g.tangent);

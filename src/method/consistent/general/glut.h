@@ -24,7 +24,7 @@ struct glut {
     double *row[2];        /* [largest count] work */
 };
 
-/* What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
+/* Together. What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
 moment_beside general_add_glut;
 
 /* lag.c: sets lag and stay. */
