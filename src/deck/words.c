@@ -29,10 +29,12 @@ static const struct word method_words[] = {
      "family of methods"},
     {"variant", WORD_CHOICE, 1, NULL, &(METHODS(NOTHING, VARIANT_WORD))[1], OPTIONAL,
      "form of the method" METHODS(FAMILY_GLOSS, VARIANT_GLOSS)},
-    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", OPTIONAL, "degree of the B-splines (consistent)"},
+    {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", OPTIONAL,
+     "degree of the B-splines (consistent); else 2, on layered ground 4"},
     {"ends", WORD_CHOICE, 1, NULL, "open|mapped", EXPERT, "knots at the faces (consistent)"},
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", OPTIONAL,
-     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent)"},
+     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent); else vc3, on layered ground "
+     "exact"},
     {"operator", WORD_CHOICE, 1, NULL, "layered|general", OPTIONAL,
      "for level layers, or for ground that varies in all directions; else as the ground needs (consistent)"},
     {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
@@ -76,7 +78,7 @@ static const struct word method_words[] = {
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
      "exact for such fields, or central differences on a lattice (total-lagrangian)"},
     {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", OPTIONAL,
-     "relaxation mechanisms of damped ground (consistent, total-lagrangian); else 3"},
+     "relaxation mechanisms of damped ground (consistent, total-lagrangian, reference 'layered'); else 3"},
     {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 
