@@ -376,7 +376,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     if (deck_values(group, "gradient") > 0)
         options.degree = deck_chosen(group, "gradient", "quadratic") ? 2 : 1;
     options.central = deck_chosen(group, "gradient", "central");
-    if (options.central) options.hourglass = 0.5; /* doc/theory/sph-total-lagrangian.md, section 11 */
+    if (options.central) options.hourglass = 0.5; /* doc/theory/sph-total-lagrangian.md, section 10 */
     if (deck_values(group, "law") > 0) options.law = (enum elastic_law)deck_choice(group, "law", 0);
     read_real(group, "smoothing_length", &options.smoothing_length);
     read_real(group, "hourglass", &options.hourglass);
