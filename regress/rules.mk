@@ -3,7 +3,7 @@
 # Every C program of this folder is one file, linked with the library: NAME.c in one of these folders gives $(BUILD)/test/NAME
 # (and a target of the fuzzing $(BUILD)/fuzz/NAME and $(BUILD)/replay/NAME).
 vpath %.c regress/unit regress/hardening/relations regress/hardening/stops regress/hardening/fuzz regress/studies/bench \
-    regress/studies/lamb regress/studies/quiet regress/studies/stability
+    regress/studies/canyon regress/studies/lamb regress/studies/quiet regress/studies/stability
 TESTS    = $(patsubst regress/unit/%.c,$(BUILD)/test/%,$(wildcard regress/unit/test_*.c))
 FUZZED   = $(patsubst regress/hardening/fuzz/%.c,%,$(wildcard regress/hardening/fuzz/fuzz_*.c))
 

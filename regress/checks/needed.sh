@@ -109,3 +109,14 @@ for method in consistent paper; do # u, v, a; the paper's filter keeps the state
     check "$method: $state numbers of state per unknown" test "$state" = $wanted
 done
 echo "# $points points"
+
+# What general ground takes, set-up included: the run's peak without the program's own memory, that of a scene of 250 points.
+"$build/selas" -q input/bar.nml output%plots=F output%directory="$out/bar" >"$out/bar.log" 2>&1 || cat "$out/bar.log"
+for deck in hill loh1; do
+    "$build/selas" -q input/$deck.nml output%plots=F scene%end_time=.1 method%operator=general output%directory="$out/$deck" >"$out/$deck.log" 2>&1 ||
+        cat "$out/$deck.log"
+    part=$(awk -v p="$(value $deck 'peak memory bytes')" -v b="$(value bar 'peak memory bytes')" -v m="$(value $deck 'planned memory bytes')" \
+        'BEGIN { if (m > 0) printf "%.3f", (p - b) / m }')
+    check "$deck.nml, general ground: the run takes $part of the planned memory" less .85 "$part"
+    check "and not more than 1.15" less "$part" 1.15
+done

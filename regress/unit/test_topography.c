@@ -141,12 +141,17 @@ static void test_refused(void **state)
     assert_refused(HEAD BOX HEIGHTS,
                    "t.nml:5:", (const char *[]){"heights.txt:22: expected three numbers, x y height", NULL});
     write_heights(.5, 4, 100, false);
-    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:", (const char *[]){"no height at (2, 1)", "9 x 9", NULL});
+    assert_refused(HEAD BOX HEIGHTS,
+                   "t.nml:5:", (const char *[]){"no height at (2, 1)", "9 x 9", "gmt surface", NULL});
     FILE *file = fopen(stored, "w");
     for (int i = 0; i < 40; i++)
         fprintf(file, "%g %g 100\n", i * .1, fmod(i * .77, 4));
     fclose(file);
-    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:", (const char *[]){"which is no grid", NULL});
+    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:", (const char *[]){"which is no grid", "gmt surface", NULL});
+    file = fopen(stored, "w");
+    fputs("CDF\001", file);
+    fclose(file);
+    assert_refused(HEAD BOX HEIGHTS, "t.nml:5:", (const char *[]){"classic", "gmt grd2xyz", NULL});
     write_heights(.5, 4, 100, true);
     assert_refused(HEAD BOX "&topography file = 'build/test/heights.txt' /\n",
                    "t.nml:5:", (const char *[]){"pressed to", "datum", NULL});

@@ -58,13 +58,17 @@ hid_t stored_set(hid_t place, const char *name)
     return -1;
 }
 
+bool stored_begins(const char *path, const char start[4], size_t count)
+{
+    char found[4] = "";
+    FILE *file = fopen(path, "rb");
+    const bool same =
+        file != NULL && fread(found, 1, count, file) == count && memcmp(found, start, count) == 0;
+    if (file != NULL) fclose(file);
+    return same;
+}
+
 bool stored_is_hdf5(const char *path)
 {
-    static const unsigned char signature[4] = {0x89, 'H', 'D', 'F'};
-    unsigned char start[4] = {0};
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) return false;
-    const size_t count = fread(start, 1, sizeof start, file);
-    fclose(file);
-    return count == sizeof start && memcmp(start, signature, sizeof start) == 0;
+    return stored_begins(path, "\x89HDF", 4);
 }

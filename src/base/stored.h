@@ -13,6 +13,8 @@ bool stored_here(hid_t place, const char *name);
  * elsewhere, is virtual, keeps its numbers in another file, or has more of them than the file holds. */
 hid_t stored_set(hid_t place, const char *name);
 
+/* True if the file begins with the first `count` of these characters. */
+bool stored_begins(const char *path, const char start[4], size_t count);
 /* True if the file begins as HDF5 files do. */
 bool stored_is_hdf5(const char *path);
 

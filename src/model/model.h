@@ -239,6 +239,7 @@ struct model {
     size_t state_size;     /* numbers in y */
     size_t component_stride, point_stride;
     size_t bytes;       /* memory held by the model */
+    size_t setup_bytes; /* most that was held while it was made; 0: no more than later */
     bool single;        /* steps in one pass keep the state in single precision; y is what others see of it */
     bool damped;        /* C is not zero */
     bool layers;        /* absorbing layers take energy, nobody tells how much */

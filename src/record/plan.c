@@ -75,7 +75,7 @@ static double memory_of(const struct recorder *recorder)
         const struct snapshot_record *record = &recorder->snapshot[s];
         bytes += 48.0 * (double)record->room + (record->index != NULL ? 8.0 * (double)record->points : 0.0);
     }
-    return bytes;
+    return fmax(bytes, (double)model->setup_bytes);
 }
 
 void recorder_weigh(struct recorder *recorder)

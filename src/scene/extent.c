@@ -10,7 +10,7 @@
 /* A Gaussian of width w ends here: exp(-5^2 / 2) = 4e-6. */
 static const double gaussian_end = 5;
 /* A hill's profile ends here: exp(-3.5^2 / 2) = .002. */
-static const double shape_end = 3.5;
+static const double shape_end = 4.0;
 /* Root mean square frequency of a Gaussian's slope over that of the Gaussian itself. */
 static const double slope_over_value = 1.7320508075688772;
 
@@ -253,7 +253,7 @@ static void state_block(const struct scene *scene, size_t index, struct extent *
     widen(scene, block->centre, half, extent);
 }
 
-/* A hill, ridge or canyon is in the box as far as 3.5 times its width; a file's heights only need to reach as far
+/* A hill, ridge or canyon is in the box as far as 4 times its width; a file's heights only need to reach as far
  * as the box. */
 static size_t count_topography(const struct scene *scene)
 {

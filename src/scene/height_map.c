@@ -62,6 +62,10 @@ static size_t nearest(const struct axis_map *along, double x)
     return x - along->place[low] < along->place[high] - x ? low : high;
 }
 
+/* What would do for points that are no grid. */
+static const char advice[] = "(grid loose points first: gmt surface FILE -RWEST/EAST/SOUTH/NORTH -ISTEP "
+                             "-Ggrid.nc && gmt grd2xyz grid.nc >heights.txt)";
+
 /* Puts the rows into the grid: each place once. */
 static selas_status lay_grid(const char *path, const struct height_rows *rows, double datum,
                              struct height_map *map, struct messages *messages)
@@ -74,8 +78,8 @@ static selas_status lay_grid(const char *path, const struct height_rows *rows, d
         return fail(
             messages, SELAS_FILE_ERROR,
             "%s: %zu heights at %zu places along x and %zu along y, which is no grid; expected each x with "
-            "each y (grid loose points first, as with GMT's surface or GDAL's gdal_grid)",
-            path, rows->count, n[0], n[1]);
+            "each y %s",
+            path, rows->count, n[0], n[1], advice);
     map->height = array_new(n[0] * n[1], sizeof *map->height);
     if (map->height == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
     for (size_t i = 0; i < n[0] * n[1]; i++)
@@ -91,8 +95,9 @@ static selas_status lay_grid(const char *path, const struct height_rows *rows, d
     for (size_t i = 0; i < n[0] * n[1]; i++) {
         if (isnan(map->height[i]))
             return fail(messages, SELAS_FILE_ERROR,
-                        "%s: no height at (%g, %g); expected each x of the file with each y: %zu x %zu", path,
-                        map->along[0].place[i / n[1]], map->along[1].place[i % n[1]], n[0], n[1]);
+                        "%s: no height at (%g, %g); expected each x of the file with each y: %zu x %zu %s",
+                        path, map->along[0].place[i / n[1]], map->along[1].place[i % n[1]], n[0], n[1],
+                        advice);
         map->most = fmax(map->most, fabs(map->height[i]));
     }
     return SELAS_OK;

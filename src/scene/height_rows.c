@@ -143,6 +143,11 @@ static selas_status read_hdf5(const char *path, int axes, struct height_rows *ro
 
 selas_status height_rows_read(const char *path, int axes, struct height_rows *rows, struct messages *messages)
 {
+    if (stored_begins(path, "CDF", 3)) /* GMT's choice for grids of less than 16384 values */
+        return fail(messages, SELAS_FILE_ERROR,
+                    "%s: netCDF of the classic format; make text or netCDF-4 of it: gmt grd2xyz %s "
+                    ">heights.txt, or nccopy -k nc4",
+                    path, path);
     return stored_is_hdf5(path) ? read_hdf5(path, axes, rows, messages)
                                 : read_text(path, axes, rows, messages);
 }

@@ -335,8 +335,12 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;
     c->model.bytes = sizeof *c + tensor_plan_bytes(c->stiffness) + tensor_plan_bytes(c->mass) +
-                     forces_bytes(c) + hform_bytes(c) + (c->general != NULL ? c->general->bytes : 0) +
-                     (c->fused != NULL ? c->fused->bytes : 0) + (c->pml != NULL ? c->pml->bytes : 0);
+                     forces_bytes(c) + hform_bytes(c);
+    if (c->general != NULL) {
+        c->model.setup_bytes = c->model.bytes + c->general->setup_bytes;
+        c->model.bytes += c->general->bytes;
+    }
+    c->model.bytes += (c->fused != NULL ? c->fused->bytes : 0) + (c->pml != NULL ? c->pml->bytes : 0);
     *model = &c->model;
     return SELAS_OK;
 }

@@ -226,11 +226,12 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
 {
     struct model *model = &d->model;
     struct model *first = d->part[0].model;
-    size_t extra = 0, bytes = 0;
+    size_t extra = 0, bytes = 0, most = 0;
     extra = d->damping->mechanisms * first->unknowns;
     for (size_t p = 0; p < d->parts; p++) {
         d->part[p].extra = extra;
         extra += d->part[p].model->state_size - 2 * first->unknowns;
+        if (bytes + d->part[p].model->setup_bytes > most) most = bytes + d->part[p].model->setup_bytes;
         bytes += d->part[p].model->bytes;
     }
     const bool room = relax(d, extra) == SELAS_OK;
@@ -252,6 +253,7 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
     model->state_size = 2 * model->unknowns + extra;
     d->effective = array_new(2 * model->unknowns, sizeof *d->effective);
     if (d->parts > 1) d->sum = array_new(model->unknowns, sizeof *d->sum);
+    model->setup_bytes = most; /* the parts are made one after the other */
     model->bytes = bytes + sizeof *d + (d->parts > 1 ? 3 : 2) * model->unknowns * sizeof(double);
     if (!room || d->effective == NULL || (d->parts > 1 && d->sum == NULL))
         return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");

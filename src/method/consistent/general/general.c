@@ -143,11 +143,11 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     for (int slot = 0; good && slot < 3; slot++)
         good = lay_axis(c, slot);
     double *mass = array_new(c->volume, sizeof *mass);
-    good = good && mass != NULL && lay_families(c) && general_lay_hill(c) && lay_inverse(c) && lay_buffers(c);
+    good = good && mass != NULL && lay_families(c) && general_lay_hill(c) && lay_inverse(c) &&
+           general_material(c, mass) && lay_buffers(c);
     selas_status status =
         good ? SELAS_OK
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
-    if (status == SELAS_OK) status = general_material(c, mass, messages);
     if (status == SELAS_OK) general_lay_corners(c);
     status = ranks_agree(c->part.ranks, status, messages);
     if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, messages);

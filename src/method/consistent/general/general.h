@@ -57,7 +57,7 @@ struct general {
     bool *loud;                  /* [n[1] * n[2]] rows of control values that move anything */
     double **buffer;             /* [threads] */
     size_t pitch, buffer_size;   /* of rows in the buffers; numbers of a buffer */
-    size_t bytes;
+    size_t bytes, setup_bytes;   /* held; while the ground is averaged */
 };
 
 /* Builds c->general; needs c->hform and the loads. */
@@ -126,8 +126,8 @@ size_t general_corner_seen(const struct consistent *c, const struct corner *corn
 void general_corner_pull(const struct corner *corner, double slope[3][3], int component, double pull[3]);
 
 /* material.c: lays moduli at the points, those of a part of damped ground too, and the mass of each control value.
- * SELAS_NO_MEMORY. */
-selas_status general_material(struct consistent *c, double *mass, struct messages *messages);
+ * False: no memory. */
+bool general_material(struct consistent *c, double *mass);
 void general_free_family(struct family *family);
 /* Weight of a point, with the map's Jacobian. */
 double general_weight(const struct consistent *c, const struct family *family, const size_t at[3]);

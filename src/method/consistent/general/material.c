@@ -173,7 +173,7 @@ static double integral(const struct consistent *c, const struct band *const mass
 
 /* The points' mean of the density about each control value, times the exact integral of its function: where
  * faces meet the points' own sum is not exact for an even ground. */
-selas_status general_material(struct consistent *c, double *mass, struct messages *messages)
+bool general_material(struct consistent *c, double *mass)
 {
     const struct band *band[3] = {NULL, NULL, NULL};
     const bool part = general_is_part(c->model.scene);
@@ -185,8 +185,11 @@ selas_status general_material(struct consistent *c, double *mass, struct message
         band[c->slot[axis]] = consistent_matrix(c, axis, 0, false, 0, false, WEIGHT_NONE);
     for (size_t i = 0; good && i < c->volume; i++)
         mass[i] *= integral(c, band, i) / sums.even[i];
+    if (good)
+        c->general->setup_bytes = c->general->bytes + 2 * c->volume * sizeof *mass +
+                                  medium_bytes(medium); /* with `mass` and `even` */
     array_free(sums.even);
     sharing_free(sums.sharing);
     medium_free(medium);
-    return good ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ground");
+    return good;
 }

@@ -39,7 +39,7 @@ struct medium {
     ptrdiff_t next; /* the piece that none has been made of; number 0 begins at face z- */
     bool part;      /* of damped ground: by_bulk is wanted */
     double *jump;   /* [threads * room] */
-    size_t room;
+    size_t room, bytes;
 };
 
 static int ascending(const void *one, const void *other)
@@ -229,12 +229,18 @@ static double column_place(const struct medium *medium, int slot, size_t n)
     return place;
 }
 
+static void *held(struct medium *medium, size_t count, size_t size)
+{
+    medium->bytes += count * size;
+    return array_new(count, size);
+}
+
 static bool lay_drops(struct medium *medium)
 {
     const struct consistent *c = medium->c;
     const struct columns *x = &medium->along[0], *y = &medium->along[1];
     if (c->surface == NULL) return true;
-    medium->drop = array_new(x->count * y->count, sizeof *medium->drop);
+    medium->drop = held(medium, x->count * y->count, sizeof *medium->drop);
     for (size_t n = 0; medium->drop != NULL && n < x->count * y->count; n++) {
         const double place[3] = {column_place(medium, 0, n % x->count),
                                  c->dimension == 3 ? column_place(medium, 1, n / x->count) : 0, 0};
@@ -254,15 +260,15 @@ struct medium *medium_new(const struct consistent *c)
     lay_columns(medium, 1);
     medium->room = ground_jumps_at_most(c->model.scene) + 2;
     medium->next = 2 * (ptrdiff_t)c->general->first - PIECES / 2;
-    medium->column = array_new((size_t)c->threads * along[0].count, sizeof *medium->column);
+    medium->column = held(medium, (size_t)c->threads * along[0].count, sizeof *medium->column);
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
-        medium->row[at] = array_new(along[0].points * along[1].count, sizeof **medium->row);
-    medium->point = array_new(along[0].points * along[1].points, sizeof *medium->point);
-    medium->jump = array_new((size_t)c->threads * medium->room, sizeof *medium->jump);
+        medium->row[at] = held(medium, along[0].points * along[1].count, sizeof **medium->row);
+    medium->point = held(medium, along[0].points * along[1].points, sizeof *medium->point);
+    medium->jump = held(medium, (size_t)c->threads * medium->room, sizeof *medium->jump);
     bool good = medium->column != NULL && medium->row[0] != NULL && medium->row[1] != NULL &&
                 medium->point != NULL && medium->jump != NULL;
     for (int f = 0; f < 3 && good; f++) {
-        medium->ring[f] = array_new(RING * along[0].points * along[1].points, sizeof **medium->ring);
+        medium->ring[f] = held(medium, RING * along[0].points * along[1].points, sizeof **medium->ring);
         good = medium->ring[f] != NULL;
     }
     if (good && lay_drops(medium)) return medium;
@@ -282,6 +288,11 @@ void medium_free(struct medium *medium)
     array_free(medium->point);
     array_free(medium->jump);
     array_free(medium);
+}
+
+size_t medium_bytes(const struct medium *medium)
+{
+    return medium->bytes;
 }
 
 /* The next piece of all columns, and its averages along the surface about the points of each family. */

@@ -47,6 +47,7 @@ void general_share(const struct sharing *sharing, const struct family *family, c
 struct medium;
 struct medium *medium_new(const struct consistent *c); /* NULL: no memory */
 void medium_free(struct medium *medium);
+size_t medium_bytes(const struct medium *medium);
 void medium_plane(struct medium *medium, int f, size_t k);
 /* Of point i, j of that plane, with the metric there. */
 void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,
