@@ -289,12 +289,11 @@ selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_
                 place[0], place[1], place[2]);
 }
 
-int tl_holder(const struct model *model, size_t plane)
+int tl_holder(const struct model *model, size_t point)
 {
     const struct tl_part *part = &((const struct tl_model *)model)->part;
-    const size_t points = model->grid[0] > 0 ? part->plane : 1;
     int rank = 0;
-    while (plane * points >= part->bound[rank + 1])
+    while (point >= part->bound[rank + 1])
         rank++;
     return rank;
 }

@@ -102,16 +102,18 @@ static bool field_loud(const struct consistent *c, const struct fast_slab *s, RE
     return false;
 }
 
-/* Is the row at rest: displacements and velocities that it reads, and memory? Then it forgets what is left of
- * that. */
+/* Is the row at rest: displacements and velocities that it reads, and memory? */
 static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
-                  const REAL *u, const REAL *v, REAL *extra)
+                  const REAL *u, const REAL *v, const REAL *extra)
+{
+    return level.displacement >= 0 && !field_loud(c, s, level.displacement, b, u) &&
+           !field_loud(c, s, level.velocity, b, v) && !memory_loud(s, level, b, extra);
+}
+
+/* What is left of memory in a row at rest. */
+static void forget_row(const struct fast_slab *s, size_t b, REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
-    if (level.displacement < 0 || field_loud(c, s, level.displacement, b, u) ||
-        field_loud(c, s, level.velocity, b, v))
-        return false;
-    if (memory_loud(s, level, b, extra)) return false;
     for (size_t i = 0; i < 3; i++) {
         memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
         memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
@@ -121,7 +123,37 @@ static bool rests(const struct consistent *c, const struct fast_slab *s, struct 
     for (size_t n = 0; n < s->overs; n++)
         memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
     memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
-    return true;
+}
+
+/* Do ranks share the rows of the slab along f? Then what rests in one of them may move in another. */
+static bool shares_rows(const struct consistent *c, const struct fast_slab *s)
+{
+    return part_rows(&c->part) && s->axis[ROLE_F] == 1 && c->options.quiet > 0;
+}
+
+/* Together: rows that rest, or with `groups` groups of rows that move, become those of all ranks. */
+static void agree(const struct consistent *c, bool groups)
+{
+    const size_t whole = c->part.along[DEPTH].whole;
+    double *told = FAST(c)->told;
+    if (!part_rows(&c->part) || !(c->options.quiet > 0)) return;
+    for (int turn = 0; turn < 2; turn++) {
+        if (turn == 1) ranks_largest(c->part.ranks, 2 * whole, told);
+        if (turn == 0) memset(told, 0, 2 * whole * sizeof *told);
+        for (size_t i = 0; i < c->pml->slabs; i++) {
+            const struct fast_slab *s = &FAST(c)->slab[i];
+            double *moves = told + (size_t)s->slab->end * whole + s->first_b;
+            if (!shares_rows(c, s)) continue;
+            for (size_t n = 0; n < (groups ? s->pull_b.groups : s->nb); n++) {
+                double *tell = moves + (groups ? s->pull_b.group[n].to : n);
+                bool *flag = groups ? &s->moves[n] : &s->rests[n];
+                if (turn == 0)
+                    *tell = *flag == groups ? 1 : 0;
+                else
+                    *flag = (*tell > 0) == groups;
+            }
+        }
+    }
 }
 
 /* Do all rows rest that a group of rows is made from? */
@@ -178,7 +210,8 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
 static bool another_rank(const struct consistent *c, const struct fast_slab *s, size_t g)
 {
     const struct row_group *group = &s->pull_b.group[g];
-    return s->axis[ROLE_B] == DEPTH && (group->to + group->rows <= c->part.own || group->to >= c->part.end);
+    const struct part_axis *b = &c->part.along[s->axis[ROLE_B]];
+    return group->to + group->rows <= b->own || group->to >= b->end;
 }
 
 /* Is there nothing that moves phi in a group of rows? */
@@ -228,12 +261,10 @@ static void force_rows(const struct consistent *c, const struct fast_slab *s, do
     }
 }
 
-/* L3. */
-static void move_forces(const struct consistent *c, const struct fast_slab *s, struct level level, double dt,
-                        REAL *extra)
+/* Adds C2_j m_ff to what waits. */
+static void meet_rows(const struct consistent *c, const struct fast_slab *s, struct level level)
 {
     const size_t size = s->ns * s->width;
-    unsigned long skipped = 0;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t b = 0; b < s->nb; b++) {
         REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
@@ -242,10 +273,24 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
             if (add_divergence(c, s, ROLE_F, least, b, rows, (REAL *)s->wait[s->cross[n].part] + b * size))
                 s->rests[b] = false;
     }
+}
+
+/* Groups of rows that move. */
+static void find_moves(const struct consistent *c, const struct fast_slab *s, struct level level)
+{
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t g = 0; g < s->pull_b.groups; g++)
+        s->moves[g] = !another_rank(c, s, g) && !nothing_moves(c, s, level, g);
+}
+
+/* L3 in all of them. */
+static void move_forces(const struct consistent *c, const struct fast_slab *s, double dt, REAL *extra)
+{
+    unsigned long skipped = 0;
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
     for (size_t g = 0; g < s->pull_b.groups; g++) {
         if (another_rank(c, s, g)) continue;
-        if (nothing_moves(c, s, level, g))
+        if (!s->moves[g])
             skipped++;
         else
             force_rows(c, s, dt, g, extra);
@@ -259,8 +304,8 @@ static void exchange_forces(const struct consistent *c, REAL *extra)
 {
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
-        const size_t row = s->ns * s->width * sizeof *extra;
-        if (s->axis[ROLE_B] == DEPTH) part_exchange(c, extra + s->slab->phi, 3, s->nb * row, row);
+        const struct part_fields phi = pml_fast_phi(s, extra + s->slab->phi, sizeof *extra);
+        part_exchange(c, &phi);
     }
 }
 
@@ -281,16 +326,30 @@ void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_mi
                              const REAL *u, const REAL *v, REAL *extra)
 {
     const struct level level = levels(c, quiet, to_middle);
-    for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &FAST(c)->slab[i];
+    const struct fast_slab *const slab = FAST(c)->slab, *const end = slab + c->pml->slabs;
+    for (const struct fast_slab *s = slab; s < end; s++)
+        for (size_t b = 0; b < s->nb && shares_rows(c, s); b++)
+            s->rests[b] = rests(c, s, level, b, u, v, extra);
+    agree(c, false);
+    for (const struct fast_slab *s = slab; s < end; s++) {
+        const bool known = shares_rows(c, s);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t b = 0; b < s->nb; b++) {
-            s->rests[b] = rests(c, s, level, b, u, v, extra);
-            if (!s->rests[b]) gradient_row(c, s, dt, to_middle, b, u, v, extra);
+            if (!known) s->rests[b] = rests(c, s, level, b, u, v, extra);
+            if (s->rests[b])
+                forget_row(s, b, extra);
+            else
+                gradient_row(c, s, dt, to_middle, b, u, v, extra);
         }
     }
-    for (size_t i = 0; i < c->pml->slabs; i++)
-        move_forces(c, &FAST(c)->slab[i], level, dt, extra);
+    for (const struct fast_slab *s = slab; s < end; s++)
+        meet_rows(c, s, level);
+    agree(c, false);
+    for (const struct fast_slab *s = slab; s < end; s++)
+        find_moves(c, s, level);
+    agree(c, true);
+    for (const struct fast_slab *s = slab; s < end; s++)
+        move_forces(c, s, dt, extra);
     exchange_forces(c, extra);
 }
 
