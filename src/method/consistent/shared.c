@@ -12,7 +12,8 @@
 static void add_rows(const struct consistent *c, size_t row, struct spread *shares)
 {
     const struct rank_part *part = &c->part;
-    const struct spread_run run = {0, part->first * row, c->n[DEPTH] * row, part->own * row, part->end * row};
+    const struct spread_run run =
+        spread_line(0, part->first * row, c->n[DEPTH] * row, part->own * row, part->end * row);
     spread_add(shares, c->n[DEPTH] * row, part->whole * row, &run);
 }
 
@@ -30,9 +31,9 @@ static void add_points(const struct consistent *c, int face, const struct family
     const size_t row = (slot == 0 ? width : family->n[0]) * (slot == 1 ? width : family->n[1]);
     const size_t from = me == 0 ? 0 : part->first + part->own + low - g->first;
     const size_t end = me == last ? here : part->first + part->end + low - g->first;
-    const struct spread_run rows = {0, g->first * row, here * row, from * row, end * row};
+    const struct spread_run rows = spread_line(0, g->first * row, here * row, from * row, end * row);
     const size_t holds = me == (face % 2 == 0 ? 0 : last) ? width * row : 0;
-    const struct spread_run all = {0, 0, holds, 0, holds};
+    const struct spread_run all = spread_line(0, 0, holds, 0, holds);
     for (int component = 0; component < c->dimension; component++) {
         if (slot == DEPTH)
             spread_add(shares, holds, width * row, &all);
@@ -62,7 +63,7 @@ static void add_layers(const struct consistent *c, struct spread *shares)
         const int face = i / fields % (2 * c->dimension);
         if (sizes[face] == 0) continue;
         const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
-        const struct spread_run all = {0, 0, here, 0, here};
+        const struct spread_run all = spread_line(0, 0, here, 0, here);
         if (c->slot[face / 2] == DEPTH)
             spread_add(shares, here, there, &all);
         else
