@@ -88,11 +88,14 @@ static void pass_runs(struct walk *walk, const struct place *place, const struct
     const size_t most = PIECE / place->width;
     for (size_t r = 0; r < shares->runs; r++) {
         const struct spread_run *run = &shares->run[r];
-        const size_t end = walk->mode == SET_READ ? run->count : run->end;
-        size_t from = walk->mode == SET_READ ? 0 : run->from, count;
-        for (; from < end; from += count) {
-            count = end - from < most ? end - from : most;
-            pass_piece(walk, place, run->here + from, run->there + from, count);
+        const bool window = walk->mode == SET_READ;
+        const size_t end = window ? run->count : run->end, last = window ? run->times : run->last;
+        for (size_t t = window ? 0 : run->first; t < last; t++) {
+            const size_t here = run->here + t * run->here_step, there = run->there + t * run->there_step;
+            for (size_t from = window ? 0 : run->from, count; from < end; from += count) {
+                count = end - from < most ? end - from : most;
+                pass_piece(walk, place, here + from, there + from, count);
+            }
         }
     }
 }

@@ -8,12 +8,24 @@
 
 /* --- Arrays -------------------------------------------------------------------------------------------- */
 
-/* Rows of the window over the last axis, of `row` numbers each. */
-static void add_rows(const struct consistent *c, size_t row, struct spread *shares)
+/* Rows of the window along two slots, of `row` numbers each, in planes of the second one. */
+static void add_rows(size_t row, const struct part_axis *y, size_t rows, const struct part_axis *z,
+                     size_t planes, struct spread *shares)
 {
-    const struct part_axis *z = &c->part.along[DEPTH];
-    const struct spread_run run = {0, z->first * row, c->n[DEPTH] * row, z->own * row, z->end * row};
-    spread_add(shares, c->n[DEPTH] * row, z->whole * row, &run);
+    const struct spread_run run = {.there = (z->first * y->whole + y->first) * row,
+                                   .count = rows * row,
+                                   .from = y->own * row,
+                                   .end = y->end * row,
+                                   .times = planes,
+                                   .here_step = rows * row,
+                                   .there_step = y->whole * row,
+                                   .first = z->own,
+                                   .last = z->end,
+                                   .abreast = y->ranks};
+    const size_t plane = rows * row;
+    const struct spread_run line =
+        spread_line(0, z->first * plane, planes * plane, z->own * plane, z->end * plane);
+    spread_add(shares, planes * plane, z->whole * y->whole * row, y->ranks > 1 ? &run : &line);
 }
 
 /* Memory at the points of general ground that the layer behind a face has of a family (general/layers.c). A rank's own
@@ -30,9 +42,9 @@ static void add_points(const struct consistent *c, int face, const struct family
     const size_t row = (slot == 0 ? width : family->n[0]) * (slot == 1 ? width : family->n[1]);
     const size_t from = me == 0 ? 0 : part->first + part->own + low - g->first;
     const size_t end = me == last ? here : part->first + part->end + low - g->first;
-    const struct spread_run rows = {0, g->first * row, here * row, from * row, end * row};
+    const struct spread_run rows = spread_line(0, g->first * row, here * row, from * row, end * row);
     const size_t holds = me == (face % 2 == 0 ? 0 : last) ? width * row : 0;
-    const struct spread_run all = {0, 0, holds, 0, holds};
+    const struct spread_run all = spread_line(0, 0, holds, 0, holds);
     for (int component = 0; component < c->dimension; component++) {
         if (slot == DEPTH)
             spread_add(shares, holds, width * row, &all);
@@ -41,15 +53,64 @@ static void add_points(const struct consistent *c, int face, const struct family
     }
 }
 
-/* Memory variables of the layers, face by face: those across the last axis are one rank's own, whole. */
+/* Numbers that are not shared, of which the rank has all. */
+static struct part_axis unshared(size_t n)
+{
+    return (struct part_axis){.whole = n, .end = n, .ranks = 1};
+}
+
+/* A memory variable of shared passes, [b][s][f] with rows of whole vectors (absorbing/pml_fast.h). */
+static void add_shared_passes(const struct consistent *c, const struct fast_slab *s, struct spread *shares)
+{
+    const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH], one = unshared(1);
+    const size_t whole = pml_fast_width(c, y->whole),
+                 behind = y->me + 1 == y->ranks ? whole - y->first : y->end;
+    const struct spread_run run = {.there = z->first * s->ns * whole + y->first,
+                                   .count = y->me + 1 == y->ranks ? behind : c->n[1],
+                                   .from = y->own,
+                                   .end = behind,
+                                   .times = s->nb * s->ns,
+                                   .here_step = s->width,
+                                   .there_step = whole,
+                                   .first = z->own * s->ns,
+                                   .last = z->end * s->ns,
+                                   .abreast = y->ranks};
+    if (s->axis[ROLE_B] == 1)
+        add_rows(s->ns * s->width, y, s->nb, &one, 1, shares);
+    else if (s->axis[ROLE_F] != 1 || y->ranks == 1)
+        add_rows(s->ns * s->width, &one, 1, z, s->nb, shares);
+    else
+        spread_add(shares, s->nb * s->ns * s->width, z->whole * s->ns * whole, &run);
+}
+
+/* The same in the order of control values. */
+static void add_slab(const struct consistent *c, const struct slab *slab, struct spread *shares)
+{
+    const struct part_axis thick = unshared(slab->inside.n[c->slot[slab->axis]]);
+    const struct part_axis *along[3] = {&c->part.along[0], &c->part.along[1], &c->part.along[2]};
+    along[c->slot[slab->axis]] = &thick;
+    add_rows(slab->inside.n[0], along[1], slab->inside.n[1], along[2], slab->inside.n[2], shares);
+}
+
+static void add_memory(const struct consistent *c, const struct slab *slab, struct spread *shares)
+{
+    if (c->pml->fast != NULL)
+        add_shared_passes(c, &c->pml->fast->slab[slab - c->pml->slab], shares);
+    else
+        add_slab(c, slab, shares);
+}
+
+/* Memory variables of the layers, face by face: those across an axis that ranks share are whole one rank's own. */
 static void add_layers(const struct consistent *c, struct spread *shares)
 {
     const struct slab *own[BOX_FACES] = {NULL};
     double sizes[BOX_FACES] = {0};
     for (size_t s = 0; c->pml != NULL && s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
+        struct spread its = {0};
         own[2 * slab->axis + slab->end] = slab;
-        sizes[2 * slab->axis + slab->end] = (double)slab->inner;
+        add_memory(c, slab, &its);
+        sizes[2 * slab->axis + slab->end] = (double)its.there;
     }
     ranks_largest(c->part.ranks, BOX_FACES, sizes);
     for (int face = 0; c->general != NULL && face < 2 * c->dimension; face++)
@@ -60,13 +121,10 @@ static void add_layers(const struct consistent *c, struct spread *shares)
               turns = c->general != NULL ? 2 : 1;
     for (int i = 0; i < turns * 2 * c->dimension * fields; i++) {
         const int face = i / fields % (2 * c->dimension);
-        if (sizes[face] == 0) continue;
-        const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
-        const struct spread_run all = {0, 0, here, 0, here};
-        if (c->slot[face / 2] == DEPTH)
-            spread_add(shares, here, there, &all);
+        if (own[face] != NULL)
+            add_memory(c, own[face], shares);
         else
-            add_rows(c, here / c->n[DEPTH], shares);
+            shares->there += (size_t)sizes[face];
     }
 }
 
@@ -77,7 +135,7 @@ void consistent_share(struct model *model, enum model_array array, struct spread
         add_layers(c, shares);
     else
         for (int component = 0; component < c->dimension; component++)
-            add_rows(c, c->plane, shares);
+            add_rows(c->n[0], &c->part.along[1], c->n[1], &c->part.along[DEPTH], c->n[DEPTH], shares);
 }
 
 /* --- What the plan tells -------------------------------------------------------------------------------- */

@@ -304,9 +304,9 @@ void tl_share(struct model *model, enum model_array array, struct spread *shares
     const struct tl_part *part = &tl->part;
     const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks);
     const struct tl_range *window = part->window[me].range;
-    const struct spread_run run = {d * (window->from - tl->cloud->first), d * window->from,
-                                   d * (window->end - window->from), d * (part->bound[me] - window->from),
-                                   d * (part->bound[me + 1] - window->from)};
+    const struct spread_run run =
+        spread_line(d * (window->from - tl->cloud->first), d * window->from, d * (window->end - window->from),
+                    d * (part->bound[me] - window->from), d * (part->bound[me + 1] - window->from));
     if (array == ARRAY_UNKNOWNS) spread_add(shares, model->unknowns, model->whole_unknowns, &run);
 }
 

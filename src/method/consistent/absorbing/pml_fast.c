@@ -30,7 +30,7 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
     fast->first_b = c->part.along[fast->axis[ROLE_B]].first;
     fast->first_f = c->part.along[fast->axis[ROLE_F]].first;
     fast->nf = c->n[fast->axis[ROLE_F]];
-    fast->width = rounded(fast->nf, c->options.single ? 2 * FAST_LANES : FAST_LANES);
+    fast->width = pml_fast_width(c, fast->first_f % (2 * FAST_LANES) + fast->nf);
     fast->start = slab->region.at[j] + out;
     fast->region = slab->region.n[j] - 1;
     fast->offset = fast->inside.at[j] - fast->start;
@@ -55,6 +55,11 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
     }
     f->bytes += (1 + fast->parts + fast->overs) * n * (f->single ? sizeof(float) : sizeof(double));
     return good;
+}
+
+size_t pml_fast_width(const struct consistent *c, size_t numbers)
+{
+    return rounded(numbers, c->options.single ? 2 * FAST_LANES : FAST_LANES);
 }
 
 struct part_fields pml_fast_phi(const struct fast_slab *s, void *phi, size_t number)

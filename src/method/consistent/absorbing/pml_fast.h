@@ -101,6 +101,8 @@ struct pml_fast {
 /* Builds c->pml->fast if all slabs are for it (else it stays NULL), with options.single c->pml->single too,
  * and sets the slabs' `inner`. False: no memory. */
 bool pml_fast_create(struct consistent *c);
+/* Numbers in a row of so many, padded. */
+size_t pml_fast_width(const struct consistent *c, size_t numbers);
 /* phi of a slab, for part_exchange(). */
 struct part_fields pml_fast_phi(const struct fast_slab *s, void *phi, size_t number);
 void pml_fast_free(struct consistent *c);
