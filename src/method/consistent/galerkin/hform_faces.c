@@ -165,6 +165,7 @@ double hform_damper_power(struct consistent *c, const double *v)
 {
     double power = 0;
     double *values = c->hform->face[0], *weighed = c->hform->face[1];
+    if (c->model.untold) return 0;
     for (int face = 0; face < 2 * c->dimension; face++) {
         if (!c->damped[face] || !told(c, face)) continue;
         const int slot = c->slot[face / 2], across = slot == 0 ? 1 : 0, outer = slot == DEPTH ? 1 : DEPTH;

@@ -105,12 +105,15 @@ static double largest_window(const struct consistent *c, int slot, int ranks, co
     return largest;
 }
 
-/* Can rows be shared too? General ground, the exact mass and dampers keep whole planes. */
+/* Can rows be shared too? General ground and the exact mass keep whole planes; so do dampers across depth alone, whose
+ * power is told. */
 static bool shares_rows(const struct consistent *c)
 {
+    const struct boundary *boundary = c->model.scene->boundary;
+    bool side = false, end = false;
     for (int face = 0; face < 2 * c->dimension; face++)
-        if (boundary_damps(&c->model.scene->boundary[face])) return false;
-    return c->dimension == 3 && !c->options.general && c->options.sweeps > 0;
+        *(c->slot[face / 2] == DEPTH ? &end : &side) |= boundary_damps(&boundary[face]);
+    return c->dimension == 3 && !c->options.general && c->options.sweeps > 0 && (side || !end);
 }
 
 /* Ranks over y by depth that a test asks for: SELAS_RANK_GRID=2x3. */
