@@ -129,7 +129,8 @@ static int choose_rows(const struct consistent *c, int ranks, size_t *rows, size
 {
     int best = 0;
     double least = 0;
-    for (int y = 1; y <= (shares_rows(c) ? ranks : 1); y++) {
+    const size_t most = shares_rows(c) ? c->n[1] / PART_STRIP : 0;
+    for (int y = 1; y == 1 || (y <= ranks && (size_t)y <= most); y++) {
         if (ranks % y != 0 || !asked_for(y, ranks / y) || !share(c, DEPTH, ranks / y, planes)) continue;
         if (y > 1 && !share(c, 1, y, rows)) continue;
         const double wide = y > 1 ? largest_window(c, 1, y, rows) : cost_between(c, 1, 0, c->n[1]);
@@ -189,19 +190,22 @@ static selas_status lay_grid(struct consistent *c, int *used, int *over_y, struc
         (*used)--;
     if (*used == 1) *over_y = 1;
     array_free(bound);
-    const size_t whole = c->n[DEPTH], least = least_of(c, DEPTH, -1, 1);
+    char body[160];
+    int length =
+        snprintf(body, sizeof body, "the body has %zu planes over its last axis, a rank needs at least %zu",
+                 c->n[DEPTH], least_of(c, DEPTH, -1, 1));
+    if (shares_rows(c))
+        snprintf(body + length, sizeof body - (size_t)length, "; and %zu rows over y, of which it needs %zu",
+                 c->n[1], least_of(c, 1, -1, 1));
     if (*used < count && ranks_fixed(c->part.ranks))
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "%d of the %d ranks of the communicator would have work: the body has %zu planes over its "
-            "last axis, a rank needs at least %zu; open it with %d ranks",
-            *used, count, whole, least, *used);
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%d of the %d ranks of the communicator would have work: %s; open it with %d ranks",
+                    *used, count, body, *used);
     if (*used < count)
         warn(messages,
-             "%d of %d ranks have work: the body has %zu planes over its last axis, a rank needs at least "
-             "%zu of them "
-             "and the points of absorbing layers across that axis",
-             *used, count, whole, least);
+             "%d of %d ranks have work: %s; the first and the last ones have all points of absorbing layers "
+             "besides",
+             *used, count, body);
     return SELAS_OK;
 }
 
