@@ -113,9 +113,3 @@ void ranks_open_together(const struct ranks *ranks, hid_t access)
     (void)ranks;
     (void)access;
 }
-
-void ranks_pass_together(const struct ranks *ranks, hid_t transfer)
-{
-    (void)ranks;
-    (void)transfer;
-}

@@ -1,4 +1,4 @@
-/* HDF5 files that ranks open together. Alone (alone.c) these do nothing. */
+/* HDF5 files that ranks open together. Alone (alone.c) this does nothing. */
 #ifndef SELAS_PARALLEL_FILES_H
 #define SELAS_PARALLEL_FILES_H
 
@@ -6,9 +6,8 @@
 
 #include <hdf5.h>
 
-/* Files opened with these properties are opened, closed, and asked for what is in them, by all ranks together. */
+/* Files opened with these properties are opened, closed, and asked for what is in them, by all ranks together; numbers
+ * each rank writes and reads by itself. */
 void ranks_open_together(const struct ranks *ranks, hid_t access);
-/* Numbers are written and read by all ranks together: each its part, or none. */
-void ranks_pass_together(const struct ranks *ranks, hid_t transfer);
 
 #endif

@@ -8,7 +8,8 @@
 #include <string.h>
 
 #ifndef H5_HAVE_PARALLEL
-#error "this HDF5 has no MPI: `make setup-mpi`, or name pkg-config's package of one that has: `make mpi MPI_HDF5=...`"
+#error                                                                                                       \
+    "this HDF5 has no MPI: `make setup-mpi`, or name pkg-config's package of one that has: `make mpi MPI_HDF5=...`"
 #endif
 
 enum { LONGEST = 1 << 30, MOST_REQUESTS = 512 };
@@ -215,9 +216,4 @@ void ranks_open_together(const struct ranks *ranks, hid_t access)
     H5Pset_fapl_mpio(access, ranks->comm, MPI_INFO_NULL);
     H5Pset_all_coll_metadata_ops(access, true);
     H5Pset_coll_metadata_write(access, true);
-}
-
-void ranks_pass_together(const struct ranks *ranks, hid_t transfer)
-{
-    if (ranks != NULL) H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
 }
