@@ -98,10 +98,16 @@ $(BUILD)/libselas.a: $(OBJECTS)
 $(BUILD)/obj/%.o: src/%.c
 	$(compile)
 
-# The program for ranks: MPI's own compiler makes one object and links
+# The program for ranks: MPI's own compiler links and makes the objects that know MPI or HDF5, which is that of this MPI
+# (pkg-config's hdf5-openmpi, hdf5-mpich, or hdf5 where Debian's names are unknown). Both HDF5 in one program do not go together.
 MPICC   ?= mpicc
-MPI_OBJECTS = $(filter-out %/parallel/alone.o,$(OBJECTS)) $(BUILD)/mpi/mpi.o
-$(BUILD)/selas-mpi: $(PROGRAM:src/%.c=$(BUILD)/obj/%.o) $(BUILD)/mpi/libselas-mpi.a
+MPI_HDF5 ?= $(firstword $(shell for one in $(if $(findstring mpich,$(shell $(MPICC) -show 2>&1)),hdf5-mpich,hdf5-openmpi) hdf5; do pkg-config --exists $$one && echo $$one; done))
+includers = $(sort $(1) $(shell grep -rlE 'include .($(subst $(empty) ,|,$(patsubst src/%,%,$(1)))).' src))
+KNOW_HDF5 := $(filter %.c,$(call includers,$(call includers,$(call includers,hdf5.h))))
+for_mpi  = $(patsubst $(BUILD)/obj/%,$(BUILD)/mpi/%,$(filter $(KNOW_HDF5:src/%.c=$(BUILD)/obj/%.o),$(1))) \
+           $(filter-out $(KNOW_HDF5:src/%.c=$(BUILD)/obj/%.o),$(1))
+MPI_OBJECTS = $(call for_mpi,$(filter-out %/parallel/alone.o,$(OBJECTS))) $(BUILD)/mpi/parallel/mpi.o
+$(BUILD)/selas-mpi: $(call for_mpi,$(PROGRAM:src/%.c=$(BUILD)/obj/%.o)) $(BUILD)/mpi/libselas-mpi.a
 	$(link)
 $(BUILD)/mpi/libselas-mpi.a: $(MPI_OBJECTS)
 	@rm -f $@
@@ -110,17 +116,19 @@ $(BUILD)/$(MPI_SONAME): $(MPI_OBJECTS) $(BUILD)/selas.map
 	$(link)
 	@ln -sf $(MPI_SONAME) $(BUILD)/libselas-mpi.so
 $(BUILD)/$(MPI_SONAME): private EXTRA = -shared -Wl,-soname,$(MPI_SONAME) -Wl,--version-script=$(BUILD)/selas.map
-$(BUILD)/mpi/mpi.o: $(MPI_ONLY)
+$(BUILD)/mpi/%.o: src/%.c
 	$(compile)
-$(BUILD)/selas-mpi $(BUILD)/$(MPI_SONAME) $(BUILD)/mpi/mpi.o: private override CC = $(MPICC)
+$(BUILD)/selas-mpi $(BUILD)/$(MPI_SONAME) $(BUILD)/mpi/%.o: private override CC = $(MPICC)
+$(BUILD)/selas-mpi $(BUILD)/$(MPI_SONAME) $(BUILD)/mpi/%.o: private PKGS := gsl fftw3 $(MPI_HDF5)
 
 # the commit that is built, "+" behind it if files were changed; provenance.c is compiled anew when it changes
 COMMIT   = $(shell git describe --always --exclude='*' --dirty=+ 2>/dev/null || echo unknown)
 $(BUILD)/commit: always
 	@mkdir -p $(BUILD)
 	@echo '$(COMMIT)' | cmp -s - $@ || echo '$(COMMIT)' >$@
-$(BUILD)/obj/record/provenance.o: $(BUILD)/commit
-$(BUILD)/obj/record/provenance.o: ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
+PROVENANCE = $(BUILD)/obj/record/provenance.o $(BUILD)/mpi/record/provenance.o
+$(PROVENANCE): $(BUILD)/commit
+$(PROVENANCE): ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='"$(COMMIT)"'
 
 # Kernels: a multiplication and an addition in one instruction where the kind has it, but for what is no sum over neighbours
 define kernels_of_kind

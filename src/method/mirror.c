@@ -139,6 +139,16 @@ static size_t folded_index(const struct mirror *mirror, int axis, size_t i, unsi
     return 2 * last - i;
 }
 
+/* The part's point that shows a point of the whole. */
+static size_t image_of(const struct mirror *mirror, size_t point)
+{
+    const size_t *whole = mirror->model.grid, *part = mirror->model.part->grid;
+    unsigned planes = 0;
+    const size_t i = folded_index(mirror, 0, point % whole[0], &planes);
+    const size_t j = folded_index(mirror, 1, point / whole[0] % whole[1], &planes);
+    return i + part[0] * (j + part[1] * folded_index(mirror, 2, point / (whole[0] * whole[1]), &planes));
+}
+
 /* The part's values, from its point `first` on, fill the head of the array and spread from its end to the
  * points from .. end - 1: none of these is nearer to the head than its image, so nothing is overwritten that is
  * still needed. */
@@ -175,6 +185,20 @@ static void show_planes(struct mirror *mirror, selas_field field, const double *
     unfold(mirror, field, images[0] * image, planes[0] * plane, planes[1] * plane, value);
 }
 
+/* Rows over the first axis from .. end - 1 of the points, one by one. */
+static void show_rows(struct mirror *mirror, selas_field field, const double *y, const double *a, size_t from,
+                      size_t end, double *value)
+{
+    struct model *part = mirror->model.part;
+    const size_t row = mirror->model.grid[0];
+    for (size_t at = from; at < end; at += row) {
+        const size_t first = image_of(mirror, at);
+        double *to = value + (size_t)field_components(field) * (at - from);
+        part->core->field(part, field, y, a, first, first + part->grid[0], to);
+        unfold(mirror, field, first, at, at + row, to);
+    }
+}
+
 /* Planes below the mirror across the last axis, or all from the first on, together; those above it one by one. */
 static void whole_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
                         size_t end, double *value)
@@ -183,6 +207,10 @@ static void whole_field(struct model *model, selas_field field, const double *y,
     const int axis = model->scene->dimension - 1;
     const size_t plane = model->points / model->grid[axis], below = model->part->grid[axis];
     size_t planes[2] = {from / plane, end / plane};
+    if (from % plane != 0 || end % plane != 0) {
+        show_rows(mirror, field, y, a, from, end, value);
+        return;
+    }
     if (planes[0] == 0 || planes[1] <= below) {
         const size_t images[2] = {planes[0], planes[1] < below ? planes[1] : below};
         show_planes(mirror, field, y, a, planes, images, value);
@@ -198,12 +226,9 @@ static void whole_field(struct model *model, selas_field field, const double *y,
     }
 }
 
-static int holder_of(const struct model *model, size_t plane)
+static int holder_of(const struct model *model, size_t point)
 {
-    unsigned above = 0;
-    const int axis = model->scene->dimension - 1;
-    return model->part->core->holder(model->part,
-                                     folded_index((const struct mirror *)model, axis, plane, &above));
+    return model->part->core->holder(model->part, image_of((const struct mirror *)model, point));
 }
 
 static double copies(const struct model *model)

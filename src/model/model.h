@@ -100,12 +100,13 @@ struct model_core {
     void (*observe)(struct model *model, const struct probe *probe, selas_field field, const double *y,
                     const double *a, double *value);
     /* Field at the body points from .. end - 1, value[components * (i - from) + c], deck coordinates. Of a model with
-     * `holder`: whole planes over the last axis, if points form a lattice, which this rank holds. */
+     * `holder`: whole planes over the last axis, or rows over the first, if points form a lattice; this rank holds
+     * them. */
     void (*field)(struct model *model, selas_field field, const double *y, const double *a, size_t from,
                   size_t end, double *value);
-    /* The rank that can show a plane of points over the last axis of the lattice, or a point of those that form
-     * none. NULL: points are shown together, by a model that is alone. */
-    int (*holder)(const struct model *model, size_t plane);
+    /* The rank that can show a point, in three dimensions all of its row over the first axis of the lattice, in fewer
+     * all of its plane over the last one. NULL: points are shown together, by a model that is alone. */
+    int (*holder)(const struct model *model, size_t point);
     /* Together: adds how an array like u, or the extra part of the state, lies in that of all ranks. NULL: a
      * model that is alone. */
     void (*share)(struct model *model, enum model_array array, struct spread *shares);

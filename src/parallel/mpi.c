@@ -1,11 +1,16 @@
 /* Ranks of a program with MPI (MPI standard 3.1). A message is at most 1 GiB, so that counts are ints. */
-#include "parallel/ranks.h"
+#include "parallel/files.h"
 
 #include "base/memory.h"
 
 #include <mpi.h>
 #include <stdio.h>
 #include <string.h>
+
+#ifndef H5_HAVE_PARALLEL
+#error                                                                                                       \
+    "this HDF5 has no MPI: `make setup-mpi`, or name pkg-config's package of one that has: `make mpi MPI_HDF5=...`"
+#endif
 
 enum { LONGEST = 1 << 30, MOST_REQUESTS = 512 };
 
@@ -203,4 +208,12 @@ selas_status ranks_agree(struct ranks *ranks, selas_status status, struct messag
 void ranks_abort(struct ranks *ranks, int exit_status)
 {
     if (ranks != NULL && !ranks_idle(ranks)) MPI_Abort(ranks->comm, exit_status);
+}
+
+void ranks_open_together(const struct ranks *ranks, hid_t access)
+{
+    if (ranks == NULL) return;
+    H5Pset_fapl_mpio(access, ranks->comm, MPI_INFO_NULL);
+    H5Pset_all_coll_metadata_ops(access, true);
+    H5Pset_coll_metadata_write(access, true);
 }

@@ -44,23 +44,19 @@ struct text_piece {
 };
 
 /* Writes or compares everything; together. */
-static bool walk_file(const char *path, struct recorder *recorder, struct state *state,
-                      const struct text_piece text[3], double figures[FIGURES], bool write)
+static bool walk_file(struct walk *walk, struct recorder *recorder, struct state *state,
+                      const struct text_piece text[3], double figures[FIGURES])
 {
-    struct walk walk = {.ranks = recorder->scene->ranks, .file = -1, .mode = write ? SET_WRITE : SET_COMPARE};
-    if (ranks_first(walk.ranks))
-        walk.file = write ? hdf_create_file(path, CHECKPOINT_HEAD) : hdf_open_file(path);
-    if (walk_begin(&walk)) {
-        walk_real(&walk, "figures", 0, "", figures, FIGURES);
-        walk_recorder(&walk, recorder, state, (size_t)figures[STEP] + 1, (size_t)figures[ENTRIES]);
+    for (bool more = walk_begin(walk); more; more = walk_again(walk)) {
+        walk_real(walk, "figures", 0, "", figures, FIGURES);
+        walk_recorder(walk, recorder, state, (size_t)figures[STEP] + 1, (size_t)figures[ENTRIES]);
         for (size_t i = 0; i < 3; i++)
-            walk_text(&walk, text[i].name, text[i].text);
+            walk_text(walk, text[i].name, text[i].text);
     }
-    if (walk.file >= 0) walk.good = H5Fclose(walk.file) >= 0 && walk.good;
-    return walk_end(&walk);
+    return walk_good(walk);
 }
 
-/* Together; what went wrong is the first rank's to tell. */
+/* Together. */
 static selas_status write_checked(const char *temporary, struct recorder *recorder, struct state *state,
                                   double figures[FIGURES], const char *deck, struct messages *messages)
 {
@@ -68,28 +64,29 @@ static selas_status write_checked(const char *temporary, struct recorder *record
     const struct text_piece text[3] = {{"deck", deck},
                                        {"source", source != NULL ? deck_source(source) : ""},
                                        {"name", source != NULL ? deck_name(source) : ""}};
+    struct ranks *ranks = recorder->scene->ranks;
+    struct walk writing = {.ranks = ranks, .path = temporary, .mode = SET_WRITE, .head = CHECKPOINT_HEAD},
+                reading = {.ranks = ranks, .path = temporary, .mode = SET_COMPARE};
     bool written = false, same = false;
-    int error = 0;
 #pragma omp critical(selas_hdf5)
     {
         const struct quiet quiet = quiet_begin();
         if (recorder->file != NULL) snapshot_files_sync(recorder);
-        errno = 0;
-        written = walk_file(temporary, recorder, state, text, figures, true);
-        error = errno;
-        errno = 0;
-        same = written && walk_file(temporary, recorder, state, text, figures, false);
-        if (written) error = errno;
+        written = walk_file(&writing, recorder, state, text, figures);
+        same = written && walk_file(&reading, recorder, state, text, figures);
         quiet_end(quiet);
     }
-    if (!ranks_first(recorder->scene->ranks)) return SELAS_OK;
-    if (!written) return hdf_cannot("write the checkpoint", temporary, error, messages);
-    if (!same && error == ENOMEM) return hdf_cannot("check the checkpoint", temporary, error, messages);
-    if (!same)
-        return fail(messages, SELAS_FILE_ERROR,
-                    "the checkpoint '%s' does not read back as it was written (is the disk sound?)",
-                    temporary);
-    return checkpoint_seal(temporary, messages);
+    if (!written) return walk_cannot(&writing, "write the checkpoint", messages);
+    selas_status status = SELAS_OK;
+    if (reading.failed && reading.error == ENOMEM)
+        status = hdf_cannot("check the checkpoint", temporary, ENOMEM, messages);
+    else if (reading.failed)
+        status =
+            fail(messages, SELAS_FILE_ERROR,
+                 "the checkpoint '%s' does not read back as it was written (is the disk sound?)", temporary);
+    else if (same && ranks_first(ranks))
+        status = checkpoint_seal(temporary, messages);
+    return ranks_agree(ranks, status, messages);
 }
 
 /* Gives a file a second name by way of a third, so that the second never is without a file (where the file
@@ -236,20 +233,29 @@ static const char *look_at_file(hid_t file, const struct recorder *recorder, con
     return wrong == NULL && !rows_there(file, recorder, figures) ? "it is damaged" : wrong;
 }
 
-static const char *read_all(hid_t file, struct recorder *recorder, struct state *state, const char *text,
-                            double figures[FIGURES], struct messages *messages)
+/* *error: the system's reason. */
+static const char *read_all(const char *path, struct recorder *recorder, struct state *state,
+                            const char *text, double figures[FIGURES], int *error, struct messages *messages)
 {
     struct ranks *ranks = recorder->scene->ranks;
-    struct walk walk = {.ranks = ranks, .file = file, .mode = SET_READ};
+    struct walk walk = {.ranks = ranks, .path = path, .mode = SET_READ};
+    const hid_t file = ranks_first(ranks) ? hdf_open_file(path) : -1;
     const char *wrong = ranks_first(ranks) ? look_at_file(file, recorder, text, figures) : NULL;
+    if (wrong != NULL) *error = errno;
+    if (file >= 0) H5Fclose(file);
     wrong = wrong_anywhere(recorder, wrong);
     if (wrong != NULL) return wrong;
     ranks_spread(ranks, 0, figures, FIGURES * sizeof *figures);
-    wrong = wrong_anywhere(recorder, make_room(recorder, figures, messages));
+    wrong = make_room(recorder, figures, messages);
+    if (wrong != NULL) *error = errno;
+    wrong = wrong_anywhere(recorder, wrong);
     if (wrong != NULL) return wrong;
-    if (walk_begin(&walk))
+    for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
         walk_recorder(&walk, recorder, state, (size_t)figures[STEP] + 1, (size_t)figures[ENTRIES]);
-    if (!walk_end(&walk)) return ranks_first(ranks) ? "it is damaged" : "";
+    if (walk.failed) wrong = walk.error != 0 ? strerror(walk.error) : "it is damaged";
+    if (walk.failed) *error = walk.error;
+    wrong = wrong_anywhere(recorder, wrong);
+    if (wrong != NULL) return wrong;
     state->step = (unsigned long)figures[STEP];
     state->time = figures[TIME];
     recorder->last_step = state->step;
@@ -264,7 +270,7 @@ static const char *read_all(hid_t file, struct recorder *recorder, struct state 
     return wrong_anywhere(recorder, wrong);
 }
 
-/* Together; the file is the first rank's. *error: the system's reason. */
+/* Together. */
 static const char *read_file(struct recorder *recorder, struct state *state, const char *path,
                              const char *text, double figures[FIGURES], int *error, struct messages *messages)
 {
@@ -272,10 +278,7 @@ static const char *read_file(struct recorder *recorder, struct state *state, con
 #pragma omp critical(selas_hdf5)
     {
         const struct quiet quiet = quiet_begin();
-        const hid_t file = ranks_first(recorder->scene->ranks) ? hdf_open_file(path) : -1;
-        wrong = read_all(file, recorder, state, text, figures, messages);
-        *error = wrong != NULL && file >= 0 ? errno : 0;
-        if (file >= 0) H5Fclose(file);
+        wrong = read_all(path, recorder, state, text, figures, error, messages);
         quiet_end(quiet);
     }
     return wrong;

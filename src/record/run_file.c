@@ -7,6 +7,7 @@
 #include "record/run_file.h"
 
 #include "base/safe_file.h"
+#include "parallel/files.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -49,6 +50,15 @@ hid_t hdf_open_file(const char *path)
 {
     const hid_t access = without_locks();
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    H5Pclose(access);
+    return file;
+}
+
+hid_t hdf_open_together(const struct ranks *ranks, const char *path, bool write)
+{
+    const hid_t access = without_locks();
+    ranks_open_together(ranks, access);
+    const hid_t file = H5Fopen(path, write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
     H5Pclose(access);
     return file;
 }

@@ -20,6 +20,8 @@ selas_status hdf_cannot(const char *what, const char *path, int error, struct me
 /* New file with `head` bytes before HDF5's own (0, 512, 1024, ...); negative on failure. */
 hid_t hdf_create_file(const char *path, size_t head);
 hid_t hdf_open_file(const char *path); /* for reading */
+/* Together: a file that is there, for all ranks. */
+hid_t hdf_open_together(const struct ranks *ranks, const char *path, bool write);
 /* An attribute, or a data set where the text is too long for one. */
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);

@@ -6,15 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode)
+/* Has its place in the file at once: those who write it may be others. */
+static hid_t make_set(hid_t file, const char *name, hid_t type, size_t count)
 {
     const hsize_t size = count;
-    const hid_t made = mode == SET_WRITE ? H5Screate_simple(1, &size, NULL) : -1;
-    const hid_t set = mode == SET_WRITE
-                          ? H5Dcreate2(file, name, type, made, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
-                          : stored_set(file, name);
-    if (made >= 0) H5Sclose(made);
-    if (set < 0 || mode == SET_WRITE) return set;
+    const hid_t space = H5Screate_simple(1, &size, NULL), creation = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+    const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Pclose(creation);
+    H5Sclose(space);
+    return set;
+}
+
+/* The set, if it has so many numbers. */
+static hid_t of_size(hid_t set, size_t count)
+{
+    if (set < 0) return set;
     const hid_t space = H5Dget_space(set);
     const bool right =
         H5Sget_simple_extent_npoints(space) == (hssize_t)count && H5Sget_simple_extent_ndims(space) == 1;
@@ -24,34 +32,41 @@ hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_
     return -1;
 }
 
-/* Numbers one after the other in the set. */
-struct slab {
-    hid_t there, here;
-};
-
-static bool slab_open(hid_t set, size_t from, size_t count, struct slab *slab)
+hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode)
 {
-    const hsize_t start = from, size = count;
-    *slab = (struct slab){H5Dget_space(set), H5Screate_simple(1, &size, NULL)};
-    return H5Sselect_hyperslab(slab->there, H5S_SELECT_SET, &start, NULL, &size, NULL) >= 0;
+    return mode == SET_WRITE ? make_set(file, name, type, count) : of_size(stored_set(file, name), count);
 }
 
-static void slab_close(const struct slab *slab)
+hid_t set_open_known(hid_t file, const char *name, size_t count)
 {
-    H5Sclose(slab->here);
-    H5Sclose(slab->there);
+    return of_size(H5Dopen2(file, name, H5P_DEFAULT), count);
 }
 
-static bool pass_slab(hid_t set, hid_t type, enum set_mode mode, void *data, size_t from, size_t count)
+static bool choose(hid_t space, size_t from, size_t step, const struct set_part *part)
 {
-    struct slab slab;
-    bool good = slab_open(set, from, count, &slab);
-    if (good && mode == SET_WRITE)
-        good = H5Dwrite(set, type, slab.here, slab.there, H5P_DEFAULT, data) >= 0;
+    const hsize_t start = from, count = part->times, block = part->count, stride = count > 1 ? step : block;
+    return H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, &stride, &count, &block) >= 0;
+}
+
+bool set_pass_part(hid_t set, hid_t type, bool write, void *data, const struct set_part *part)
+{
+    const hsize_t extent = (part->times - 1) * part->here_step + part->count;
+    const hid_t there = H5Dget_space(set), here = H5Screate_simple(1, &extent, NULL);
+    char *from = (char *)data + part->here * H5Tget_size(type);
+    bool good = choose(there, part->there, part->there_step, part) && choose(here, 0, part->here_step, part);
+    if (good && write)
+        good = H5Dwrite(set, type, here, there, H5P_DEFAULT, from) >= 0;
     else if (good)
-        good = H5Dread(set, type, slab.here, slab.there, H5P_DEFAULT, data) >= 0;
-    slab_close(&slab);
+        good = H5Dread(set, type, here, there, H5P_DEFAULT, from) >= 0;
+    H5Sclose(here);
+    H5Sclose(there);
     return good;
+}
+
+static bool pass_slab(hid_t set, hid_t type, bool write, void *data, size_t from, size_t count)
+{
+    const struct set_part part = {.there = from, .count = count, .times = 1};
+    return set_pass_part(set, type, write, data, &part);
 }
 
 /* Piece by piece: a checkpoint must not need the memory of another state. */
@@ -63,7 +78,7 @@ static bool same(hid_t set, hid_t type, const void *data, size_t from, size_t co
     bool good = piece != NULL;
     for (size_t at = 0; good && at < count; at += SLAB) {
         const size_t size = count - at < SLAB ? count - at : SLAB;
-        good = pass_slab(set, type, SET_READ, piece, from + at, size) &&
+        good = pass_slab(set, type, false, piece, from + at, size) &&
                memcmp(piece, (const char *)data + at * width, size * width) == 0;
     }
     free(piece);
@@ -73,7 +88,7 @@ static bool same(hid_t set, hid_t type, const void *data, size_t from, size_t co
 bool set_pass(hid_t set, hid_t type, enum set_mode mode, void *data, size_t from, size_t count)
 {
     return mode == SET_COMPARE ? same(set, type, data, from, count)
-                               : pass_slab(set, type, mode, data, from, count);
+                               : pass_slab(set, type, mode == SET_WRITE, data, from, count);
 }
 
 bool set_compare(hid_t file, const char *name, hid_t type, const void *data, size_t count)

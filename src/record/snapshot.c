@@ -81,22 +81,33 @@ static void look_regular(const struct model *model, struct snapshot_record *reco
     }
 }
 
+/* Has one rank all of these points, rows over the first axis? */
+static bool of_one_rank(const struct model *model, size_t from, size_t points, size_t row)
+{
+    const int holder = model->core->holder(model, from);
+    for (size_t at = from + row; at < from + points; at += row)
+        if (model->core->holder(model, at) != holder) return false;
+    return true;
+}
+
 size_t snapshot_piece(const struct model *model, size_t from, int *holder)
 {
     enum { LEAST = 1 << 17, PIECES = 16 };
     *holder = 0;
     if (model->core->holder == NULL) return model->points;
-    const size_t share = model->points / (size_t)ranks_count(model->scene->ranks) / PIECES;
-    const size_t most = share > LEAST ? share : LEAST;
-    const size_t layers = model->grid[model->scene->dimension - 1],
-                 planes = layers > 0 ? layers : model->points;
-    const size_t plane = model->points / planes;
-    size_t k = from / plane;
-    *holder = model->core->holder(model, k);
-    do
-        k++;
-    while (k < planes && (k + 1) * plane - from <= most && model->core->holder(model, k) == *holder);
-    return k * plane;
+    const int ranks = ranks_count(model->scene->ranks), dimension = model->scene->dimension;
+    const size_t share = model->points / (size_t)ranks / PIECES, most = share > LEAST ? share : LEAST;
+    const size_t layers = model->grid[dimension - 1];
+    const size_t plane = model->points / (layers > 0 ? layers : model->points);
+    const size_t row = ranks > 1 && dimension == 3 && layers > 0 ? model->grid[0] : plane;
+    const bool whole = from % plane == 0 && of_one_rank(model, from, plane, row);
+    const size_t piece = whole ? plane : row, stop = whole ? model->points : (from / plane + 1) * plane;
+    size_t end = from + piece;
+    *holder = model->core->holder(model, from);
+    while (end < stop && end + piece - from <= most && of_one_rank(model, end, piece, row) &&
+           model->core->holder(model, end) == *holder)
+        end += piece;
+    return end;
 }
 
 /* The points in the region, into `index` if it is not NULL; how many there are. */

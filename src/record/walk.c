@@ -1,50 +1,100 @@
-/* Arrays of a checkpoint (see the header). Shares go through the first rank piece by piece, each straight from
- * where it is: no rank ever has the whole. */
+/* Arrays of a checkpoint (see the header). */
 #include "record/walk.h"
 
+#include "record/run_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-enum { PIECE = 1 << 22 }; /* bytes */
+enum { PIECE = 1 << 22 }; /* bytes that a rank passes at once */
+
+/* Notes what went wrong first; the reason of what follows is not that of what went before. */
+static void note(struct walk *walk, bool good)
+{
+    if (!good && !walk->failed) walk->error = errno;
+    walk->failed = walk->failed || !good;
+    errno = 0;
+}
+
+bool walk_good(const struct walk *walk)
+{
+    double failed = walk->failed;
+    ranks_largest(walk->ranks, 1, &failed);
+    return failed == 0;
+}
+
+selas_status walk_cannot(const struct walk *walk, const char *what, struct messages *messages)
+{
+    double reason = walk->failed ? walk->error : 0;
+    selas_status status = SELAS_OK;
+    ranks_largest(walk->ranks, 1, &reason);
+    if (walk->failed && (walk->error != 0 || reason == 0))
+        status = hdf_cannot(what, walk->path, walk->error, messages);
+    return ranks_agree(walk->ranks, status, messages);
+}
+
+/* --- The file ------------------------------------------------------------------------------------------- */
 
 bool walk_begin(struct walk *walk)
 {
     const bool first = ranks_first(walk->ranks);
-    walk->room = first && ranks_count(walk->ranks) > 1 ? malloc(PIECE) : NULL;
-    walk->good = !first || (walk->file >= 0 && (walk->room != NULL || ranks_count(walk->ranks) == 1));
-    ranks_spread(walk->ranks, 0, &walk->good, sizeof walk->good);
-    return walk->good;
+    walk->file = -1;
+    errno = 0;
+    if (first)
+        walk->file =
+            walk->mode == SET_WRITE ? hdf_create_file(walk->path, walk->head) : hdf_open_file(walk->path);
+    note(walk, !first || walk->file >= 0);
+    return walk_good(walk);
 }
 
-bool walk_end(struct walk *walk)
+/* This rank can open the file: asked for before all open it, where one that fails would leave the others waiting. */
+static bool there(const struct walk *walk)
 {
+    const int file = open(walk->path, (walk->mode == SET_WRITE ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+    return file >= 0 && close(file) == 0;
+}
+
+static bool open_together(struct walk *walk)
+{
+    walk->room = walk->mode == SET_COMPARE ? malloc(PIECE) : NULL;
+    note(walk, walk->mode != SET_COMPARE || walk->room != NULL);
+    note(walk, there(walk));
+    if (!walk_good(walk)) return false;
+    walk->file = hdf_open_together(walk->ranks, walk->path, walk->mode == SET_WRITE);
+    note(walk, walk->file >= 0);
+    if (!walk_good(walk)) {
+        if (walk->file >= 0) ranks_abort(walk->ranks, 1); /* to close it, all would have to have it */
+        return false;
+    }
+    return true;
+}
+
+bool walk_again(struct walk *walk)
+{
+    if (walk->file >= 0) note(walk, H5Fclose(walk->file) >= 0);
+    walk->file = -1;
+    if (!walk->together && ranks_count(walk->ranks) > 1 && walk_good(walk)) {
+        walk->together = true;
+        if (open_together(walk)) return true;
+    }
     free(walk->room);
-    walk->room = NULL;
-    ranks_spread(walk->ranks, 0, &walk->good, sizeof walk->good);
-    return walk->good;
+    return false;
 }
 
-/* The set, of the first rank and as long as all is well. */
-static hid_t open_set(struct walk *walk, const char *name, hid_t type, size_t count)
-{
-    if (!ranks_first(walk->ranks) || !walk->good) return -1;
-    const hid_t set = set_open(walk->file, name, type, count, walk->mode);
-    walk->good = set >= 0;
-    return set;
-}
-
-static void close_set(struct walk *walk, hid_t set)
-{
-    if (set >= 0) walk->good = H5Dclose(set) >= 0 && walk->good;
-}
+/* --- Arrays --------------------------------------------------------------------------------------------- */
 
 void walk_pass(struct walk *walk, const char *name, hid_t type, void *data, size_t count)
 {
-    if (count == 0) return;
-    const hid_t set = open_set(walk, name, type, count);
-    if (set >= 0) walk->good = set_pass(set, type, walk->mode, data, 0, count);
-    close_set(walk, set);
+    if (count == 0 || walk->together) return;
+    if (walk->file >= 0 && !walk->failed) {
+        const hid_t set = set_open(walk->file, name, type, count, walk->mode);
+        note(walk, set >= 0 && set_pass(set, type, walk->mode, data, 0, count));
+        if (set >= 0) note(walk, H5Dclose(set) >= 0);
+    }
     if (walk->mode == SET_READ) ranks_spread(walk->ranks, 0, data, count * H5Tget_size(type));
 }
 
@@ -61,38 +111,73 @@ void walk_real(struct walk *walk, const char *name, size_t number, const char *e
     walk_pass(walk, full, H5T_NATIVE_DOUBLE, data, count);
 }
 
-/* Where numbers of a shared array are. */
-struct place {
-    int rank;
-    hid_t set, type;
-    char *data;   /* the rank's array */
-    size_t width; /* bytes of a number */
-    size_t units; /* entries of the set in a number */
+/* What a rank passes of a run: what it has, or where it wants what is read, halo and all; in parts of `cut` numbers of
+ * `times` times, of so many that are no more than a piece. */
+struct cut {
+    size_t from, count, first, last; /* numbers at a time, and which times */
+    size_t most, cuts, times;
 };
 
-/* `count` numbers, which the rank has from `here` on. */
-static void pass_piece(struct walk *walk, const struct place *place, size_t here, size_t there, size_t count)
+static struct cut cut_run(const struct spread_run *run, bool window, size_t most)
 {
-    const bool own = place->rank == ranks_me(walk->ranks);
-    char *data = own ? place->data + here * place->width : walk->room;
-    if (walk->mode != SET_READ) ranks_fetch(walk->ranks, place->rank, data, count * place->width);
-    if (walk->good && place->set >= 0)
-        walk->good =
-            set_pass(place->set, place->type, walk->mode, data, there * place->units, count * place->units);
-    if (walk->mode == SET_READ) ranks_give(walk->ranks, place->rank, data, count * place->width);
+    struct cut cut = {run->from, run->end - run->from, run->first, run->last, most, 0, 1};
+    if (window) cut = (struct cut){0, run->count, 0, run->times, most, 0, 1};
+    cut.cuts = (cut.count + most - 1) / most;
+    if (cut.cuts == 1) cut.times = most / cut.count;
+    return cut;
 }
 
-/* The runs of one rank: what it has, or where it wants what is read, halo and all. */
-static void pass_runs(struct walk *walk, const struct place *place, const struct spread *shares)
+static size_t parts_of(const struct cut *cut)
 {
-    const size_t most = PIECE / place->width;
+    return cut->cuts * ((cut->last - cut->first + cut->times - 1) / cut->times);
+}
+
+static struct set_part part_of(const struct spread_run *run, const struct cut *cut, size_t k, size_t units)
+{
+    const size_t time = cut->first + k / cut->cuts * cut->times, from = k % cut->cuts * cut->most;
+    const size_t count = cut->count - from < cut->most ? cut->count - from : cut->most;
+    const size_t times = cut->last - time < cut->times ? cut->last - time : cut->times;
+    return (struct set_part){.here = (run->here + time * run->here_step + cut->from + from) * units,
+                             .there = (run->there + time * run->there_step + cut->from + from) * units,
+                             .count = count * units,
+                             .times = times,
+                             .here_step = run->here_step * units,
+                             .there_step = run->there_step * units};
+}
+
+/* An array that is shared. */
+struct shared {
+    hid_t set, type;
+    char *data;
+    size_t width; /* bytes of an entry */
+};
+
+/* The file's numbers come into the room, without gaps. */
+static bool same_part(struct walk *walk, const struct shared *shared, const struct set_part *part)
+{
+    struct set_part packed = *part;
+    packed.here = 0;
+    packed.here_step = part->count;
+    bool good = set_pass_part(shared->set, shared->type, false, walk->room, &packed);
+    for (size_t t = 0; good && t < part->times; t++)
+        good = memcmp(walk->room + t * part->count * shared->width,
+                      shared->data + (part->here + t * part->here_step) * shared->width,
+                      part->count * shared->width) == 0;
+    return good;
+}
+
+static void pass_parts(struct walk *walk, const struct shared *shared, const struct spread *shares,
+                       size_t units)
+{
+    const bool window = walk->mode == SET_READ;
+    const size_t most = PIECE / (shared->width * units);
     for (size_t r = 0; r < shares->runs; r++) {
-        const struct spread_run *run = &shares->run[r];
-        const size_t end = walk->mode == SET_READ ? run->count : run->end;
-        size_t from = walk->mode == SET_READ ? 0 : run->from, count;
-        for (; from < end; from += count) {
-            count = end - from < most ? end - from : most;
-            pass_piece(walk, place, run->here + from, run->there + from, count);
+        const struct cut cut = cut_run(&shares->run[r], window, most);
+        for (size_t k = 0; k < parts_of(&cut) && !walk->failed; k++) {
+            const struct set_part part = part_of(&shares->run[r], &cut, k, units);
+            note(walk, walk->mode == SET_COMPARE
+                           ? same_part(walk, shared, &part)
+                           : set_pass_part(shared->set, shared->type, !window, shared->data, &part));
         }
     }
 }
@@ -104,17 +189,13 @@ void walk_shared(struct walk *walk, const char *name, hid_t type, size_t units, 
         walk_pass(walk, name, type, data, count * units);
         return;
     }
-    const int me = ranks_me(walk->ranks);
-    struct place place = {.set = open_set(walk, name, type, shares->there * units),
-                          .type = type,
-                          .data = data,
-                          .width = units * H5Tget_size(type),
-                          .units = units};
-    for (place.rank = 0; place.rank < ranks_count(walk->ranks); place.rank++) {
-        struct spread its = *shares;
-        ranks_fetch(walk->ranks, place.rank, &its, sizeof its);
-        walk->good = walk->good && !its.full;
-        if (me == 0 || me == place.rank) pass_runs(walk, &place, &its);
-    }
-    close_set(walk, place.set);
+    note(walk, !shares->full);
+    if (walk->file < 0 || (!walk->together && walk->failed)) return;
+    const size_t entries = shares->there * units;
+    const hid_t set = walk->together ? set_open_known(walk->file, name, entries)
+                                     : set_open(walk->file, name, type, entries, walk->mode);
+    note(walk, set >= 0);
+    const struct shared shared = {set, type, data, H5Tget_size(type)};
+    if (walk->together) pass_parts(walk, &shared, shares, units);
+    if (set >= 0) note(walk, H5Dclose(set) >= 0);
 }

@@ -1,5 +1,10 @@
-/* One way through all arrays of a checkpoint, for writing, reading and comparing. The first rank has the file;
- * all ranks walk together. */
+/* One way through all arrays of a checkpoint, for writing, reading and comparing; all ranks walk together. What is the
+ * first rank's, or the same for all, it passes alone. Arrays that ranks share come after that: the file is opened by all
+ * together, and each rank passes its part straight from where it is (doc/developers/ranks.md).
+ *
+ *     for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
+ *         ... all arrays, in the same order ...
+ */
 #ifndef SELAS_RECORD_WALK_H
 #define SELAS_RECORD_WALK_H
 
@@ -9,16 +14,23 @@
 
 struct walk {
     struct ranks *ranks;
-    hid_t file; /* of the first rank */
+    const char *path;
     enum set_mode mode;
-    bool good; /* so far, for the first rank */
+    size_t head; /* bytes before HDF5's own, of a file that is written */
+    /* Set to nothing by who walks. */
+    hid_t file;
+    bool together; /* behind what the first rank passes alone */
+    bool failed;   /* on this rank, */
+    int error;     /* with the system's reason; 0: none */
     char *room;
 };
 
-/* Takes its room; false: the first rank has none, or no file (negative). */
 bool walk_begin(struct walk *walk);
-/* Ends it; true if all was good. */
-bool walk_end(struct walk *walk);
+bool walk_again(struct walk *walk);
+/* Together, behind a walk: did all go well on all ranks? */
+bool walk_good(const struct walk *walk);
+/* Together, behind a walk that failed: "cannot WHAT 'PATH': ..." with the reason, and the rank. */
+selas_status walk_cannot(const struct walk *walk, const char *what, struct messages *messages);
 
 /* An array that is the same for all ranks, or matters to the first one alone; read, all get it. */
 void walk_pass(struct walk *walk, const char *name, hid_t type, void *data, size_t count);

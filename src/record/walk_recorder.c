@@ -37,7 +37,7 @@ static void pass_entries(struct walk *walk, struct recorder *recorder, size_t en
     ranks_largest(walk->ranks, 1, &missing);
     if (missing > 0.0 || number == NULL) {
         array_free(number);
-        walk->good = false;
+        walk->failed = true;
         return;
     }
     double *group = number, *time = number + entries, *due = number + 2 * entries;
@@ -50,13 +50,13 @@ static void pass_entries(struct walk *walk, struct recorder *recorder, size_t en
     walk_real(walk, "entry_group", 0, "", group, entries);
     walk_real(walk, "entry_time", 0, "", time, entries);
     walk_real(walk, "due", 0, "", due, groups);
-    for (size_t k = 0; walk->mode == SET_READ && walk->good && k < entries; k++) {
-        walk->good = group[k] >= 0.0 && group[k] < (double)groups;
-        if (walk->good) recorder->entry[k] = (struct snapshot_entry){(size_t)group[k], k, time[k]};
+    for (size_t k = 0; walk->mode == SET_READ && !walk->failed && k < entries; k++) {
+        walk->failed = !(group[k] >= 0.0 && group[k] < (double)groups);
+        if (!walk->failed) recorder->entry[k] = (struct snapshot_entry){(size_t)group[k], k, time[k]};
     }
-    for (size_t s = 0; walk->mode == SET_READ && walk->good && s < groups; s++) {
-        walk->good = due[s] >= 0.0 && due[s] <= 1e15;
-        if (walk->good) recorder->snapshot[s].due = (size_t)due[s];
+    for (size_t s = 0; walk->mode == SET_READ && !walk->failed && s < groups; s++) {
+        walk->failed = !(due[s] >= 0.0 && due[s] <= 1e15);
+        if (!walk->failed) recorder->snapshot[s].due = (size_t)due[s];
     }
     array_free(number);
 }
@@ -67,7 +67,7 @@ static void pass_state(struct walk *walk, const struct recorder *recorder, struc
     struct model *model = model_computed(recorder->model);
     const bool shared = ranks_count(walk->ranks) > 1 && model->core->share != NULL;
     struct spread shares = {0};
-    if (walk->mode != SET_READ) model_complete(model, state->y, state->a);
+    if (walk->mode == SET_WRITE && !walk->together) model_complete(model, state->y, state->a);
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);
     walk_shared(walk, "a", H5T_NATIVE_DOUBLE, 1, state->a, model->unknowns, shared ? &shares : NULL);
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);

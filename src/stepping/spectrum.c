@@ -50,7 +50,7 @@ static struct ranks *sharing(const struct model *model)
 static void find_shares(struct model *model, struct spread *shares)
 {
     const size_t n = model->unknowns;
-    const struct spread_run all = {0, 0, n, 0, n};
+    const struct spread_run all = spread_line(0, 0, n, 0, n);
     *shares = (struct spread){0};
     if (ranks_count(sharing(model)) > 1)
         model->core->share(model, ARRAY_UNKNOWNS, shares);
@@ -63,9 +63,12 @@ static void make_noise(const struct spread *shares, uint64_t first, double *x)
 {
     for (size_t r = 0; r < shares->runs; r++) {
         const struct spread_run *run = &shares->run[r];
-        uint64_t seed = seed_after(first, run->there);
-        for (size_t i = run->here; i < run->here + run->count; i++)
-            x[i] = noise(&seed);
+        for (size_t t = 0; t < run->times; t++) {
+            uint64_t seed = seed_after(first, run->there + t * run->there_step);
+            double *numbers = x + run->here + t * run->here_step;
+            for (size_t i = 0; i < run->count; i++)
+                numbers[i] = noise(&seed);
+        }
     }
 }
 
@@ -115,6 +118,17 @@ static bool ritz(const struct tridiagonal *t, double *theta, double *bound)
     return true;
 }
 
+/* The rank whose numbers come before, or behind, those that this one has of a run at one time; itself: it goes on. */
+static int next_rank(struct ranks *ranks, const struct spread_run *run, size_t t, bool before)
+{
+    const int me = ranks_me(ranks), count = ranks_count(ranks), across = me % run->abreast;
+    const bool end = before ? t == run->first : t + 1 == run->last;
+    if (before ? across == 0 : across + 1 == run->abreast) {
+        if (!end) return before ? me + run->abreast - 1 : me + 1 - run->abreast;
+    }
+    return (me + (before ? count - 1 : 1)) % count;
+}
+
 /* Together: x.y over the whole body, summed in its order from rank to rank: the same bits for any number of them. */
 static double dot(struct model *model, const struct spread *shares, const double *x, const double *y)
 {
@@ -123,14 +137,16 @@ static double dot(struct model *model, const struct spread *shares, const double
     double sum = 0.0;
     for (size_t r = 0; r < shares->runs; r++) {
         const struct spread_run *run = &shares->run[r];
-        const struct ranks_piece get = {
-            .with = me > 0 ? me - 1 : last, .receive = &sum, .receive_bytes = sizeof sum};
-        const struct ranks_piece give = {
-            .with = me < last ? me + 1 : 0, .send = &sum, .send_bytes = sizeof sum};
-        if (last > 0 && (me > 0 || r > 0)) ranks_exchange(ranks, 1, &get);
-        for (size_t i = run->here + run->from; i < run->here + run->end; i++)
-            sum += x[i] * y[i];
-        if (last > 0 && (me < last || r + 1 < shares->runs)) ranks_exchange(ranks, 1, &give);
+        for (size_t t = run->first; t < run->last; t++) {
+            const int before = next_rank(ranks, run, t, true), behind = next_rank(ranks, run, t, false);
+            const struct ranks_piece get = {before, NULL, &sum, 0, sizeof sum};
+            const struct ranks_piece give = {behind, &sum, NULL, sizeof sum, 0};
+            if (before != me && (me > 0 || r > 0 || t > run->first)) ranks_exchange(ranks, 1, &get);
+            for (size_t at = run->here + t * run->here_step, i = at + run->from; i < at + run->end; i++)
+                sum += x[i] * y[i];
+            if (behind != me && (me < last || r + 1 < shares->runs || t + 1 < run->last))
+                ranks_exchange(ranks, 1, &give);
+        }
     }
     ranks_spread(ranks, last, &sum, sizeof sum);
     return sum;

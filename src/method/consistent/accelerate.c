@@ -17,6 +17,7 @@ static size_t block_of(const struct consistent *c)
 /* The operator alone, without edges, in a block of planes. */
 static void operator_block(const struct consistent *c, int thread, size_t k, const double *u, double *a)
 {
+    const struct part_axis *rows = &c->part.along[1];
     double *out[3] = {NULL, NULL, NULL};
     if (c->fused != NULL) {
         const struct fused_fields fields = {.u = u, .a = a};
@@ -27,7 +28,7 @@ static void operator_block(const struct consistent *c, int thread, size_t k, con
         out[component] = a + (size_t)component * c->volume + k * c->plane;
         memset(out[component], 0, c->plane * sizeof *a);
     }
-    tensor_plane(c->hform->acceleration, thread, k, 1, u, out);
+    tensor_rows(c->hform->acceleration, thread, k, rows->own, rows->end, 1, u, out);
 }
 
 /* What is added to the operator in plane k. */
@@ -53,16 +54,16 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
     const size_t block = block_of(c);
     if (c->fused != NULL) fused_look_double(c->fused, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t from = c->part.own; from < c->part.end; from += block) {
+    for (size_t from = c->part.along[DEPTH].own; from < c->part.along[DEPTH].end; from += block) {
         const int thread = omp_get_thread_num();
         operator_block(c, thread, from, u, a);
-        for (size_t k = from; k < from + block && k < c->part.end; k++)
+        for (size_t k = from; k < from + block && k < c->part.along[DEPTH].end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
     }
     if (drive->extra != NULL) {
         pml_accelerate(c, 1, drive->extra, a);
         for (int component = 0; component < c->dimension; component++)
-            for (size_t k = c->part.own; k < c->part.end; k++)
+            for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++)
                 consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
     }
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);

@@ -110,7 +110,8 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     else
         exact_accelerate(c, drive, half_step, u, v, a);
     set_moving(c, drive, a);
-    part_exchange(c, a, (size_t)c->dimension, c->volume * sizeof *a, c->plane * sizeof *a);
+    const struct part_fields fields = part_values(c, a, (size_t)c->dimension, sizeof *a);
+    part_exchange(c, &fields);
     model->evaluations++;
 }
 
@@ -118,7 +119,7 @@ static void energy(struct model *model, const double *y, struct energy *energy)
 {
     struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
-    const size_t own = c->part.own, end = c->part.end;
+    const size_t own = c->part.along[DEPTH].own, end = c->part.along[DEPTH].end;
     bool moving = false;
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
@@ -330,7 +331,9 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
         destroy(&c->model);
         return status;
     }
-    c->model.whole_unknowns = (size_t)c->dimension * c->plane * c->part.whole;
+    c->model.whole_unknowns = (size_t)c->dimension;
+    for (int slot = 0; slot < 3; slot++)
+        c->model.whole_unknowns *= c->part.along[slot].whole;
     c->model.component_stride = c->volume;
     c->model.point_stride = 1;
     c->model.frame = scene->body.rotated ? scene->body.frame : NULL;

@@ -39,7 +39,7 @@ selas_status consistent_probe(struct model *model, const double position[3], str
 void consistent_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                         const double *a, double *value);
 void consistent_share(struct model *model, enum model_array array, struct spread *shares);
-int consistent_holder(const struct model *model, size_t plane);
+int consistent_holder(const struct model *model, size_t point);
 void consistent_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
                       size_t end, double *value);
 

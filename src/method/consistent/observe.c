@@ -30,8 +30,8 @@ static void evaluate(const struct consistent *c, const struct place *place, int 
     double sum = 0, slope[3] = {0, 0, 0};
     for (size_t k = 0; k < count[2]; k++)
         for (size_t j = 0; j < count[1]; j++) {
-            const double *row =
-                field + (at[2]->index[k] - c->part.first) * c->plane + at[1]->index[j] * c->n[0];
+            const double *row = field + (at[2]->index[k] - c->part.along[DEPTH].first) * c->plane +
+                                (at[1]->index[j] - c->part.along[1].first) * c->n[0];
             double along = 0, along_slope = 0;
             for (size_t i = 0; i < count[0]; i++) {
                 along += at[0]->value[i] * row[at[0]->index[i]];
@@ -134,21 +134,22 @@ static bool watch_place(struct consistent *c, const double place[3])
         for (int axis = 0; axis < c->dimension; axis++)
             spline_at(c->spline[axis], (odd >> axis & 1U) != 0, place[axis], &at[c->slot[axis]]);
         for (size_t w = 0; c->dimension == 3 && w < local * local * local; w++) {
-            const size_t seen = at[0].index[w % local] + c->n[0] * at[1].index[w / local % local] +
-                                c->plane * (at[2].index[w / (local * local)] - c->part.first);
+            const size_t row = at[1].index[w / local % local] - c->part.along[1].first;
+            const size_t seen = at[0].index[w % local] + c->n[0] * row +
+                                c->plane * (at[2].index[w / (local * local)] - c->part.along[DEPTH].first);
             if (!watch_places(c, 1, &seen)) return false;
         }
     }
     return true;
 }
 
-/* The rank that has all of these planes in its window: the lowest is its own. */
-static int holder_of(const struct consistent *c, const struct tuned_point *depth)
+/* The rank that has this for its own has all rows and planes of a place in its window. */
+static size_t lowest(const struct tuned_point *at)
 {
-    size_t lowest = depth->index[0];
-    for (size_t j = 1; j < depth->count; j++)
-        lowest = depth->index[j] < lowest ? depth->index[j] : lowest;
-    return part_holder(c, lowest);
+    size_t index = at->index[0];
+    for (size_t j = 1; j < at->count; j++)
+        index = at->index[j] < index ? at->index[j] : index;
+    return index;
 }
 
 /* The weights are those of components that are even at symmetry planes; consistent_observe knows the others.
@@ -165,7 +166,8 @@ selas_status consistent_probe(struct model *model, const double position[3], str
         tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
         count[c->slot[axis]] = at[c->slot[axis]].count;
     }
-    const int holder = holder_of(c, &at[DEPTH]);
+    const size_t first[3] = {0, c->part.along[1].first, c->part.along[DEPTH].first};
+    const int holder = part_holder(c, lowest(&at[1]), lowest(&at[DEPTH]));
     const size_t all = holder == ranks_me(c->part.ranks) ? count[0] * count[1] * count[2] : 0;
     const selas_status status = probe_allocate(probe, all, messages);
     if (status != SELAS_OK) return status;
@@ -179,7 +181,7 @@ selas_status consistent_probe(struct model *model, const double position[3], str
         const double slope[3] = {at[0].slope[i] * value[1] * value[2], value[0] * at[1].slope[j] * value[2],
                                  value[0] * value[1] * at[2].slope[k]};
         probe->index[w] =
-            at[0].index[i] + c->n[0] * at[1].index[j] + c->plane * (at[2].index[k] - c->part.first);
+            at[0].index[i] + c->n[0] * (at[1].index[j] - first[1]) + c->plane * (at[2].index[k] - first[2]);
         probe->weight[w] = value[0] * value[1] * value[2];
         for (int axis = 0; axis < c->dimension; axis++)
             probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
@@ -218,10 +220,15 @@ bool observe_create(struct consistent *c)
     return true;
 }
 
-int consistent_holder(const struct model *model, size_t plane)
+int consistent_holder(const struct model *model, size_t point)
 {
     const struct consistent *c = (const struct consistent *)model;
-    return holder_of(c, &c->lattice[c->dimension - 1][0][plane]);
+    const size_t at[3] = {point % model->grid[0], point / model->grid[0] % model->grid[1],
+                          point / (model->grid[0] * model->grid[1])};
+    size_t first[3] = {0};
+    for (int axis = 0; axis < c->dimension; axis++)
+        first[c->slot[axis]] = lowest(&c->lattice[axis][0][at[axis]]);
+    return part_holder(c, first[1], first[DEPTH]);
 }
 
 void consistent_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
@@ -262,7 +269,7 @@ static void interpolate_rows(void *context, size_t from, size_t end)
 {
     const struct interpolation *task = context;
     const struct line_set set = line_set(task->c, task->slot);
-    const struct band_rows rows = {task->lu->n, task->slot == DEPTH ? task->c->part.first : 0, from, end};
+    const struct band_rows rows = {task->lu->n, task->c->part.along[task->slot].first, from, end};
     for (size_t line = 0; line < set.lines; line++)
         band_lu_rows(task->lu, &rows, task->forward, task->field + line_start(&set, line), set.stride);
 }
@@ -270,19 +277,19 @@ static void interpolate_rows(void *context, size_t from, size_t end)
 /* One axis after the other, depth last. */
 static void interpolate(struct consistent *c, int component, double *field)
 {
-    const size_t bytes = c->plane * sizeof *field;
+    const struct part_fields fields = part_values(c, field, 1, sizeof *field);
     for (int axis = 0; axis < c->dimension; axis++) {
         struct interpolation task = {c, c->collocation[axis][axis == component], c->slot[axis], true, field};
         for (int half = 0; half < 2; half++) {
             task.forward = half == 0;
-            if (task.slot == DEPTH)
-                part_sweep(c, task.forward, (size_t)c->options.degree, field, 1, 0, bytes, interpolate_rows,
+            if (c->part.along[task.slot].ranks > 1)
+                part_sweep(c, task.slot, task.forward, (size_t)c->options.degree, &fields, interpolate_rows,
                            &task);
             else
                 interpolate_rows(&task, 0, c->n[task.slot]);
         }
     }
-    part_exchange(c, field, 1, 0, bytes);
+    part_exchange(c, &fields);
     for (size_t k = 0; k < c->n[DEPTH]; k++)
         consistent_clear_held(c, component, k, field + k * c->plane);
 }
@@ -298,7 +305,7 @@ void consistent_initialise(struct model *model, double *y)
         double position[3] = {0}, state[2][3];
         for (int axis = 0; axis < c->dimension; axis++)
             position[axis] =
-                c->spline[axis]->greville[at[c->slot[axis]] + (c->slot[axis] == DEPTH ? c->part.first : 0)];
+                c->spline[axis]->greville[at[c->slot[axis]] + c->part.along[c->slot[axis]].first];
         lattice_to_deck(&scene->body, position, position);
         initial_at(scene, position, state[0], state[1]);
         for (int kind = 0; kind < 2; kind++) {

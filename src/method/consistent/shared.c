@@ -8,12 +8,24 @@
 
 /* --- Arrays -------------------------------------------------------------------------------------------- */
 
-/* Rows of the window over the last axis, of `row` numbers each. */
-static void add_rows(const struct consistent *c, size_t row, struct spread *shares)
+/* Rows of the window along two slots, of `row` numbers each, in planes of the second one. */
+static void add_rows(size_t row, const struct part_axis *y, size_t rows, const struct part_axis *z,
+                     size_t planes, struct spread *shares)
 {
-    const struct rank_part *part = &c->part;
-    const struct spread_run run = {0, part->first * row, c->n[DEPTH] * row, part->own * row, part->end * row};
-    spread_add(shares, c->n[DEPTH] * row, part->whole * row, &run);
+    const struct spread_run run = {.there = (z->first * y->whole + y->first) * row,
+                                   .count = rows * row,
+                                   .from = y->own * row,
+                                   .end = y->end * row,
+                                   .times = planes,
+                                   .here_step = rows * row,
+                                   .there_step = y->whole * row,
+                                   .first = z->own,
+                                   .last = z->end,
+                                   .abreast = y->ranks};
+    const size_t plane = rows * row;
+    const struct spread_run line =
+        spread_line(0, z->first * plane, planes * plane, z->own * plane, z->end * plane);
+    spread_add(shares, planes * plane, z->whole * y->whole * row, y->ranks > 1 ? &run : &line);
 }
 
 /* Memory at the points of general ground that the layer behind a face has of a family (general/layers.c). A rank's own
@@ -22,17 +34,17 @@ static void add_points(const struct consistent *c, int face, const struct family
                        struct spread *shares)
 {
     const struct general *g = c->general;
-    const struct rank_part *part = &c->part;
+    const struct part_axis *part = &c->part.along[DEPTH];
     const struct spline *spline = c->layout[DEPTH];
-    const int slot = c->slot[face / 2], me = ranks_me(part->ranks), last = ranks_count(part->ranks) - 1;
+    const int slot = c->slot[face / 2], me = part->me, last = part->ranks - 1;
     const size_t width = c->layer[face], here = family->n[DEPTH], low = spline->mirror[0] ? 1 : 0;
     const size_t there = spline->cells + (family->at[DEPTH] == AT_KNOTS ? 1 : 0);
     const size_t row = (slot == 0 ? width : family->n[0]) * (slot == 1 ? width : family->n[1]);
     const size_t from = me == 0 ? 0 : part->first + part->own + low - g->first;
     const size_t end = me == last ? here : part->first + part->end + low - g->first;
-    const struct spread_run rows = {0, g->first * row, here * row, from * row, end * row};
+    const struct spread_run rows = spread_line(0, g->first * row, here * row, from * row, end * row);
     const size_t holds = me == (face % 2 == 0 ? 0 : last) ? width * row : 0;
-    const struct spread_run all = {0, 0, holds, 0, holds};
+    const struct spread_run all = spread_line(0, 0, holds, 0, holds);
     for (int component = 0; component < c->dimension; component++) {
         if (slot == DEPTH)
             spread_add(shares, holds, width * row, &all);
@@ -41,15 +53,64 @@ static void add_points(const struct consistent *c, int face, const struct family
     }
 }
 
-/* Memory variables of the layers, face by face: those across the last axis are one rank's own, whole. */
+/* Numbers that are not shared, of which the rank has all. */
+static struct part_axis unshared(size_t n)
+{
+    return (struct part_axis){.whole = n, .end = n, .ranks = 1};
+}
+
+/* A memory variable of shared passes, [b][s][f] with rows of whole vectors (absorbing/pml_fast.h). */
+static void add_shared_passes(const struct consistent *c, const struct fast_slab *s, struct spread *shares)
+{
+    const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH], one = unshared(1);
+    const size_t whole = pml_fast_width(c, y->whole),
+                 behind = y->me + 1 == y->ranks ? whole - y->first : y->end;
+    const struct spread_run run = {.there = z->first * s->ns * whole + y->first,
+                                   .count = y->me + 1 == y->ranks ? behind : c->n[1],
+                                   .from = y->own,
+                                   .end = behind,
+                                   .times = s->nb * s->ns,
+                                   .here_step = s->width,
+                                   .there_step = whole,
+                                   .first = z->own * s->ns,
+                                   .last = z->end * s->ns,
+                                   .abreast = y->ranks};
+    if (s->axis[ROLE_B] == 1)
+        add_rows(s->ns * s->width, y, s->nb, &one, 1, shares);
+    else if (s->axis[ROLE_F] != 1 || y->ranks == 1)
+        add_rows(s->ns * s->width, &one, 1, z, s->nb, shares);
+    else
+        spread_add(shares, s->nb * s->ns * s->width, z->whole * s->ns * whole, &run);
+}
+
+/* The same in the order of control values. */
+static void add_slab(const struct consistent *c, const struct slab *slab, struct spread *shares)
+{
+    const struct part_axis thick = unshared(slab->inside.n[c->slot[slab->axis]]);
+    const struct part_axis *along[3] = {&c->part.along[0], &c->part.along[1], &c->part.along[2]};
+    along[c->slot[slab->axis]] = &thick;
+    add_rows(slab->inside.n[0], along[1], slab->inside.n[1], along[2], slab->inside.n[2], shares);
+}
+
+static void add_memory(const struct consistent *c, const struct slab *slab, struct spread *shares)
+{
+    if (c->pml->fast != NULL)
+        add_shared_passes(c, &c->pml->fast->slab[slab - c->pml->slab], shares);
+    else
+        add_slab(c, slab, shares);
+}
+
+/* Memory variables of the layers, face by face: those across an axis that ranks share are whole one rank's own. */
 static void add_layers(const struct consistent *c, struct spread *shares)
 {
     const struct slab *own[BOX_FACES] = {NULL};
     double sizes[BOX_FACES] = {0};
     for (size_t s = 0; c->pml != NULL && s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
+        struct spread its = {0};
         own[2 * slab->axis + slab->end] = slab;
-        sizes[2 * slab->axis + slab->end] = (double)slab->inner;
+        add_memory(c, slab, &its);
+        sizes[2 * slab->axis + slab->end] = (double)its.there;
     }
     ranks_largest(c->part.ranks, BOX_FACES, sizes);
     for (int face = 0; c->general != NULL && face < 2 * c->dimension; face++)
@@ -60,13 +121,10 @@ static void add_layers(const struct consistent *c, struct spread *shares)
               turns = c->general != NULL ? 2 : 1;
     for (int i = 0; i < turns * 2 * c->dimension * fields; i++) {
         const int face = i / fields % (2 * c->dimension);
-        if (sizes[face] == 0) continue;
-        const size_t here = own[face] != NULL ? own[face]->inner : 0, there = (size_t)sizes[face];
-        const struct spread_run all = {0, 0, here, 0, here};
-        if (c->slot[face / 2] == DEPTH)
-            spread_add(shares, here, there, &all);
+        if (own[face] != NULL)
+            add_memory(c, own[face], shares);
         else
-            add_rows(c, here / c->n[DEPTH], shares);
+            shares->there += (size_t)sizes[face];
     }
 }
 
@@ -77,49 +135,63 @@ void consistent_share(struct model *model, enum model_array array, struct spread
         add_layers(c, shares);
     else
         for (int component = 0; component < c->dimension; component++)
-            add_rows(c, c->plane, shares);
+            add_rows(c->n[0], &c->part.along[1], c->n[1], &c->part.along[DEPTH], c->n[DEPTH], shares);
 }
 
 /* --- What the plan tells -------------------------------------------------------------------------------- */
 
-/* Bytes that a rank sends to one neighbour at each step: each operator of damped ground its own, but the velocities of
- * steps in one pass once. */
+/* Bytes that a rank sends at each step: each operator of damped ground its own, but the velocities of steps in one pass
+ * once. */
 static double halo_bytes(const struct consistent *c)
 {
     const struct pml_fast *fast = c->pml == NULL           ? NULL
                                   : c->pml->single != NULL ? c->pml->single
                                                            : c->pml->fast;
-    const double number = c->model.single ? sizeof(float) : sizeof(double);
+    const size_t number = c->model.single ? sizeof(float) : sizeof(double);
+    const struct part_fields values = part_values(c, NULL, (size_t)c->dimension, number);
     const double operators = c->model.parts > 1 ? c->model.parts : 1;
-    double numbers = c->dimension * (double)c->plane * (c->model.one_pass != NULL ? 1 : operators);
-    for (size_t s = 0; fast != NULL && s < c->pml->slabs; s++)
-        if (fast->slab[s].axis[ROLE_B] == DEPTH)
-            numbers += operators * 3 * (double)(fast->slab[s].ns * fast->slab[s].width);
-    return numbers * number * (double)c->part.halo;
+    double bytes = part_bytes(c, &values) * (c->model.one_pass != NULL ? 1 : operators);
+    for (size_t s = 0; fast != NULL && s < c->pml->slabs; s++) {
+        const struct part_fields phi = pml_fast_phi(&fast->slab[s], NULL, number);
+        bytes += operators * part_bytes(c, &phi);
+    }
+    return bytes;
 }
 
-/* And by the solves of an exact mass, one way or the other. */
+/* And by the solves of an exact mass, to one neighbour one way or the other. */
 static double solve_bytes(const struct consistent *c)
 {
     if (c->hform != NULL) return 0;
     return c->dimension * (double)(c->plane * c->factors[0].half[DEPTH] * sizeof(double));
 }
 
+/* How many control values each part along an axis has for its own, as many as find room. */
+static int add_sizes(const struct part_axis *along, char *text, size_t room)
+{
+    int used = 0;
+    for (int r = 0; r < along->ranks && (size_t)used + 24 < room; r++)
+        used += snprintf(text + used, room - (size_t)used, " %zu", along->bound[r + 1] - along->bound[r]);
+    return used;
+}
+
 void shared_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
 {
-    const struct rank_part *part = &c->part;
-    const int ranks = ranks_count(part->ranks), me = ranks_me(part->ranks);
+    const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH];
     char text[200];
-    if (part->ranks == NULL) return;
-    int used = snprintf(text, sizeof text, "%d, planes over the last axis:", ranks);
-    for (int r = 0; r < ranks && (size_t)used + 24 < sizeof text; r++)
-        used +=
-            snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
+    int used = 0;
+    if (c->part.ranks == NULL) return;
+    if (y->ranks > 1) used = snprintf(text, sizeof text, "%d x %d blocks, rows over y:", y->ranks, z->ranks);
+    if (y->ranks > 1) used += add_sizes(y, text + used, sizeof text / 2 - (size_t)used);
+    used += snprintf(text + used, sizeof text - (size_t)used,
+                     y->ranks > 1 ? "; planes:" : "%d, planes over the last axis:", z->ranks);
+    add_sizes(z, text + used, sizeof text - (size_t)used);
     tell(context, "ranks", text);
-    const int neighbours = (me > 0) + (me + 1 < ranks);
-    snprintf(text, sizeof text, "%.0f by the first rank in each operator call (%zu planes to a neighbour)",
-             neighbours * (halo_bytes(c) + solve_bytes(c)), part->halo);
+    const int neighbours = (z->me > 0) + (z->me + 1 < z->ranks);
+    used = snprintf(text, sizeof text, "%.0f by the first rank in each operator call (%zu planes",
+                    halo_bytes(c) + neighbours * solve_bytes(c), z->halo);
+    snprintf(text + used, sizeof text - (size_t)used,
+             y->ranks > 1 ? ", %zu rows to a neighbour)" : " to a neighbour)", y->halo);
     tell(context, "halo bytes a step", text);
 }
 
@@ -131,9 +203,13 @@ static void own_fastest(const struct consistent *c, const double *y, struct unse
 {
     const double *v = y + c->model.unknowns;
     double inside[3] = {0}, middle[3] = {0}, position[3];
-    found->places = (c->part.end - c->part.own) * c->plane;
-    for (size_t p = c->part.own * c->plane; p < c->part.end * c->plane; p++) {
-        const size_t at[3] = {p % c->n[0], p / c->n[0] % c->n[1], c->part.first + p / c->plane};
+    found->places = 0;
+    for (size_t p = 0; p < c->volume; p++) {
+        const struct part_axis *along = c->part.along;
+        const size_t j = p / c->n[0] % c->n[1], k = p / c->plane;
+        const size_t at[3] = {p % c->n[0], along[1].first + j, along[DEPTH].first + k};
+        if (!part_owns(&c->part, j, k)) continue;
+        found->places++;
         double square = 0, way = 0;
         for (size_t component = 0; component < (size_t)c->dimension; component++) {
             square += v[component * c->volume + p] * v[component * c->volume + p];

@@ -119,10 +119,10 @@ static void field_of(struct model *model, selas_field field, const double *y, co
     show(model, &look, y, a, value);
 }
 
-static int holder_of(const struct model *model, size_t plane)
+static int holder_of(const struct model *model, size_t point)
 {
     const struct model *first = first_of(model);
-    return first->core->holder(first, plane);
+    return first->core->holder(first, point);
 }
 
 static void complete(struct model *model, double *u)

@@ -289,12 +289,11 @@ selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_
                 place[0], place[1], place[2]);
 }
 
-int tl_holder(const struct model *model, size_t plane)
+int tl_holder(const struct model *model, size_t point)
 {
     const struct tl_part *part = &((const struct tl_model *)model)->part;
-    const size_t points = model->grid[0] > 0 ? part->plane : 1;
     int rank = 0;
-    while (plane * points >= part->bound[rank + 1])
+    while (point >= part->bound[rank + 1])
         rank++;
     return rank;
 }
@@ -305,9 +304,9 @@ void tl_share(struct model *model, enum model_array array, struct spread *shares
     const struct tl_part *part = &tl->part;
     const size_t d = (size_t)tl->cloud->dimension, me = (size_t)ranks_me(part->ranks);
     const struct tl_range *window = part->window[me].range;
-    const struct spread_run run = {d * (window->from - tl->cloud->first), d * window->from,
-                                   d * (window->end - window->from), d * (part->bound[me] - window->from),
-                                   d * (part->bound[me + 1] - window->from)};
+    const struct spread_run run =
+        spread_line(d * (window->from - tl->cloud->first), d * window->from, d * (window->end - window->from),
+                    d * (part->bound[me] - window->from), d * (part->bound[me + 1] - window->from));
     if (array == ARRAY_UNKNOWNS) spread_add(shares, model->unknowns, model->whole_unknowns, &run);
 }
 

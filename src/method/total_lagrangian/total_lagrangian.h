@@ -285,7 +285,7 @@ void tl_keep_window(const struct tl_model *tl, double *u); /* 0 outside */
 selas_status tl_find_holder(const struct tl_model *tl, size_t count, const size_t *index, int *holder,
                             struct messages *messages);
 /* Entries of the model's class, on ranks. */
-int tl_holder(const struct model *model, size_t plane);
+int tl_holder(const struct model *model, size_t point);
 void tl_share(struct model *model, enum model_array array, struct spread *shares);
 void tl_complete(struct model *model, double *u);
 void tl_unseen(struct model *model, const double *y, struct unseen *found);

@@ -97,8 +97,7 @@ static void look_at_slab(const struct consistent *c, const struct slab *slab, co
         for (int axis = 0; axis < c->dimension; axis++) {
             const int slot = c->slot[axis];
             position[axis] =
-                c->spline[axis]
-                    ->greville[slab->inside.at[slot] + place[slot] + (slot == DEPTH ? c->part.first : 0)];
+                c->spline[axis]->greville[slab->inside.at[slot] + place[slot] + c->part.along[slot].first];
             if (spoiled) middle[axis] += position[axis];
         }
     }

@@ -27,9 +27,10 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
     fast->damping = slab->damping + out;
     fast->ns = fast->inside.n[j];
     fast->nb = c->n[fast->axis[ROLE_B]];
-    fast->first_b = fast->axis[ROLE_B] == DEPTH ? c->part.first : 0;
+    fast->first_b = c->part.along[fast->axis[ROLE_B]].first;
+    fast->first_f = c->part.along[fast->axis[ROLE_F]].first;
     fast->nf = c->n[fast->axis[ROLE_F]];
-    fast->width = rounded(fast->nf, c->options.single ? 2 * FAST_LANES : FAST_LANES);
+    fast->width = pml_fast_width(c, fast->first_f % (2 * FAST_LANES) + fast->nf);
     fast->start = slab->region.at[j] + out;
     fast->region = slab->region.n[j] - 1;
     fast->offset = fast->inside.at[j] - fast->start;
@@ -42,7 +43,8 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
     bool good = pml_lay_tables(fast, terms, f->single);
     fast->middle = pml_numbers(n, f->single);
     fast->rests = array_new(fast->nb, sizeof *fast->rests);
-    good = good && fast->middle != NULL && fast->rests != NULL;
+    fast->moves = array_new(fast->nb, sizeof *fast->moves);
+    good = good && fast->middle != NULL && fast->rests != NULL && fast->moves != NULL;
     for (size_t i = 0; i < fast->parts; i++) {
         fast->wait[i] = pml_numbers(n, f->single);
         good = good && fast->wait[i] != NULL;
@@ -53,6 +55,20 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
     }
     f->bytes += (1 + fast->parts + fast->overs) * n * (f->single ? sizeof(float) : sizeof(double));
     return good;
+}
+
+size_t pml_fast_width(const struct consistent *c, size_t numbers)
+{
+    return rounded(numbers, c->options.single ? 2 * FAST_LANES : FAST_LANES);
+}
+
+struct part_fields pml_fast_phi(const struct fast_slab *s, void *phi, size_t number)
+{
+    const size_t line = s->width * number, plane = s->ns * line;
+    struct part_fields fields = {phi, 3, s->nb * plane, plane, s->ns, line, 0};
+    if (s->axis[ROLE_F] == 1) fields.row = number;
+    if (s->axis[ROLE_B] == 1) fields = (struct part_fields){phi, 3, s->nb * plane, 0, 1, 0, plane};
+    return fields;
 }
 
 /* Room for a thread: rows of the region of three components and of the slab, groups of rows. */
@@ -102,10 +118,12 @@ static void free_passes(const struct consistent *c, struct pml_fast *f)
             array_free(fast->over[n].wait);
         array_free(fast->middle);
         array_free(fast->rests);
+        array_free(fast->moves);
     }
     for (int t = 0; f->buffer != NULL && t < c->threads; t++)
         array_free(f->buffer[t]);
     array_free(f->buffer);
+    array_free(f->told);
     array_free(f);
 }
 
@@ -122,7 +140,8 @@ static struct pml_fast *lay_passes(struct consistent *c, const struct slab_terms
         c->pml->slab[s].inner = fast->nb * fast->ns * fast->width;
         good = lay_slab(f, fast, &terms[s]);
     }
-    if (good && lay_buffers(c, f)) return f;
+    if (good) f->told = array_new(2 * c->part.along[DEPTH].whole, sizeof *f->told);
+    if (good && f->told != NULL && lay_buffers(c, f)) return f;
     free_passes(c, f);
     return NULL;
 }

@@ -64,7 +64,7 @@ struct fast_slab {
     const struct slab *slab;
     int axis[3];                  /* by role */
     size_t ns, nb, nf, width;     /* numbers of the slab by role; in a padded row */
-    size_t first_b;               /* row of the whole body that is the first one over b */
+    size_t first_b, first_f;      /* rows of the whole body that are the first ones over b and f */
     struct block inside;          /* the slab's, without its outer end */
     const double *damping;        /* [ns] d there */
     size_t start;                 /* index of the region's first row along s */
@@ -84,6 +84,7 @@ struct fast_slab {
     size_t taps_f;
     void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i; m_jj */
     bool *rests;                     /* [nb] rows in which nothing moves, in this call */
+    bool *moves;                     /* [nb] groups of rows in which something does */
 };
 
 /* Tables and room for numbers of one kind, doubles or floats; the memory variables are laid out alike in
@@ -93,12 +94,17 @@ struct pml_fast {
     struct fast_slab slab[BOX_FACES];
     void **buffer; /* [threads] */
     size_t bytes;
+    double *told; /* [2 * planes of the body] what ranks that share rows along f agree on, by face */
     unsigned long groups, skipped; /* of rows so far */
 };
 
 /* Builds c->pml->fast if all slabs are for it (else it stays NULL), with options.single c->pml->single too,
  * and sets the slabs' `inner`. False: no memory. */
 bool pml_fast_create(struct consistent *c);
+/* Numbers in a row of so many, padded. */
+size_t pml_fast_width(const struct consistent *c, size_t numbers);
+/* phi of a slab, for part_exchange(). */
+struct part_fields pml_fast_phi(const struct fast_slab *s, void *phi, size_t number);
 void pml_fast_free(struct consistent *c);
 
 void pml_fast_accelerate_double(const struct consistent *c, double factor, const double *extra, double *a);

@@ -34,6 +34,7 @@ static void apply(const struct row_table *table, const REAL *in, size_t width, s
 }
 
 #include "method/consistent/absorbing/pml_fast_meet.h"
+#include "method/consistent/absorbing/pml_fast_rest.h"
 
 /* out += matrix along f of the rows of the slab, by way of `padded`, whose rows have zeros between them. */
 static void apply_along(const struct fast_slab *s, const void *matrix, const REAL *in, REAL *padded,
@@ -61,77 +62,6 @@ static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL 
         kernels()->move(s->width, (REAL)q, (REAL)kept, g + at, memory + at,
                         middle == NULL ? NULL : middle + at);
     }
-}
-
-/* Up to here displacements, velocities, slopes and accelerations move nothing. */
-struct level {
-    REAL displacement, velocity, slope, force;
-};
-
-/* (Displacements in the middle of a step are u + to_middle v, and v reaches farther than u.) */
-static struct level levels(const struct consistent *c, double displacement, double to_middle)
-{
-    const double spacing = c->model.scene->body.spacing;
-    const double stiffness = pow(consistent_fastest(c, FACE_X_LOW), 2);
-    if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1, -1};
-    return (struct level){(REAL)displacement, (REAL)(displacement / fabs(to_middle)),
-                          (REAL)(displacement / spacing),
-                          (REAL)(displacement * stiffness / (spacing * spacing))};
-}
-
-/* Memory of row b: is any of it larger than the level? */
-static bool memory_loud(const struct fast_slab *s, struct level level, size_t b, const REAL *extra)
-{
-    const size_t size = s->ns * s->width, inner = s->nb * size;
-    const REAL *psi = extra + s->slab->psi + b * size, *phi = extra + s->slab->phi + b * size;
-    return kernels()->loud(3, inner, size, level.slope, psi) ||
-           kernels()->loud(3, inner, size, level.force, phi);
-}
-
-/* Is any number larger than the level that row b reads of a field? */
-static bool field_loud(const struct consistent *c, const struct fast_slab *s, REAL level, size_t b,
-                       const REAL *field)
-{
-    const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
-    for (size_t i = 0; i < 3; i++) {
-        const REAL *from = field + i * c->volume + s->first + b * s->step[ROLE_B];
-        if (across ? kernels()->loud(s->nf, s->step[ROLE_F], s->region, level, from)
-                   : kernels()->loud(s->region, s->step[ROLE_S], s->nf, level, from))
-            return true;
-    }
-    return false;
-}
-
-/* Is the row at rest: displacements and velocities that it reads, and memory? Then it forgets what is left of
- * that. */
-static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
-                  const REAL *u, const REAL *v, REAL *extra)
-{
-    const size_t size = s->ns * s->width, inner = s->nb * size;
-    if (level.displacement < 0 || field_loud(c, s, level.displacement, b, u) ||
-        field_loud(c, s, level.velocity, b, v))
-        return false;
-    if (memory_loud(s, level, b, extra)) return false;
-    for (size_t i = 0; i < 3; i++) {
-        memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
-        memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
-    }
-    for (size_t i = 0; i < s->parts; i++)
-        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
-    for (size_t n = 0; n < s->overs; n++)
-        memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
-    memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
-    return true;
-}
-
-/* Do all rows rest that a group of rows is made from? */
-static bool group_rests(const struct fast_slab *s, size_t g)
-{
-    const struct row_group *group = &s->pull_b.group[g];
-    const size_t reach = s->taps_f / 2, end = group->to + group->rows + reach;
-    for (size_t b = group->to < reach ? 0 : group->to - reach; b < end && b < s->nb; b++)
-        if (!s->rests[b]) return false;
-    return true;
 }
 
 /* L1 and L2 in row b. */
@@ -178,7 +108,8 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
 static bool another_rank(const struct consistent *c, const struct fast_slab *s, size_t g)
 {
     const struct row_group *group = &s->pull_b.group[g];
-    return s->axis[ROLE_B] == DEPTH && (group->to + group->rows <= c->part.own || group->to >= c->part.end);
+    const struct part_axis *b = &c->part.along[s->axis[ROLE_B]];
+    return group->to + group->rows <= b->own || group->to >= b->end;
 }
 
 /* Is there nothing that moves phi in a group of rows? */
@@ -228,12 +159,10 @@ static void force_rows(const struct consistent *c, const struct fast_slab *s, do
     }
 }
 
-/* L3. */
-static void move_forces(const struct consistent *c, const struct fast_slab *s, struct level level, double dt,
-                        REAL *extra)
+/* Adds C2_j m_ff to what waits. */
+static void meet_rows(const struct consistent *c, const struct fast_slab *s, struct level level)
 {
     const size_t size = s->ns * s->width;
-    unsigned long skipped = 0;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t b = 0; b < s->nb; b++) {
         REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
@@ -242,10 +171,24 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
             if (add_divergence(c, s, ROLE_F, least, b, rows, (REAL *)s->wait[s->cross[n].part] + b * size))
                 s->rests[b] = false;
     }
+}
+
+/* Groups of rows that move. */
+static void find_moves(const struct consistent *c, const struct fast_slab *s, struct level level)
+{
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t g = 0; g < s->pull_b.groups; g++)
+        s->moves[g] = !another_rank(c, s, g) && !nothing_moves(c, s, level, g);
+}
+
+/* L3 in all of them. */
+static void move_forces(const struct consistent *c, const struct fast_slab *s, double dt, REAL *extra)
+{
+    unsigned long skipped = 0;
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
     for (size_t g = 0; g < s->pull_b.groups; g++) {
         if (another_rank(c, s, g)) continue;
-        if (nothing_moves(c, s, level, g))
+        if (!s->moves[g])
             skipped++;
         else
             force_rows(c, s, dt, g, extra);
@@ -259,8 +202,8 @@ static void exchange_forces(const struct consistent *c, REAL *extra)
 {
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
-        const size_t row = s->ns * s->width * sizeof *extra;
-        if (s->axis[ROLE_B] == DEPTH) part_exchange(c, extra + s->slab->phi, 3, s->nb * row, row);
+        const struct part_fields phi = pml_fast_phi(s, extra + s->slab->phi, sizeof *extra);
+        part_exchange(c, &phi);
     }
 }
 
@@ -281,16 +224,30 @@ void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_mi
                              const REAL *u, const REAL *v, REAL *extra)
 {
     const struct level level = levels(c, quiet, to_middle);
-    for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &FAST(c)->slab[i];
+    const struct fast_slab *const slab = FAST(c)->slab, *const end = slab + c->pml->slabs;
+    for (const struct fast_slab *s = slab; s < end; s++)
+        for (size_t b = 0; b < s->nb && shares_rows(c, s); b++)
+            s->rests[b] = rests(c, s, level, b, u, v, extra);
+    agree(c, false);
+    for (const struct fast_slab *s = slab; s < end; s++) {
+        const bool known = shares_rows(c, s);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
         for (size_t b = 0; b < s->nb; b++) {
-            s->rests[b] = rests(c, s, level, b, u, v, extra);
-            if (!s->rests[b]) gradient_row(c, s, dt, to_middle, b, u, v, extra);
+            if (!known) s->rests[b] = rests(c, s, level, b, u, v, extra);
+            if (s->rests[b])
+                forget_row(s, b, extra);
+            else
+                gradient_row(c, s, dt, to_middle, b, u, v, extra);
         }
     }
-    for (size_t i = 0; i < c->pml->slabs; i++)
-        move_forces(c, &FAST(c)->slab[i], level, dt, extra);
+    for (const struct fast_slab *s = slab; s < end; s++)
+        meet_rows(c, s, level);
+    agree(c, false);
+    for (const struct fast_slab *s = slab; s < end; s++)
+        find_moves(c, s, level);
+    agree(c, true);
+    for (const struct fast_slab *s = slab; s < end; s++)
+        move_forces(c, s, dt, extra);
     exchange_forces(c, extra);
 }
 

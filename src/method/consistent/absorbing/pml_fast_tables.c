@@ -141,7 +141,9 @@ static void *lay_along_f(const struct fast_slab *fast, const struct tensor_term 
     for (size_t i = 0; table != NULL && i < fast->nf; i++)
         for (size_t t = 0; t < fast->taps_f; t++)
             if (i + t >= fast->taps_f / 2 && i + t - fast->taps_f / 2 < fast->nf)
-                put(table, t * fast->width + i, factor * band_get(band, i, i + t - fast->taps_f / 2), single);
+                put(table, t * fast->width + i,
+                    factor * band_get(band, fast->first_f + i, fast->first_f + i + t - fast->taps_f / 2),
+                    single);
     return table;
 }
 

@@ -60,7 +60,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     for (size_t i = 0; i < count; i++)
         slab->damping[i] = pml_damping_at(c, slab, spline->greville[first + i]);
     slab->inside = (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
-    slab->inside.at[slot] = slot == DEPTH ? first - c->part.first : first;
+    slab->inside.at[slot] = first - c->part.along[slot].first;
     slab->inside.n[slot] = count;
     return lay_drag(c, slab, count, most);
 }
@@ -81,7 +81,7 @@ static void lay_region(const struct consistent *c, struct slab *slab)
 static struct tensor_plan *plan(struct terms t)
 {
     struct consistent *c = t.c;
-    if (!t.good || (c->slot[t.slab->axis] != DEPTH && !part_terms(c, t.term, t.count))) return NULL;
+    if (!t.good || !part_terms(c, t.term, t.count)) return NULL;
     struct tensor_plan *made = tensor_plan_new(t.slab->region.n, c->dimension, t.term, t.count, c->threads);
     if (made != NULL) c->pml->bytes += tensor_plan_bytes(made);
     return made;
@@ -115,11 +115,11 @@ static bool lay_regions(struct consistent *c)
     return good && c->pml->in != NULL && c->pml->out != NULL;
 }
 
-/* A layer over depth is one rank's own, whole (part.c). */
+/* A layer across an axis that ranks share is whole that of the first or last of them (part_lay.c). */
 static bool has_layer(const struct consistent *c, int face)
 {
-    const int rank = face % 2 == 0 ? 0 : ranks_count(c->part.ranks) - 1;
-    return c->slot[face / 2] != DEPTH || rank == ranks_me(c->part.ranks);
+    const struct part_axis *along = &c->part.along[c->slot[face / 2]];
+    return along->me == (face % 2 == 0 ? 0 : along->ranks - 1);
 }
 
 /* A column of the inverse of an axis' mass, 0 at control values that are held. */

@@ -38,7 +38,7 @@ static const struct band *fit(const struct consistent *c, struct slab *slab, int
 {
     const int slot = c->slot[axis];
     if (whole == NULL || axis != slab->axis) return keep(slab, whole);
-    const size_t first = slot == DEPTH ? c->part.first : 0;
+    const size_t first = c->part.along[slot].first;
     struct band *part = band_cut(whole, first + slab->region.at[slot], slab->region.n[slot]);
     band_free(whole);
     return keep(slab, part);
@@ -171,7 +171,7 @@ static void add_pair(struct terms *t, int out, size_t in, struct input from, int
 bool far_end_out(const struct consistent *c, const struct slab *slab)
 {
     const int slot = c->slot[slab->axis];
-    const size_t first = slot == DEPTH ? c->part.first : 0;
+    const size_t first = c->part.along[slot].first;
     const size_t from = first + slab->region.at[slot], n = slab->region.n[slot];
     return c->spline[slab->axis]->mirror[1 - slab->end] ||
            (slab->end == 1 ? from > 0 : from + n < c->spline[slab->axis]->count);

@@ -115,12 +115,13 @@ static size_t less(size_t a, size_t b)
     return a > b ? a - b : 0;
 }
 
-/* What is reached from there, in whole vectors and strips. */
+/* What is reached from there, in whole vectors and strips, of what is computed here; strips of the body. */
 static struct window window_of(const struct fused *f, const struct loud *loud)
 {
-    const size_t reach = (size_t)f->deep / 2;
+    const size_t reach = (size_t)f->deep / 2, first = f->rows.first, whole[2] = {f->n[0], f->rows.whole};
+    const struct window own = fused_own(f);
     struct window w = {{0, 0}, {0, 0}};
-    if (f->quiet <= 0) return fused_whole(f);
+    if (f->quiet <= 0) return own;
     if (loud->column[0] >= loud->column[1] || loud->strip[0] >= loud->strip[1]) return w;
     const size_t end[2] = {loud->column[1] + reach, loud->strip[1] * FUSED_STRIP + reach};
     w.from[0] = less(loud->column[0], reach) / FUSED_LANES * FUSED_LANES;
@@ -128,8 +129,39 @@ static struct window window_of(const struct fused *f, const struct loud *loud)
     w.end[0] = (end[0] + FUSED_LANES - 1) / FUSED_LANES * FUSED_LANES;
     w.end[1] = (end[1] + FUSED_STRIP - 1) / FUSED_STRIP * FUSED_STRIP;
     for (int axis = 0; axis < 2; axis++)
-        if (w.end[axis] > f->n[axis]) w.end[axis] = f->n[axis];
-    return w;
+        if (w.end[axis] > whole[axis]) w.end[axis] = whole[axis];
+    w.from[1] = less(w.from[1], first);
+    w.end[1] = less(w.end[1], first);
+    return window_meet(&w, &own);
+}
+
+/* Together, where ranks share rows: sets computed[] by what is loud in the rows of all. */
+static void meet_loud(struct fused *f, double level)
+{
+    const size_t reach = (size_t)f->deep / 2, strips = f->rows.first / FUSED_STRIP;
+    const size_t first_block = f->planes.first / FUSED_PLANES;
+    const size_t blocks = (f->planes.whole + FUSED_PLANES - 1) / FUSED_PLANES;
+    for (size_t i = 0; i < 4 * blocks; i++)
+        f->loud[i] = -INFINITY;
+    for (size_t first = f->planes.own; first < f->planes.end; first += FUSED_PLANES) {
+        double *bound = f->loud + 4 * (first_block + first / FUSED_PLANES);
+        struct loud loud = nothing_loud(f);
+        widen_loud(f, level, less(first, reach), first + FUSED_PLANES + reach, &loud);
+        if (loud.column[0] >= loud.column[1] || loud.strip[0] >= loud.strip[1]) continue;
+        bound[0] = -(double)loud.column[0];
+        bound[1] = (double)loud.column[1];
+        bound[2] = -(double)(loud.strip[0] + strips);
+        bound[3] = (double)(loud.strip[1] + strips);
+    }
+    if (f->quiet > 0) ranks_largest(f->ranks, 4 * blocks, f->loud);
+    for (size_t first = f->planes.own; first < f->planes.end; first += FUSED_PLANES) {
+        const double *bound = f->loud + 4 * (first_block + first / FUSED_PLANES);
+        struct loud loud = nothing_loud(f);
+        if (bound[1] > 0)
+            loud =
+                (struct loud){{(size_t)-bound[0], (size_t)bound[1]}, {(size_t)-bound[2], (size_t)bound[3]}};
+        f->computed[first / FUSED_PLANES] = window_of(f, &loud);
+    }
 }
 
 /* The largest displacement, those of all planes being taken (0 where quiet is 0). */
@@ -158,7 +190,8 @@ void NAME(fused_look)(struct fused *f, const REAL *u)
 {
     const double level = f->quiet * largest_of_all(f, all_sizes(f, u));
     const size_t reach = (size_t)f->deep / 2;
-    for (size_t first = 0; first < f->n[2]; first += FUSED_PLANES) {
+    if (f->rows.ranks > 1) meet_loud(f, level);
+    for (size_t first = 0; first < f->n[2] && f->rows.ranks == 1; first += FUSED_PLANES) {
         struct loud loud = nothing_loud(f);
         widen_loud(f, level, less(first, reach), first + FUSED_PLANES + reach, &loud);
         f->computed[first / FUSED_PLANES] = window_of(f, &loud);

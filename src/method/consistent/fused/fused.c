@@ -105,7 +105,7 @@ static bool lay_side(struct consistent *c, struct fused *f, int axis)
         void **table = axis == 0 ? &f->x[which] : &f->y[which];
         if (band != NULL)
             *table = axis == 0 ? fused_by_vectors(band, factor, taps, f->width, FUSED_VECTOR / f->number)
-                               : fused_by_rows(band, factor, taps, rounded(f->n[1], FUSED_ROWS));
+                               : fused_by_rows(band, factor, taps, rounded(f->rows.whole, FUSED_ROWS));
         band_free(made);
         if (*table == NULL) return false;
     }
@@ -118,7 +118,7 @@ static bool lay_depth(struct consistent *c, struct fused *f)
         for (int which = 0; which < OVER_DEPTH_MATRICES; which++) {
             double factor = 1;
             struct band *whole = depth_matrix(c, component, (enum fused_depth)which, &factor);
-            struct band *band = whole == NULL ? NULL : band_cut(whole, c->part.first, f->n[DEPTH]);
+            struct band *band = whole == NULL ? NULL : band_cut(whole, f->planes.first, f->n[DEPTH]);
             band_free(whole);
             if (band != NULL)
                 f->z[component][which] = fused_by_rows(band, factor, f->deep, rounded(f->n[2], FUSED_PLANES));
@@ -141,16 +141,22 @@ void fused_find_plain(const double *table, size_t taps, size_t n, bool *plain)
     }
 }
 
+/* Plain groups of all rows of the body; then the tables of those of the window, weights of rows beyond it and all. */
 static bool lay_plain(struct fused *f)
 {
-    const size_t groups = rounded(f->n[1], FUSED_ROWS) / FUSED_ROWS;
+    const size_t groups = rounded(f->rows.whole, FUSED_ROWS) / FUSED_ROWS;
+    const size_t first = f->rows.first, rows = rounded(f->n[1], FUSED_ROWS);
     f->plain = array_new(groups, sizeof *f->plain);
     if (f->plain == NULL) return false;
     memset(f->plain, true, groups * sizeof *f->plain);
     for (int which = 0; which < SIDE_MATRICES; which++) {
         const bool inverse = which == SIDE_N_EVEN || which == SIDE_N_ODD;
-        fused_find_plain(f->y[which], (size_t)(inverse ? f->wide : f->narrow), f->n[1], f->plain);
+        const size_t taps = (size_t)(inverse ? f->wide : f->narrow);
+        double *table = f->y[which];
+        fused_find_plain(table, taps, f->rows.whole, f->plain);
+        memmove(table, table + first * taps, rows * taps * sizeof *table);
     }
+    memmove(f->plain, f->plain + first / FUSED_ROWS, rows / FUSED_ROWS * sizeof *f->plain);
     return true;
 }
 
@@ -219,6 +225,10 @@ static bool lay_windows(const struct consistent *c, struct fused *f)
     f->will_reach = array_new(planes, sizeof *f->will_reach);
     f->loaded = array_new(planes, sizeof *f->loaded);
     f->bytes += planes * (f->n[0] + f->strips) * f->number + (3 * planes + blocks) * sizeof *f->loaded;
+    if (f->rows.ranks > 1) {
+        f->loud = array_new(4 * (rounded(f->planes.whole, FUSED_PLANES) / FUSED_PLANES), sizeof *f->loud);
+        if (f->loud == NULL) return false;
+    }
     if (f->bound == NULL || f->size == NULL || f->column == NULL || f->strip == NULL || f->computed == NULL ||
         f->reached == NULL || f->will_reach == NULL || f->loaded == NULL)
         return false;
@@ -292,8 +302,8 @@ static struct fused *fused_new(struct consistent *c, size_t number)
     f->volume = c->volume;
     f->threads = c->threads;
     f->ranks = c->part.ranks;
-    f->own = c->part.own;
-    f->end = c->part.end;
+    f->rows = c->part.along[1];
+    f->planes = c->part.along[DEPTH];
     f->bare = !c->options.depth_exact;
     f->bulk = c->property[WEIGHT_MU] == 0;
     f->quiet = c->options.quiet;
@@ -332,6 +342,11 @@ struct window fused_whole(const struct fused *f)
     return (struct window){.end = {f->n[0], f->n[1]}};
 }
 
+struct window fused_own(const struct fused *f)
+{
+    return (struct window){{0, f->rows.own}, {f->n[0], f->rows.end}};
+}
+
 void fused_count(struct fused *f)
 {
     f->largest = 0;
@@ -340,9 +355,10 @@ void fused_count(struct fused *f)
             f->largest = f->size[k];
             f->loudest = k;
         }
-    for (size_t k = f->own; k < f->end; k++) {
-        f->points += f->plane;
-        f->skipped += f->plane - window_points(&f->computed[k / FUSED_PLANES]);
+    const struct window own = fused_own(f);
+    for (size_t k = f->planes.own; k < f->planes.end; k++) {
+        f->points += window_points(&own);
+        f->skipped += window_points(&own) - window_points(&f->computed[k / FUSED_PLANES]);
     }
 }
 
@@ -378,6 +394,7 @@ void fused_free(struct fused *fused)
     array_free(fused->reached);
     array_free(fused->will_reach);
     array_free(fused->loaded);
+    array_free(fused->loud);
     array_free(fused->bound);
     array_free(fused);
 }

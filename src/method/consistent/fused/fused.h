@@ -144,8 +144,9 @@ struct fused {
     size_t kept_bytes;         /* ... the e_p behind it if they relax; in single precision u or e_0 before it
                                  and all memory, then e_1, behind it */
     struct relaxing *relaxing; /* NULL: steps do not relax */
-    struct ranks *ranks;       /* that share the planes; NULL: alone */
-    size_t own, end;           /* planes that are computed here: own .. end - 1 */
+    struct ranks *ranks;       /* NULL: alone */
+    struct part_axis rows, planes;
+    double *loud; /* [4 * blocks of planes of the body] where it is loud, if ranks share rows */
     int threads;
     void **buffer;      /* [threads] */
     size_t buffer_size; /* numbers */
@@ -195,8 +196,9 @@ void fused_faces_free(struct fused_faces *faces); /* takes NULL */
 /* active.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
 void fused_look_double(struct fused *fused, const double *u);
 void fused_look_single(struct fused *fused, const float *u);
-/* All columns and rows. */
+/* All columns and rows; those that are computed here. */
 struct window fused_whole(const struct fused *fused);
+struct window fused_own(const struct fused *fused);
 /* Counts the points of a call and keeps the largest displacement. */
 void fused_count(struct fused *fused);
 void fused_forget(struct fused *fused); /* these counts; takes NULL */

@@ -100,7 +100,7 @@ static void pass_block(struct pass *pass, size_t first)
     const struct fused *f = FUSED(pass->c);
     const bool step = pass->fields.moved != NULL;
     const double factor = step ? pass->fields.dt : 1;
-    if (step) take_window(pass, first);
+    if (step && f->rows.ranks == 1) take_window(pass, first);
     NAME(fused_planes)(f, pass->thread, first, &pass->fields);
     for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
         add_rest(pass->c, pass->drive, k, factor, pass->fields.u, pass->fields.a);
@@ -119,7 +119,7 @@ static size_t cost(const struct fused *f, size_t block)
 {
     enum { COMPUTED = 8 };
     const size_t first = block * FUSED_PLANES;
-    const bool own = first >= f->own && first < f->end;
+    const bool own = first >= f->planes.own && first < f->planes.end;
     size_t sum = 1 + (own ? COMPUTED * FUSED_PLANES * window_points(&f->computed[block]) : 0);
     for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
         sum += window_points(&f->reached[k]);
@@ -160,16 +160,30 @@ static void pass_thread(const struct consistent *c, const struct drive *drive,
     }
     struct pass pass = {c, drive, *fields, level, low, high, thread};
     for (size_t first = from; first < end; first += FUSED_PLANES)
-        if (first >= f->own && first < f->end) pass_block(&pass, first);
+        if (first >= f->planes.own && first < f->planes.end) pass_block(&pass, first);
     if (bring && pass.next < pass.limit) bring_planes(f, fields, pass.next, pass.limit);
 }
 
-/* All planes; u is brought on too if `bring`. */
-static void pass_over(const struct consistent *c, const struct drive *drive,
-                      const struct fused_fields *fields, bool bring, double level)
+/* All of u at once: what is computed hangs on what other ranks have in the same planes. */
+static void bring_before(struct fused *f, const struct fused_fields *fields, double level)
 {
-    const struct fused *f = FUSED(c);
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < f->n[2]; k++) {
+        const unsigned before = tiny_as_zero();
+        bring_planes(f, fields, k, k + 1);
+        tiny_as_before(before);
+    }
+    meet_loud(f, level);
+}
+
+/* All planes; in a step u is brought on too. */
+static void pass_over(const struct consistent *c, const struct drive *drive,
+                      const struct fused_fields *fields, double level)
+{
+    struct fused *f = FUSED(c);
+    const bool step = fields->moved != NULL, bring = step && f->rows.ranks == 1;
     lay_bounds(f);
+    if (step && !bring) bring_before(f, fields, level);
 #pragma omp parallel num_threads(f->threads)
     for (int stage = bring ? 0 : 1; stage < 2; stage++) {
 #pragma omp for schedule(static, 1)
@@ -179,7 +193,7 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
             tiny_as_before(before);
         }
     }
-    if (fields->other != NULL) add_faces(c, bring ? fields->dt : 1, fields->other, fields->a);
+    if (fields->other != NULL) add_faces(c, step ? fields->dt : 1, fields->other, fields->a);
 }
 
 static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
@@ -204,14 +218,15 @@ static double largest_before(const struct fused *f, const REAL *u)
 /* The neighbours' planes of w or a. */
 static void exchange(const struct consistent *c, REAL *field)
 {
-    part_exchange(c, field, 3, c->volume * sizeof *field, c->plane * sizeof *field);
+    const struct part_fields fields = part_values(c, field, 3, sizeof *field);
+    part_exchange(c, &fields);
 }
 
 /* After an exchange a halo may have reached everywhere. */
 static void halo_reached(const struct consistent *c, const struct fused *f)
 {
     for (size_t k = 0; k < f->n[2]; k++)
-        if (k < c->part.own || k >= c->part.end) f->reached[k] = fused_whole(f);
+        if (part_rows(&c->part) || k < f->planes.own || k >= f->planes.end) f->reached[k] = fused_whole(f);
 }
 
 /* a := acceleration. */
@@ -221,7 +236,7 @@ static void accelerate(const struct consistent *c, const struct drive *drive,
     const struct fused_fields fields = {
         .u = step->part[0].u, .a = a, .other = step->parts > 1 ? step->part[1].u : NULL};
     NAME(fused_look)(FUSED(c), step->part[0].u);
-    pass_over(c, drive, &fields, false, 0);
+    pass_over(c, drive, &fields, 0);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_accelerate)(step->part[p].c, 1, step->part[p].extra, a);
     exchange(c, a);
@@ -317,7 +332,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_remember)
     (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
-    pass_over(c, drive, &fields, true, level);
+    pass_over(c, drive, &fields, level);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++) {
         NAME(pml_fast_accelerate)(step->part[p].c, dt, step->part[p].extra, step->w);
         NAME(pml_fast_reached)(step->part[p].c, f->will_reach);

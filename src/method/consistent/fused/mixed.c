@@ -12,8 +12,7 @@ static struct band *gradient(struct consistent *c, int axis, int out, double sha
     struct band *inner = fused_narrow_matrix(c, axis, odd, false, !odd, true, share);
     struct band *whole = inner == NULL ? NULL : band_product(c->hform->inverse[out][axis], inner);
     band_free(inner);
-    if (axis != DEPTH || whole == NULL) return whole;
-    struct band *part = band_cut(whole, c->part.first, c->n[DEPTH]);
+    struct band *part = whole == NULL ? NULL : band_cut(whole, c->part.along[axis].first, c->n[axis]);
     band_free(whole);
     return part;
 }
@@ -29,7 +28,7 @@ static bool lay_bands(struct consistent *c, struct fused_faces *faces)
     if (!c->options.depth_exact) return true;
     struct band *mass = fused_narrow_matrix(c, DEPTH, false, false, false, false, 0);
     struct band *whole = mass == NULL ? NULL : band_product(c->hform->inverse[0][DEPTH], mass);
-    if (whole != NULL) faces->bare = band_cut(whole, c->part.first, c->n[DEPTH]);
+    if (whole != NULL) faces->bare = band_cut(whole, c->part.along[DEPTH].first, c->n[DEPTH]);
     band_free(mass);
     band_free(whole);
     return faces->bare != NULL;
@@ -49,7 +48,7 @@ static void lay_faces(const struct consistent *c, struct fused_faces *faces, dou
         face->from = end == 0 ? 0 : c->n[axis] - h->reach[axis];
         face->to = end == 0 ? h->reach[axis] : c->n[axis];
         for (int out = 0; out < 3; out++)
-            face->column[out] = h->column[out][axis][end] + (axis == DEPTH ? c->part.first : 0);
+            face->column[out] = h->column[out][axis][end] + c->part.along[axis].first;
         faces->count++;
     }
 }

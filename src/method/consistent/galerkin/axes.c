@@ -153,7 +153,7 @@ static void mean_speeds(const struct consistent *c, int face, size_t k, double s
 static bool lay_planes(struct consistent *c)
 {
     const struct scene *scene = c->model.scene;
-    const size_t n = c->part.whole;
+    const size_t n = c->part.along[DEPTH].whole;
     c->plane_class = array_new(n, sizeof *c->plane_class);
     c->class_plane = array_new(n, sizeof *c->class_plane);
     if (c->plane_class == NULL || c->class_plane == NULL) return false;
@@ -224,9 +224,9 @@ void consistent_clear_held(const struct consistent *c, int component, size_t k, 
         if (slot == 0)
             for (size_t j = 0; j < c->n[1]; j++)
                 plane[j * c->n[0] + at] = 0;
-        else if (slot == 1)
+        else if (slot == 1 && at != SIZE_MAX)
             memset(plane + at * c->n[0], 0, c->n[0] * sizeof *plane);
-        else if (k == at)
+        else if (slot == DEPTH && k == at)
             memset(plane, 0, c->plane * sizeof *plane);
     }
 }

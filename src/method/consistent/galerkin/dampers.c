@@ -42,8 +42,9 @@ static void subtract_side(const struct consistent *c, int face, int component, s
     const struct band *side = c->side[face][component]; /* has density and speed in it */
     const struct band *along = slot_mass(c, component, 1 - slot);
     const struct band *depth = side != NULL ? side : slot_mass(c, component, DEPTH);
-    const double factor =
-        side != NULL ? 1 : c->property[WEIGHT_DENSITY] * c->speed[face][component][c->part.first + k];
+    const double factor = side != NULL ? 1
+                                       : c->property[WEIGHT_DENSITY] *
+                                             c->speed[face][component][c->part.along[DEPTH].first + k];
     for (size_t j = 0; j < length; j++)
         line[j] = band_row(depth, k, v + from + j * step, c->plane);
     for (size_t j = 0; j < length; j++)
@@ -75,7 +76,8 @@ void dampers_subtract(const struct consistent *c, int thread, size_t k, const do
             const double *field = v + (size_t)component * c->volume;
             if (slot == DEPTH)
                 subtract_end(c, component,
-                             face_density(c, face) * c->speed[face][component][c->part.first + k],
+                             face_density(c, face) *
+                                 c->speed[face][component][c->part.along[DEPTH].first + k],
                              field + k * c->plane, line, out[component]);
             else
                 subtract_side(c, face, component, at, k, field, line, out[component]);
@@ -89,7 +91,7 @@ double dampers_power(const struct consistent *c, const double *v)
     double power = 0, *out[3] = {NULL, NULL, NULL};
     for (int component = 0; component < c->dimension; component++)
         out[component] = c->face_buffer + (size_t)component * c->plane;
-    for (size_t k = c->part.own; k < c->part.end; k++) {
+    for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++) {
         memset(c->face_buffer, 0, (size_t)c->dimension * c->plane * sizeof *c->face_buffer);
         dampers_subtract(c, 0, k, v, out);
         for (int component = 0; component < c->dimension; component++)

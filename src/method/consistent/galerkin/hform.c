@@ -257,16 +257,16 @@ static bool add_edge(struct consistent *c, int out, int in, const int end[2], co
     const int axes[2] = {out, in};
     struct edge edge = {.out = out, .in = in, .to = {c->n[0], c->n[1], c->n[2]}};
     edge.factor = (end[0] == end[1] ? -1 : 1) * lambda * mu / ((lambda + mu) * density);
-    edge.depth = part_matrix(c, depth);
+    edge.depth = part_matrix(c, DEPTH, depth);
     if (depth != NULL && edge.depth == NULL) return false;
     for (int i = 0; i < 2; i++) {
         const int axis = axes[i], slot = c->slot[axis];
-        const size_t n = c->n[slot], first = slot == DEPTH ? c->part.first : 0;
+        const size_t n = c->n[slot];
         edge.at[slot] = part_face(c, 2 * axis + end[i]);
         if (edge.at[slot] == SIZE_MAX) return true;
         edge.from[slot] = end[i] == 0 ? 0 : n - h->reach[axis];
         edge.to[slot] = end[i] == 0 ? h->reach[axis] : n;
-        edge.column[slot] = h->column[out][axis][end[i]] + first;
+        edge.column[slot] = h->column[out][axis][end[i]] + c->part.along[slot].first;
     }
     h->edge[h->edges++] = edge;
     return true;

@@ -120,9 +120,13 @@ double hform_dissipation_power(struct consistent *c, const double *v)
     }
     mass_solve(c, &h->factors, h->work);
     const double density = c->weighted[WEIGHT_DENSITY] == NULL ? c->property[WEIGHT_DENSITY] : 1;
+    const struct part_axis *rows = &c->part.along[1], *planes = &c->part.along[DEPTH];
     double sum = 0;
     for (size_t component = 0; component < (size_t)c->dimension; component++)
-        for (size_t i = c->part.own * c->plane; i < c->part.end * c->plane; i++)
-            sum += h->work[component * c->volume + i] * v[component * c->volume + i];
+        for (size_t k = planes->own; k < planes->end; k++) {
+            const size_t from = component * c->volume + k * c->plane;
+            for (size_t i = from + rows->own * c->n[0]; i < from + rows->end * c->n[0]; i++)
+                sum += h->work[i] * v[i];
+        }
     return -density * density * sum;
 }

@@ -36,7 +36,7 @@ static void spread(const struct consistent *c, int axis, int end, const double *
 {
     const struct face_points face = face_points(c, c->slot[axis]);
     const size_t n = c->n[c->slot[axis]], reach = c->hform->reach[axis];
-    const size_t from = end == 0 ? 0 : n - reach, first = c->slot[axis] == DEPTH ? c->part.first : 0;
+    const size_t from = end == 0 ? 0 : n - reach, first = c->part.along[c->slot[axis]].first;
     if (part_face(c, 2 * axis + end) == SIZE_MAX) return;
     for (size_t k = 0; k < face.planes; k++)
         for (size_t at = from; at < from + reach; at++)
@@ -86,7 +86,9 @@ static double damping(const struct consistent *c, int axis, int end, int compone
     const int face = 2 * axis + end;
     if (!c->damped[face]) return 0;
     const double *density = c->slot[axis] == DEPTH ? c->weighted[WEIGHT_DENSITY] : NULL;
-    k = c->slot[axis] != DEPTH ? c->part.first + k : end == 0 ? 0 : c->part.whole - 1;
+    k = c->slot[axis] != DEPTH ? c->part.along[DEPTH].first + k
+        : end == 0             ? 0
+                               : c->part.along[DEPTH].whole - 1;
     return c->speed[face][component][k] *
            (density == NULL ? 1 : density[end == 0 ? 0 : c->spline[axis]->elements - 1]);
 }
@@ -155,7 +157,7 @@ static bool told(const struct consistent *c, int face)
 {
     const size_t at = part_face(c, face);
     if (c->part.ranks == NULL) return true;
-    return c->slot[face / 2] == DEPTH && at >= c->part.own && at < c->part.end;
+    return c->slot[face / 2] == DEPTH && at >= c->part.along[DEPTH].own && at < c->part.along[DEPTH].end;
 }
 
 /* rho c v_e.(H (x) H) v_e: the masses of the face's own axes, one banded solve each. */
@@ -163,6 +165,7 @@ double hform_damper_power(struct consistent *c, const double *v)
 {
     double power = 0;
     double *values = c->hform->face[0], *weighed = c->hform->face[1];
+    if (c->model.untold) return 0;
     for (int face = 0; face < 2 * c->dimension; face++) {
         if (!c->damped[face] || !told(c, face)) continue;
         const int slot = c->slot[face / 2], across = slot == 0 ? 1 : 0, outer = slot == DEPTH ? 1 : DEPTH;

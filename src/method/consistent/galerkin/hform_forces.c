@@ -32,8 +32,7 @@ static struct extent extent_of(const struct consistent *c, const struct sparse *
 static bool divide_along(struct consistent *c, int component, int axis, struct extent *extent, double *field,
                          double *line)
 {
-    const struct band *inverse = c->hform->inverse[component][axis];
-    if (c->slot[axis] == DEPTH) inverse = part_matrix(c, inverse);
+    const struct band *inverse = part_matrix(c, c->slot[axis], c->hform->inverse[component][axis]);
     if (inverse == NULL) return false;
     const double density = c->weighted[WEIGHT_DENSITY] == NULL && axis == 0 ? c->property[WEIGHT_DENSITY] : 1;
     const size_t stride[3] = {1, c->n[0], c->plane};

@@ -50,14 +50,13 @@ void consistent_add_product(const struct consistent *c, double *const line[3], i
     static const double one[1] = {1};
     const double *by_slot[3] = {one, one, one};
     for (int axis = 0; axis < c->dimension; axis++)
-        by_slot[c->slot[axis]] = line[axis];
+        by_slot[c->slot[axis]] = line[axis] + c->part.along[c->slot[axis]].first;
     double *out = field + (size_t)component * c->volume;
     for (size_t k = 0; k < c->n[2]; k++) {
-        const double depth = by_slot[2][c->part.first + k];
-        if (depth == 0) continue;
+        if (by_slot[2][k] == 0) continue;
         for (size_t j = 0; j < c->n[1]; j++)
             for (size_t i = 0; i < c->n[0]; i++)
-                out[k * c->plane + j * c->n[0] + i] += factor * by_slot[0][i] * by_slot[1][j] * depth;
+                out[k * c->plane + j * c->n[0] + i] += factor * by_slot[0][i] * by_slot[1][j] * by_slot[2][k];
     }
 }
 

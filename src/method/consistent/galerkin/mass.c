@@ -90,14 +90,15 @@ static void solve_rows(const double *factor, size_t n, size_t half, size_t rows,
     }
 }
 
+/* Along x, and along y if the rank has all rows. */
 static void solve_plane(const struct consistent *c, const struct mass_factors *factors, int thread, size_t k,
                         double *a)
 {
     double *buffer = c->lane_buffer + (size_t)thread * c->n[0] * LINES;
     for (int component = 0; component < c->dimension; component++) {
         double *plane = a + (size_t)component * c->volume + k * c->plane;
-        double *const *side = factors->side[c->plane_class[c->part.first + k]][component];
-        if (side[1] != NULL) {
+        double *const *side = factors->side[c->plane_class[c->part.along[DEPTH].first + k]][component];
+        if (side[1] != NULL && !part_rows(&c->part)) {
             band_forward(side[1], c->n[1], factors->half[1], plane, c->n[0], c->n[0]);
             band_backward(side[1], c->n[1], factors->half[1], plane, c->n[0], c->n[0]);
         }
@@ -105,8 +106,8 @@ static void solve_plane(const struct consistent *c, const struct mass_factors *f
     }
 }
 
-/* One half of the solves over depth. */
-struct depth_solve {
+/* One half of the solves over depth or rows. */
+struct part_solve {
     const struct consistent *c;
     const struct mass_factors *factors;
     bool forward;
@@ -117,10 +118,11 @@ struct depth_solve {
 static void solve_planes(void *context, size_t from_plane, size_t end_plane)
 {
     enum { CHUNK = 128 };
-    const struct depth_solve *solve = context;
+    const struct part_solve *solve = context;
     const struct consistent *c = solve->c;
     const struct mass_factors *factors = solve->factors;
-    const struct band_rows rows = {c->part.whole, c->part.first, from_plane, end_plane};
+    const struct band_rows rows = {c->part.along[DEPTH].whole, c->part.along[DEPTH].first, from_plane,
+                                   end_plane};
     const size_t chunks = (c->plane + CHUNK - 1) / CHUNK, all = chunks * (size_t)c->dimension;
     const double scale = c->weighted[WEIGHT_DENSITY] == NULL ? 1 / c->property[WEIGHT_DENSITY] : 1;
 #pragma omp parallel for num_threads(c->threads) schedule(static)
@@ -139,21 +141,41 @@ static void solve_planes(void *context, size_t from_plane, size_t end_plane)
     }
 }
 
-static void solve_depth(const struct consistent *c, const struct mass_factors *factors, bool forward,
-                        double *a)
+/* Rows from .. end - 1 of own planes. */
+static void solve_along_y(void *context, size_t from, size_t end)
 {
-    struct depth_solve solve = {c, factors, forward, a};
-    part_sweep(c, forward, factors->half[DEPTH], a, (size_t)c->dimension, c->volume * sizeof *a,
-               c->plane * sizeof *a, solve_planes, &solve);
+    const struct part_solve *solve = context;
+    const struct consistent *c = solve->c;
+    const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH];
+    const struct band_rows rows = {y->whole, y->first, from, end};
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = z->own; k < z->end; k++)
+        for (size_t component = 0; component < 3; component++) {
+            const double *factor = solve->factors->side[c->plane_class[z->first + k]][component][1];
+            double *plane = solve->a + component * c->volume + k * c->plane;
+            (solve->forward ? band_forward_rows : band_backward_rows)(factor, &rows, solve->factors->half[1],
+                                                                      plane, c->n[0], c->n[0]);
+        }
+}
+
+static void solve_over(const struct consistent *c, int slot, const struct mass_factors *factors, bool forward,
+                       double *a)
+{
+    struct part_solve solve = {c, factors, forward, a};
+    const struct part_fields fields = part_values(c, a, (size_t)c->dimension, sizeof *a);
+    part_sweep(c, slot, forward, factors->half[slot], &fields, slot == DEPTH ? solve_planes : solve_along_y,
+               &solve);
 }
 
 void mass_solve(struct consistent *c, const struct mass_factors *factors, double *a)
 {
-    solve_depth(c, factors, true, a);
+    solve_over(c, DEPTH, factors, true, a);
+    for (int back = 0; back < 2 && part_rows(&c->part); back++)
+        solve_over(c, 1, factors, back == 0, a);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = c->part.own; k < c->part.end; k++)
+    for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++)
         solve_plane(c, factors, omp_get_thread_num(), k, a);
-    solve_depth(c, factors, false, a);
+    solve_over(c, DEPTH, factors, false, a);
 }
 
 /* With layers the dampers of a face across x or y vary over depth: with M = L L^T over depth and diag(c) the
@@ -163,7 +185,7 @@ static bool lay_sides(struct consistent *c)
 {
     if (c->weighted[WEIGHT_DENSITY] == NULL) return true;
     const struct mass_factors *factors = mass_factors_for(c, 0);
-    const size_t n = c->part.whole, half = half_width(c, DEPTH);
+    const size_t n = c->part.along[DEPTH].whole, half = half_width(c, DEPTH);
     for (int face = 0; face < 2 * c->dimension; face++)
         for (int component = 0; component < c->dimension; component++) {
             if (!c->damped[face] || c->slot[face / 2] == DEPTH) continue;
@@ -177,7 +199,7 @@ static bool lay_sides(struct consistent *c)
                         const double right = j == m ? 1 / factor[m] : factor[(j - m) * n + j];
                         band_add(side, i, j, left * speed[m] * right);
                     }
-            c->side[face][component] = band_cut(side, c->part.first, c->n[DEPTH]);
+            c->side[face][component] = band_cut(side, c->part.along[DEPTH].first, c->n[DEPTH]);
             band_free(side);
             if (c->side[face][component] == NULL) return false;
         }

@@ -145,13 +145,16 @@ void moving_loads_add(const struct consistent *c, const struct drive *drive, int
         const struct moving_line *line[3];
         if (moving->direction[component] == 0) continue;
         by_slot(c, moving, component, line);
-        const size_t depth = c->part.first + k;
+        const size_t depth = c->part.along[DEPTH].first + k;
         if (depth < line[2]->from || depth >= line[2]->to) continue;
         const double factor = drive->load[moving->load] * c->model.scene->load[moving->load].amplitude *
                               moving->direction[component] * line[2]->value[depth];
-        for (size_t j = line[1]->from; factor != 0 && j < line[1]->to; j++)
+        for (size_t j = 0; factor != 0 && j < c->n[1]; j++) {
+            const size_t row = c->part.along[1].first + j;
+            if (row < line[1]->from || row >= line[1]->to) continue;
             for (size_t i = line[0]->from; i < line[0]->to; i++)
-                plane[j * c->n[0] + i] += factor * line[1]->value[j] * line[0]->value[i];
+                plane[j * c->n[0] + i] += factor * line[1]->value[row] * line[0]->value[i];
+        }
     }
 }
 
@@ -166,14 +169,17 @@ double moving_loads_power(const struct consistent *c, const struct drive *drive,
             if (moving->direction[component] == 0) continue;
             by_slot(c, moving, component, line);
             const double *field = v + (size_t)component * c->volume;
-            for (size_t k = c->part.own; k < c->part.end; k++) {
-                const size_t depth = c->part.first + k;
+            for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++) {
+                const size_t depth = c->part.along[DEPTH].first + k;
                 if (depth < line[2]->from || depth >= line[2]->to) continue;
-                for (size_t j = line[1]->from; j < line[1]->to; j++)
+                for (size_t j = c->part.along[1].own; j < c->part.along[1].end; j++) {
+                    const size_t row = c->part.along[1].first + j;
+                    if (row < line[1]->from || row >= line[1]->to) continue;
                     for (size_t i = line[0]->from; i < line[0]->to; i++)
                         power += amplitude * moving->direction[component] * line[2]->value[depth] *
-                                 line[1]->value[j] * line[0]->value[i] *
+                                 line[1]->value[row] * line[0]->value[i] *
                                  field[k * c->plane + j * c->n[0] + i];
+                }
             }
         }
     }

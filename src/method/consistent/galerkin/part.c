@@ -1,214 +1,62 @@
-/* Parts of a body (part.h). */
+/* Parts of a body (part.h): what a window has of the whole, what ranks tell each other. */
 #include "method/consistent/galerkin/galerkin.h"
 
 #include "base/memory.h"
 #include "base/sums.h"
-#include "scene/absorbing_layers.h"
 
 #include <string.h>
 
-/* --- Sharing the planes ------------------------------------------------------------------------------- */
-
-static size_t rounded_up(size_t n)
-{
-    return (n + PART_UNIT - 1) / PART_UNIT * PART_UNIT;
-}
-
-/* Planes that the operator reaches: N K, of the dissipation N B^T B; without sweeps K alone. */
-static size_t reach_of(const struct consistent_options *options)
-{
-    enum { DIFFERENCE = 4 };
-    const size_t degree = (size_t)options->degree, sweeps = (size_t)options->sweeps;
-    const size_t narrow = options->dissipation > 0 && degree < DIFFERENCE ? DIFFERENCE : degree;
-    return sweeps == 0 ? degree : sweeps * degree + narrow;
-}
-
-/* Planes that a rank has at least: the halo of its neighbours; at the ends a whole layer and all that it moves. */
-static size_t least_of(const struct consistent *c, int rank, int ranks)
-{
-    const int face = 2 * (c->dimension - 1);
-    const size_t low = rank == 0 ? c->layer[face] : 0, high = rank == ranks - 1 ? c->layer[face + 1] : 0;
-    const size_t layers = low + high;
-    return rounded_up(c->part.halo + (layers > 0 ? layers + 1 : 0));
-}
-
-/* What a plane of the body costs; 1: no layers. */
-static double cost_of(const struct consistent *c, size_t k)
-{
-    const int last = c->dimension - 1;
-    double plain = k >= c->layer[2 * last] && k + c->layer[2 * last + 1] < c->part.whole ? 1 : 0;
-    for (int axis = 0; axis < last; axis++)
-        plain *= 1 - (double)(c->layer[2 * axis] + c->layer[2 * axis + 1]) / (double)c->n[c->slot[axis]];
-    return plain + layer_cost(c->model.scene) * (1 - plain);
-}
-
-/* Half of what the planes from k on cost that go to one rank. */
-static double half_unit(const struct consistent *c, size_t k)
-{
-    double sum = 0;
-    for (size_t i = k; i < k + PART_UNIT && i < c->part.whole; i++)
-        sum += cost_of(c, i) / 2;
-    return sum;
-}
-
-/* Bounds of so many ranks, of costs as even as can be; false: there are too many ranks. */
-static bool share(const struct consistent *c, int ranks, size_t *bound)
-{
-    const size_t count = (size_t)ranks;
-    double all = 0, done = 0;
-    for (size_t k = 0; k < c->part.whole; k++)
-        all += cost_of(c, k);
-    size_t rank = 0;
-    for (size_t k = 0; k < c->part.whole; k++) {
-        if (k % PART_UNIT == 0)
-            while (rank < count && done + half_unit(c, k) >= all * (double)rank / (double)count)
-                bound[rank++] = k;
-        done += cost_of(c, k);
-    }
-    while (rank <= count)
-        bound[rank++] = c->part.whole;
-    for (int r = 0; r + 1 < ranks; r++)
-        if (bound[r + 1] < bound[r] + least_of(c, r, ranks)) bound[r + 1] = bound[r] + least_of(c, r, ranks);
-    for (int r = ranks - 1; r > 0; r--) {
-        const size_t least = least_of(c, r, ranks);
-        if (bound[r + 1] < least) return false;
-        if (bound[r] > bound[r + 1] - least) bound[r] = (bound[r + 1] - least) / PART_UNIT * PART_UNIT;
-    }
-    for (int r = 0; r < ranks; r++)
-        if (bound[r + 1] < bound[r] + least_of(c, r, ranks)) return false;
-    return true;
-}
-
-selas_status part_lay(struct consistent *c, struct messages *messages)
-{
-    struct rank_part *part = &c->part;
-    const size_t whole = c->n[DEPTH];
-    part->whole = part->end = whole;
-    part->ranks = c->model.scene->ranks;
-    if (part->ranks == NULL) return SELAS_OK;
-    part->halo = rounded_up(reach_of(&c->options));
-    int ranks = ranks_count(part->ranks);
-    part->bound = array_new((size_t)ranks + 1, sizeof *part->bound);
-    if (part->bound == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
-    while (ranks > 1 && !share(c, ranks, part->bound))
-        ranks--;
-    if (ranks == 1) part->bound[1] = whole;
-    if (ranks < ranks_count(part->ranks) && ranks_fixed(part->ranks))
-        return fail(
-            messages, SELAS_UNSUPPORTED,
-            "%d of the %d ranks of the communicator would have work: the body has %zu planes over its "
-            "last axis, a rank needs at least %zu; open it with %d ranks",
-            ranks, ranks_count(part->ranks), whole, least_of(c, -1, 1), ranks);
-    if (ranks < ranks_count(part->ranks))
-        warn(messages,
-             "%d of %d ranks have work: the body has %zu planes over its last axis, a rank needs at least "
-             "%zu of them "
-             "and the points of absorbing layers across that axis",
-             ranks, ranks_count(part->ranks), whole, least_of(c, -1, 1));
-    ranks_take(part->ranks, ranks);
-    if (ranks_idle(part->ranks)) return SELAS_STOPPED;
-    const size_t me = (size_t)ranks_me(part->ranks);
-    const size_t from = part->bound[me], end = part->bound[me + 1];
-    part->first = from < part->halo ? 0 : from - part->halo;
-    part->own = from - part->first;
-    part->end = end - part->first;
-    c->n[DEPTH] = (end + part->halo < whole ? end + part->halo : whole) - part->first;
-    return SELAS_OK;
-}
-
-void part_free(struct consistent *c)
-{
-    for (size_t i = 0; i < c->part.matrices; i++)
-        if (c->part.cut[i] != c->part.matrix[i]) band_free(c->part.cut[i]);
-    array_free(c->part.bound);
-}
-
 /* --- What the window has of the whole ----------------------------------------------------------------- */
 
-const struct band *part_matrix(struct consistent *c, const struct band *whole)
+const struct band *part_matrix(struct consistent *c, int slot, const struct band *whole)
 {
     struct rank_part *part = &c->part;
-    if (whole == NULL || part->whole == c->n[DEPTH]) return whole;
+    const size_t n = part->along[slot].whole;
+    if (whole == NULL || n == c->n[slot] || n != whole->n) return whole;
     for (size_t i = 0; i < part->matrices; i++)
-        if (part->matrix[i] == whole) return part->cut[i];
-    struct band *cut = part->matrices == PART_MATRICES ? NULL : band_cut(whole, part->first, c->n[DEPTH]);
+        if (part->matrix[i].whole == whole && part->matrix[i].slot == slot) return part->matrix[i].cut;
+    struct band *cut =
+        part->matrices == PART_MATRICES ? NULL : band_cut(whole, part->along[slot].first, c->n[slot]);
     if (cut == NULL) return NULL;
-    part->matrix[part->matrices] = whole;
-    part->cut[part->matrices++] = cut;
+    part->matrix[part->matrices].slot = slot;
+    part->matrix[part->matrices].whole = whole;
+    part->matrix[part->matrices++].cut = cut;
     return cut;
 }
 
 bool part_terms(struct consistent *c, struct tensor_term *terms, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        const struct band **depth = &terms[i].matrix[DEPTH];
-        if (*depth == NULL) continue;
-        *depth = part_matrix(c, *depth);
-        if (*depth == NULL) return false;
-    }
+    for (size_t i = 0; i < count; i++)
+        for (int slot = 0; slot < 3; slot++) {
+            const struct band **matrix = &terms[i].matrix[slot];
+            if (*matrix == NULL) continue;
+            *matrix = part_matrix(c, slot, *matrix);
+            if (*matrix == NULL) return false;
+        }
     return true;
-}
-
-size_t part_plane(const struct consistent *c, size_t plane)
-{
-    return plane >= c->part.first && plane - c->part.first < c->n[DEPTH] ? plane - c->part.first : SIZE_MAX;
 }
 
 size_t part_face(const struct consistent *c, int face)
 {
     const int slot = c->slot[face / 2];
-    if (slot == DEPTH) return part_plane(c, face % 2 == 0 ? 0 : c->part.whole - 1);
-    return face % 2 == 0 ? 0 : c->n[slot] - 1;
+    const struct part_axis *along = &c->part.along[slot];
+    const size_t at = face % 2 == 0 ? 0 : along->whole - 1;
+    return at >= along->first && at - along->first < c->n[slot] ? at - along->first : SIZE_MAX;
 }
 
-int part_holder(const struct consistent *c, size_t plane)
+/* Which part along a slot has a plane or row of the body for its own. */
+static int part_of(const struct part_axis *along, size_t at)
 {
     int rank = 0;
-    while (c->part.bound != NULL && plane >= c->part.bound[rank + 1])
+    while (along->bound != NULL && at >= along->bound[rank + 1])
         rank++;
     return rank;
 }
 
-/* --- Exchange ----------------------------------------------------------------------------------------- */
-
-/* Planes `from` .. `end` - 1 of fields, sent or received. */
-struct planes {
-    size_t from, end;
-};
-
-struct fields {
-    char *field;
-    size_t fields, apart, plane;
-};
-
-enum { MOST_FIELDS = 32 };
-
-static void add_pieces(const struct fields *f, int with, struct planes send, struct planes receive,
-                       size_t *pieces, struct ranks_piece *piece)
+int part_holder(const struct consistent *c, size_t j, size_t k)
 {
-    for (size_t i = 0; i < f->fields; i++) {
-        char *field = f->field + i * f->apart;
-        piece[(*pieces)++] =
-            (struct ranks_piece){with, field + send.from * f->plane, field + receive.from * f->plane,
-                                 (send.end - send.from) * f->plane, (receive.end - receive.from) * f->plane};
-    }
-}
-
-void part_exchange(const struct consistent *c, void *field, size_t fields, size_t apart, size_t plane)
-{
-    const struct rank_part *part = &c->part;
-    const struct fields f = {field, fields, apart, plane};
-    struct ranks_piece piece[2 * MOST_FIELDS];
-    size_t pieces = 0;
-    if (part->ranks == NULL || fields > MOST_FIELDS) return;
-    const int me = ranks_me(part->ranks);
-    if (me > 0)
-        add_pieces(&f, me - 1, (struct planes){part->own, part->own + part->halo},
-                   (struct planes){0, part->own}, &pieces, piece);
-    if (me + 1 < ranks_count(part->ranks))
-        add_pieces(&f, me + 1, (struct planes){part->end - part->halo, part->end},
-                   (struct planes){part->end, c->n[DEPTH]}, &pieces, piece);
-    ranks_exchange(part->ranks, pieces, piece);
+    const struct part_axis *along = c->part.along;
+    return part_of(&along[1], j) + along[1].ranks * part_of(&along[2], k);
 }
 
 double part_largest(const struct consistent *c, double value)
@@ -219,38 +67,160 @@ double part_largest(const struct consistent *c, double value)
 
 double part_product(const struct consistent *c, const double *x, const double *y)
 {
+    const struct part_axis *rows = &c->part.along[1], *planes = &c->part.along[DEPTH];
+    const size_t nx = c->n[0];
     double sum = 0;
     if (c->part.ranks == NULL) return sum_of_products(c->model.unknowns, x, y, c->threads);
     for (size_t component = 0; component < (size_t)c->dimension; component++) {
-        const size_t from = component * c->volume + c->part.own * c->plane;
-        sum += sum_of_products((c->part.end - c->part.own) * c->plane, x + from, y + from, c->threads);
+        const size_t from = component * c->volume + planes->own * c->plane;
+        if (!part_rows(&c->part)) {
+            sum += sum_of_products((planes->end - planes->own) * c->plane, x + from, y + from, c->threads);
+            continue;
+        }
+        for (size_t k = planes->own; k < planes->end; k++) {
+            const size_t at = component * c->volume + k * c->plane + rows->own * nx;
+            sum += sum_of_products((rows->end - rows->own) * nx, x + at, y + at, 1);
+        }
     }
     return sum;
 }
 
-void part_sweep(const struct consistent *c, bool forward, size_t reach, double *field, size_t fields,
-                size_t apart, size_t plane, void (*work)(void *context, size_t from, size_t end),
+/* --- Exchange ----------------------------------------------------------------------------------------- */
+
+/* Planes or rows from .. end - 1. */
+struct range {
+    size_t from, end;
+};
+
+static size_t length(struct range range)
+{
+    return range.end - range.from;
+}
+
+enum { MOST_FIELDS = 32 };
+
+/* Messages of an exchange along a slot. */
+struct messages_of {
+    const struct consistent *c;
+    const struct part_fields *fields;
+    int slot;
+    size_t pieces;
+    struct ranks_piece piece[2 * MOST_FIELDS];
+    struct range received[2]; /* rows, of the neighbours before and behind */
+};
+
+struct part_fields part_values(const struct consistent *c, void *field, size_t fields, size_t number)
+{
+    const size_t plane = c->plane * number;
+    return (struct part_fields){field, fields, c->volume * number, plane, 1, plane, c->n[0] * number};
+}
+
+/* Planes whose rows are sent: own ones. */
+static struct range planes_of(const struct consistent *c, const struct part_fields *f)
+{
+    const struct part_axis *planes = &c->part.along[DEPTH];
+    return f->plane == 0 ? (struct range){0, 1} : (struct range){planes->own, planes->end};
+}
+
+static size_t bytes_of_rows(const struct consistent *c, const struct part_fields *f, size_t rows)
+{
+    return f->fields * length(planes_of(c, f)) * f->lines * rows * f->row;
+}
+
+/* Rows of own planes between fields and room. */
+static void pack(const struct consistent *c, const struct part_fields *f, struct range rows, bool out,
+                 char *room)
+{
+    const struct range planes = planes_of(c, f);
+    const size_t bytes = length(rows) * f->row;
+    for (size_t i = 0; i < f->fields; i++)
+        for (size_t k = planes.from; k < planes.end; k++)
+            for (size_t line = 0; line < f->lines; line++, room += bytes) {
+                char *place =
+                    (char *)f->field + i * f->apart + k * f->plane + line * f->line + rows.from * f->row;
+                memcpy(out ? room : place, out ? place : room, bytes);
+            }
+}
+
+static int neighbour(const struct consistent *c, int slot, int side)
+{
+    const int step = slot == DEPTH ? c->part.along[1].ranks : 1;
+    return ranks_me(c->part.ranks) + (side == 0 ? -step : step);
+}
+
+static void add_pieces(struct messages_of *m, int side, struct range send, struct range receive)
+{
+    const struct part_fields *f = m->fields;
+    const int with = neighbour(m->c, m->slot, side);
+    if (m->slot == 1) {
+        char *const *room = m->c->part.room + 2 * side;
+        pack(m->c, f, send, true, room[0]);
+        m->received[side] = receive;
+        m->piece[m->pieces++] =
+            (struct ranks_piece){with, room[0], room[1], bytes_of_rows(m->c, f, length(send)),
+                                 bytes_of_rows(m->c, f, length(receive))};
+        return;
+    }
+    for (size_t i = 0; i < f->fields; i++) {
+        char *field = (char *)f->field + i * f->apart;
+        m->piece[m->pieces++] =
+            (struct ranks_piece){with, field + send.from * f->plane, field + receive.from * f->plane,
+                                 length(send) * f->plane, length(receive) * f->plane};
+    }
+}
+
+static void send_all(struct messages_of *m)
+{
+    ranks_exchange(m->c->part.ranks, m->pieces, m->piece);
+    for (int side = 0; side < 2 && m->slot == 1; side++)
+        if (length(m->received[side]) > 0)
+            pack(m->c, m->fields, m->received[side], false, m->c->part.room[2 * side + 1]);
+}
+
+/* Is anything of the fields shared along the slot? */
+static bool shared_along(const struct consistent *c, int slot, const struct part_fields *f)
+{
+    return c->part.along[slot].ranks > 1 && (slot == DEPTH ? f->plane : f->row) > 0;
+}
+
+/* Rows of own planes first, then planes with all rows of the window, so that corners are right. */
+void part_exchange(const struct consistent *c, const struct part_fields *fields)
+{
+    if (fields->fields > MOST_FIELDS) return;
+    for (int slot = 1; slot < 3; slot++) {
+        const struct part_axis *a = &c->part.along[slot];
+        struct messages_of m = {.c = c, .fields = fields, .slot = slot};
+        if (!shared_along(c, slot, fields)) continue;
+        if (a->me > 0) add_pieces(&m, 0, (struct range){a->own, a->own + a->halo}, (struct range){0, a->own});
+        if (a->me + 1 < a->ranks)
+            add_pieces(&m, 1, (struct range){a->end - a->halo, a->end}, (struct range){a->end, c->n[slot]});
+        send_all(&m);
+    }
+}
+
+double part_bytes(const struct consistent *c, const struct part_fields *f)
+{
+    const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH];
+    const int beside = (y->me > 0) + (y->me + 1 < y->ranks), above = (z->me > 0) + (z->me + 1 < z->ranks);
+    const double rows = shared_along(c, 1, f) ? (double)bytes_of_rows(c, f, y->halo) : 0;
+    const double planes = shared_along(c, DEPTH, f) ? (double)(f->fields * z->halo * f->plane) : 0;
+    return beside * rows + above * planes;
+}
+
+void part_sweep(const struct consistent *c, int slot, bool forward, size_t reach,
+                const struct part_fields *fields, void (*work)(void *context, size_t from, size_t end),
                 void *context)
 {
-    const struct rank_part *part = &c->part;
-    const struct fields f = {(char *)field, fields, apart, plane};
-    const struct planes none = {0, 0};
-    struct ranks_piece piece[MOST_FIELDS];
-    size_t pieces = 0;
-    const int me = ranks_me(part->ranks), count = ranks_count(part->ranks);
-    const int before = forward ? me - 1 : me + 1, after = forward ? me + 1 : me - 1;
-    if (before >= 0 && before < count)
-        add_pieces(&f, before, none,
-                   forward ? (struct planes){part->own - reach, part->own}
-                           : (struct planes){part->end, part->end + reach},
-                   &pieces, piece);
-    ranks_exchange(part->ranks, pieces, piece);
-    work(context, part->own, part->end);
-    pieces = 0;
-    if (after >= 0 && after < count)
-        add_pieces(&f, after,
-                   forward ? (struct planes){part->end - reach, part->end}
-                           : (struct planes){part->own, part->own + reach},
-                   none, &pieces, piece);
-    ranks_exchange(part->ranks, pieces, piece);
+    const struct part_axis *a = &c->part.along[slot];
+    const struct range none = {0, 0};
+    const struct range low = {a->own, a->own + reach}, high = {a->end - reach, a->end};
+    struct messages_of before = {.c = c, .fields = fields, .slot = slot}, after = before;
+    if (forward ? a->me > 0 : a->me + 1 < a->ranks)
+        add_pieces(&before, forward ? 0 : 1, none,
+                   forward ? (struct range){a->own - reach, a->own} : (struct range){a->end, a->end + reach});
+    send_all(&before);
+    work(context, a->own, a->end);
+    if (forward ? a->me + 1 < a->ranks : a->me > 0)
+        add_pieces(&after, forward ? 1 : 0, forward ? high : low, none);
+    send_all(&after);
 }

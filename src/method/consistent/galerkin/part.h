@@ -1,7 +1,7 @@
-/* The part of a body that a rank has (doc/developers/ranks.md): planes of control values, the slot DEPTH. All ranks
- * know the axes of the whole body; a model's fields have a window of its planes, those of its own and on both
- * sides some of its neighbours', the halo. What is made of a window is right in own planes; the halo gets what
- * the neighbours have made. Alone, the window is the whole body. */
+/* The part of a body that a rank has (doc/developers/ranks.md): a block of control values, planes over depth and in
+ * three dimensions rows over y. All ranks know the axes of the whole body; a model's fields have a window of it, a
+ * rank's own planes and rows and on all sides some of its neighbours', the halo. What is made of a window is right in
+ * own rows of own planes; the halo gets what the neighbours have made. Alone, the window is the whole body. */
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_PART_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_PART_H
 
@@ -14,54 +14,87 @@
 struct band;
 struct consistent;
 
-enum { PART_UNIT = 4, PART_NOWHERE = -1 }; /* windows are whole blocks of FUSED_PLANES planes */
-enum { PART_MATRICES = 192 };
+/* Windows are whole blocks of FUSED_PLANES planes, and for the fused operator whole strips of FUSED_STRIP rows. */
+enum { PART_PLANES = 4, PART_STRIP = 8 };
+enum { PART_MATRICES = 256, PART_NUMBERS = 3 };
+
+/* What a rank has along a slot. */
+struct part_axis {
+    size_t whole;    /* control values of the body */
+    size_t first;    /* the window's first */
+    size_t own, end; /* own ones: own .. end - 1 of the window */
+    size_t halo;     /* on either side, fewer where the body ends */
+    int ranks, me;   /* parts of the body; which of them this is */
+    size_t *bound;   /* [ranks + 1] where own ones begin, in the body; NULL: one part */
+};
 
 struct rank_part {
     struct ranks *ranks; /* NULL: alone */
-    size_t whole;        /* planes of the body */
-    size_t first;        /* the window's first */
-    size_t own, end;     /* own planes: own .. end - 1 of the window */
-    size_t halo;         /* planes on either side, fewer where the body ends */
-    size_t *bound;       /* [count + 1] where the own planes of each rank begin, in the body */
+    struct part_axis along[3];
     size_t matrices;
-    const struct band *matrix[PART_MATRICES]; /* of the whole ... */
-    struct band *cut[PART_MATRICES];          /* ... and the window's part of it */
+    struct {
+        int slot;
+        const struct band *whole;
+        struct band *cut; /* the window's part of it */
+    } matrix[PART_MATRICES];
+    char *room
+        [4]; /* rows that are sent and received, of the neighbours before and behind; NULL: rows are not shared */
 };
 
-/* Shares the planes of the body, after the axes are known: sets c->part and the window's sizes; ranks that are
+/* Shares the control values of the body, after the axes are known: sets c->part and the window's sizes; ranks that are
  * too many become idle, whose status is SELAS_STOPPED. */
 selas_status part_lay(struct consistent *c, struct messages *messages);
 void part_free(struct consistent *c);
 
-/* The window's rows and columns of a matrix over depth, kept by the model; the matrix itself if that is all.
- * NULL: no memory. */
-const struct band *part_matrix(struct consistent *c, const struct band *whole);
+/* Does the rank have a part of the rows alone? */
+static inline bool part_rows(const struct rank_part *part)
+{
+    return part->along[1].ranks > 1;
+}
 
-/* The same for all matrices over depth of a plan's terms; false: no memory. */
+/* The window's rows and columns of a matrix of a slot, kept by the model; the matrix itself if that is all, or
+ * if it is a part already. NULL: no memory. */
+const struct band *part_matrix(struct consistent *c, int slot, const struct band *whole);
+
+/* The same for all matrices of a plan's terms; false: no memory. */
 struct tensor_term;
 bool part_terms(struct consistent *c, struct tensor_term *terms, size_t count);
 
-/* Plane of a body in the window; SIZE_MAX: it is not in it. */
-size_t part_plane(const struct consistent *c, size_t plane);
 /* Index across the face of its control values, in the window; SIZE_MAX: it does not have them. */
 size_t part_face(const struct consistent *c, int face);
-/* The rank that has this plane of the body for its own. */
-int part_holder(const struct consistent *c, size_t plane);
+/* The rank that has row j of plane k of the body for its own. */
+int part_holder(const struct consistent *c, size_t j, size_t k);
+/* Is this control value of the window the rank's own? */
+static inline bool part_owns(const struct rank_part *part, size_t j, size_t k)
+{
+    const struct part_axis *y = &part->along[1], *z = &part->along[2];
+    return j >= y->own && j < y->end && k >= z->own && k < z->end;
+}
 
-/* Together: halo planes become what the neighbours have: `fields` fields of the window, `apart` bytes from one
- * to the next, `plane` bytes a plane. */
-void part_exchange(const struct consistent *c, void *field, size_t fields, size_t apart, size_t plane);
+/* Fields of the window that ranks share, `apart` bytes from one to the next: `plane` bytes a plane (0: there is one,
+ * of a rank alone), in it `lines` lines, `line` bytes apart, of `row` bytes for each row over y (0: they have no
+ * rows). */
+struct part_fields {
+    void *field;
+    size_t fields, apart, plane, lines, line, row;
+};
+/* Fields of control values, `number` bytes each. */
+struct part_fields part_values(const struct consistent *c, void *field, size_t fields, size_t number);
+
+/* Together: halos become what the neighbours have. */
+void part_exchange(const struct consistent *c, const struct part_fields *fields);
 /* Together: the largest of a number of each rank. */
 double part_largest(const struct consistent *c, double value);
-/* x.y of the own planes of two fields of unknowns. */
+/* Bytes that a rank sends in part_exchange(). */
+double part_bytes(const struct consistent *c, const struct part_fields *fields);
+/* x.y of the own control values of two fields of unknowns. */
 double part_product(const struct consistent *c, const double *x, const double *y);
 
-/* Together: work that goes over the planes of the body in their order (or, not `forward`, the other way) and
- * reads `reach` planes before each, not more than the halo has: calls work(context, from, end) for the own planes once
- * those before them are there. Fields as in part_exchange(). */
-void part_sweep(const struct consistent *c, bool forward, size_t reach, double *field, size_t fields,
-                size_t apart, size_t plane, void (*work)(void *context, size_t from, size_t end),
+/* Together: work that goes over the planes, or rows, of the body in their order (or, not `forward`, the other way) and
+ * reads `reach` of them before each, not more than the halo has: calls work(context, from, end) for the own ones once
+ * those before them are there. */
+void part_sweep(const struct consistent *c, int slot, bool forward, size_t reach,
+                const struct part_fields *fields, void (*work)(void *context, size_t from, size_t end),
                 void *context);
 
 #endif

@@ -56,10 +56,11 @@ double sparse_dot(const struct consistent *c, const struct sparse *sparse, const
 {
     double sum = 0;
     for (size_t component = 0; component < (size_t)c->dimension; component++)
-        for (size_t k = c->part.own; k < c->part.end; k++) {
+        for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++) {
             const size_t plane = component * c->n[DEPTH] + k;
             for (size_t e = sparse->start[plane]; e < sparse->start[plane + 1]; e++)
-                sum += sparse->value[e] * field[plane * c->plane + sparse->index[e]];
+                if (part_owns(&c->part, sparse->index[e] / c->n[0], k))
+                    sum += sparse->value[e] * field[plane * c->plane + sparse->index[e]];
         }
     return sum;
 }

@@ -44,9 +44,9 @@ static void lay_cells(struct consistent *c)
 {
     struct general *g = c->general;
     const struct spline *spline = c->layout[DEPTH];
-    const size_t low = spline->mirror[0] ? 1 : 0, beyond = c->part.first + c->n[DEPTH];
-    g->first = c->part.first == 0 ? 0 : c->part.first + low;
-    g->cells[DEPTH] = (beyond == c->part.whole ? spline->cells : beyond + low - 2) - g->first;
+    const size_t low = spline->mirror[0] ? 1 : 0, beyond = c->part.along[DEPTH].first + c->n[DEPTH];
+    g->first = c->part.along[DEPTH].first == 0 ? 0 : c->part.along[DEPTH].first + low;
+    g->cells[DEPTH] = (beyond == c->part.along[DEPTH].whole ? spline->cells : beyond + low - 2) - g->first;
 }
 
 static bool lay_axis(struct consistent *c, int slot)
@@ -66,7 +66,7 @@ static bool lay_axis(struct consistent *c, int slot)
             for (size_t i = 0; spline != NULL && i < count; i++) {
                 lay_taps(spline, odd, general_place(c, slot, (enum at)at, i), &taps[i]);
                 if (slot != DEPTH) continue;
-                taps[i].first -= c->part.first;
+                taps[i].first -= c->part.along[DEPTH].first;
                 const double stretch =
                     grading_stretch(c->model.scene->body.grading, general_place(c, slot, (enum at)at, i));
                 for (size_t d = 0; d < taps[i].count; d++) /* (G19) */

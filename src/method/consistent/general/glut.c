@@ -138,8 +138,9 @@ static void find_stiffness(const struct glut *g, const struct family *family, si
             count[slot] = 2;
         }
     }
-    const size_t own = c->part.first + c->part.own, end = c->part.first + c->part.end;
-    if (from[DEPTH] < own || (from[DEPTH] >= end && end < c->part.whole)) return;
+    const size_t own = c->part.along[DEPTH].first + c->part.along[DEPTH].own,
+                 end = c->part.along[DEPTH].first + c->part.along[DEPTH].end;
+    if (from[DEPTH] < own || (from[DEPTH] >= end && end < c->part.along[DEPTH].whole)) return;
     from[DEPTH] -= c->general->first;
     for (size_t n = 0; n < count[0] * count[1] * count[2]; n++) {
         const size_t step[3] = {n % count[0], n / count[0] % count[1], n / (count[0] * count[1])};

@@ -20,10 +20,10 @@ static bool lay_depth(struct consistent *c, struct hill *hill)
     const struct topography *topography = c->model.scene->body.topography;
     const struct grading *grading = c->model.scene->body.grading;
     const double end = topography->plane + topography->depth;
-    double *control = array_new(c->part.whole, sizeof *control), slope;
+    double *control = array_new(c->part.along[DEPTH].whole, sizeof *control), slope;
     struct band *lu = consistent_collocation(c->layout[DEPTH], false);
     bool good = control != NULL && lu != NULL;
-    for (size_t k = 0; good && k < c->part.whole; k++)
+    for (size_t k = 0; good && k < c->part.along[DEPTH].whole; k++)
         control[k] = topography_share(
             topography, grading_real(grading, c->layout[DEPTH]->greville[k]) - topography->plane, &slope);
     if (good) band_lu_solve(lu, control, 1);
@@ -40,8 +40,8 @@ static bool lay_depth(struct consistent *c, struct hill *hill)
                 break;
             hill->level[at] = m + 1;
             for (size_t d = 0; d < taps->count; d++) {
-                hill->share[at][m] += taps->value[d] * control[c->part.first + taps->first + d];
-                hill->fall[at][m] += taps->slope[d] * control[c->part.first + taps->first + d];
+                hill->share[at][m] += taps->value[d] * control[c->part.along[DEPTH].first + taps->first + d];
+                hill->fall[at][m] += taps->slope[d] * control[c->part.along[DEPTH].first + taps->first + d];
             }
         }
     }

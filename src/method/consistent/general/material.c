@@ -160,7 +160,7 @@ static bool lay_families(struct consistent *c, struct medium *medium, const stru
 /* The integral of a control value's function. */
 static double integral(const struct consistent *c, const struct band *const mass[3], size_t i)
 {
-    const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], c->part.first + i / c->plane};
+    const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], c->part.along[DEPTH].first + i / c->plane};
     double product = 1;
     for (int slot = 0; slot < 3; slot++) {
         double sum = mass[slot] == NULL;

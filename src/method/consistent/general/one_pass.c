@@ -80,7 +80,7 @@ static const char *obstacle(const struct consistent *c)
 {
     if (c->dimension != 3) return "three dimensions";
     for (int slot = 0; slot < 3; slot++)
-        if ((slot == DEPTH ? c->part.whole : c->n[slot]) < (c->options.single ? 16 : 8))
+        if ((slot == DEPTH ? c->part.along[DEPTH].whole : c->n[slot]) < (c->options.single ? 16 : 8))
             return "8 control values along each axis, 16 in single precision";
     if (c->options.unfused) return "method%fused = .true.";
     if (c->moving_loads > 0) return "no moving loads";

@@ -30,6 +30,7 @@ bool general_scale(struct consistent *c, const double *mass)
     double *root = c->general->root, *product = array_new(c->volume, sizeof *product);
     struct tensor_plan *plan = even_mass(c);
     const bool mine = product != NULL && plan != NULL, good = part_largest(c, mine ? 0 : 1) == 0 && mine;
+    const struct part_fields fields = part_values(c, root, 1, sizeof *root);
     double change = 1;
     for (size_t i = 0; i < c->volume; i++)
         root[i] = 1;
@@ -43,10 +44,11 @@ bool general_scale(struct consistent *c, const double *mass)
         for (size_t i = 0; i < c->volume; i++) {
             const size_t k = i / c->plane;
             const double next = sqrt(root[i] * mass[i] / product[i]);
-            if (k >= c->part.own && k < c->part.end) change = fmax(change, fabs(next / root[i] - 1));
+            if (k >= c->part.along[DEPTH].own && k < c->part.along[DEPTH].end)
+                change = fmax(change, fabs(next / root[i] - 1));
             root[i] = next;
         }
-        part_exchange(c, root, 1, 0, c->plane * sizeof *root);
+        part_exchange(c, &fields);
         change = part_largest(c, change);
     }
     for (size_t i = 0; i < c->volume; i++)

@@ -64,7 +64,7 @@ static bool lay_inverse(struct consistent *c, struct sweep *s)
     const size_t rows = rounded(s->n[1], FUSED_ROWS), planes = rounded(s->n[2], SWEEP_PLANES);
     for (int component = 0; component < 3; component++) {
         struct band *const *band = c->hform->inverse[component];
-        const struct band *depth = part_matrix(c, band[2]);
+        const struct band *depth = part_matrix(c, DEPTH, band[2]);
         if (depth == NULL) return false;
         s->x[component] = fused_by_vectors(band[0], 1, SWEEP_TAPS, s->width, FUSED_VECTOR / s->number);
         s->y[component] = fused_by_rows(band[1], 1, SWEEP_TAPS, rows);
@@ -202,7 +202,7 @@ bool sweep_create(struct consistent *c)
         s->cells[slot] = c->general->cells[slot];
         for (int end = 0; end < 2; end++)
             s->mirror[slot][end] = c->layout[slot]->mirror[end];
-        s->low[slot] = s->mirror[slot][0] && (slot != DEPTH || c->part.first == 0) ? 1 : 0;
+        s->low[slot] = s->mirror[slot][0] && (slot != DEPTH || c->part.along[DEPTH].first == 0) ? 1 : 0;
     }
     s->width = rounded(s->cells[0] + 2, FUSED_VECTOR / s->number);
     s->stride = s->width + FUSED_VECTOR / s->number;

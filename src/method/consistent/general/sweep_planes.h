@@ -157,7 +157,7 @@ static void go_on_with_plane(const struct pass *pass, const struct rings *r, siz
 static void finish_planes(const struct pass *pass, const struct rings *r, size_t first)
 {
     struct sweep *s = pass->s;
-    if (first < pass->c->part.own || first >= pass->c->part.end) return;
+    if (first < pass->c->part.along[DEPTH].own || first >= pass->c->part.along[DEPTH].end) return;
     const size_t planes = s->n[2] - first < SWEEP_PLANES ? s->n[2] - first : SWEEP_PLANES;
     struct rows rows = {0, 0};
     for (size_t k = less(first, SWEEP_REACH); k < first + planes + SWEEP_REACH && k < s->n[2]; k++)

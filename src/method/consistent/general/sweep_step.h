@@ -137,7 +137,8 @@ static void sweep_over(struct pass *pass)
         if (stage == BRING && !pass->moving) pass->level = s->quiet * largest_size(pass);
     }
     s->largest = largest_size(pass);
-    part_exchange(pass->c, pass->out, 3, s->volume * sizeof(REAL), s->plane * sizeof(REAL));
+    const struct part_fields fields = part_values(pass->c, pass->out, 3, sizeof(REAL));
+    part_exchange(pass->c, &fields);
 }
 
 static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, double *extra,
@@ -156,7 +157,7 @@ static void find_reached(const struct consistent *c, const REAL *u, const REAL *
     struct sweep *s = c->general->sweep;
     s->largest = 0;
     for (size_t k = 0; k < s->n[2]; k++) {
-        const bool halo = k < c->part.own || k >= c->part.end;
+        const bool halo = k < c->part.along[DEPTH].own || k >= c->part.along[DEPTH].end;
         s->reached[k] = (struct rows){0, halo ? s->n[1] : 0};
         for (size_t component = 0; component < 3; component++)
             for (size_t j = 0; j < s->n[1]; j++) {

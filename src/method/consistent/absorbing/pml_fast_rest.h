@@ -1,0 +1,104 @@
+/* Rows of absorbing layers in which nothing moves (pml_fast.h); part of pml_fast_steps.h. */
+
+/* Up to here displacements, velocities, slopes and accelerations move nothing. */
+struct level {
+    REAL displacement, velocity, slope, force;
+};
+
+/* (Displacements in the middle of a step are u + to_middle v, and v reaches farther than u.) */
+static struct level levels(const struct consistent *c, double displacement, double to_middle)
+{
+    const double spacing = c->model.scene->body.spacing;
+    const double stiffness = pow(consistent_fastest(c, FACE_X_LOW), 2);
+    if (!(c->options.quiet > 0)) return (struct level){-1, -1, -1, -1};
+    return (struct level){(REAL)displacement, (REAL)(displacement / fabs(to_middle)),
+                          (REAL)(displacement / spacing),
+                          (REAL)(displacement * stiffness / (spacing * spacing))};
+}
+
+/* Memory of row b: is any of it larger than the level? */
+static bool memory_loud(const struct fast_slab *s, struct level level, size_t b, const REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    const REAL *psi = extra + s->slab->psi + b * size, *phi = extra + s->slab->phi + b * size;
+    return kernels()->loud(3, inner, size, level.slope, psi) ||
+           kernels()->loud(3, inner, size, level.force, phi);
+}
+
+/* Is any number larger than the level that row b reads of a field? */
+static bool field_loud(const struct consistent *c, const struct fast_slab *s, REAL level, size_t b,
+                       const REAL *field)
+{
+    const bool across = s->step[ROLE_F] != 1; /* then numbers of a row along s stand together */
+    for (size_t i = 0; i < 3; i++) {
+        const REAL *from = field + i * c->volume + s->first + b * s->step[ROLE_B];
+        if (across ? kernels()->loud(s->nf, s->step[ROLE_F], s->region, level, from)
+                   : kernels()->loud(s->region, s->step[ROLE_S], s->nf, level, from))
+            return true;
+    }
+    return false;
+}
+
+/* Is the row at rest: displacements and velocities that it reads, and memory? */
+static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
+                  const REAL *u, const REAL *v, const REAL *extra)
+{
+    return level.displacement >= 0 && !field_loud(c, s, level.displacement, b, u) &&
+           !field_loud(c, s, level.velocity, b, v) && !memory_loud(s, level, b, extra);
+}
+
+/* What is left of memory in a row at rest. */
+static void forget_row(const struct fast_slab *s, size_t b, REAL *extra)
+{
+    const size_t size = s->ns * s->width, inner = s->nb * size;
+    for (size_t i = 0; i < 3; i++) {
+        memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
+        memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
+    }
+    for (size_t i = 0; i < s->parts; i++)
+        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
+    for (size_t n = 0; n < s->overs; n++)
+        memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
+    memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
+}
+
+/* Do ranks share the rows of the slab along f? Then what rests in one of them may move in another. */
+static bool shares_rows(const struct consistent *c, const struct fast_slab *s)
+{
+    return part_rows(&c->part) && s->axis[ROLE_F] == 1 && c->options.quiet > 0;
+}
+
+/* Together: rows that rest, or with `groups` groups of rows that move, become those of all ranks. */
+static void agree(const struct consistent *c, bool groups)
+{
+    const size_t whole = c->part.along[DEPTH].whole;
+    double *told = FAST(c)->told;
+    if (!part_rows(&c->part) || !(c->options.quiet > 0)) return;
+    for (int turn = 0; turn < 2; turn++) {
+        if (turn == 1) ranks_largest(c->part.ranks, 2 * whole, told);
+        if (turn == 0) memset(told, 0, 2 * whole * sizeof *told);
+        for (size_t i = 0; i < c->pml->slabs; i++) {
+            const struct fast_slab *s = &FAST(c)->slab[i];
+            double *moves = told + (size_t)s->slab->end * whole + s->first_b;
+            if (!shares_rows(c, s)) continue;
+            for (size_t n = 0; n < (groups ? s->pull_b.groups : s->nb); n++) {
+                double *tell = moves + (groups ? s->pull_b.group[n].to : n);
+                bool *flag = groups ? &s->moves[n] : &s->rests[n];
+                if (turn == 0)
+                    *tell = *flag == groups ? 1 : 0;
+                else
+                    *flag = (*tell > 0) == groups;
+            }
+        }
+    }
+}
+
+/* Do all rows rest that a group of rows is made from? */
+static bool group_rests(const struct fast_slab *s, size_t g)
+{
+    const struct row_group *group = &s->pull_b.group[g];
+    const size_t reach = s->taps_f / 2, end = group->to + group->rows + reach;
+    for (size_t b = group->to < reach ? 0 : group->to - reach; b < end && b < s->nb; b++)
+        if (!s->rests[b]) return false;
+    return true;
+}
