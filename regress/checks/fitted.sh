@@ -1,6 +1,6 @@
 #!/bin/sh
 # The box that the program fits around a half-space knows everything that acts and everything that is looked at, and says or
-# refuses what it cannot hold (doc/reference/scene.md, section 8). With `night` as the second word the costly ones too.
+# refuses what it cannot hold (doc/reference/scene.md, section 7). With `night` as the second word the costly ones too.
 build=${1:-build}
 out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT

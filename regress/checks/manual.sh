@@ -1,7 +1,7 @@
 #!/bin/sh
 # The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
 # contents (doc/README.md), every page that the source or a script names is there, and every file that a page names, every
-# command and option of --help is in the man page; messages and warnings of the source and doc/howto/troubleshooting.md fit. Argument: the build folder. Prints TAP.
+# command and option of --help is in the man page; messages and warnings of the source and doc/howto/troubleshooting.md fit, no sum looks like a list to Markdown. Argument: the build folder. Prints TAP.
 selas=$(cd "${1:-build}" && pwd)/selas
 cd "$(dirname "$0")/../.." || exit 1
 texts=$(mktemp) || exit 1
@@ -45,6 +45,13 @@ verdict 'every file of the source that the manual names is there' "$(
     grep -hoE '`(src|input|regress/(checks|studies|unit))/[a-z0-9_/*.-]+`' $pages | tr -d '`' | sort -u | while read -r path; do
         ls -d $path >/dev/null 2>&1 || echo "$path"
     done
+)"
+verdict 'no line of a paragraph or an equation begins like an item of a list' "$(
+    # shellcheck disable=SC2086 # the pages are several words
+    awk 'FNR == 1 { list = math = code = 0; before = "" }
+        /^```/ { code = !code }
+        !code && /^ *([-+*]|[0-9]+\.) / && (math || (before != "" && !list)) { print FILENAME ": " FNR ": " $0 }
+        { list = $0 != "" && (list || /^ *([-+*]|[0-9]+\.) /); math = (math + gsub(/\$\$/, "")) % 2; before = $0 }' $pages
 )"
 verdict 'every message of doc/howto/troubleshooting.md is one of the source' "$(
     find src -name '*.[ch]' -exec cat {} + | tr '\n' ' ' | sed "s/\" *\"//g; s/%%/%/g; s/\\\\'/'/g" >"$texts"

@@ -1,6 +1,6 @@
 /* Closed form of Lamb's problem on the surface, any Poisson ratio: Pekeris (1955), Proc. Natl. Acad. Sci. 41,
  * 469-480; Mooney (1974), Bull. Seismol. Soc. Am. 64, 473-491; in the form of Kausel (2012), Proc. R. Soc. A
- * 468, 3751-3769. Integrated over the patch by its edge (doc/theory/lamb.md, Eqs 11, 12), theta and r polar coordinates
+ * 468, 3751-3769. Integrated over the patch by its edge (doc/theory/lamb.md), theta and r polar coordinates
  * about the receiver:
  *
  *   step response = 1/(2 pi mu) contour integral of d(theta) cs t W(r/(cs t)),

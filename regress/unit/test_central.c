@@ -1,4 +1,4 @@
-/* Total-Lagrangian points with central differences on a lattice (doc/theory/sph-total-lagrangian.md, section 11):
+/* Total-Lagrangian points with central differences on a lattice (doc/theory/sph-total-lagrangian.md, section 10):
  * gradients, loads, receivers and the speed of surface waves. */
 #include "base/memory.h"
 #include "box_scene.h"

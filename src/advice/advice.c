@@ -21,61 +21,23 @@ void advise(struct adviser *adviser, const char *format, ...)
     adviser->count++;
 }
 
-/* Waves of fewer points are not waves but noise, whatever the method. */
-static const double fewest = 4.0;
-
 static void look_at_resolution(struct adviser *adviser)
 {
-    const double spacing = adviser->scene->body.spacing, points = points_per_wavelength(adviser->scene);
-    if (points > 0.0 && points < fewest)
+    const struct scene *scene = adviser->scene;
+    const double spacing = scene->body.spacing, points = points_per_wavelength(scene);
+    const double slowest = slowest_speed(scene);
+    const bool told = scene->reference.kind[0] != '\0'; /* by the exact solution */
+    if (isinf(source_cutoff(scene)) && !scene_driven(scene) && !told && isfinite(slowest) && spacing > 0)
+        advise(
+            adviser,
+            "a history jumps, into waves of all lengths that the points do not carry: velocities ring behind "
+            "fronts by about a tenth, whatever the spacing; smoothing = %.3g would be right",
+            1.01 * jump_smoothing(FEWEST_POINTS * spacing / slowest));
+    if (points > 0.0 && points < FEWEST_POINTS)
         advise(adviser,
                "%.3g points per wavelength of the slowest wave at the source's cutoff; %g need body%%spacing "
                "= %.3g or a smoother history",
-               points, fewest, spacing * points / fewest);
-}
-
-/* exp(-(x/w)^2 / 2) has 5 % of its spectrum left at k w = 2.448, a wave of 2.567 w. */
-static void look_at_start(struct adviser *adviser)
-{
-    const struct scene *scene = adviser->scene;
-    const struct initial *initial = &scene->initial;
-    double wave = 0.0, centre[3];
-    body_from_deck(&scene->body, initial->centre, centre);
-    if (initial->kind == INITIAL_PLANE_WAVE) /* anywhere */
-        memcpy(centre, scene->body.high, sizeof centre);
-    const double spacing = body_spacing_at(&scene->body, centre);
-    if (initial->kind == INITIAL_PLANE_WAVE) wave = initial->wavelength;
-    if (initial->kind == INITIAL_GAUSSIAN) wave = 2.567 * initial->width;
-    if (wave > 0.0 && spacing > 0.0 && wave < fewest * spacing)
-        advise(adviser, "%.3g points per wavelength of the initial state; %g need body%%spacing = %.3g",
-               wave / spacing, fewest, wave / fewest);
-}
-
-/* A displacement that reaches a free face pulls there at t = 0: a jump of traction, in waves that no lattice
- * carries; what lies beyond an absorbing face is not there. At 3.5 widths it is 2e-3 of the peak. */
-static void look_at_cut_start(struct adviser *adviser)
-{
-    static const double reach = 3.5;
-    const struct scene *scene = adviser->scene;
-    const double width = scene->initial.width;
-    double centre[3];
-    if (scene->initial.kind != INITIAL_GAUSSIAN || !body_is_box(&scene->body)) return;
-    body_from_deck(&scene->body, scene->initial.centre, centre);
-    for (int face = 0; face < 2 * scene->dimension; face++) {
-        const double away =
-            face_sign((enum face)face) * (face_plane(&scene->body, (enum face)face) - centre[face / 2]);
-        const bool opened = boundary_is_free(&scene->boundary[face]);
-        if (away > reach * width || !(opened || boundary_absorbs(&scene->boundary[face]))) continue;
-        advise(adviser,
-               "the initial state reaches the %s face %s, %.2g widths away, %s; %g widths from it would do",
-               opened ? "free" : "absorbing", face_name((enum face)face), away / width,
-               opened ? "where it begins with a traction that the face does not bear: short waves that the "
-                        "points do "
-                        "not carry"
-                      : "beyond which there is nothing of it",
-               reach);
-        return;
-    }
+               points, FEWEST_POINTS, spacing * points / FEWEST_POINTS);
 }
 
 /* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency
@@ -239,8 +201,11 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
 {
     struct adviser adviser = {scene, tell, context, 0};
     look_at_resolution(&adviser);
-    look_at_start(&adviser);
+    look_at_short_waves(&adviser);
     look_at_cut_start(&adviser);
+    look_at_impact(&adviser);
+    look_at_time_error(&adviser, stepper);
+    look_at_method(&adviser, stepper->model);
     look_at_incompressible(&adviser);
     look_at_moments(&adviser);
     look_at_step(&adviser, stepper);

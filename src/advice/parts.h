@@ -1,6 +1,6 @@
-/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), points.c (patches on
- * points), places.c (receivers near sources, surfaces before layers), layers.c (absorbing layers), mirrors.c
- * (symmetry planes), edges.c (moved faces that meet others). */
+/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
+ * points.c (patches on points), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
+ * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -16,11 +16,22 @@ struct adviser {
 /* One warning: what may be wrong, and what would be right. */
 void advise(struct adviser *adviser, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Waves of fewer points are not waves but noise, whatever the method. */
+#define FEWEST_POINTS 4.0
+
 /* A traction on a square or a disc. */
 bool has_patch(const struct load *load);
 /* Half its extent along an axis; 0 across its face. */
 double half_size(const struct load *load, int axis);
 
+/* Short waves in the state at t = 0, faces that cut it, a velocity that jumps at them. */
+void look_at_short_waves(struct adviser *adviser);
+void look_at_cut_start(struct adviser *adviser);
+void look_at_impact(struct adviser *adviser);
+/* Leapfrog's time error where it stays. */
+void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
+/* Waves that a method's points carry badly. */
+void look_at_method(struct adviser *adviser, const struct model *model);
 /* A patch on points that do not see it as it is. */
 void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */

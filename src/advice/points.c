@@ -1,6 +1,6 @@
 /* Patches on points: as published the smoothed point method and updated-Lagrangian SPH press points one by
  * one and see a patch only as wide as the points in it; least-squares gradients hardly see the short surface
- * waves that a narrow patch makes (doc/theory/sph-total-lagrangian.md, section 11). */
+ * waves that a narrow patch makes (doc/theory/sph-total-lagrangian.md, section 10). */
 #include "advice/parts.h"
 
 #include <math.h>

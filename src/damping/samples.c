@@ -1,4 +1,4 @@
-/* The damping of ground from a model (doc/theory/damping.md, section 8): values that stand for all of it where rates
+/* The damping of ground from a model (doc/theory/damping.md, section 7): values that stand for all of it where rates
  * and directions are chosen, and weights over 1/Q. */
 #include "damping/ground.h"
 

@@ -30,30 +30,25 @@ static const struct word method_words[] = {
     {"variant", WORD_CHOICE, 1, NULL, &(METHODS(NOTHING, VARIANT_WORD))[1], OPTIONAL,
      "form of the method" METHODS(FAMILY_GLOSS, VARIANT_GLOSS)},
     {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", OPTIONAL,
-     "degree of the B-splines (consistent; 2, and 4 on layered ground)"},
+     "degree of the B-splines (consistent); else 2, on layered ground 4"},
     {"ends", WORD_CHOICE, 1, NULL, "open|mapped", EXPERT, "knots at the faces (consistent)"},
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", OPTIONAL,
-     "inverse of the mass: exact (default on layered ground), or by 1 to 3 van Cittert sweeps (consistent; "
-     "else vc3)"},
+     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent); else vc3, on layered ground "
+     "exact"},
     {"operator", WORD_CHOICE, 1, NULL, "layered|general", OPTIONAL,
-     "for even and level layered ground, or for ground that varies in all directions; else the one that the "
-     "ground needs (consistent)"},
+     "for level layers, or for ground that varies in all directions; else as the ground needs (consistent)"},
     {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
-     "tune the splines along the surface for short waves (consistent, degree 4, exact mass; the default on "
-     "layered "
-     "ground)"},
+     "tune the splines for short waves (consistent, degree 4, exact mass; the default on layered ground)"},
     {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", EXPERT,
-     "mass in the stiffness over depth where the inverse is by sweeps: exact, or the same as elsewhere"},
+     "mass in the stiffness over depth beside sweeps: exact, or the same as elsewhere (consistent)"},
     {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, EXPERT,
-     "damping rate of the shortest waves where the inverse is by sweeps [fastest speed / spacing]; else "
-     "none"},
+     "damping rate of the shortest waves beside sweeps [fastest speed / spacing]; else none"},
     {"fused", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
-     "passes of the operator fused where the scene allows it, which is the default (consistent)"},
+     "fuse the operator's passes where possible, the default (consistent)"},
     {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", EXPERT,
-     "leave out what moves less than this times the largest displacement; else 1e-12; 0: compute all "
-     "(consistent, fused)"},
-    {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, EXPERT,
-     "compute half or quarter of a body where the scene has mirror planes"},
+     "leave out what moves less than this part of the largest displacement (consistent, fused); else 1e-12; "
+     "0: all"},
+    {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, EXPERT, "use the scene's mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", EXPERT, "precision of the state"},
     {"kernel", WORD_CHOICE, 1, NULL, CHOICES(KERNELS), OPTIONAL, "smoothing kernel (paper, sph)"},
     {"smoothing_length", WORD_REAL, 1, NULL, "(0, 10]", OPTIONAL, "smoothing length [spacings] (paper, sph)"},
@@ -62,29 +57,28 @@ static const struct word method_words[] = {
      "what the filter of Eq 35 acts on (paper)"},
     {"deconvolution", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "de-convolve the histories (paper: Eq 38)"},
     {"row_sums", WORD_CHOICE, 1, NULL, "as-printed|zero", EXPERT,
-     "K u_b as printed, or K (u_b - u_a): constants give no force (paper)"},
+     "K u_b as printed, or K (u_b - u_a) (paper)"},
     {"volume_factors", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "F^V of Eqs 24 and 25 (paper)"},
     {"area_factors", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "F^A of Eqs 26 and 27 (paper)"},
     {"kernel_correction", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "alpha of Eqs 28 and 29 (paper)"},
     {"boundary_term", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "Gamma of Eqs 15 and 22 (paper)"},
     {"load_sum", WORD_CHOICE, 1, NULL, "distributed|local", EXPERT,
-     "Eq 19 as the sum of W_ab A_b T_b, or as printed T_a times the sum of W_ab A_b (paper)"},
-    {"patch_overlap", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
-     "weigh the rim of a patch so that it carries exactly its area (paper)"},
+     "Eq 19 as sum(W_ab A_b T_b), or as printed T_a sum(W_ab A_b) (paper)"},
+    {"patch_overlap", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "a patch carries exactly its area (paper)"},
     {"viscosity_alpha", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "linear artificial viscosity (sph)"},
     {"viscosity_beta", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "quadratic artificial viscosity (sph)"},
     {"artificial_stress", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL,
-     "artificial stress against clumping: epsilon of Eq 22, 0 = none (updated-lagrangian)"},
+     "artificial stress: epsilon of Eq 22 (updated-lagrangian)"},
     {"gradient_correction", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "kernel gradient correction L (updated-lagrangian)"},
     {"jaumann", WORD_LOGICAL, 1, NULL, NULL, EXPERT, "Jaumann rate of the stress (updated-lagrangian)"},
     {"forces", WORD_CHOICE, 1, NULL, "published|adjoint", EXPERT,
-     "stress divergence of Eq 19 or the adjoint of the velocity gradient (updated-lagrangian)"},
+     "Eq 19, or the adjoint of the velocity gradient (updated-lagrangian)"},
     {"hourglass", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL, "hourglass control (sph, cloud)"},
     {"gradient", WORD_CHOICE, 1, NULL, "linear|quadratic|central", OPTIONAL,
-     "fields whose gradient is exact, or central differences on a lattice (total-lagrangian)"},
+     "exact for such fields, or central differences on a lattice (total-lagrangian)"},
     {"mechanisms", WORD_INTEGER, 1, NULL, "[1, 8]", OPTIONAL,
-     "relaxation mechanisms of damped ground (consistent, total-lagrangian, reference 'layered'); 3"},
+     "relaxation mechanisms of damped ground (consistent, total-lagrangian, reference 'layered'); else 3"},
     {"law", WORD_CHOICE, 1, NULL, CHOICES(ELASTIC_LAWS), OPTIONAL, "elastic law (total-lagrangian)"},
 };
 
@@ -96,9 +90,9 @@ static const struct word stepping_words[] = {
     {"stages", WORD_INTEGER, 1, NULL, "[2, 1000]", OPTIONAL, "stages of rkc; else chosen"},
     {"max_stages", WORD_INTEGER, 1, NULL, "[2, 1000]", EXPERT, "most stages that rkc may choose"},
     {"rule", WORD_CHOICE, 1, "'measured'", "measured|paper", EXPERT,
-     "stages of rkc: from the measured spectrum, or by Eq 28 of He & Seaid from the step alone"},
+     "stages of rkc: from the measured spectrum, or by Eq 28 of He & Seaid"},
     {"unwarp", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
-     "time-dispersion transform: take the scheme's time error out of the histories"},
+     "time-dispersion transform: take leapfrog's error out of the histories"},
     {"force", WORD_LOGICAL, 1, ".false.", NULL, EXPERT, "run beyond the stability limit all the same"},
 };
 
@@ -117,16 +111,15 @@ static const struct word material_words[] = {
      "quality Q of P waves; without q_p and q_s there is no damping"},
     {"q_s", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "quality Q of S waves"},
     {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "frequency at which speeds, elastic constants and Q of a damped material are meant [1/time]; centroid "
-     "of "
-     "the source's spectrum"},
+     "frequency at which elastic constants and Q are meant [1/time]; else the centroid of the source's "
+     "spectrum"},
     {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL,
-     "Q grows as this power of the frequency; without it Q is constant"},
+     "Q grows as this power of the frequency; else it is constant"},
 };
 
 static const struct word body_words[] = {
     {"name", WORD_TEXT, 1, "'body'", NULL, OPTIONAL, "name that layers use"},
-    {"material", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of a material; may be left out if all is layers"},
+    {"material", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of a material; not needed if all is layers"},
     {"shape", WORD_CHOICE, 1, "'box'", CHOICES(BODY_SHAPES), OPTIONAL, "shape"},
     {"low", WORD_REAL, 3, NULL, NULL, OPTIONAL, "lowest corner [length]"},
     {"high", WORD_REAL, 3, NULL, NULL, OPTIONAL, "highest corner [length]"},
@@ -135,7 +128,7 @@ static const struct word body_words[] = {
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "points of the body, HDF5 or text"},
     {"spacing", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "distance of neighbouring points [length]"},
     {"grading", WORD_REAL, 1, NULL, "[1, 4]", OPTIONAL,
-     "the spacing over depth grows with the speed of the rock, up to so many times 'spacing'"},
+     "let the spacing over depth grow with the speed, up to so many times 'spacing'"},
     {"arrangement", WORD_CHOICE, 1, "'lattice'", CHOICES(ARRANGEMENTS), OPTIONAL,
      "arrangement of the points"},
     {"rotation", WORD_REAL, 3, "0, 0, 0", NULL, OPTIONAL, "turn about x, then y, then z [degrees]"},
@@ -161,36 +154,33 @@ static const struct word body_words[] = {
          NULL,                                                                                                \
          NULL,                                                                                                \
          OPTIONAL,                                                                                            \
-         "time of the peak of ricker and gaussian, of the middle of error-function [time]"},                  \
+         "time of the peak (ricker, gaussian) or the middle (error-function) [time]"},                        \
         {"width",                                                                                             \
          WORD_REAL,                                                                                           \
          1,                                                                                                   \
          NULL,                                                                                                \
          POSITIVE,                                                                                            \
          OPTIONAL,                                                                                            \
-         "standard deviation of gaussian and of the rate of error-function, time constant of brune [time]"},  \
+         "standard deviation (gaussian, rate of error-function), time constant (brune) [time]"},              \
         {"cycles", WORD_REAL, 1, "5", POSITIVE, OPTIONAL, "cycles of the Hann-windowed sine-burst"},          \
         {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL, "table of the time function: columns time, value"},      \
         {"start", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL, "when the time function begins [time]"},         \
     {                                                                                                         \
         "smoothing", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,                                               \
-            "convolve with the unit-area cubic B-spline on [0, smoothing] [time]; 0: none"                    \
+            "convolve with the cubic B-spline on [0, smoothing] [time]"                                       \
     }
 
 static const struct word boundary_words[] = {
     {"face", WORD_CHOICE, 8, NULL, &(FACE_NAMES(CHOICE_WORD) "|all")[1], OBLIGATORY, "faces"},
     {"kind", WORD_CHOICE, 1, NULL, &(BOUNDARY_KINDS(KIND_WORD))[1], OBLIGATORY, "what the faces do"},
     {"layer", WORD_CHOICE, 1, NULL, CHOICES(ABSORBERS), OPTIONAL,
-     "how a transmitting face absorbs: dampers or an absorbing layer; else the layer where the method has "
-     "it"},
+     "how a transmitting face absorbs: dampers or an absorbing layer; else a layer if possible"},
     {"layer_points", WORD_INTEGER, 1, NULL, "[1, 1000]", OPTIONAL,
      "thickness of the absorbing layer [points]"},
-    {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "thickness of the absorbing layer, in place of layer_points [length]"},
-    {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL,
-     "wanted reflection of the absorbing layer, in place of layer_points"},
+    {"layer_thickness", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "the same as a length [length]"},
+    {"layer_reflection", WORD_REAL, 1, NULL, "(0, 1)", OPTIONAL, "the same as a wanted reflection"},
     {"always", WORD_LOGICAL, 1, ".false.", NULL, EXPERT,
-     "keep absorbing layers whose reflections cannot be seen by end_time"},
+     "keep absorbing layers that nobody sees by end_time"},
     {"normal_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the P impedance"},
     {"shear_factor", WORD_REAL, 1, "1", NOT_NEGATIVE, EXPERT, "Lysmer-Kuhlemeyer factor on the S impedance"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the prescribed motion"},
@@ -202,59 +192,52 @@ static const struct word layer_words[] = {
     {"body", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name of the body"},
     {"material", WORD_TEXT, 1, NULL, NULL, OBLIGATORY, "name of a material"},
     {"top", WORD_REAL, 1, NULL, NOT_NEGATIVE, OBLIGATORY,
-     "depth of the upper face [length]; of a tilted one where x = y = 0, of one from a file that of the "
-     "height datum"},
+     "depth of the upper face [length]; of a tilted one at x = y = 0, of one from a file at its datum"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
-     "heights of the upper face, upwards: text, x y height a line (2D: x height), each x with each y, or "
-     "HDF5: x, y, height [nx, ny], or z [ny, nx] as in netCDF-4 (consistent, operator 'general')"},
+     "heights of the upper face; formats as of topography%file (consistent, operator 'general')"},
     {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at depth top [length]"},
     {"dip", WORD_REAL, 1, "0", "[0, 80]", OPTIONAL,
      "angle of the upper face below the horizontal [degrees] (consistent, operator 'general')"},
     {"strike", WORD_REAL, 1, "0", NULL, OPTIONAL,
-     "direction along which a tilted face is level, from x towards y; it deepens to the right of it, "
-     "towards strike + 90; in two dimensions -90, its default there, or 90 [degrees]"},
+     "direction along which a tilted face is level, from x towards y; it deepens towards strike + 90; in 2D "
+     "-90 (default) or 90 [degrees]"},
     {"bottom", WORD_TEXT, 1, NULL, NULL, OPTIONAL,
-     "name of a material whose speeds and density the layer reaches at its lower face, going evenly with "
-     "depth (consistent, operator 'general'); else the same throughout"},
+     "material that the layer reaches at its lower face, going evenly with depth (consistent, operator "
+     "'general')"},
 };
 
 static const struct word model_words[] = {
     {"file", WORD_FILE, 1, NULL, NULL, OBLIGATORY,
      "plain grid or GeoModelGrids (HDF5), SW4's rfile or sfile, SPECFEM's tomography_model.xyz"},
     {"origin", WORD_REAL, 3, NULL, NULL, OPTIONAL,
-     "where x = y = 0 of the body lies, in the file's coordinates [length]; else the file's corner (plain "
-     "grids: 0, 0, 0); third value: where z = 0, or the surface, lies (plain grids, tomography_model.xyz)"},
+     "where x = y = 0 of the body lies, in the file's coordinates [length]; else its corner (plain grids: 0, "
+     "0, 0); third value: where z = 0 lies (plain grids, tomography_model.xyz)"},
     {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
-     "depths are below the file's ground, or ('sea', as always beside &topography) below elevation 0 or "
-     "the third value of origin (files that know their ground)"},
+     "depths are below the file's ground, or below elevation 0 or the third value of origin; 'sea' always "
+     "beside &topography"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
-     "direction of the body's x, clockwise from north [degrees], y is 90 further; else along the file's "
-     "axis nearest to north"},
-    {"damped", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL,
-     "use the file's q_p and q_s, if it has them (consistent)"},
-    {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "frequency at which speeds and Q of the file are meant [1/time]; centroid of the source's spectrum"},
-    {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL,
-     "the file's Q grows as this power of the frequency; without it Q is constant"},
+     "direction of the body's x, clockwise from north [degrees]; else the file's axis nearest to north"},
+    {"damped", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL, "use the file's q_p and q_s, if it has them"},
+    {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "as of &material"},
+    {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL, "as of &material"},
 };
 
 static const struct word topography_words[] = {
     {"shape", WORD_CHOICE, 1, NULL, CHOICES(TOPOGRAPHY_SHAPES), OPTIONAL,
-     "shape of the surface: a hill, a ridge or a valley with the profile of a Gaussian, or the ground of the "
-     "&model"},
+     "hill, ridge or valley with the profile of a Gaussian, or the ground of the &model"},
     {"height", WORD_REAL, 1, NULL, NULL, OPTIONAL,
-     "height of the hill or ridge, depth of the canyon, from face z- on [length]"},
+     "height of hill or ridge, depth of the canyon, from face z- [length]"},
     {"centre", WORD_REAL, 2, NULL, NULL, OPTIONAL, "centre of the shape: x, y; in 2D x [length]"},
     {"width", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL,
-     "standard deviation of the profile [length]; it is .61 height / width steep at most"},
+     "standard deviation of the profile [length]; steepest slope .61 height / width"},
     {"azimuth", WORD_REAL, 1, "0", NULL, OPTIONAL,
      "direction of ridge or canyon, from x towards y [degrees]"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
      "heights above face z-, in place of a shape: text, x y height a line (2D: x height), each x with each "
-     "y, or HDF5: x, y, height [nx, ny], or z [ny, nx] as in netCDF-4"},
+     "y; HDF5: x, y, height [nx, ny], or z [ny, nx] as in netCDF-4"},
     {"datum", WORD_REAL, 1, "0", NULL, OPTIONAL, "height of the file that lies at face z- [length]"},
     {"depth", WORD_REAL, 1, NULL, POSITIVE, EXPERT,
-     "depth below face z- at which the lattice is level again [length]; else at the body's lower end, or 6 "
+     "depth below face z- at which the lattice is level again [length]; else the body's lower end, or 6 "
      "heights"},
 };
 
@@ -281,13 +264,13 @@ static const struct word initial_words[] = {
 };
 
 static const struct word load_words[] = {
-    {"name", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name by which a host of the library speaks to it"},
+    {"name", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "name for hosts of the library"},
     {"kind", WORD_CHOICE, 1, "'traction'", CHOICES(LOAD_KINDS), OPTIONAL, "kind of load"},
     {"face", WORD_CHOICE, 1, NULL, CHOICES(FACE_NAMES), OPTIONAL, "face on which a traction acts"},
     {"shape", WORD_CHOICE, 1, NULL, CHOICES(LOAD_SHAPES), OPTIONAL, "where it acts"},
     {"centre", WORD_REAL, 3, NULL, NULL, OPTIONAL, "centre of the patch, or the point [length]"},
     {"depth", WORD_REAL, 1, NULL, NOT_NEGATIVE, OPTIONAL,
-     "depth of the centre below the surface, in place of its last value [length]"},
+     "depth below the surface, in place of the centre's last value [length]"},
     {"size", WORD_REAL, 2, NULL, POSITIVE, OPTIONAL, "edges of the square, or diameter of the disc [length]"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, OPTIONAL, "moment tensor: xx yy zz xy yz zx [force length]"},
@@ -319,8 +302,8 @@ static const struct word snapshot_words[] = {
     {"times", WORD_REAL, LIST_SIZE, NULL, NOT_NEGATIVE, OPTIONAL, "when [time], in place of every"},
     {"fields", WORD_CHOICE, 7, "'velocity'", CHOICES(FIELDS), OPTIONAL, "fields to write"},
     {"region", WORD_REAL, 6, NULL, NULL, OPTIONAL,
-     "lowest, then highest corner of what is written [length]; else the whole body; with &topography on "
-     "the lattice, whose surface is the plane of face z-"},
+     "lowest, then highest corner [length]; else the whole body; with &topography before the surface is "
+     "raised"},
 };
 
 static const struct word output_words[] = {
@@ -330,24 +313,24 @@ static const struct word output_words[] = {
      "minutes by the clock between checkpoints; 0: none"},
     {"plots", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL, "draw the PNGs"},
     {"length_unit", WORD_TEXT, 1, NULL, NULL, OPTIONAL,
-     "what the deck's lengths are in, as axes and report name it: 'm', 'km'; nothing is converted"},
-    {"time_unit", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "the same of times: 's', 'ms'"},
+     "unit of length as axes and report name it; nothing is converted"},
+    {"time_unit", WORD_TEXT, 1, NULL, NULL, OPTIONAL, "the same of time"},
     {"history_step", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "time between rows of the histories [time]; 0: every step"},
     {"low_pass", WORD_REAL, 1, "0", NOT_NEGATIVE, OPTIONAL,
      "zero-phase low-pass of the histories: exp(-(w/low_pass)^4) [angle/time]; 0: none"},
     {"balance", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
-     "put what damped materials take into the report's balance of energy, which costs operator calls"},
+     "count what damped materials take in the balance of energy, at the cost of operator calls"},
 };
 
 static const struct word reference_words[] = {
     {"kind", WORD_CHOICE, 1, NULL, CHOICES(EXACT_SOLUTIONS), OBLIGATORY, "exact solution"},
     {"file", WORD_FILE, 1, NULL, NULL, OPTIONAL,
-     "of kind 'file': the history of the one receiver, or the folder of a run with one of each"},
+     "of kind 'file': a history, or a folder with one of each receiver"},
     {"tolerance", WORD_REAL, 1, NULL, "[1e-10, 0.1]", OPTIONAL,
-     "wanted relative L2 error of velocity (lamb, layered; else 1e-6 of layered)"},
+     "wanted relative L2 error of velocity (lamb, layered: else 1e-6)"},
     {"spectrum", WORD_CHOICE, 1, NULL, "constant-q|scheme", OPTIONAL,
-     "damping by q_p and q_s: constant Q (default), or by the relaxation mechanisms of a run (layered)"},
+     "constant Q (default), or the relaxation mechanisms of a run (layered)"},
     {"stress", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
      "write histories of stress too (layered, point sources)"},
 };
@@ -366,12 +349,12 @@ static const struct word_group groups[] = {
     GROUP(material, GROUP_MANY,
           "one elastic material; one pair of lambda, mu / young, poisson / p_speed, s_speed / bulk, shear"),
     GROUP(body, GROUP_ONCE, "the body of points"),
-    GROUP(boundary, GROUP_MANY, "what one or more faces do; a face that no boundary names is free"),
+    GROUP(boundary, GROUP_MANY, "what one or more faces do; others are free (of a half-space: absorbing)"),
     GROUP(layer, GROUP_MANY, "ground that varies with depth; below the last layer it goes on"),
     GROUP(model, GROUP_ONCE,
           "the ground from a file, in place of materials and layers (consistent, operator 'general')"),
     GROUP(block, GROUP_MANY,
-          "a part of the ground of another material, also in layers and earlier blocks (consistent, operator "
+          "another material in a part of the ground, over layers and earlier blocks (consistent, operator "
           "'general')"),
     GROUP(topography, GROUP_ONCE,
           "the surface of the ground, where it is not level (consistent, operator 'general')"),

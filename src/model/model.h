@@ -212,6 +212,12 @@ enum patch_sight {
     PATCH_BY_CELLS   /* as the cells of the points in it */
 };
 
+/* What a plane wave errs by for each of its wavelengths that it travels, if it has p points: floor + constant /
+ * p^order, as measured (doc/howto/spacing.md); all 0: not told. */
+struct wave_law {
+    double constant, order, floor;
+};
+
 struct model {
     const struct method *method;
     const struct model_core *core;
@@ -244,6 +250,7 @@ struct model {
     unsigned energy_calls; /* operator calls that energy() takes, if more than one */
     unsigned parts;        /* operators whose sum a step takes, if more than one */
     enum patch_sight patch;
+    struct wave_law waves;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (
         *frame)[3]; /* unknowns are in the body's frame: rotate to deck coordinates; NULL: they are not */

@@ -1,5 +1,5 @@
 /* Where, when and at what wavelength anything acts on a scene or is looked at. Every group of the deck, and
- * every kind within a group, states this here and nowhere else (doc/reference/scene.md, section 8): the box of a
+ * every kind within a group, states this here and nowhere else (doc/reference/scene.md, section 7): the box of a
  * half-space is fitted to it (fitted_box.c), and what a face sends back is judged by it (echo.c). */
 #ifndef SELAS_SCENE_EXTENT_H
 #define SELAS_SCENE_EXTENT_H

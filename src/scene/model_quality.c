@@ -1,4 +1,4 @@
-/* Q of a model of the ground (doc/theory/damping.md, section 8). Files say with 0, negative numbers (-999, -1e20) or
+/* Q of a model of the ground (doc/theory/damping.md, section 7). Files say with 0, negative numbers (-999, -1e20) or
  * NaN that there is none. */
 #include "scene/model_file.h"
 

@@ -19,13 +19,23 @@ double source_cutoff_at(const struct scene *scene, double counts)
     return omega;
 }
 
-double points_per_wavelength(const struct scene *scene)
+double slowest_speed(const struct scene *scene)
 {
-    const double omega = source_cutoff(scene);
     double slowest = INFINITY;
     for (size_t m = 0; m < scene->materials; m++)
         slowest =
             fmin(slowest, scene->dimension == 1 ? scene->material[m].p_speed : scene->material[m].s_speed);
+    return slowest;
+}
+
+double jump_smoothing(double period)
+{
+    return 8 / pow(SOURCE_COUNTS, .25) * period / 6.283185307179586477;
+}
+
+double points_per_wavelength(const struct scene *scene)
+{
+    const double omega = source_cutoff(scene), slowest = slowest_speed(scene);
     if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return 0.0;
     return 6.283185307179586477 * slowest / omega / scene->body.spacing;
 }

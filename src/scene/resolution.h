@@ -13,6 +13,13 @@ double source_cutoff(const struct scene *scene);
 /* The same for another part. */
 double source_cutoff_at(const struct scene *scene, double counts);
 
+/* Of the slowest wave in any of the materials: S, in one dimension P; INFINITY without materials. */
+double slowest_speed(const struct scene *scene);
+
+/* Smoothing with which a step has the cutoff of waves of this period (history_cutoff's bound (8 / (omega
+ * smoothing))^4). */
+double jump_smoothing(double period);
+
 /* Of the slowest wave at that frequency; 0 if nothing tells. */
 double points_per_wavelength(const struct scene *scene);
 

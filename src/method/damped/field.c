@@ -1,4 +1,4 @@
-/* Damped ground from a model (doc/theory/damping.md, section 8): each of its values gets unrelaxed speeds and the
+/* Damped ground from a model (doc/theory/damping.md, section 7): each of its values gets unrelaxed speeds and the
  * parts' shares of its moduli. Weights of lambda + 2 mu and mu are those of their Q, brought into the space that the
  * parts span; those of kappa are what is left of them, and where one of them would be negative, mixed with the mean of
  * all columns. */

@@ -242,6 +242,13 @@ selas_status tl_fill_points(struct tl_model *tl, struct messages *messages)
                             messages);
 }
 
+/* By gradients (the cloud's are linear, and err as quadratic ones). */
+static struct wave_law waves_of(const struct tl_options *options)
+{
+    if (options->central) return (struct wave_law){1000, 4, 0};
+    return (struct wave_law){options->form == NULL && options->degree == 1 ? 95 : 48, 2, 0};
+}
+
 static void fill_model(struct tl_model *tl)
 {
     struct model *model = &tl->model;
@@ -251,6 +258,7 @@ static void fill_model(struct tl_model *tl)
     const bool viscous = tl->site_v != NULL;
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;
+    model->waves = waves_of(&tl->options);
     model->points = tl->cloud->whole;
     if (tl->part.shared)
         model->place = cloud_place;
@@ -368,7 +376,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     if (deck_values(group, "gradient") > 0)
         options.degree = deck_chosen(group, "gradient", "quadratic") ? 2 : 1;
     options.central = deck_chosen(group, "gradient", "central");
-    if (options.central) options.hourglass = 0.5; /* doc/theory/sph-total-lagrangian.md, section 11 */
+    if (options.central) options.hourglass = 0.5; /* doc/theory/sph-total-lagrangian.md, section 10 */
     if (deck_values(group, "law") > 0) options.law = (enum elastic_law)deck_choice(group, "law", 0);
     read_real(group, "smoothing_length", &options.smoothing_length);
     read_real(group, "hourglass", &options.hourglass);

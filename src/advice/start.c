@@ -1,0 +1,185 @@
+/* States at t = 0: waves that the points do not carry, faces that cut them, the time error that stays in them. */
+#include "advice/parts.h"
+
+#include "scene/initial.h"
+#include "scene/resolution.h"
+
+#include <math.h>
+
+/* Distance of a face from the centre of the state, along the face's normal. */
+static double distance(const struct scene *scene, int face)
+{
+    double centre[3];
+    body_from_deck(&scene->body, scene->initial.centre, centre);
+    return face_sign((enum face)face) * (face_plane(&scene->body, (enum face)face) - centre[face / 2]);
+}
+
+/* Does a P wave of the state leave this face as an S wave, too? */
+static bool converts(const struct scene *scene, int face)
+{
+    static const double along = 1 - 1e-9, widths = 3.5;
+    const struct initial *initial = &scene->initial;
+    const struct boundary *boundary = &scene->boundary[face];
+    double direction[3];
+    if (scene->dimension == 1 || initial->shear || boundary_slides(boundary) || boundary_absorbs(boundary))
+        return false;
+    if (initial->kind == INITIAL_GAUSSIAN)
+        return distance(scene, face) < scene_fastest(scene) * scene->end_time + widths * initial->width;
+    body_direction_from_deck(&scene->body, initial->direction, direction);
+    return fabs(direction[face / 2]) < along;
+}
+
+/* Shortest wave that counts: exp(-(x/w)^2 / 2) has 5 % of its spectrum left at k w = 2.448, a wave of 2.567 w. It
+ * keeps its frequency where it becomes a slower one: an S wave at faces, any in other rock. */
+static double shortest_wave(const struct scene *scene)
+{
+    const struct initial *initial = &scene->initial;
+    const bool train = initial->kind == INITIAL_PLANE_WAVE && initial->wavelength > 0;
+    const double wave = train ? initial->wavelength : 2.567 * initial->width;
+    bool slower = scene->materials > 1 || !body_is_box(&scene->body);
+    for (int face = 0; face < 2 * scene->dimension && !slower; face++)
+        slower = converts(scene, face);
+    return slower ? wave * slowest_speed(scene) / plane_wave_speed(scene) : wave;
+}
+
+void look_at_short_waves(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    const struct initial *initial = &scene->initial;
+    double centre[3];
+    if (initial->kind != INITIAL_PLANE_WAVE && initial->kind != INITIAL_GAUSSIAN) return;
+    body_from_deck(&scene->body, initial->centre, centre);
+    const bool anywhere = initial->kind == INITIAL_PLANE_WAVE;
+    const double spacing = body_spacing_at(&scene->body, anywhere ? scene->body.high : centre);
+    const double wave = shortest_wave(scene);
+    if (spacing > 0 && wave < FEWEST_POINTS * spacing)
+        advise(
+            adviser,
+            "%.3g points per wavelength of the initial state, as the slowest wave that it becomes; %g need "
+            "body%%spacing = %.3g",
+            wave / spacing, FEWEST_POINTS, wave / FEWEST_POINTS);
+}
+
+/* What a face does to a displacement that reaches it; NULL: nothing, or mirrors.c tells. */
+static const char *cut_by(const struct scene *scene, int face)
+{
+    const struct boundary *boundary = &scene->boundary[face];
+    double direction[3];
+    if (boundary_is_free(boundary))
+        return "free, where it begins with a traction that the face does not bear: short waves that the "
+               "points do "
+               "not carry";
+    if (boundary_absorbs(boundary)) return "absorbing, beyond which there is nothing of it";
+    if (!boundary_slides(boundary))
+        return "held, where it begins with a jump: short waves that the points do not "
+               "carry";
+    if (boundary_mirrors(boundary)) return NULL;
+    body_direction_from_deck(&scene->body, scene->initial.direction, direction);
+    const bool own_image =
+        fabs(distance(scene, face)) <= 1e-6 * scene->initial.width && fabs(direction[face / 2]) < 1e-9;
+    return own_image ? NULL
+                     : "sliding, in which it is not its own image: short waves that the points do not carry";
+}
+
+/* At 3.5 widths it is 2e-3 of the peak. */
+void look_at_cut_start(struct adviser *adviser)
+{
+    static const double reach = 3.5;
+    const struct scene *scene = adviser->scene;
+    const double width = scene->initial.width;
+    if (scene->initial.kind != INITIAL_GAUSSIAN || !body_is_box(&scene->body)) return;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const double away = distance(scene, face);
+        const char *cut = away <= reach * width ? cut_by(scene, face) : NULL;
+        if (cut == NULL) continue;
+        advise(adviser,
+               "the initial state reaches face %s, %.2g widths away and %s; %g widths from it would do",
+               face_name((enum face)face), away / width, cut, reach);
+        return;
+    }
+}
+
+/* A body that moves into a held face: a front of all wavelengths, beside which velocities err by the square root of the
+ * spacing. */
+void look_at_impact(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    double velocity[3];
+    if (scene->initial.kind != INITIAL_UNIFORM_VELOCITY || !body_is_box(&scene->body)) return;
+    body_direction_from_deck(&scene->body, scene->initial.velocity, velocity);
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        for (int component = 0; component < scene->dimension; component++) {
+            const bool mirror = boundary_mirrors(&scene->boundary[face]); /* mirrors.c tells */
+            if (mirror || velocity[component] == 0 || !face_holds(scene, (enum face)face, component))
+                continue;
+            advise(
+                adviser,
+                "velocities jump at face %s, which is held, at t = 0: no spacing resolves their front (about "
+                ".1 "
+                "of them is wrong, less as the square root of the spacing); a face of kind 'velocity' with a "
+                "smooth history would be right",
+                face_name((enum face)face));
+            return;
+        }
+}
+
+/* Wave number of what is typical in the velocity of the initial state, its root mean square; 0: not known. */
+static double typical_number(const struct scene *scene)
+{
+    const struct initial *initial = &scene->initial;
+    const bool plane = initial->kind == INITIAL_PLANE_WAVE;
+    if (plane && initial->wavelength > 0) return 2 * M_PI / initial->wavelength;
+    if (!plane && initial->kind != INITIAL_GAUSSIAN) return 0;
+    return sqrt(1 + (plane ? 1 : scene->dimension) / 2.) / initial->width;
+}
+
+/* Angular frequency that loads send with half their largest amplitude; 0: not known. */
+static double typical_frequency(const struct scene *scene)
+{
+    const double half = source_cutoff_at(scene, .5);
+    return isfinite(half) ? half : 0;
+}
+
+/* Leapfrog runs ahead by omega t (omega dt)^2 / 24 (doc/theory/time-schemes.md), where the time-dispersion transform
+ * cannot take that out. An exact solution tells of it, too. */
+void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
+{
+    static const double seen = .02;
+    const struct scene *scene = adviser->scene;
+    const bool told = scene->reference.kind[0] != '\0';
+    const bool leapfrog = (stepper->scheme->can & SCHEME_UNWARPS) != 0 && stepper->model->self_adjoint;
+    if (!leapfrog || stepper->unwarp || told) return;
+    const double omega = fmax(typical_number(scene) * plane_wave_speed(scene), typical_frequency(scene));
+    const double phase = omega * scene->end_time * pow(omega * stepper->dt, 2) / 24;
+    if (phase > seen)
+        advise(adviser,
+               "the time error of scheme '%s' stays in the histories: waves that leave at t = 0 err by about "
+               "%.2g by "
+               "end_time; scheme = 'modified-equation', or stepping%%safety = %.2g, would be right",
+               stepper->scheme->name, fmin(1, phase), sqrt(seen / 2 / phase) * stepper->dt / stepper->limit);
+}
+
+/* What waves of a number k, which move at a speed, err by at end_time. */
+static double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double speed)
+{
+    const double travelled = k * speed * scene->end_time / (2 * M_PI),
+                 points = 2 * M_PI / (k * scene->body.spacing);
+    return k > 0 && isfinite(speed) ? travelled * (law->floor + law->constant / pow(points, law->order)) : 0;
+}
+
+void look_at_method(struct adviser *adviser, const struct model *model)
+{
+    static const double seen = .1;
+    const struct scene *scene = adviser->scene;
+    const double slowest = slowest_speed(scene), omega = typical_frequency(scene);
+    if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0)) return;
+    const double start = error_of_waves(scene, &model->waves, typical_number(scene), plane_wave_speed(scene));
+    const double error = fmax(start, error_of_waves(scene, &model->waves, omega / slowest, slowest));
+    if (error > seen)
+        advise(adviser,
+               "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
+               "end_time%s; finer "
+               "points, or variant = 'consistent', would be right",
+               model->method->variant, fmin(1, error),
+               model->waves.floor > 0 ? ", whatever the spacing with artificial stress" : "");
+}
