@@ -67,7 +67,11 @@ unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD
 	@$(ALONE) sh regress/run-tests $(BUILD)
 
 .PHONY: test-mpi cases-mpi
-test-mpi: mpi ## small scenes on 1, 2, 3, 4 and 7 ranks against one process: doc/howto/ranks.md (a minute or two)
+$(BUILD)/mpi/blocks: regress/parallel/blocks.c $(BUILD)/mpi/libselas-mpi.a
+	$(program)
+$(BUILD)/mpi/blocks: private override CC = $(MPICC)
+$(BUILD)/mpi/blocks: private PKGS := gsl fftw3 $(MPI_HDF5)
+test-mpi: mpi $(BUILD)/mpi/blocks ## small scenes on 1, 2, 3, 4 and 7 ranks against one process: doc/howto/ranks.md (a minute or two)
 	@$(ALONE) regress/parallel/check $(BUILD)
 
 cases-mpi: mpi ## all cases on 1, 2, 3, 4 and 7 ranks against one process (an hour)

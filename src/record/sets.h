@@ -9,8 +9,8 @@
 /* What is done with numbers in memory and in a file. SET_COMPARE: are they the same bit for bit? */
 enum set_mode { SET_WRITE, SET_READ, SET_COMPARE };
 
-/* Numbers of a set and where they are in memory: `times` times `count` of them, from `here` on in memory, from `there` on
- * in the set; the next time here_step and there_step further. */
+/* Numbers of a set and where they are in memory: `times` times `count` of them, from `here` on in memory, from
+ * `there` on in the set; the next time here_step and there_step further. */
 struct set_part {
     size_t here, there, count, times, here_step, there_step;
 };

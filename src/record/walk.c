@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 enum { PIECE = 1 << 22 }; /* bytes that a rank passes at once */
@@ -166,6 +167,22 @@ static bool same_part(struct walk *walk, const struct shared *shared, const stru
     return good;
 }
 
+/* The system's reason may be lost on its way through MPI. */
+static bool wrote_part(struct walk *walk, const struct shared *shared, const struct set_part *part)
+{
+    struct statvfs disk;
+    if (set_pass_part(shared->set, shared->type, true, shared->data, part)) return true;
+    if (statvfs(walk->path, &disk) == 0 && disk.f_bavail * disk.f_frsize < PIECE) errno = ENOSPC;
+    return false;
+}
+
+static bool pass_part(struct walk *walk, const struct shared *shared, const struct set_part *part)
+{
+    if (walk->mode == SET_COMPARE) return same_part(walk, shared, part);
+    if (walk->mode == SET_WRITE) return wrote_part(walk, shared, part);
+    return set_pass_part(shared->set, shared->type, false, shared->data, part);
+}
+
 static void pass_parts(struct walk *walk, const struct shared *shared, const struct spread *shares,
                        size_t units)
 {
@@ -175,9 +192,7 @@ static void pass_parts(struct walk *walk, const struct shared *shared, const str
         const struct cut cut = cut_run(&shares->run[r], window, most);
         for (size_t k = 0; k < parts_of(&cut) && !walk->failed; k++) {
             const struct set_part part = part_of(&shares->run[r], &cut, k, units);
-            note(walk, walk->mode == SET_COMPARE
-                           ? same_part(walk, shared, &part)
-                           : set_pass_part(shared->set, shared->type, !window, shared->data, &part));
+            note(walk, pass_part(walk, shared, &part));
         }
     }
 }

@@ -1,6 +1,6 @@
-/* One way through all arrays of a checkpoint, for writing, reading and comparing; all ranks walk together. What is the
- * first rank's, or the same for all, it passes alone. Arrays that ranks share come after that: the file is opened by all
- * together, and each rank passes its part straight from where it is (doc/developers/ranks.md).
+/* One way through all arrays of a checkpoint, for writing, reading and comparing; all ranks walk together. What is
+ * the first rank's, or the same for all, it passes alone. Arrays that ranks share come after that: the file is opened
+ * by all together, and each rank passes its part straight from where it is (doc/developers/ranks.md).
  *
  *     for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
  *         ... all arrays, in the same order ...
