@@ -11,23 +11,24 @@
 /* Planes that are made together. */
 static size_t block_of(const struct consistent *c)
 {
-    return c->fused != NULL ? FUSED_PLANES : 1;
+    return c->fused != NULL ? FUSED_PLANES : TENSOR_PLANES;
 }
 
-/* The operator alone, without edges, in a block of planes. */
-static void operator_block(const struct consistent *c, int thread, size_t k, const double *u, double *a)
+/* The operator alone, without edges, in planes from .. end - 1, one block. */
+static void operator_block(const struct consistent *c, int thread, size_t from, size_t end, const double *u,
+                           double *a)
 {
     double *out[3] = {NULL, NULL, NULL};
     if (c->fused != NULL) {
         const struct fused_fields fields = {.u = u, .a = a};
-        fused_planes_double(c->fused, thread, k, &fields);
+        fused_planes_double(c->fused, thread, from, &fields);
         return;
     }
     for (int component = 0; component < c->dimension; component++) {
-        out[component] = a + (size_t)component * c->volume + k * c->plane;
-        memset(out[component], 0, c->plane * sizeof *a);
+        out[component] = a + (size_t)component * c->volume + from * c->plane;
+        memset(out[component], 0, (end - from) * c->plane * sizeof *a);
     }
-    tensor_plane(c->hform->acceleration, thread, k, 1, u, out);
+    tensor_planes(c->hform->acceleration, thread, from, end - from, 1, u, out);
 }
 
 /* What is added to the operator in plane k. */
@@ -55,8 +56,9 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = c->part.own; from < c->part.end; from += block) {
         const int thread = omp_get_thread_num();
-        operator_block(c, thread, from, u, a);
-        for (size_t k = from; k < from + block && k < c->part.end; k++)
+        const size_t end = from + block < c->part.end ? from + block : c->part.end;
+        operator_block(c, thread, from, end, u, a);
+        for (size_t k = from; k < end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
     }
     if (drive->extra != NULL) {
