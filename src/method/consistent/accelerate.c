@@ -4,7 +4,9 @@
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/hform.h"
 #include "method/consistent/galerkin/moving_load.h"
+#include "method/spline/passes.h"
 
+#include <math.h>
 #include <omp.h>
 #include <string.h>
 
@@ -14,9 +16,60 @@ static size_t block_of(const struct consistent *c)
     return c->fused != NULL ? FUSED_PLANES : TENSOR_PLANES;
 }
 
+/* Rows of a block of planes. */
+struct range {
+    size_t from, end;
+};
+
+static size_t strips_of(const struct consistent *c)
+{
+    return (c->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
+}
+
+/* Together: the largest displacement of each strip of rows in each plane; up to what is returned nothing moves. */
+static double look(const struct consistent *c, const double *u)
+{
+    const struct passes *passes = taken_passes();
+    const size_t strips = strips_of(c);
+    double largest = 0;
+    if (!(c->options.quiet > 0)) return -1;
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        for (size_t s = 0; s < strips; s++) {
+            const size_t from = s * TENSOR_STRIP, left = c->n[1] - from;
+            double *loudest = &c->hform->loudest[k * strips + s];
+            *loudest = 0;
+            for (int i = 0; i < c->dimension; i++)
+                *loudest = fmax(*loudest, passes->largest_size_double(
+                                              u + (size_t)i * c->volume + k * c->plane + from * c->n[0],
+                                              (left < TENSOR_STRIP ? left : TENSOR_STRIP) * c->n[0]));
+            largest = fmax(largest, *loudest);
+        }
+    return c->options.quiet * part_largest(c, largest);
+}
+
+/* Rows of planes from .. end - 1 outside of which the operator is 0, as nothing it reads there is above the level. */
+static struct range loud_rows(const struct consistent *c, double level, size_t from, size_t end)
+{
+    const struct tensor_plan *plan = c->hform->acceleration;
+    const size_t strips = strips_of(c), deep = tensor_reach(plan, 2), wide = tensor_reach(plan, 1);
+    size_t first = strips, last = 0;
+    if (level < 0) return (struct range){0, c->n[1]};
+    for (size_t k = from < deep ? 0 : from - deep; k < end + deep && k < c->n[DEPTH]; k++)
+        for (size_t s = 0; s < strips; s++) {
+            if (c->hform->loudest[k * strips + s] <= level) continue;
+            first = s < first ? s : first;
+            last = s + 1 > last ? s + 1 : last;
+        }
+    if (first >= last) return (struct range){0, 0};
+    first *= TENSOR_STRIP;
+    last = last * TENSOR_STRIP + wide;
+    return (struct range){first < wide ? 0 : first - wide, last < c->n[1] ? last : c->n[1]};
+}
+
 /* The operator alone, without edges, in planes from .. end - 1, one block. */
-static void operator_block(const struct consistent *c, int thread, size_t from, size_t end, const double *u,
-                           double *a)
+static void operator_block(const struct consistent *c, int thread, size_t from, size_t end, double level,
+                           const double *u, double *a)
 {
     double *out[3] = {NULL, NULL, NULL};
     if (c->fused != NULL) {
@@ -24,11 +77,12 @@ static void operator_block(const struct consistent *c, int thread, size_t from, 
         fused_planes_double(c->fused, thread, from, &fields);
         return;
     }
+    const struct range rows = loud_rows(c, level, from, end);
     for (int component = 0; component < c->dimension; component++) {
         out[component] = a + (size_t)component * c->volume + from * c->plane;
         memset(out[component], 0, (end - from) * c->plane * sizeof *a);
     }
-    tensor_planes(c->hform->acceleration, thread, from, end - from, 1, u, out);
+    tensor_planes(c->hform->acceleration, thread, from, end - from, rows.from, rows.end, 1, u, out);
 }
 
 /* What is added to the operator in plane k. */
@@ -52,12 +106,13 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
                       const double *v, double *a)
 {
     const size_t block = block_of(c);
+    const double level = c->fused == NULL ? look(c, u) : -1;
     if (c->fused != NULL) fused_look_double(c->fused, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = c->part.own; from < c->part.end; from += block) {
         const int thread = omp_get_thread_num();
         const size_t end = from + block < c->part.end ? from + block : c->part.end;
-        operator_block(c, thread, from, end, u, a);
+        operator_block(c, thread, from, end, level, u, a);
         for (size_t k = from; k < end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
     }

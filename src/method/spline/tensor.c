@@ -15,8 +15,6 @@ static size_t find_z(struct tensor_plan *plan, const struct tensor_term *term)
     for (size_t i = 0; i < plan->z_items; i++)
         if (plan->z[i].in == term->in && plan->z[i].matrix == term->matrix[2]) return i;
     if (term->in >= plan->inputs) plan->inputs = term->in + 1;
-    if (term->matrix[2] != NULL && 2 * term->matrix[2]->half + PASS_ROWS > plan->inputs_z)
-        plan->inputs_z = 2 * term->matrix[2]->half + PASS_ROWS;
     plan->z[plan->z_items] = (struct z_item){.in = term->in, .matrix = term->matrix[2]};
     return plan->z_items++;
 }
@@ -35,7 +33,9 @@ static void add_term(struct tensor_plan *plan, const struct tensor_term *term)
     const struct y_item item = {find_z(plan, term), find_x(plan, term), term->matrix[1], term->factor, NULL};
     struct z_item *source = &plan->z[item.source];
     if (item.matrix != NULL && item.matrix->half > source->reach) source->reach = item.matrix->half;
-    if (term->matrix[0] != NULL && term->matrix[0]->half > plan->pad) plan->pad = term->matrix[0]->half;
+    for (int slot = 0; slot < 3; slot++)
+        if (term->matrix[slot] != NULL && term->matrix[slot]->half > plan->reach[slot])
+            plan->reach[slot] = term->matrix[slot]->half;
     for (size_t i = 0; i < plan->y_items; i++)
         if (plan->y[i].source == item.source && plan->y[i].target == item.target &&
             plan->y[i].matrix == item.matrix) {
@@ -77,10 +77,7 @@ static size_t lay_rings(struct tensor_plan *plan)
 {
     const size_t strips = (plan->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
     size_t at = 0;
-    for (size_t i = 0; i < plan->z_items; i++) {
-        const size_t ahead = (plan->z[i].reach + TENSOR_STRIP - 1) / TENSOR_STRIP;
-        plan->ahead = ahead > plan->ahead ? ahead : plan->ahead;
-    }
+    plan->ahead = (plan->reach[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
     for (size_t i = 0; i < plan->z_items; i++) {
         struct z_item *item = &plan->z[i];
         item->strips = (item->reach + TENSOR_STRIP - 1) / TENSOR_STRIP + 1 + plan->ahead;
@@ -94,7 +91,8 @@ static size_t lay_rings(struct tensor_plan *plan)
 
 static bool lay_buffers(struct tensor_plan *plan)
 {
-    plan->pad = rounded(plan->pad);
+    plan->pad = rounded(plan->reach[0]);
+    plan->inputs_z = 2 * plan->reach[2] + PASS_ROWS;
     plan->row = rounded(plan->n[0]) + 2 * plan->pad;
     plan->row_at = lay_rings(plan);
     plan->out_at = plan->row_at + PASS_ROWS * plan->row;
@@ -156,4 +154,9 @@ void tensor_plan_free(struct tensor_plan *plan)
 size_t tensor_plan_bytes(const struct tensor_plan *plan)
 {
     return (size_t)plan->threads * plan->thread_size * sizeof(double);
+}
+
+size_t tensor_reach(const struct tensor_plan *plan, int slot)
+{
+    return plan->reach[slot];
 }

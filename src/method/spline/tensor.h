@@ -18,8 +18,8 @@ struct tensor_term {
 
 struct tensor_plan;
 
-/* Entries that a matrix may have on each side of its diagonal; planes that are made together, at most. */
-enum { TENSOR_MOST_HALF = 63, TENSOR_PLANES = 4 };
+/* Entries that a matrix may have on each side of its diagonal; planes that are made together, at most; rows of a strip. */
+enum { TENSOR_MOST_HALF = 63, TENSOR_PLANES = 4, TENSOR_STRIP = 8 };
 
 /* Plan for fields of n[0] x n[1] x n[2] values a component (x fastest, component stride = their product);
  * keeps the pointers to the matrices. NULL: no memory, or a matrix wider than TENSOR_MOST_HALF. */
@@ -28,16 +28,17 @@ struct tensor_plan *tensor_plan_new(const size_t n[3], int components, const str
 void tensor_plan_free(struct tensor_plan *plan);
 size_t tensor_plan_bytes(const struct tensor_plan *plan);
 
-/* Adds factor * (plan's operator on u), `planes` planes from k on (1 to TENSOR_PLANES), to out[component], where plane k
- * begins; thread is the caller's number below `threads`. */
-void tensor_planes(const struct tensor_plan *plan, int thread, size_t k, size_t planes, double factor,
-                   const double *u, double *const *out);
+/* Adds factor * (plan's operator on u) to out[component], where plane k begins: in `planes` planes from k on (1 to
+ * TENSOR_PLANES) at least the rows from .. end - 1; thread is the caller's number below `threads`. */
+void tensor_planes(const struct tensor_plan *plan, int thread, size_t k, size_t planes, size_t from,
+                   size_t end, double factor, const double *u, double *const *out);
 
-/* One plane; at least the rows from .. end - 1 of it. */
+/* All of one plane. */
 void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double factor, const double *u,
                   double *const *out);
-void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
-                 const double *u, double *const *out);
+
+/* Control values that a number reads on each side, at most: along x (slot 0), y, z. */
+size_t tensor_reach(const struct tensor_plan *plan, int slot);
 
 /* w^T A u, summed plane by plane; of the planes from .. end - 1 of w alone. */
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u);

@@ -140,39 +140,25 @@ static void strip_across(const struct work *w, size_t strip)
     }
 }
 
-/* Strips from .. end - 1. */
-static void apply(const struct work *w, size_t from, size_t end)
-{
-    const struct tensor_plan *plan = w->plan;
-    const size_t strips = (plan->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
-    for (size_t z = 0; z < plan->z_items; z++)
-        if (plan->z[z].matrix != NULL) take_rows(plan->z[z].matrix, w->k, w->planes, 1, weight_of(w, z));
-    size_t down = from < plan->ahead ? 0 : from - plan->ahead;
-    for (size_t strip = from; strip < end; strip++) {
-        for (; down < strips && down <= strip + plan->ahead; down++)
-            strip_down(w, down);
-        strip_across(w, strip);
-    }
-}
-
-void tensor_planes(const struct tensor_plan *plan, int thread, size_t k, size_t planes, double factor,
-                   const double *u, double *const *out)
+void tensor_planes(const struct tensor_plan *plan, int thread, size_t k, size_t planes, size_t from,
+                   size_t end, double factor, const double *u, double *const *out)
 {
     const struct work work = {plan, taken_passes(), k, planes, factor, u, plan->buffer[thread], out};
-    apply(&work, 0, (plan->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP);
+    const size_t strips = (plan->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP, first = from / TENSOR_STRIP;
+    for (size_t z = 0; z < plan->z_items; z++)
+        if (plan->z[z].matrix != NULL) take_rows(plan->z[z].matrix, k, planes, 1, weight_of(&work, z));
+    size_t down = first < plan->ahead ? 0 : first - plan->ahead;
+    for (size_t strip = first; strip * TENSOR_STRIP < end; strip++) {
+        for (; down < strips && down <= strip + plan->ahead; down++)
+            strip_down(&work, down);
+        strip_across(&work, strip);
+    }
 }
 
 void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double factor, const double *u,
                   double *const *out)
 {
-    tensor_planes(plan, thread, k, 1, factor, u, out);
-}
-
-void tensor_rows(const struct tensor_plan *plan, int thread, size_t k, size_t from, size_t end, double factor,
-                 const double *u, double *const *out)
-{
-    const struct work work = {plan, taken_passes(), k, 1, factor, u, plan->buffer[thread], out};
-    apply(&work, from / TENSOR_STRIP, (end + TENSOR_STRIP - 1) / TENSOR_STRIP);
+    tensor_planes(plan, thread, k, 1, 0, plan->n[1], factor, u, out);
 }
 
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u)

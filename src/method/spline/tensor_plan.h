@@ -5,9 +5,9 @@
 #include "method/spline/passes.h"
 #include "method/spline/tensor.h"
 
-/* Doubles a cache line; rows of a strip, whole groups of PASS_ROWS; entries in the rows of a matrix that make PASS_ROWS
- * numbers. */
-enum { TENSOR_ALIGN = 8, TENSOR_STRIP = 8, TENSOR_MOST_INPUTS = 2 * TENSOR_MOST_HALF + PASS_ROWS };
+/* Doubles a cache line; entries in the rows of a matrix that make PASS_ROWS numbers. A strip is whole groups of PASS_ROWS
+ * rows. */
+enum { TENSOR_ALIGN = 8, TENSOR_MOST_INPUTS = 2 * TENSOR_MOST_HALF + PASS_ROWS };
 
 /* A product over depth. Its rows are kept as long as passes across read them: strips in a ring. */
 struct z_item {
@@ -36,6 +36,7 @@ struct tensor_plan {
     struct y_item *y; /* in the order of their targets */
     struct x_item *x;
     size_t ahead;          /* strips that products over depth are ahead of passes across */
+    size_t reach[3];       /* by slot */
     size_t pad, row;       /* zeros left and right of each row of the x passes; length of a padded row */
     size_t row_at, out_at; /* in a thread's buffer: padded rows; output planes of tensor_form */
     size_t weight_at;      /* weights over depth */

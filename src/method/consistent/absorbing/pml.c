@@ -76,7 +76,7 @@ static void work_out(const struct consistent *c, const struct slab *slab, const 
             out[i] = c->pml->out + (size_t)i * slab->volume + k * plane;
             memset(out[i], 0, plane * sizeof **out);
         }
-        tensor_rows(plan, omp_get_thread_num(), k, row, row + wanted->n[1], 1, c->pml->in, out);
+        tensor_planes(plan, omp_get_thread_num(), k, 1, row, row + wanted->n[1], 1, c->pml->in, out);
     }
 }
 
