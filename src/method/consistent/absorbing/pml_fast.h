@@ -84,6 +84,7 @@ struct fast_slab {
     size_t taps_f;
     void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i; m_jj */
     bool *rests;                     /* [nb] rows in which nothing moves, in this call */
+    bool *idle;                      /* [nb] rows of `wait` and `middle` that are 0 */
 };
 
 /* Tables and room for numbers of one kind, doubles or floats; the memory variables are laid out alike in

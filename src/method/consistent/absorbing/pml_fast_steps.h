@@ -102,25 +102,33 @@ static bool field_loud(const struct consistent *c, const struct fast_slab *s, RE
     return false;
 }
 
-/* Is the row at rest: displacements and velocities that it reads, and memory? Then it forgets what is left of
- * that. */
-static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
-                  const REAL *u, const REAL *v, REAL *extra)
+/* Row b forgets its memory and what waits: what is 0 already is not written. */
+static void forget_row(const struct fast_slab *s, size_t b, REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
-    if (level.displacement < 0 || field_loud(c, s, level.displacement, b, u) ||
-        field_loud(c, s, level.velocity, b, v))
-        return false;
-    if (memory_loud(s, level, b, extra)) return false;
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 3 && memory_loud(s, (struct level){0}, b, extra); i++) {
         memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
         memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
     }
+    if (s->idle[b]) return;
     for (size_t i = 0; i < s->parts; i++)
         memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
     for (size_t n = 0; n < s->overs; n++)
         memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
     memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
+    s->idle[b] = true;
+}
+
+/* Is the row at rest: displacements and velocities that it reads, and memory? Then it forgets what is left of
+ * that. */
+static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
+                  const REAL *u, const REAL *v, REAL *extra)
+{
+    if (level.displacement < 0 || field_loud(c, s, level.displacement, b, u) ||
+        field_loud(c, s, level.velocity, b, v))
+        return false;
+    if (memory_loud(s, level, b, extra)) return false;
+    forget_row(s, b, extra);
     return true;
 }
 
@@ -142,6 +150,7 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
     const int j = s->axis[ROLE_S];
     REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
     REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
+    s->idle[b] = false;
     for (int k = 0; k < 3; k++) {
         const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
         const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
@@ -240,7 +249,7 @@ static void move_forces(const struct consistent *c, const struct fast_slab *s, s
         const REAL least = s->rests[b] ? level.slope : -1;
         for (size_t n = 0; n < (s->parts > 3 ? s->crosses : 1); n++)
             if (add_divergence(c, s, ROLE_F, least, b, rows, (REAL *)s->wait[s->cross[n].part] + b * size))
-                s->rests[b] = false;
+                s->rests[b] = s->idle[b] = false;
     }
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
     for (size_t g = 0; g < s->pull_b.groups; g++) {
