@@ -51,7 +51,7 @@ static const struct word method_words[] = {
      "passes of the operator fused where the scene allows it, which is the default (consistent)"},
     {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", EXPERT,
      "leave out what moves less than this times the largest displacement; else 1e-12; 0: compute all "
-     "(consistent, fused)"},
+     "(consistent, masses vc1 to vc3)"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, EXPERT,
      "compute half or quarter of a body where the scene has mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", EXPERT, "precision of the state"},

@@ -206,9 +206,13 @@ static void describe(const struct model *model,
                  FUSED_STRIP);
         tell(context, "operator", text);
         tell(context, "step", step);
+    }
+    if (c->hform != NULL && c->general == NULL) {
         snprintf(text, sizeof text, "what is below %g of the largest displacement moves nothing",
-                 c->fused->quiet);
-        tell(context, "quiet parts", c->fused->quiet > 0 ? text : "all are computed");
+                 c->options.quiet);
+        tell(context, "quiet parts", c->options.quiet > 0 ? text : "all are computed");
+    }
+    if (c->fused != NULL) {
         const struct fused *used = model->single ? c->fused->single : c->fused;
         if (used->skipped > 0) {
             snprintf(text, sizeof text, "%.1f %% of points, all calls so far",
