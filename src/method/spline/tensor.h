@@ -18,7 +18,8 @@ struct tensor_term {
 
 struct tensor_plan;
 
-/* Entries that a matrix may have on each side of its diagonal; planes that are made together, at most; rows of a strip. */
+/* Entries that a matrix may have on each side of its diagonal; planes that are made together, at most; rows of a
+ * strip. */
 enum { TENSOR_MOST_HALF = 63, TENSOR_PLANES = 4, TENSOR_STRIP = 8 };
 
 /* Plan for fields of n[0] x n[1] x n[2] values a component (x fastest, component stride = their product);

@@ -5,8 +5,8 @@
 #include "method/spline/passes.h"
 #include "method/spline/tensor.h"
 
-/* Doubles a cache line; entries in the rows of a matrix that make PASS_ROWS numbers. A strip is whole groups of PASS_ROWS
- * rows. */
+/* Doubles a cache line; entries in the rows of a matrix that make PASS_ROWS numbers. A strip is whole groups of
+ * PASS_ROWS rows. */
 enum { TENSOR_ALIGN = 8, TENSOR_MOST_INPUTS = 2 * TENSOR_MOST_HALF + PASS_ROWS };
 
 /* A product over depth. Its rows are kept as long as passes across read them: strips in a ring. */
