@@ -46,7 +46,8 @@ static const struct word method_words[] = {
     {"fused", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
      "fuse the operator's passes where possible, the default (consistent)"},
     {"quiet", WORD_REAL, 1, NULL, "[0, 1e-6]", EXPERT,
-     "leave out what moves less than this part of the largest displacement (consistent, fused); else 1e-12; "
+     "leave out what moves less than this part of the largest displacement (consistent, masses vc1 to vc3); "
+     "else 1e-12; "
      "0: all"},
     {"symmetry", WORD_LOGICAL, 1, ".true.", NULL, EXPERT, "use the scene's mirror planes"},
     {"precision", WORD_CHOICE, 1, "'double'", "double|single", EXPERT, "precision of the state"},

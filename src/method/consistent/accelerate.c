@@ -4,31 +4,86 @@
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/hform.h"
 #include "method/consistent/galerkin/moving_load.h"
+#include "method/spline/passes.h"
 
+#include <math.h>
 #include <omp.h>
 #include <string.h>
 
 /* Planes that are made together. */
 static size_t block_of(const struct consistent *c)
 {
-    return c->fused != NULL ? FUSED_PLANES : 1;
+    return c->fused != NULL ? FUSED_PLANES : TENSOR_PLANES;
 }
 
-/* The operator alone, without edges, in a block of planes. */
-static void operator_block(const struct consistent *c, int thread, size_t k, const double *u, double *a)
+static size_t strips_of(const struct consistent *c)
+{
+    return (c->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
+}
+
+/* Together: the largest displacement of each strip of rows in each plane; up to what is returned nothing moves. */
+static double look(const struct consistent *c, const double *u)
+{
+    const struct passes *passes = taken_passes();
+    const size_t strips = strips_of(c);
+    double largest = 0;
+    if (!(c->options.quiet > 0)) return -1;
+#pragma omp parallel for num_threads(c->threads) schedule(static) reduction(max : largest)
+    for (size_t k = 0; k < c->n[DEPTH]; k++)
+        for (size_t s = 0; s < strips; s++) {
+            const size_t from = s * TENSOR_STRIP, left = c->n[1] - from;
+            double *loudest = &c->hform->loudest[k * strips + s];
+            *loudest = 0;
+            for (int i = 0; i < c->dimension; i++)
+                *loudest = fmax(*loudest, passes->largest_size_double(
+                                              u + (size_t)i * c->volume + k * c->plane + from * c->n[0],
+                                              (left < TENSOR_STRIP ? left : TENSOR_STRIP) * c->n[0]));
+            largest = fmax(largest, *loudest);
+        }
+    return c->options.quiet * part_largest(c, largest);
+}
+
+/* Does anything move in what planes from .. end - 1 of a strip of rows read? Each strip is asked for itself, so that all
+ * ranks that share rows leave out the same. */
+static bool strip_moves(const struct consistent *c, double level, size_t from, size_t end, size_t strip)
+{
+    const struct tensor_plan *plan = c->hform->acceleration;
+    const size_t strips = strips_of(c), deep = tensor_reach(plan, 2), wide = tensor_reach(plan, 1);
+    const size_t low = strip * TENSOR_STRIP, high = low + TENSOR_STRIP + wide - 1;
+    if (level < 0) return true;
+    for (size_t k = from < deep ? 0 : from - deep; k < end + deep && k < c->n[DEPTH]; k++)
+        for (size_t s = (low < wide ? 0 : low - wide) / TENSOR_STRIP; s <= high / TENSOR_STRIP && s < strips;
+             s++)
+            if (c->hform->loudest[k * strips + s] > level) return true;
+    return false;
+}
+
+/* The operator alone, without edges, in planes from .. end - 1, one block. */
+static void operator_block(const struct consistent *c, int thread, size_t from, size_t end, double level,
+                           const double *u, double *a)
 {
     const struct part_axis *rows = &c->part.along[1];
     double *out[3] = {NULL, NULL, NULL};
     if (c->fused != NULL) {
         const struct fused_fields fields = {.u = u, .a = a};
-        fused_planes_double(c->fused, thread, k, &fields);
+        fused_planes_double(c->fused, thread, from, &fields);
         return;
     }
     for (int component = 0; component < c->dimension; component++) {
-        out[component] = a + (size_t)component * c->volume + k * c->plane;
-        memset(out[component], 0, c->plane * sizeof *a);
+        out[component] = a + (size_t)component * c->volume + from * c->plane;
+        memset(out[component], 0, (end - from) * c->plane * sizeof *a);
     }
-    tensor_rows(c->hform->acceleration, thread, k, rows->own, rows->end, 1, u, out);
+    size_t strip = rows->own / TENSOR_STRIP;
+    while (strip * TENSOR_STRIP < rows->end) { /* strips that follow each other share what they load */
+        const size_t first = strip;
+        while (strip * TENSOR_STRIP < rows->end && strip_moves(c, level, from, end, strip))
+            strip++;
+        if (strip > first)
+            tensor_planes(c->hform->acceleration, thread, from, end - from, first * TENSOR_STRIP,
+                          strip * TENSOR_STRIP < rows->end ? strip * TENSOR_STRIP : rows->end, 1, u, out);
+        else
+            strip++;
+    }
 }
 
 /* What is added to the operator in plane k. */
@@ -52,12 +107,14 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
                       const double *v, double *a)
 {
     const size_t block = block_of(c);
+    const double level = c->fused == NULL ? look(c, u) : -1;
     if (c->fused != NULL) fused_look_double(c->fused, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t from = c->part.along[DEPTH].own; from < c->part.along[DEPTH].end; from += block) {
         const int thread = omp_get_thread_num();
-        operator_block(c, thread, from, u, a);
-        for (size_t k = from; k < from + block && k < c->part.along[DEPTH].end; k++)
+        const size_t last = c->part.along[DEPTH].end, end = from + block < last ? from + block : last;
+        operator_block(c, thread, from, end, level, u, a);
+        for (size_t k = from; k < end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
     }
     if (drive->extra != NULL) {

@@ -54,21 +54,24 @@ static void destroy(struct model *model)
     array_free(c);
 }
 
-/* F - K u - C v - M_IB a_B in plane k. */
-static void residual_plane(const struct consistent *c, const struct drive *drive, int thread, size_t k,
-                           const double *u, const double *v, double *a)
+/* F - K u - C v - M_IB a_B in planes from .. end - 1, at most TENSOR_PLANES. */
+static void residual_planes(const struct consistent *c, const struct drive *drive, int thread, size_t from,
+                            size_t end, const double *u, const double *v, double *a)
 {
     double *out[3] = {NULL, NULL, NULL};
     for (int component = 0; component < c->dimension; component++) {
-        out[component] = a + (size_t)component * c->volume + k * c->plane;
-        memset(out[component], 0, c->plane * sizeof *a);
+        out[component] = a + (size_t)component * c->volume + from * c->plane;
+        memset(out[component], 0, (end - from) * c->plane * sizeof *a);
     }
-    tensor_plane(c->stiffness, thread, k, -1, u, out);
-    if (v != NULL && c->model.damped) dampers_subtract(c, thread, k, v, out);
-    for (int component = 0; component < c->dimension; component++) {
-        add_forces(c, drive, c->load, c->inertia, component, k, out[component]);
-        moving_loads_add(c, drive, component, k, out[component]);
-        consistent_clear_held(c, component, k, out[component]);
+    tensor_planes(c->stiffness, thread, from, end - from, 0, c->n[1], -1, u, out);
+    for (size_t k = from; k < end; k++) {
+        if (v != NULL && c->model.damped) dampers_subtract(c, thread, k, v, out);
+        for (int component = 0; component < c->dimension; component++) {
+            add_forces(c, drive, c->load, c->inertia, component, k, out[component]);
+            moving_loads_add(c, drive, component, k, out[component]);
+            consistent_clear_held(c, component, k, out[component]);
+            out[component] += c->plane;
+        }
     }
 }
 
@@ -88,8 +91,10 @@ static void exact_accelerate(struct consistent *c, const struct drive *drive, do
 {
     const struct mass_factors *factors = mass_factors_for(c, half_step);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < c->n[DEPTH]; k++)
-        residual_plane(c, drive, omp_get_thread_num(), k, u, v, a);
+    for (size_t k = 0; k < c->n[DEPTH]; k += TENSOR_PLANES) {
+        const size_t end = k + TENSOR_PLANES < c->n[DEPTH] ? k + TENSOR_PLANES : c->n[DEPTH];
+        residual_planes(c, drive, omp_get_thread_num(), k, end, u, v, a);
+    }
     mass_solve(c, factors, a);
     if (drive->extra == NULL) return;
     pml_accelerate(c, 1, drive->extra, a);
@@ -202,9 +207,13 @@ static void describe(const struct model *model,
                  FUSED_STRIP);
         tell(context, "operator", text);
         tell(context, "step", step);
+    }
+    if (c->hform != NULL && c->general == NULL) {
         snprintf(text, sizeof text, "what is below %g of the largest displacement moves nothing",
-                 c->fused->quiet);
-        tell(context, "quiet parts", c->fused->quiet > 0 ? text : "all are computed");
+                 c->options.quiet);
+        tell(context, "quiet parts", c->options.quiet > 0 ? text : "all are computed");
+    }
+    if (c->fused != NULL) {
         const struct fused *used = model->single ? c->fused->single : c->fused;
         if (used->skipped > 0) {
             snprintf(text, sizeof text, "%.1f %% of points, all calls so far",

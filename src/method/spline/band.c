@@ -131,6 +131,16 @@ static void scale(double factor, size_t lanes, double *row)
         row[lane] *= factor;
 }
 
+/* Row `to` := the sum of the weights times as many rows from `from` on, which it may be one of. */
+static void sum_rows(const struct passes *passes, const double *weight, size_t count, const double *from,
+                     size_t stride, size_t lanes, double *to)
+{
+    const double *in[MOST_HALF + 1];
+    for (size_t d = 0; d < count; d++)
+        in[d] = from + d * stride;
+    passes->rows[1](weight, count, in, lanes, false, &to);
+}
+
 /* Each row of the solution is a sum over rows that are known, and itself. */
 void band_forward_rows(const double *factor, const struct band_rows *rows, size_t half, double *x,
                        size_t stride, size_t lanes)
@@ -142,8 +152,7 @@ void band_forward_rows(const double *factor, const struct band_rows *rows, size_
         for (size_t d = 1; d <= reach; d++)
             weight[reach - d] = -factor[i] * factor[d * rows->n + i];
         weight[reach] = factor[i];
-        passes->over_rows(weight, reach + 1, x + (row - reach) * stride, stride, lanes, NULL,
-                          x + row * stride);
+        sum_rows(passes, weight, reach + 1, x + (row - reach) * stride, stride, lanes, x + row * stride);
     }
 }
 
@@ -157,7 +166,7 @@ void band_backward_rows(const double *factor, const struct band_rows *rows, size
         for (size_t d = 1; d <= reach; d++)
             weight[d] = -factor[i] * factor[d * rows->n + i + d];
         weight[0] = factor[i];
-        passes->over_rows(weight, reach + 1, x + row * stride, stride, lanes, NULL, x + row * stride);
+        sum_rows(passes, weight, reach + 1, x + row * stride, stride, lanes, x + row * stride);
     }
 }
 

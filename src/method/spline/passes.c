@@ -1,12 +1,20 @@
-/* Sums over rows and neighbours in vectors, eight at a time (sums of fewer wait for each other, more find no
- * registers), and at the end of a row up to nine. The last vector of a row that is no whole number of them
- * overlaps the one before: sums of one go are all made before any is stored. */
+/* Sums over rows and neighbours in vectors, so many at a time that none waits for another and all find registers, and
+ * at the end of a row one more. The last vector of a row that is no whole number of them overlaps the one before: sums
+ * of one go are all made before any is stored. */
 #include "method/spline/passes.h"
 
 #include "base/machine.h"
 #include "base/vectors.h"
 
-enum { TOGETHER = 8, MOST = TOGETHER + 1 };
+enum { MOST = 9 };
+
+#define UNROLLED _Pragma("GCC unroll 16")
+
+/* Vectors of each of so many rows that are made together. */
+INLINED int together(const int rows)
+{
+    return rows == 1 ? 8 : rows == 2 ? 4 : FEW_REGISTERS ? 2 : 4;
+}
 
 /* Where vector v of `count` begins, from i on: the last one at `last`. */
 INLINED size_t place(const int count, int v, size_t i, size_t last)
@@ -14,92 +22,112 @@ INLINED size_t place(const int count, int v, size_t i, size_t last)
     return v == count - 1 ? last : i + (size_t)v * LANES;
 }
 
-INLINED void rows_at(const int count, const double *restrict weight, size_t taps, const double *in,
-                     size_t stride, size_t i, size_t last, const double *init, double *out)
+INLINED void rows_at(const int rows, const int count, const double *restrict weight, size_t inputs,
+                     const double *const *in, size_t i, size_t last, bool add, double *const *out)
 {
-    lanes sum[MOST];
-    for (int v = 0; v < count; v++)
-        sum[v] = init != NULL ? AT(init + place(count, v, i, last)) : (lanes){0};
-    for (size_t d = 0; d < taps; d++)
-        for (int v = 0; v < count; v++)
-            sum[v] += weight[d] * AT(in + d * stride + place(count, v, i, last));
-    for (int v = 0; v < count; v++)
-        *(lanes *)(out + place(count, v, i, last)) = sum[v];
+    lanes sum[PASS_ROWS][MOST];
+    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] =
+        add ? AT(out[r] + place(count, v, i, last)) : (lanes){0};
+    for (size_t t = 0; t < inputs; t++, weight += rows) {
+        const double *from = in[t];
+        UNROLLED for (int v = 0; v < count; v++)
+        {
+            const lanes value = AT(from + place(count, v, i, last));
+            UNROLLED for (int r = 0; r < rows; r++) sum[r][v] += weight[r] * value;
+        }
+    }
+    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) *
+        (lanes *)(out[r] + place(count, v, i, last)) = sum[r][v];
 }
 
-/* CALL(count) for the vectors that are left from i on, 1 to MOST. */
-#define FOR_THE_REST(CALL)                                                                                   \
-    switch ((n - i + LANES - 1) / LANES) {                                                                   \
-        CASE(1, CALL)                                                                                        \
-        CASE(2, CALL)                                                                                        \
-        CASE(3, CALL)                                                                                        \
-        CASE(4, CALL)                                                                                        \
-        CASE(5, CALL)                                                                                        \
-        CASE(6, CALL)                                                                                        \
-        CASE(7, CALL)                                                                                        \
-        CASE(8, CALL)                                                                                        \
-    default:                                                                                                 \
-        CALL(MOST);                                                                                          \
-    }
-#define CASE(count, CALL)                                                                                    \
-    case count:                                                                                              \
-        CALL(count);                                                                                         \
-        break;
+/* CALL(count) for the vectors that are left from i on, at most one more than are made together. */
+#define FOR_THE_REST(rows, CALL)                                                                             \
+    for (int left = (int)((n - i + LANES - 1) / LANES), count = 1; count <= MOST; count++)                   \
+        if (count == left && count <= together(rows) + 1) CALL(count)
 
-static void over_rows(const double *weight, size_t taps, const double *in, size_t stride, size_t n,
-                      const double *init, double *out)
+INLINED void rows_all(const int rows, const double *weight, size_t inputs, const double *const *in, size_t n,
+                      bool add, double *const *out)
 {
     if (n < LANES) {
-        for (size_t i = 0; i < n; i++) {
-            double total = init != NULL ? init[i] : 0;
-            for (size_t d = 0; d < taps; d++)
-                total += weight[d] * in[d * stride + i];
-            out[i] = total;
-        }
+        for (int r = 0; r < rows; r++)
+            for (size_t i = 0; i < n; i++) {
+                double total = add ? out[r][i] : 0;
+                for (size_t t = 0; t < inputs; t++)
+                    total += weight[t * (size_t)rows + (size_t)r] * in[t][i];
+                out[r][i] = total;
+            }
         return;
     }
+    const size_t ahead = (size_t)together(rows) * LANES;
     size_t i = 0;
-    for (; i + MOST * LANES < n; i += TOGETHER * LANES)
-        rows_at(TOGETHER, weight, taps, in, stride, i, i + (TOGETHER - 1) * LANES, init, out);
-#define ROWS(count) rows_at(count, weight, taps, in, stride, i, n - LANES, init, out)
-    FOR_THE_REST(ROWS)
+    for (; i + ahead + LANES < n; i += ahead)
+        rows_at(rows, together(rows), weight, inputs, in, i, i + ahead - LANES, add, out);
+#define ROWS(count) rows_at(rows, count, weight, inputs, in, i, n - LANES, add, out);
+    UNROLLED FOR_THE_REST(rows, ROWS)
 #undef ROWS
 }
 
-INLINED void neighbours_at(const int count, const double *restrict value, size_t taps, double factor,
-                           const double *in, size_t n, size_t i, size_t last, double *out)
+INLINED void neighbours_at(const int rows, const int count, const double *restrict value, size_t taps,
+                           double factor, const double *in, size_t in_step, size_t n, size_t i, size_t last,
+                           double *out, size_t step)
 {
-    lanes sum[MOST];
-    for (int v = 0; v < count; v++)
-        sum[v] = (lanes){0};
+    lanes sum[PASS_ROWS][MOST];
+    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] = (lanes){0};
     for (size_t d = 0; d < taps; d++)
-        for (int v = 0; v < count; v++)
-            sum[v] += AT(value + d * n + place(count, v, i, last)) * AT(in + d + place(count, v, i, last));
-    for (int v = 0; v < count; v++)
-        sum[v] = AT(out + place(count, v, i, last)) + factor * sum[v];
-    for (int v = 0; v < count; v++)
-        *(lanes *)(out + place(count, v, i, last)) = sum[v];
+        UNROLLED for (int v = 0; v < count; v++)
+        {
+            const lanes weight = AT(value + d * n + place(count, v, i, last));
+            UNROLLED for (int r = 0; r < rows; r++) sum[r][v] +=
+                weight * AT(in + (size_t)r * in_step + d + place(count, v, i, last));
+        }
+    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) sum[r][v] =
+        AT(out + (size_t)r * step + place(count, v, i, last)) + factor * sum[r][v];
+    UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) *
+        (lanes *)(out + (size_t)r * step + place(count, v, i, last)) = sum[r][v];
 }
 
-static void over_neighbours(const double *value, size_t taps, double factor, const double *in, size_t n,
-                            double *out)
+INLINED void neighbours_all(const int rows, const double *value, size_t taps, double factor, const double *in,
+                            size_t in_step, size_t n, double *out, size_t step)
 {
     if (n < LANES) {
-        for (size_t i = 0; i < n; i++) {
-            double total = 0;
-            for (size_t d = 0; d < taps; d++)
-                total += value[d * n + i] * in[d + i];
-            out[i] += factor * total;
-        }
+        for (int r = 0; r < rows; r++)
+            for (size_t i = 0; i < n; i++) {
+                double total = 0;
+                for (size_t d = 0; d < taps; d++)
+                    total += value[d * n + i] * in[(size_t)r * in_step + d + i];
+                out[(size_t)r * step + i] += factor * total;
+            }
         return;
     }
+    const size_t ahead = (size_t)together(rows) * LANES;
     size_t i = 0;
-    for (; i + MOST * LANES < n; i += TOGETHER * LANES)
-        neighbours_at(TOGETHER, value, taps, factor, in, n, i, i + (TOGETHER - 1) * LANES, out);
-#define NEIGHBOURS(count) neighbours_at(count, value, taps, factor, in, n, i, n - LANES, out)
-    FOR_THE_REST(NEIGHBOURS)
+    for (; i + ahead + LANES < n; i += ahead)
+        neighbours_at(rows, together(rows), value, taps, factor, in, in_step, n, i, i + ahead - LANES, out,
+                      step);
+#define NEIGHBOURS(count)                                                                                    \
+    neighbours_at(rows, count, value, taps, factor, in, in_step, n, i, n - LANES, out, step);
+    UNROLLED FOR_THE_REST(rows, NEIGHBOURS)
 #undef NEIGHBOURS
 }
+
+#define OF_ROWS(count)                                                                                       \
+    static void rows_##count(const double *weight, size_t inputs, const double *const *in, size_t n,         \
+                             bool add, double *const *out)                                                   \
+    {                                                                                                        \
+        if (add)                                                                                             \
+            rows_all(count, weight, inputs, in, n, true, out);                                               \
+        else                                                                                                 \
+            rows_all(count, weight, inputs, in, n, false, out);                                              \
+    }                                                                                                        \
+    static void neighbours_##count(const double *value, size_t taps, double factor, const double *in,        \
+                                   size_t in_step, size_t n, double *out, size_t step)                       \
+    {                                                                                                        \
+        neighbours_all(count, value, taps, factor, in, in_step, n, out, step);                               \
+    }
+OF_ROWS(1)
+OF_ROWS(2)
+OF_ROWS(3)
+OF_ROWS(4)
 
 #define LARGEST_SIZE(name, type)                                                                             \
     static type name(const type *x, size_t n)                                                                \
@@ -115,5 +143,7 @@ static void over_neighbours(const double *value, size_t taps, double factor, con
 LARGEST_SIZE(largest_size_double, double)
 LARGEST_SIZE(largest_size_single, float)
 
-const struct passes OF_PROCESSOR(passes) = {over_rows, over_neighbours, largest_size_double,
+const struct passes OF_PROCESSOR(passes) = {{NULL, rows_1, rows_2, rows_3, rows_4},
+                                            {NULL, neighbours_1, neighbours_2, neighbours_3, neighbours_4},
+                                            largest_size_double,
                                             largest_size_single};

@@ -70,13 +70,14 @@ static void work_out(const struct consistent *c, const struct slab *slab, const 
     const size_t plane = slab->region.n[0] * slab->region.n[1];
     const size_t first = wanted->at[2] - slab->region.at[2], row = wanted->at[1] - slab->region.at[1];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = first; k < first + wanted->n[2]; k++) {
+    for (size_t k = first; k < first + wanted->n[2]; k += TENSOR_PLANES) {
+        const size_t left = first + wanted->n[2] - k, planes = left < TENSOR_PLANES ? left : TENSOR_PLANES;
         double *out[3] = {NULL, NULL, NULL};
         for (int i = 0; i < c->dimension; i++) {
             out[i] = c->pml->out + (size_t)i * slab->volume + k * plane;
-            memset(out[i], 0, plane * sizeof **out);
+            memset(out[i], 0, planes * plane * sizeof **out);
         }
-        tensor_rows(plan, omp_get_thread_num(), k, row, row + wanted->n[1], 1, c->pml->in, out);
+        tensor_planes(plan, omp_get_thread_num(), k, planes, row, row + wanted->n[1], 1, c->pml->in, out);
     }
 }
 

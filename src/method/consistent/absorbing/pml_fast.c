@@ -44,7 +44,8 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
     fast->middle = pml_numbers(n, f->single);
     fast->rests = array_new(fast->nb, sizeof *fast->rests);
     fast->moves = array_new(fast->nb, sizeof *fast->moves);
-    good = good && fast->middle != NULL && fast->rests != NULL && fast->moves != NULL;
+    fast->idle = array_new(fast->nb, sizeof *fast->idle);
+    good = good && fast->middle != NULL && fast->rests != NULL && fast->moves != NULL && fast->idle != NULL;
     for (size_t i = 0; i < fast->parts; i++) {
         fast->wait[i] = pml_numbers(n, f->single);
         good = good && fast->wait[i] != NULL;
@@ -119,6 +120,7 @@ static void free_passes(const struct consistent *c, struct pml_fast *f)
         array_free(fast->middle);
         array_free(fast->rests);
         array_free(fast->moves);
+        array_free(fast->idle);
     }
     for (int t = 0; f->buffer != NULL && t < c->threads; t++)
         array_free(f->buffer[t]);

@@ -85,6 +85,7 @@ struct fast_slab {
     void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i; m_jj */
     bool *rests;                     /* [nb] rows in which nothing moves, in this call */
     bool *moves;                     /* [nb] groups of rows in which something does */
+    bool *idle;                      /* [nb] rows of `wait` and `middle` that are 0 */
 };
 
 /* Tables and room for numbers of one kind, doubles or floats; the memory variables are laid out alike in

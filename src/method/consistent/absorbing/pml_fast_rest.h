@@ -47,19 +47,22 @@ static bool rests(const struct consistent *c, const struct fast_slab *s, struct 
            !field_loud(c, s, level.velocity, b, v) && !memory_loud(s, level, b, extra);
 }
 
-/* What is left of memory in a row at rest. */
+/* A row at rest forgets its memory and what waits: what is 0 already is not written. */
 static void forget_row(const struct fast_slab *s, size_t b, REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
-    for (size_t i = 0; i < 3; i++) {
+    const bool left = memory_loud(s, (struct level){0}, b, extra);
+    for (size_t i = 0; i < 3 && left; i++) {
         memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
         memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
     }
+    if (s->idle[b]) return;
     for (size_t i = 0; i < s->parts; i++)
         memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
     for (size_t n = 0; n < s->overs; n++)
         memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
     memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);
+    s->idle[b] = true;
 }
 
 /* Do ranks share the rows of the slab along f? Then what rests in one of them may move in another. */

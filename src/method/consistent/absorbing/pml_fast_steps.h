@@ -72,6 +72,7 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
     const int j = s->axis[ROLE_S];
     REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
     REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
+    s->idle[b] = false;
     for (int k = 0; k < 3; k++) {
         const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
         const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
@@ -169,7 +170,7 @@ static void meet_rows(const struct consistent *c, const struct fast_slab *s, str
         const REAL least = s->rests[b] ? level.slope : -1;
         for (size_t n = 0; n < (s->parts > 3 ? s->crosses : 1); n++)
             if (add_divergence(c, s, ROLE_F, least, b, rows, (REAL *)s->wait[s->cross[n].part] + b * size))
-                s->rests[b] = false;
+                s->rests[b] = s->idle[b] = false;
     }
 }
 

@@ -20,7 +20,7 @@ struct consistent_options {
     bool depth_exact; /* H-form: the stiffness keeps M over depth (always so with layers) */
     double
         dissipation; /* H-form: rate at which the shortest waves die away, in units of speed over spacing */
-    double quiet;    /* fused operator: displacements below this times the largest move nothing; 0: all do */
+    double quiet;    /* H-form: displacements below this times the largest move nothing; 0: all do */
     bool single;     /* layers: tables for steps in single precision, too */
     bool general;    /* the general operator (general/general.h) in place of the H-form */
     bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */

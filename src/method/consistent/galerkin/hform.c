@@ -349,9 +349,11 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     c->hform = h;
     if (h == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
     h->work = array_new(c->model.unknowns, sizeof *h->work);
+    h->loudest = array_new(c->n[DEPTH] * ((c->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP), sizeof *h->loudest);
     h->face[0] = array_new(largest, sizeof(double));
     h->face[1] = array_new(largest, sizeof(double));
-    if (h->work == NULL || h->face[0] == NULL || h->face[1] == NULL || !lay_inverses(c) ||
+    if (h->work == NULL || h->loudest == NULL || h->face[0] == NULL || h->face[1] == NULL ||
+        !lay_inverses(c) ||
         (!c->options.general && (!lay_plan(c) || !hform_forces(c) || !hform_dissipation_create(c))))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     return SELAS_OK;
@@ -389,6 +391,7 @@ void hform_free(struct consistent *c)
     for (int face = 0; face < BOX_FACES; face++)
         sparse_free(&h->pulled[face]);
     array_free(h->factors.side);
+    array_free(h->loudest);
     array_free(h->face[0]);
     array_free(h->face[1]);
     array_free(h->work);

@@ -31,10 +31,12 @@ struct hform {
     size_t edges;
     struct edge edge[MAX_EDGES];
     struct sparse *load, pulled[BOX_FACES]; /* M^-1 F; M^-1 M_IB a_B of moving faces */
-    double *face[2];                        /* face values */
-    double *work;                           /* [unknowns], energies */
-    struct band *smoother[3][3];            /* dissipation: P of [component][axis] ... */
-    struct tensor_plan *dissipation;        /* ... and -rate sum of P; NULL: none asked for */
+    double
+        *loudest; /* where the fused operator does not serve: of plane k, strip s, the largest displacement */
+    double *face[2];                 /* face values */
+    double *work;                    /* [unknowns], energies */
+    struct band *smoother[3][3];     /* dissipation: P of [component][axis] ... */
+    struct tensor_plan *dissipation; /* ... and -rate sum of P; NULL: none asked for */
 };
 
 selas_status hform_create(struct consistent *c, struct messages *messages);
