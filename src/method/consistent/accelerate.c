@@ -43,8 +43,8 @@ static double look(const struct consistent *c, const double *u)
     return c->options.quiet * part_largest(c, largest);
 }
 
-/* Does anything move in what planes from .. end - 1 of a strip of rows read? Each strip is asked for itself, so that all
- * ranks that share rows leave out the same. */
+/* Does anything move in what planes from .. end - 1 of a strip of rows read? Each strip is asked for itself, so that
+ * all ranks that share rows leave out the same. */
 static bool strip_moves(const struct consistent *c, double level, size_t from, size_t end, size_t strip)
 {
     const struct tensor_plan *plan = c->hform->acceleration;
