@@ -21,7 +21,18 @@ static size_t strips_of(const struct consistent *c)
     return (c->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
 }
 
-/* Together: the largest displacement of each strip of rows in each plane; up to what is returned nothing moves. */
+/* Is none of the numbers infinite or not a number? */
+static bool all_finite(const double *x, size_t n)
+{
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] - x[i];
+    return sum == 0;
+}
+
+/* Together: the largest displacement of each strip of rows in each plane; up to what is returned nothing moves. What is
+ * no number moves. */
 static double look(const struct consistent *c, const double *u)
 {
     const struct passes *passes = taken_passes();
@@ -34,11 +45,13 @@ static double look(const struct consistent *c, const double *u)
             const size_t from = s * TENSOR_STRIP, left = c->n[1] - from;
             double *loudest = &c->hform->loudest[k * strips + s];
             *loudest = 0;
-            for (int i = 0; i < c->dimension; i++)
-                *loudest = fmax(*loudest, passes->largest_size_double(
-                                              u + (size_t)i * c->volume + k * c->plane + from * c->n[0],
-                                              (left < TENSOR_STRIP ? left : TENSOR_STRIP) * c->n[0]));
-            largest = fmax(largest, *loudest);
+            for (int i = 0; i < c->dimension; i++) {
+                const double *rows = u + (size_t)i * c->volume + k * c->plane + from * c->n[0];
+                const size_t numbers = (left < TENSOR_STRIP ? left : TENSOR_STRIP) * c->n[0];
+                const double size = passes->largest_size_double(rows, numbers);
+                largest = fmax(largest, size);
+                *loudest = fmax(*loudest, all_finite(rows, numbers) ? size : INFINITY);
+            }
         }
     return c->options.quiet * part_largest(c, largest);
 }

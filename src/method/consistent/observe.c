@@ -226,7 +226,7 @@ int consistent_holder(const struct model *model, size_t point)
     const size_t at[3] = {point % model->grid[0], point / model->grid[0] % model->grid[1],
                           point / (model->grid[0] * model->grid[1])};
     size_t first[3] = {0};
-    for (int axis = 0; axis < c->dimension; axis++)
+    for (int axis = 0; axis < c->dimension && axis < 3; axis++)
         first[c->slot[axis]] = lowest(&c->lattice[axis][0][at[axis]]);
     return part_holder(c, first[1], first[DEPTH]);
 }

@@ -94,7 +94,7 @@ static void add_slab(const struct consistent *c, const struct slab *slab, struct
 
 static void add_memory(const struct consistent *c, const struct slab *slab, struct spread *shares)
 {
-    if (c->pml->fast != NULL)
+    if (c->pml != NULL && c->pml->fast != NULL)
         add_shared_passes(c, &c->pml->fast->slab[slab - c->pml->slab], shares);
     else
         add_slab(c, slab, shares);

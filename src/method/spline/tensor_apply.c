@@ -71,14 +71,10 @@ static void strip_down(const struct work *w, size_t strip)
 
 static void add_row(double factor, const double *restrict in, size_t n, bool add, double *restrict out)
 {
-    if (add)
+    if (!add) memset(out, 0, n * sizeof *out);
 #pragma omp simd
-        for (size_t i = 0; i < n; i++)
-            out[i] += factor * in[i];
-    else
-#pragma omp simd
-        for (size_t i = 0; i < n; i++)
-            out[i] = factor * in[i];
+    for (size_t i = 0; i < n; i++)
+        out[i] += factor * in[i];
 }
 
 /* What an item across makes in a group of rows of plane p. */
