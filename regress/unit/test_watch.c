@@ -211,8 +211,10 @@ static void test_consistent(void **state)
     const size_t in_layer = n + layer[0] + layer[1] * c->plane;
     selas_close(&simulation);
     plant_all(&family, "inside", in_body, body, 2, NULL);
-    /* passes take four planes together, with weights that are 0 for some: up to three planes more are spoiled */
-    plant_all(&family, "at a corner", n, zero, 7, NULL);
+    /* passes take four planes together, with weights that are 0 for some: what is no number spoils up to three more */
+    plant(&family, "at a corner", n, zero, 7, NULL, NOT_FINITE);
+    for (enum fault fault = OVERFLOW; fault <= GROWTH; fault++)
+        plant(&family, "at a corner", n, zero, 6, NULL, fault);
     plant_all(&family, "in the layer", in_layer, there, 2, "behind face x+");
     plant_all(&family, "in the layer's memory of strain", psi, there, 2, "behind face x+");
     plant_all(&family, "in the layer's memory of stress", phi, there, 2, "behind face x+");
