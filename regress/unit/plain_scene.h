@@ -50,6 +50,18 @@ static inline void plain_box(struct plain_scene *plain, int dimension, const dou
     scene->stepping.safety = .9;
 }
 
+/* Strata of both materials; shares of the depth of the first and the second. */
+static inline void plain_strata(struct plain_scene *plain, double first, double second)
+{
+    struct body *body = &plain->scene.body;
+    const int depth = plain->scene.dimension - 1;
+    const double deep = body->high[depth] - body->low[depth];
+    plain->layer[0] = (struct layer){.material = 1, .top = 0};
+    plain->layer[1] = (struct layer){.material = 0, .top = first * deep};
+    plain->layer[2] = (struct layer){.material = 1, .top = (first + second) * deep};
+    body->layers = 3;
+}
+
 /* Uniform traction on a whole face; gives the load. */
 static inline struct load *plain_face_load(struct plain_scene *plain, enum face face,
                                            const double traction[3])

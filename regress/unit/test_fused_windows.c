@@ -8,7 +8,7 @@
 enum { SOURCES = 2 };
 
 /* A wide box with faces drawn by chance. */
-static void wide_scene(struct plain_scene *plain, bool layers, int long_axis)
+static void wide_scene(struct plain_scene *plain, bool layers, int long_axis, bool strata)
 {
     static const enum boundary_kind kinds[] = {BOUNDARY_FREE, BOUNDARY_FIXED, BOUNDARY_ROLLER,
                                                BOUNDARY_SYMMETRY, BOUNDARY_TRANSMITTING};
@@ -30,13 +30,14 @@ static void wide_scene(struct plain_scene *plain, bool layers, int long_axis)
     load->centre[0] = load->centre[1] = 1.4;
     load->size[0] = load->size[1] = .9;
     load->history = (struct history){.kind = HISTORY_STEP};
+    if (strata) plain_strata(plain, .01 * (double)(10 + chance(30)), .01 * (double)(10 + chance(50)));
 }
 
 /* The same, drawn until steps in one pass serve it (layers' passes are not shared everywhere). */
-static void one_pass_scene(struct plain_scene *plain, bool layers, int long_axis)
+static void one_pass_scene(struct plain_scene *plain, bool layers, int long_axis, bool strata)
 {
     for (bool served = false; !served;) {
-        wide_scene(plain, layers, long_axis);
+        wide_scene(plain, layers, long_axis, strata);
         struct model *model = make(plain, (struct consistent_options){.degree = 2, .sweeps = 3});
         served = model->one_pass != NULL;
         model_free(&model);
@@ -70,7 +71,7 @@ static void test_same_bits(void **unused)
     const int scenes = few_of(18, 3);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
-        wide_scene(&plain, false, i % 3);
+        wide_scene(&plain, false, i % 3, i % 4 == 3);
         struct consistent_options options = {
             .degree = 2, .sweeps = 1 + i / 3 % 3, .depth_exact = i % 2 == 0, .quiet = 1e-12};
         struct model *part = make(&plain, options);
@@ -124,7 +125,7 @@ static void test_quiet(void **unused)
     const int scenes = few_of(8, 2);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
-        one_pass_scene(&plain, i % 2 == 1, i % 3);
+        one_pass_scene(&plain, i % 2 == 1, i % 3, i % 4 > 1);
         struct consistent_options options = {
             .degree = 2, .sweeps = 1 + i / 2 % 3, .depth_exact = i % 4 < 2, .quiet = 1e-14};
         struct stepped part = started(&plain, options, i % (SOURCES + 1));
@@ -181,7 +182,7 @@ static void test_reached(void **unused)
     const int scenes = few_of(8, 2);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
-        one_pass_scene(&plain, i % 2 == 1, i % 3);
+        one_pass_scene(&plain, i % 2 == 1, i % 3, i % 4 > 1);
         const struct consistent_options options = {.degree = 2,
                                                    .sweeps = 1 + i / 2 % 3,
                                                    .depth_exact = i % 4 < 2,
@@ -207,7 +208,7 @@ static void test_late(void **unused)
     const int scenes = few_of(6, 1);
     for (int i = 0; i < scenes; i++) {
         struct plain_scene plain;
-        one_pass_scene(&plain, i % 2 == 1, i % 3);
+        one_pass_scene(&plain, i % 2 == 1, i % 3, i % 4 > 1);
         plain.scene.stepping.unwarp_given = true;
         struct load *late = plain_face_load(&plain, FACE_Z_LOW, (double[]){.2, -.4, 1});
         late->shape = LOAD_SQUARE;
@@ -235,7 +236,7 @@ static void test_layers_reach(void **unused)
     for (int i = 0; i < scenes; i++) {
         const int along = i % 2, across = 1 - along;
         struct plain_scene plain;
-        wide_scene(&plain, false, along);
+        wide_scene(&plain, false, along, false);
         for (int face = 0; face < 6; face++)
             plain.scene.boundary[face].kind = face / 2 == along ? BOUNDARY_SYMMETRY : BOUNDARY_FREE;
         for (int axis = across; axis < 3; axis += 2 - across)

@@ -116,13 +116,7 @@ static void test_layered_ground(void **state)
         bool shared;
         random_scene(&plain, i % 6, .25);
         plain_material(&plain.material[1], .8, .7, .3 + .1 * (double)chance(5));
-        const double deep = plain.scene.body.high[2] - plain.scene.body.low[2];
-        const double first = .01 * (double)(1 + chance(50)) * deep,
-                     second = first + .01 * (double)chance(50) * deep;
-        struct layer ground[3] = {
-            {.material = 1, .top = 0}, {.material = 0, .top = first}, {.material = 1, .top = second}};
-        plain.scene.body.layer = ground;
-        plain.scene.body.layers = 3;
+        plain_strata(&plain, .01 * (double)(1 + chance(50)), .01 * (double)(1 + chance(49)));
         const struct consistent_options options = {.degree = 2, .sweeps = 1 + i / 6 % 3, .quiet = 0};
         const double error = difference(&plain, options, &shared);
         assert_true(shared);

@@ -130,12 +130,11 @@ void hform_accelerate(struct consistent *c, const struct drive *drive, double ha
         for (size_t k = from; k < end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
     }
-    if (drive->extra != NULL) {
-        pml_accelerate(c, 1, drive->extra, a);
-        for (int component = 0; component < c->dimension; component++)
-            for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++)
-                consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
-    }
+    const bool faces = c->fused != NULL && fused_add_faces_double(c, u, a);
+    if (drive->extra != NULL) pml_accelerate(c, 1, drive->extra, a);
+    for (int component = 0; (faces || drive->extra != NULL) && component < c->dimension; component++)
+        for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++)
+            consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
 }
 

@@ -1,7 +1,7 @@
-/* What two displacements in one operator leave at the faces (fused.h, F1b), for numbers of type REAL; included by
- * fused_double.c and fused_single.c.
+/* What two displacements in one operator or layered ground leave at the faces (fused.h, F1b, F1d), for numbers of type
+ * REAL; included by fused_double.c and fused_single.c.
  *
- * On each face the second displacement is a field of its two axes, `row` along rows and `deep` across them; what
+ * On each face the displacement, of two the second, is a field of its two axes, `row` along rows and `deep` across them; what
  * is made of it goes to the planes that N e of the axis across the face reaches. */
 #include "base/machine.h"
 #include "method/consistent/fused/kernels.h"
@@ -75,25 +75,23 @@ static void along_row(const struct band *band, const REAL *in, REAL *out)
     }
 }
 
-/* made := (G_i e_j, and D_j e_j less) of (F1b) along the face. */
+/* made := what (F1b) and (F1d) have along the face. */
 static void make_rows(const struct face_fields *of, size_t j)
 {
     const struct fused_faces *faces = of->faces;
     const int axis = of->face->axis, row = of->row, deep = of->deep;
-    const struct band *bare = deep == DEPTH ? faces->bare : NULL;
+    const bool over_depth = deep == DEPTH;
     const size_t at = j * of->n[0], bytes = of->n[0] * sizeof(REAL);
     for (int i = 0; i < 2; i++)
         memset(of->bare[i] + at, 0, bytes);
     for (int component = 0; component < 3; component++)
         memset(of->made[component] + at, 0, bytes);
-    across_rows(of, bare, of->value[row], j, of->bare[0] + at);
-    across_rows(of, bare, of->value[axis], j, of->bare[1] + at);
+    across_rows(of, over_depth ? faces->bare[0] : NULL, of->value[row], j, of->bare[0] + at);
+    across_rows(of, over_depth ? faces->bare[1] : NULL, of->value[axis], j, of->bare[1] + at);
     along_row(faces->first[row], of->bare[0] + at, of->made[axis] + at);
     across_rows(of, faces->first[deep], of->value[deep], j, of->made[axis] + at);
     along_row(faces->second[row], of->bare[1] + at, of->made[row] + at);
     across_rows(of, faces->second[deep], of->value[axis], j, of->made[deep] + at);
-    for (size_t i = 0; i < of->n[0]; i++)
-        of->made[axis][at + i] = -of->made[axis][at + i];
 }
 
 /* Adds what was made to a component of plane k. */
@@ -117,10 +115,13 @@ static void add_face(const struct consistent *c, const struct face_fields *of, d
     kernels->spread(c->n[1], c->n[0], weight, made, sum + from);
 }
 
-/* a += factor (F1b) of the second displacement u. */
-static void add_faces(const struct consistent *c, double factor, const REAL *u, REAL *a)
+/* a += factor times (F1b) of the second displacement, or (F1d). False: there is nothing to add. */
+static bool add_faces(const struct consistent *c, double factor, const struct fused_fields *fields)
 {
     const struct fused_faces *faces = c->fused->faces;
+    const REAL *u = fields->other != NULL ? fields->other : fields->u;
+    REAL *a = fields->a;
+    if (faces == NULL || (fields->other == NULL && !c->fused->layered)) return false;
     for (const struct fused_face *face = faces->face; face < faces->face + faces->count; face++) {
         const struct face_fields of = fields_of_face(c, faces, face);
         if (!take_face(c, &of, u)) continue;
@@ -137,6 +138,7 @@ static void add_faces(const struct consistent *c, double factor, const REAL *u, 
             tiny_as_before(before);
         }
     }
+    return true;
 }
 
 /* What faces make of u, in plane k. */

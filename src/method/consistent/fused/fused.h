@@ -1,4 +1,4 @@
-/* The H-form's operator on one kind of ground in three dimensions, fused (manual, doc/developers/performance.md).
+/* The H-form's operator on even and layered ground in three dimensions, fused (manual, doc/developers/performance.md).
  *
  * With b = B_z u (N M over depth, or the identity), each line one pass over rows that stay in the cache,
  *
@@ -17,7 +17,17 @@
  * and what the boundary terms in G would ask for besides is left at the faces (D: G without its share, E_i: -1 at
  * the low and 1 at the high end of axis i, elsewhere 0),
  *
- *   a_i += lambda_e mu / ((lambda + mu) rho) sum over j != i of N (G_i E_j - E_i D_j) e_j.                 (F1b) */
+ *   a_i += lambda_e mu / ((lambda + mu) rho) sum over j != i of N (G_i E_j - E_i D_j) e_j.                 (F1b)
+ *
+ * On layered ground the moduli stand in the products over depth, m B = N M_mu, q B = m B + N M_lambda, p B = m B + q B
+ * with the density in N, those along the ground are D, and A and C are
+ *
+ *   A = -N S_mu, of u_z -N S_(lambda+2mu),   C_x, C_y = N (G_mu - G_lambda^T),   C_z = N (G_lambda - G_mu^T);   (F1c)
+ *
+ * at faces across x and y that are no mirrors this leaves, i across the face, j along the ground,
+ *
+ *   a_i -= N E_i (D_j N M_lambda u_j + N G_lambda u_z),   a_j -= N E_i D_j N M_mu u_i,   a_z -= N E_i N G_mu u_i.
+ *                                                                                                       (F1d) */
 #ifndef SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
 #define SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
 
@@ -62,12 +72,13 @@ enum fused_side {
     SIDE_G_SECOND,
     SIDE_MATRICES
 };
-enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_MATRICES };
-/* Results over depth behind those of the matrices, where displacements are mixed: B of what q and p multiply. */
-enum fused_mixed { OVER_DEPTH_B_MIXED = OVER_DEPTH_MATRICES, OVER_DEPTH_B_AXIAL, OVER_DEPTH_RESULTS };
+enum fused_depth { OVER_DEPTH_A, OVER_DEPTH_C, OVER_DEPTH_B, OVER_DEPTH_LAMBDA, OVER_DEPTH_MATRICES };
+/* Results over depth behind A, C and B, where displacements are mixed or the ground is layered: B of what q and p
+ * multiply. */
+enum fused_mixed { OVER_DEPTH_B_MIXED = OVER_DEPTH_B + 1, OVER_DEPTH_B_AXIAL, OVER_DEPTH_RESULTS };
 enum { SHARE_MIXED, SHARE_AXIAL, SHARES };
 
-/* What mixed displacements leave at a face (F1b): `factor` times weights of its planes across, index `at`
+/* What is left at a face (F1b, F1d): `factor` times weights of its planes across, index `at`
  * being read, from .. to - 1 written. */
 struct fused_face {
     int axis;
@@ -79,11 +90,17 @@ struct fused_face {
 struct fused_faces {
     size_t count;
     struct fused_face face[BOX_FACES];
-    struct band *first[3], *second[3]; /* [axis] N D, N (D - lambda / (lambda + mu) E) */
-    struct band *bare;                 /* B over depth; NULL: the identity */
-    void *work;                        /* room for 8 fields of the largest face */
+    /* [axis] -N D, N (D - lambda / (lambda + mu) E); on layered ground -N D, -N G_lambda, -N G_mu */
+    struct band *first[3], *second[3];
+    struct band *bare[2]; /* B over depth of what goes across the face and along it; NULL: the identity */
+    void *work;           /* room for 8 fields of the largest face */
     size_t bytes;
 };
+
+static inline size_t fused_rounded(size_t n, size_t unit)
+{
+    return (n + unit - 1) / unit * unit;
+}
 
 /* How displacements e_p that relax go on with their memory (model.h, relaxing), in a step of dt:
  * D_l := kept_l D_l + taken_l w, e_p += given_p dt w + sum over l of weight_pl (change of D_l). One kind of
@@ -116,12 +133,13 @@ struct fused {
     struct fused_rings rings[2]; /* of one displacement, of two */
     int narrow, wide, deep;      /* taps of S and G, of N, of products over depth */
     bool bare;                   /* B is the identity */
+    bool layered;                /* moduli stand in B (F1c) */
     bool bulk; /* mu is 0, and all that it is a factor of: A of x and y, S_x b_y, S_y b_x, S_x b_z, S_y b_z */
     size_t late[2];            /* rows that narrow and wide passes over y lag behind */
     void *x[SIDE_MATRICES];    /* [width / vector][taps][vector] */
     void *y[SIDE_MATRICES];    /* [rows * taps] */
     double share[SHARES];      /* of e_1 in what q and p multiply (F1a) ... */
-    struct fused_faces *faces; /* ... and what that leaves; NULL: there is no e_1 */
+    struct fused_faces *faces; /* what e_1 or layered ground leave; NULL: nothing */
     bool *plain;               /* [rows / FUSED_ROWS] rows of y in this group are like those in the middle */
     void *z[3][OVER_DEPTH_MATRICES]; /* [component]: [planes * deep] */
     double quiet;   /* where displacements are all below this times the largest they do not move others */
@@ -168,6 +186,8 @@ struct fused_fields {
  */
 bool fused_create(struct consistent *c);
 void fused_free(struct fused *fused);
+/* tables.c: weights of the operator; false: no memory. */
+bool fused_lay_tables(struct consistent *c, struct fused *f);
 /* Tables of weights: of each row, `taps` a row, rows up to `rows` being 0; the same by vectors, [width / vector][taps]
  * [vector]. NULL: no memory. */
 double *fused_by_rows(const struct band *band, double factor, int taps, size_t rows);
@@ -189,10 +209,13 @@ struct band *fused_narrow_matrix(struct consistent *c, int axis, bool test_odd, 
                                  bool trial_odd, bool trial_slope, double share);
 /* Rings of rows of `displacements` (1 or 2), and rooms that hold them; false: no memory. */
 bool fused_lay_rings(struct fused *f, int displacements);
-/* mixed.c: from now on calls have displacements besides that act by the lambda of `second` (F1a); false: no
+/* faces.c: from now on calls have displacements besides that act by the lambda of `second` (F1a); false: no
  * memory. */
 bool fused_mix(struct consistent *c, const struct consistent *second);
+bool fused_layered_faces(struct consistent *c);   /* what (F1d) needs; false: no memory */
 void fused_faces_free(struct fused_faces *faces); /* takes NULL */
+/* Adds what layered ground leaves at faces (F1d) to an acceleration; false: nothing. */
+bool fused_add_faces_double(const struct consistent *c, const double *u, double *a);
 /* active.h. Sets computed[] for the displacements given: within reach of what is not quiet. */
 void fused_look_double(struct fused *fused, const double *u);
 void fused_look_single(struct fused *fused, const float *u);

@@ -11,3 +11,9 @@
 
 #include "method/consistent/fused/faces.h"
 #include "method/consistent/fused/fused_step.h"
+
+bool fused_add_faces_double(const struct consistent *c, const double *u, double *a)
+{
+    const struct fused_fields fields = {.u = u, .a = a};
+    return add_faces(c, 1, &fields);
+}

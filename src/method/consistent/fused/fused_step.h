@@ -193,7 +193,7 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
             tiny_as_before(before);
         }
     }
-    if (fields->other != NULL) add_faces(c, step ? fields->dt : 1, fields->other, fields->a);
+    add_faces(c, step ? fields->dt : 1, fields);
 }
 
 static REAL plane_size(const struct fused *f, size_t k, const REAL *u)

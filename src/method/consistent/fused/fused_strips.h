@@ -132,6 +132,7 @@ static void depth_rows(const struct strip *s, size_t first, size_t j, const stru
     const REAL share[SHARES] = {(REAL)f->share[SHARE_MIXED], (REAL)f->share[SHARE_AXIAL]};
     for (int component = 0; component < 3; component++) {
         const size_t at = (size_t)component * f->volume + j * f->n[0] + s->all.at;
+        const bool layered = f->layered && component != DEPTH;
         const REAL *in[FUSED_MOST_TAPS], *other[FUSED_MOST_TAPS], *weight[OVER_DEPTH_MATRICES];
         REAL *out[OVER_DEPTH_RESULTS * FUSED_PLANES];
         for (size_t t = 0; t < (size_t)f->deep + FUSED_PLANES - 1; t++) {
@@ -144,14 +145,14 @@ static void depth_rows(const struct strip *s, size_t first, size_t j, const stru
             for (size_t r = 0; r < FUSED_PLANES; r++)
                 out[m * FUSED_PLANES + r] =
                     row_of(s, s->rings + r * s->in_ring->size, result[component][m], j) + s->all.at;
-        for (size_t m = 0; m < OVER_DEPTH_MATRICES; m++)
+        for (size_t m = 0; m < OVER_DEPTH_MATRICES && f->z[component][m] != NULL; m++)
             weight[m] = (const REAL *)f->z[component][m] + first * (size_t)f->deep;
         if (fields->other != NULL)
             s->kernel->of[s->sweeps].mixed[!f->bare][component == DEPTH](in, other, weight, share, n, f->n[0],
                                                                          out);
         else
-            s->kernel->of[s->sweeps].depth[!f->bare][f->bulk && component != DEPTH](in, weight, n, f->n[0],
-                                                                                    out);
+            s->kernel->of[s->sweeps].depth[layered ? 2 : !f->bare][f->bulk && component != DEPTH](
+                in, weight, n, f->n[0], out);
     }
 }
 

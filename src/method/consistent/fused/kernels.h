@@ -23,7 +23,7 @@
             int taps;                                                                                        \
             fused_x_##precision *x;                                                                          \
             fused_y_##precision *y, *y_ends;                                                                 \
-            fused_depth_##precision *depth[2][2]; /* [B is a matrix of its own][A is 0] */                   \
+            fused_depth_##precision *depth[3][2]; /* [B: identity, matrix, three][A is 0] */                 \
             fused_mixed_##precision *mixed[2][2]; /* [B is a matrix of its own][of u_z] */                   \
         } of[3];                      /* one, two and three sweeps; the first is that of G too */            \
         fused_x_##precision *x_stiff; /* S */                                                                \

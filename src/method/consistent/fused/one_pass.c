@@ -242,17 +242,19 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
 {
     struct fused *fused = consistent_of(model)->fused;
     const size_t n = model->unknowns;
-    if (relaxing->parts > FUSED_PARTS) return SELAS_UNSUPPORTED;
+    bool possible = relaxing->parts <= (fused->layered ? 1 : FUSED_PARTS);
     for (size_t p = 0; p < relaxing->parts; p++)
-        if (relaxing->part[p].model->one_pass != &one_pass) return SELAS_UNSUPPORTED;
+        possible = possible && relaxing->part[p].model->one_pass == &one_pass;
     for (size_t p = 0; p < relaxing->parts; p++) {
         struct model *part = relaxing->part[p].model;
+        if (part->one_pass != &one_pass) continue;
         struct fused *its = consistent_of(part)->fused;
         array_free(its->kept);
         its->kept = NULL;
         part->bytes -= its->kept_bytes;
         its->kept_bytes = 0;
     }
+    if (!possible) return SELAS_UNSUPPORTED;
     if (relaxing->parts > 1 && !fused_mix(consistent_of(model), consistent_of(relaxing->part[1].model)))
         return SELAS_NO_MEMORY;
     fused->kept_bytes = model->single ? ((1 + relaxing->parts) * n + relaxing->extra) * sizeof(float)
@@ -274,8 +276,7 @@ static const char *obstacle(const struct consistent *c)
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
     if (c->fused == NULL)
-        return "the fused operator: three dimensions, degree 2, a mass of sweeps, one kind of ground, no "
-               "thin body";
+        return "the fused operator: three dimensions, degree 2, a mass of sweeps, no thin body";
     if (moving) return "no moving faces or loads";
     if (c->model.damped) return "absorbing layers ('pml') in place of dampers ('lysmer')";
     if (c->hform->dissipation != NULL) return "no dissipation";

@@ -29,12 +29,13 @@ enum { DIFFERENCES = sizeof(REAL) < sizeof(double) };
 #endif
 
 /* Over depth: result[m * FUSED_PLANES + r] := sum over t of weight[m][r * taps + t] times input plane r + t,
- * for one row of n points, matrices m from `begin` to `end` - 1. Without the last matrix, B, which is then the
- * identity, its results are the input.
+ * for one row of n points, matrices m from `begin` to `end` - 1. `bare`: B is the identity, its results are the
+ * input. With N M_lambda the results of B with it are made (fused.h, F1c).
  * What is `ahead` numbers on, the next row, is asked for: so many rows are read together that the machine
  * does not foresee them. Floats, half as long, gain nothing from that. */
-INLINED void over_depth(const int taps, const int begin, const int end, const REAL *const *in,
-                        const REAL *const *weight, size_t n, size_t ahead, REAL *const *result)
+INLINED void over_depth(const int taps, const bool bare, const int begin, const int end,
+                        const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,
+                        REAL *const *result)
 {
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
@@ -46,16 +47,34 @@ INLINED void over_depth(const int taps, const int begin, const int end, const RE
             lanes change = value;
             if (DIFFERENCES && t != taps / 2) change -= middle;
             if (sizeof(REAL) == sizeof(double)) FETCH(in[t] + i + ahead);
-            if (end < OVER_DEPTH_MATRICES && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
+            if (bare && t >= taps / 2 && t < taps / 2 + FUSED_PLANES)
                 *(lanes *)(result[OVER_DEPTH_B * FUSED_PLANES + t - taps / 2] + i) = value;
             UNROLLED for (int m = begin; m < end; m++)
                 UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
                 weight[m][r * taps + t - r] * (m == OVER_DEPTH_A ? change : value);
         }
-        UNROLLED for (int m = begin; m < end; m++) UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
+        UNROLLED for (int m = begin; m < end && m < OVER_DEPTH_LAMBDA; m++)
+                UNROLLED for (int r = 0; r < FUSED_PLANES; r++) *
             (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
+        UNROLLED for (int r = 0; r < FUSED_PLANES && end == OVER_DEPTH_MATRICES; r++)
+        {
+            const lanes mixed = sum[OVER_DEPTH_B][r] + sum[OVER_DEPTH_LAMBDA][r];
+            *(lanes *)(result[OVER_DEPTH_B_MIXED * FUSED_PLANES + r] + i) = mixed;
+            *(lanes *)(result[OVER_DEPTH_B_AXIAL * FUSED_PLANES + r] + i) = sum[OVER_DEPTH_B][r] + mixed;
+        }
         if (i + LANES >= n) break;
     }
+}
+
+/* Sixteen registers do not hold the sums of four matrices. */
+enum { MANY = VECTOR_BYTES == 64 };
+
+/* All of layered ground for a component along it. */
+INLINED void layered_over_depth(const int taps, const int begin, const REAL *const *in,
+                                const REAL *const *weight, size_t n, size_t ahead, REAL *const *result)
+{
+    over_depth(taps, false, begin, MANY ? OVER_DEPTH_MATRICES : OVER_DEPTH_B, in, weight, n, ahead, result);
+    if (!MANY) over_depth(taps, false, OVER_DEPTH_B, OVER_DEPTH_MATRICES, in, weight, n, 0, result);
 }
 
 /* The same where `other` displacements act by a lambda of their own (fused.h, F1a): A, C and B of what multiplies
@@ -68,7 +87,7 @@ INLINED void mixed_sums(const int taps, const bool normal, const int begin, cons
     const REAL mixed = share[SHARE_MIXED], axial = share[SHARE_AXIAL];
     for (size_t i = 0;; i += LANES) {
         if (i + LANES > n) i = n - LANES;
-        lanes sum[OVER_DEPTH_MATRICES + 1][FUSED_PLANES] = {0};
+        lanes sum[OVER_DEPTH_MATRICES][FUSED_PLANES] = {0};
         lanes middle = *at(in[taps / 2] + i);
         if (normal) middle += axial * *at(other[taps / 2] + i);
         UNROLLED for (int t = 0; t < taps + FUSED_PLANES - 1; t++)
@@ -81,31 +100,30 @@ INLINED void mixed_sums(const int taps, const bool normal, const int begin, cons
             if (begin == 0) FETCH(other[t] + i + ahead);
             UNROLLED for (int m = begin; m < end; m++)
             {
-                const int matrix = m < OVER_DEPTH_MATRICES ? m : OVER_DEPTH_B;
+                const int matrix = m < OVER_DEPTH_LAMBDA ? m : OVER_DEPTH_B;
                 UNROLLED for (int r = 0; r < FUSED_PLANES; r++) if (t >= r && t - r < taps) sum[m][r] +=
                     weight[matrix][r * taps + t - r] * value[m];
             }
         }
         UNROLLED for (int r = 0; r < FUSED_PLANES; r++)
         {
-            UNROLLED for (int m = begin; m < end && m < OVER_DEPTH_MATRICES; m++) *
+            UNROLLED for (int m = begin; m < end && m < OVER_DEPTH_LAMBDA; m++) *
                 (lanes *)(result[m * FUSED_PLANES + r] + i) = sum[m][r];
-            if (end <= OVER_DEPTH_MATRICES) continue;
+            if (end <= OVER_DEPTH_LAMBDA) continue;
             *(lanes *)(result[OVER_DEPTH_B_MIXED * FUSED_PLANES + r] + i) =
-                sum[OVER_DEPTH_B][r] + mixed * sum[OVER_DEPTH_MATRICES][r];
+                sum[OVER_DEPTH_B][r] + mixed * sum[OVER_DEPTH_LAMBDA][r];
             *(lanes *)(result[OVER_DEPTH_B_AXIAL * FUSED_PLANES + r] + i) =
-                sum[OVER_DEPTH_B][r] + axial * sum[OVER_DEPTH_MATRICES][r];
+                sum[OVER_DEPTH_B][r] + axial * sum[OVER_DEPTH_LAMBDA][r];
         }
         if (i + LANES >= n) break;
     }
 }
 
-/* All of them; sixteen registers do not hold the sums of four matrices. */
+/* All of them. */
 INLINED void mixed_over_depth(const int taps, const bool bare, const bool normal, const REAL *const *in,
                               const REAL *const *other, const REAL *const *weight, const REAL *share,
                               size_t n, size_t ahead, REAL *const *result)
 {
-    enum { ALL = OVER_DEPTH_MATRICES + 1, MANY = VECTOR_BYTES == 64 };
     if (bare) {
         mixed_sums(taps, normal, 0, OVER_DEPTH_B, in, other, weight, share, n, ahead, result);
         for (int r = 0; r < FUSED_PLANES; r++) {
@@ -120,11 +138,12 @@ INLINED void mixed_over_depth(const int taps, const bool bare, const bool normal
             }
         }
     } else if (normal || MANY) {
-        mixed_sums(taps, normal, 0, normal ? OVER_DEPTH_MATRICES : ALL, in, other, weight, share, n, ahead,
-                   result);
+        mixed_sums(taps, normal, 0, normal ? OVER_DEPTH_LAMBDA : OVER_DEPTH_MATRICES, in, other, weight,
+                   share, n, ahead, result);
     } else {
         mixed_sums(taps, false, 0, OVER_DEPTH_B, in, other, weight, share, n, ahead, result);
-        mixed_sums(taps, false, OVER_DEPTH_B, ALL, in, other, weight, share, n, ahead, result);
+        mixed_sums(taps, false, OVER_DEPTH_B, OVER_DEPTH_MATRICES, in, other, weight, share, n, ahead,
+                   result);
     }
 }
 
@@ -325,11 +344,18 @@ static void spread(size_t rows, size_t step, const REAL *restrict weight, const 
             sum[row * step + i] += weight[i] * value[row];
 }
 
-#define DEPTH(name, deep, begin, end)                                                                        \
+#define DEPTH(name, deep, bare, begin, end)                                                                  \
     static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
                      REAL *const *result)                                                                    \
     {                                                                                                        \
-        over_depth(deep, begin, end, in, weight, n, ahead, result);                                          \
+        over_depth(deep, bare, begin, end, in, weight, n, ahead, result);                                    \
+    }
+
+#define LAYERED(name, deep, begin)                                                                           \
+    static void name(const REAL *const *in, const REAL *const *weight, size_t n, size_t ahead,               \
+                     REAL *const *result)                                                                    \
+    {                                                                                                        \
+        layered_over_depth(deep, begin, in, weight, n, ahead, result);                                       \
     }
 
 #define MIXED(name, deep, bare, normal)                                                                      \
@@ -361,10 +387,12 @@ SIDES(stiff, 5, true)
 /* One function for each pass and number of taps. */
 #define PASSES(wide, deep)                                                                                   \
     SIDES(wide, wide, false)                                                                                 \
-    DEPTH(two_##deep, deep, 0, 2)                                                                            \
-    DEPTH(three_##deep, deep, 0, 3)                                                                          \
-    DEPTH(two_bulk_##deep, deep, 1, 2)                                                                       \
-    DEPTH(three_bulk_##deep, deep, 1, 3)                                                                     \
+    DEPTH(two_##deep, deep, true, 0, 2)                                                                      \
+    DEPTH(three_##deep, deep, false, 0, 3)                                                                   \
+    DEPTH(two_bulk_##deep, deep, true, 1, 2)                                                                 \
+    DEPTH(three_bulk_##deep, deep, false, 1, 3)                                                              \
+    LAYERED(four_##deep, deep, 0)                                                                            \
+    LAYERED(four_bulk_##deep, deep, 1)                                                                       \
     MIXED(bare_##deep, deep, true, false)                                                                    \
     MIXED(bare_normal_##deep, deep, true, true)                                                              \
     MIXED(mixed_##deep, deep, false, false)                                                                  \
@@ -379,6 +407,7 @@ PASSES(13, 17)
             {                                                                                                \
                 {two_##deep, two_bulk_##deep},                                                               \
                 {three_##deep, three_bulk_##deep},                                                           \
+                {four_##deep, four_bulk_##deep},                                                             \
             },                                                                                               \
         {                                                                                                    \
             {bare_##deep, bare_normal_##deep},                                                               \

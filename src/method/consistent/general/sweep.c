@@ -5,11 +5,6 @@
 
 #include <string.h>
 
-static size_t rounded(size_t n, size_t unit)
-{
-    return (n + unit - 1) / unit * unit;
-}
-
 /* Room for numbers of the sweep. */
 static void *numbers(struct sweep *s, size_t count)
 {
@@ -61,7 +56,7 @@ static bool lay_pairs(const struct consistent *c, struct sweep *s)
 /* N of the components along the axes. */
 static bool lay_inverse(struct consistent *c, struct sweep *s)
 {
-    const size_t rows = rounded(s->n[1], FUSED_ROWS), planes = rounded(s->n[2], SWEEP_PLANES);
+    const size_t rows = fused_rounded(s->n[1], FUSED_ROWS), planes = fused_rounded(s->n[2], SWEEP_PLANES);
     for (int component = 0; component < 3; component++) {
         struct band *const *band = c->hform->inverse[component];
         const struct band *depth = part_matrix(c, DEPTH, band[2]);
@@ -137,7 +132,7 @@ static void lay_parts(const struct consistent *c, struct sweep *s)
         *part = (struct sweep_part){.n = {s->width, s->cells[1] + 2, s->n[2]}, .start = s->part_size};
         part->at[layer->slot] = in->at[layer->slot] + (layer->slot == DEPTH ? 0 : s->low[layer->slot]);
         part->n[layer->slot] = in->n[layer->slot];
-        part->stride = rounded(part->n[0], FUSED_VECTOR / s->number);
+        part->stride = fused_rounded(part->n[0], FUSED_VECTOR / s->number);
         s->part_size += 3 * SPAN * part->n[1] * part->stride;
     }
 }
@@ -204,9 +199,9 @@ bool sweep_create(struct consistent *c)
             s->mirror[slot][end] = c->layout[slot]->mirror[end];
         s->low[slot] = s->mirror[slot][0] && (slot != DEPTH || c->part.along[DEPTH].first == 0) ? 1 : 0;
     }
-    s->width = rounded(s->cells[0] + 2, FUSED_VECTOR / s->number);
+    s->width = fused_rounded(s->cells[0] + 2, FUSED_VECTOR / s->number);
     s->stride = s->width + FUSED_VECTOR / s->number;
-    s->rows = rounded(s->n[1], FUSED_ROWS);
+    s->rows = fused_rounded(s->n[1], FUSED_ROWS);
     lay_parts(c, s);
     if (!lay_pairs(c, s) || !lay_inverse(c, s) || !lay_points(c, s) || !lay_fields(c, s)) return false;
     lay_loaded(c, s);
