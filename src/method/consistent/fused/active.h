@@ -5,6 +5,7 @@
  * rows of a plane are taken while it is in the cache; the window of a block of planes is the smallest that
  * holds all columns and strips above the level, of these planes and those within reach, and what they reach
  * along x and y. */
+#include "method/consistent/absorbing/pml.h"
 #include "method/consistent/fused/kernels.h"
 
 #include <math.h>
@@ -64,12 +65,34 @@ static void take_sizes(const struct fused *f, size_t k, const struct window *win
     }
 }
 
+/* Velocities in a window of plane k, once u is brought on, where layers damp them besides. */
+static void drag_rows(const struct fused *f, const struct fused_fields *fields, size_t k,
+                      const struct window *window)
+{
+    for (size_t s = 0; fields->dragged != NULL && s < fields->dragged->slabs; s++) {
+        const struct slab *slab = &fields->dragged->slab[s];
+        const size_t *at = slab->inside.at, *n = slab->inside.n;
+        const struct window inside = {{at[0], at[1]}, {at[0] + n[0], at[1] + n[1]}};
+        const struct window both = window_meet(window, &inside);
+        if (slab->drag == NULL || k < at[2] || k >= at[2] + n[2] || window_points(&both) == 0) continue;
+        for (size_t j = both.from[1]; j < both.end[1]; j++) {
+            const size_t place[3] = {both.from[0], j, k};
+            const double *kept = slab->kept + place[slab->axis] - at[slab->axis];
+            for (size_t component = 0; component < 3; component++)
+                NAME(taken_fused_kernels)
+            ()->keep(both.end[0] - both.from[0], kept, slab->axis == 0,
+                     (REAL *)fields->a + component * f->volume + k * f->plane + j * f->n[0] + both.from[0]);
+        }
+    }
+}
+
 /* Brings u on in a window of plane k, as far as waves have reached. */
 static void bring_on(const struct fused *f, const struct fused_fields *fields, size_t k,
                      const struct window *window)
 {
     const struct window both = window_meet(window, &f->reached[k]);
     take_sizes(f, k, &both, fields, NULL);
+    drag_rows(f, fields, k, &both);
 }
 
 static void bring_planes(const struct fused *f, const struct fused_fields *fields, size_t from, size_t end)

@@ -179,6 +179,7 @@ struct fused_fields {
     double dt;
     const struct fused_relax *relax; /* u goes on by this and its `memory`, `other` too; NULL: by dt w */
     void *memory, *other;            /* other: e_1, NULL if there is one part */
+    const struct pml *dragged;       /* layers that damp w besides once u has gone on; NULL: none do */
     size_t bring_on, before;         /* planes of u to be brought on on the way */
 };
 

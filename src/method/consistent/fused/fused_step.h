@@ -314,6 +314,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
 {
     struct fused *f = FUSED(c);
     const struct watch *watch = &c->watch;
+    const bool dragged = c->pml != NULL && c->pml->drag > 0;
     REAL *u = step->part[0].u;
     const struct fused_fields fields = {.u = u,
                                         .a = step->w,
@@ -321,14 +322,16 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
                                         .dt = dt,
                                         .relax = step->relax,
                                         .memory = step->memory,
+                                        .dragged = dragged ? c->pml : NULL,
                                         .other = step->parts > 1 ? step->part[1].u : NULL};
     const double level = f->quiet * largest_before(f, u);
     const size_t n = c->model.unknowns;
     if (!f->known) find_reached(f, u, step->w);
     for (size_t k = 0; k < f->n[2]; k++)
         forget_sizes(f, k);
+    if (dragged) pml_keep(c, dt);
     for (size_t i = 0; i < watch->count; i++)
-        watch->before[i] = step->w[watch->entry[i]];
+        watch->before[i] = step->w[watch->entry[i]] * (dragged ? pml_kept(c, watch->entry[i]) : 1);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_remember)
     (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);

@@ -35,6 +35,7 @@
         void (*kick)(size_t n, real dt, const real *a, real *w);                                             \
         void (*weigh)(size_t n, const double *weight, const real *in, real *out);                            \
         void (*spread)(size_t rows, size_t step, const real *weight, const real *value, real *sum);          \
+        void (*keep)(size_t n, const double *weight, size_t step, real *row);                                \
     };                                                                                                       \
     EACH_PROCESSOR(struct fused_kernels_##precision, fused_kernels_##precision)
 FUSED_KERNELS(double, double)

@@ -280,7 +280,7 @@ static const char *obstacle(const struct consistent *c)
     if (moving) return "no moving faces or loads";
     if (c->model.damped) return "absorbing layers ('pml') in place of dampers ('lysmer')";
     if (c->hform->dissipation != NULL) return "no dissipation";
-    if (c->pml != NULL && (c->pml->fast == NULL || c->pml->drag > 0)) return "layers whose passes are shared";
+    if (c->pml != NULL && c->pml->fast == NULL) return "layers whose passes are shared";
     if (!c->options.single) return NULL;
     if (c->fused->single == NULL) return "16 control values along x";
     if (c->pml != NULL && c->pml->single == NULL) return "layers whose passes are shared";
