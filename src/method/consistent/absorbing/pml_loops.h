@@ -159,17 +159,22 @@ static void move(size_t n, REAL q, REAL kept, const REAL *restrict g, REAL *rest
     }
 }
 
-/* Is a number of these rows of n larger than the level, or none? */
+/* Is a number of these rows of n larger than the level, or none? (Where one is others are near: looked for in pieces.)
+ */
 static bool loud(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
 {
-    for (size_t r = 0; r < rows; r++) {
-        int loud = 0;
-        for (size_t i = 0; i < n; i++) {
-            const REAL size = x[r * step + i] < 0 ? -x[r * step + i] : x[r * step + i];
-            loud |= !(size <= level);
+    enum { PIECE = 16 * LANES };
+    for (size_t r = 0; r < rows; r++)
+        for (size_t from = 0; from < n; from += PIECE) {
+            const REAL *piece = x + r * step + from;
+            const size_t numbers = n - from < PIECE ? n - from : PIECE;
+            int loud = 0;
+            for (size_t i = 0; i < numbers; i++) {
+                const REAL size = piece[i] < 0 ? -piece[i] : piece[i];
+                loud |= !(size <= level);
+            }
+            if (loud) return true;
         }
-        if (loud) return true;
-    }
     return false;
 }
 
