@@ -1,5 +1,6 @@
 /* The fused operator against the passes one by one (which test_hform holds against dense matrices): random
- * fields, even and layered ground, faces of all kinds, mirror planes, sizes down to the smallest, both masses over depth, threads. */
+ * fields, even and layered ground, faces of all kinds, mirror planes, sizes down to the smallest, both masses over
+ * depth, threads. */
 #include "chance.h"
 #include "consistent_run.h"
 

@@ -163,7 +163,7 @@ static void move(size_t n, REAL q, REAL kept, const REAL *restrict g, REAL *rest
  */
 static bool loud(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
 {
-    enum { PIECE = 16 * LANES };
+    enum { PIECE = 64 * LANES };
     for (size_t r = 0; r < rows; r++)
         for (size_t from = 0; from < n; from += PIECE) {
             const REAL *piece = x + r * step + from;

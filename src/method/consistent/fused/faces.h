@@ -1,8 +1,8 @@
-/* What two displacements in one operator or layered ground leave at the faces (fused.h, F1b, F1d), for numbers of type
- * REAL; included by fused_double.c and fused_single.c.
+/* What two displacements in one operator or layered ground leave at the faces (fused.h, F1b, F1d), for numbers of
+ * type REAL; included by fused_double.c and fused_single.c.
  *
- * On each face the displacement, of two the second, is a field of its two axes, `row` along rows and `deep` across them; what
- * is made of it goes to the planes that N e of the axis across the face reaches. */
+ * On each face the displacement, of two the second, is a field of its two axes, `row` along rows and `deep` across
+ * them; what is made of it goes to the planes that N e of the axis across the face reaches. */
 #include "base/machine.h"
 #include "method/consistent/fused/kernels.h"
 
