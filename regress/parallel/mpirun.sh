@@ -11,3 +11,5 @@ fi
 # ranks that wait leave the processor to others
 export OMPI_MCA_mpi_yield_when_idle=1
 export OMP_NUM_THREADS=1
+# a rank killed in MPI_Init must not leave a lock behind that the launcher waits for forever (openpmix issue 1233)
+export PMIX_MCA_gds=hash

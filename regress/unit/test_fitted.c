@@ -41,6 +41,18 @@ static void small_box_with_layers(void **unused)
     from_deck_free(&d);
 }
 
+/* All on one line: the narrowest box would have too few cells across it for a mirror plane. A wider one costs half. */
+static void wide_enough_for_mirrors(void **unused)
+{
+    (void)unused;
+    struct from_deck d = right_scene(GROUND(
+        "60", ".125") "&load face='z-', shape='point', centre=3,0,0, direction=0,0,1, history='gaussian', "
+                      "width=.3, delay=1.5 /\n&receiver name='far', position=5, 0, 0 /\n");
+    assert_true(d.scene->body.absorbing);
+    assert_int_equal(scene_mirror_axes(d.scene), 3);
+    from_deck_free(&d);
+}
+
 /* Early end: a box from which nothing returns: every path load - face - receiver takes at least end_time at
  * c_p. */
 static void large_box_without_layers(void **unused)
@@ -251,6 +263,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_box_with_layers),
+        cmocka_unit_test(wide_enough_for_mirrors),
         cmocka_unit_test(large_box_without_layers),
         cmocka_unit_test(named_sides_are_kept),
         cmocka_unit_test(all_groups_are_stated),

@@ -108,7 +108,7 @@ selas_status model_create(const struct scene *scene, struct model **model, struc
     status = check_abilities(method, scene, messages);
     if (status != SELAS_OK) return status;
     warn_of_idle_words(method, scene, messages);
-    const unsigned axes = method->mirrors && mirrors_wanted(scene) ? scene_mirror_axes(scene) : 0;
+    const unsigned axes = method->mirrors ? scene_mirror_axes(scene) : 0;
     if (axes != 0) return mirror_create(method, scene, axes, model, messages);
     return damped_or_plain(method, scene, model, messages);
 }

@@ -20,11 +20,6 @@ struct mirror {
     struct model_core core; /* what the part has no function for is not there */
 };
 
-bool mirrors_wanted(const struct scene *scene)
-{
-    return scene->method.group == NULL || deck_logical(scene->method.group, "symmetry", 0);
-}
-
 /* --- Reflection --- */
 
 static double middle(const struct mirror *mirror, int axis)

@@ -5,9 +5,6 @@
 
 #include "model/model.h"
 
-/* False if the deck says method%symmetry = .false. */
-bool mirrors_wanted(const struct scene *scene);
-
 /* Model of the whole scene that computes the part below its mirror planes (mask `axes`, not 0) by the class
  * given and answers for the images too: positions, probes, fields and energies are those of the whole body.
  */

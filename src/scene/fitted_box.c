@@ -7,6 +7,7 @@
 #include "scene/echo.h"
 #include "scene/extent.h"
 #include "scene/ground.h"
+#include "scene/symmetry.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -168,15 +169,20 @@ static void put(const struct scene *scene, const struct held *held, const struct
     }
 }
 
-/* Work as for so many points; layers: those of the faces, as the scene has them. */
+/* Work as for so many points, of the part below the scene's mirror planes; layers: those of the faces, as the scene
+ * has them. */
 static double cost(const struct scene *scene)
 {
     const struct body *body = &scene->body;
+    const unsigned mirrors = scene_mirror_axes(scene);
     double points = 1.0, all = 1.0;
     for (int c = 0; c < scene->dimension; c++) {
-        const double count = (body->high[c] - body->low[c]) / body->spacing + 1.0;
+        const bool mirrored = (mirrors & 1u << c) != 0;
+        const double cells = (body->high[c] - body->low[c]) / body->spacing;
+        const double count = (mirrored ? 0.5 * cells : cells) + 1.0;
+        const size_t beyond = mirrored ? 0 : layer_points(scene, 2 * c + 1);
         points *= count;
-        all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
+        all *= count + (double)(layer_points(scene, 2 * c) + beyond);
     }
     return all + (layer_cost(scene) - 1.0) * (all - points);
 }

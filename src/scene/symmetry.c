@@ -148,10 +148,15 @@ static bool has_middle_points(const struct scene *scene, int axis)
     return cells > 4.0 * degree + 0.5 && same(cells, 2.0 * round(0.5 * cells), 1e4);
 }
 
+static bool mirrors_wanted(const struct scene *scene)
+{
+    return scene->method.group == NULL || deck_logical(scene->method.group, "symmetry", 0);
+}
+
 unsigned scene_mirror_axes(const struct scene *scene)
 {
     const struct body *body = &scene->body;
-    if (!body_is_box(body)) return 0;
+    if (!body_is_box(body) || !mirrors_wanted(scene)) return 0;
     if (scene->initial.kind != INITIAL_REST || body->jitter != 0.0) return 0;
     unsigned axes = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {

@@ -6,7 +6,8 @@
 #include "scene/scene.h"
 
 /* Bit 1 << axis (of the body's frame) is set if the plane across this axis through the middle of the box is a
- * mirror plane of the scene and a plane of lattice points. Boxes at rest at t = 0 only; 0 otherwise. */
+ * mirror plane of the scene and a plane of lattice points. Boxes at rest at t = 0 only; 0 otherwise, and where
+ * the deck says method%symmetry = .false. */
 unsigned scene_mirror_axes(const struct scene *scene);
 
 /* The part of a scene below its mirror planes: low..middle along each axis of the mask, symmetry on the new
