@@ -103,15 +103,16 @@ static inline size_t fused_rounded(size_t n, size_t unit)
 }
 
 /* How displacements e_p that relax go on with their memory (model.h, relaxing), in a step of dt:
- * D_l := kept_l D_l + taken_l w, e_p += given_p dt w + sum over l of weight_pl (change of D_l). One kind of
- * ground has not more than two parts. */
+ * D_l := kept_l D_l + taken_l w, and with D_l and w before it e_p += by_rate_p w + sum over l of by_memory_pl D_l.
+ * One kind of ground has not more than two parts. */
 enum { FUSED_PARTS = 2 };
 struct fused_relax {
     size_t mechanisms, parts;
     size_t order[MODEL_MECHANISMS],
         at[MODEL_MECHANISMS]; /* mechanism of the scene, where its memory begins */
     double dt, kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
-    double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS];
+    double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS]; /* e_p = given_p u + weight_pl D_l */
+    double by_rate[FUSED_PARTS], by_memory[FUSED_PARTS][MODEL_MECHANISMS];
     double from_parts[FUSED_PARTS], from_memory[MODEL_MECHANISMS];
 };
 

@@ -262,11 +262,10 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
     if (relax == NULL) return step->w;
     const size_t remembered = fused_remembered(relax), last = relax->mechanisms - 1;
     const REAL *other = step->part[step->parts - 1].u;
-    REAL factor = (REAL)relax->given[part], before[MODEL_MECHANISMS], told[FUSED_PARTS] = {0};
-    for (size_t l = 0; l <= last; l++) {
-        factor += (REAL)(relax->weight[part][l] * relax->taken[l] / relax->dt);
-        before[l] = (REAL)(relax->weight[part][l] * (relax->kept[l] - 1) / relax->dt);
-    }
+    const REAL factor = (REAL)(relax->by_rate[part] / relax->dt);
+    REAL before[MODEL_MECHANISMS], told[FUSED_PARTS] = {0};
+    for (size_t l = 0; l <= last; l++)
+        before[l] = (REAL)(relax->by_memory[part][l] / relax->dt);
     for (size_t p = 0; p < step->parts; p++)
         told[p] = before[last] * (REAL)relax->from_parts[p];
     for (size_t l = 0; l < remembered; l++)

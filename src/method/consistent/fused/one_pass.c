@@ -41,15 +41,20 @@ static struct fused_relax relax_of(const struct consistent *c, double dt)
     const struct relaxing *relaxing = c->fused->relaxing;
     struct fused_relax relax = {.mechanisms = relaxing->mechanisms, .parts = relaxing->parts, .dt = dt};
     lay_order(relaxing, c->model.unknowns, &relax);
+    for (size_t p = 0; p < relaxing->parts; p++) {
+        relax.given[p] = relaxing->part[p].given;
+        relax.by_rate[p] = relax.given[p] * dt;
+    }
     for (size_t l = 0; l < relaxing->mechanisms; l++) {
         const double half = relaxing->rate[relax.order[l]] * dt / 2;
         relax.kept[l] = (1 - half) / (1 + half);
         relax.taken[l] = dt / (1 + half);
-        for (size_t p = 0; p < relaxing->parts; p++)
+        for (size_t p = 0; p < relaxing->parts; p++) {
             relax.weight[p][l] = relaxing->part[p].weight[relax.order[l]];
+            relax.by_rate[p] += relax.weight[p][l] * relax.taken[l];
+            relax.by_memory[p][l] = -2 * half / (1 + half) * relax.weight[p][l];
+        }
     }
-    for (size_t p = 0; p < relaxing->parts; p++)
-        relax.given[p] = relaxing->part[p].given;
     return relax;
 }
 

@@ -67,20 +67,19 @@ static REAL drift(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, RE
 INLINED void relaxed(const size_t mechanisms, const size_t parts, size_t n, const struct fused_relax *r,
                      const REAL *restrict w, REAL *restrict memory, REAL *restrict u, REAL *restrict other)
 {
-    const REAL given = (REAL)(r->given[0] * r->dt), given_other = (REAL)(r->given[1] * r->dt);
+    const REAL by_rate = (REAL)r->by_rate[0], other_by_rate = (REAL)r->by_rate[1];
     const REAL from = (REAL)r->from_parts[0], from_other = (REAL)r->from_parts[1];
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-        REAL change = given * w[i], change_other = given_other * w[i];
+        REAL change = by_rate * w[i], change_other = other_by_rate * w[i];
         REAL told = parts > 1 ? from * u[i] + from_other * other[i] : 0;
         for (size_t l = 0; l < mechanisms; l++) {
             const bool last = parts > 1 && l + 1 == mechanisms;
             const REAL before = last ? told : memory[r->at[l] + i];
-            const REAL after = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
-            if (!last) memory[r->at[l] + i] = after;
+            if (!last) memory[r->at[l] + i] = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
             if (!last && parts > 1) told += (REAL)r->from_memory[l] * before;
-            change += (REAL)r->weight[0][l] * (after - before);
-            if (parts > 1) change_other += (REAL)r->weight[1][l] * (after - before);
+            change += (REAL)r->by_memory[0][l] * before;
+            if (parts > 1) change_other += (REAL)r->by_memory[1][l] * before;
         }
         u[i] += change;
         if (parts > 1) other[i] += change_other;
@@ -111,12 +110,12 @@ INLINED void relaxed_by(const size_t parts, size_t n, const struct fused_relax *
 static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
                   REAL *memory, REAL *u, REAL *other, REAL *column)
 {
-    for (size_t row = 0; row < rows; row++) {
-        const size_t at = row * step;
+    const size_t length = n == step ? rows * n : n; /* whole rows as one */
+    for (size_t at = 0; at < rows * step; at += n == step ? length : step) {
         if (other == NULL)
-            relaxed_by(1, n, r, w + at, memory + at, u + at, NULL);
+            relaxed_by(1, length, r, w + at, memory + at, u + at, NULL);
         else
-            relaxed_by(2, n, r, w + at, memory + at, u + at, other + at);
+            relaxed_by(2, length, r, w + at, memory + at, u + at, other + at);
     }
     return measured_rows(n, rows, step, u, column);
 }
