@@ -46,6 +46,7 @@ static double operator_calls(const struct stepper *stepper)
 static void say_step(const struct teller *teller, const struct stepper *stepper)
 {
     say(teller, "scheme", "%s", stepper->scheme->name);
+    if (stepper->scheme_reason != NULL) say(teller, "scheme chosen", "%s", stepper->scheme_reason);
     say(teller, "order in time", "%d", stepper->scheme->order);
     if (stepper->stages > 0) say(teller, "stages", "%ld", stepper->stages);
     say(teller, "time step", "%.9g", stepper->dt);
