@@ -14,8 +14,8 @@
 #include <stdio.h>
 
 /* Least and largest power of the spacing that errors are taken to fall with; error at so many points per wavelength of
- * the slowest wave and the power for a first guess; spacing of the middle one of three trials over the chosen one, ratio
- * of their spacings; how far below the middle one the choice may lie. */
+ * the slowest wave and the power for a first guess; spacing of the middle one of three trials over the chosen one,
+ * ratio of their spacings; how far below the middle one the choice may lie. */
 static const double LEAST_ORDER = 1.5, MOST_ORDER = 3.5, GUESS = .012, GUESS_POINTS = 6, GUESS_ORDER = 2.5,
                     MIDDLE = 2, FINER = 1.5, FAR = 2.3;
 enum { ROUNDS = 4, TRIALS = 3 };

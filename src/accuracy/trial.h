@@ -1,6 +1,6 @@
 /* A trial: the scene run once with coarser points than scene%accuracy is about to choose, held against the exact
- * solution or a finer trial, so that the choice stands on what was measured in this very scene (doc/verification/accuracy.md,
- * section 2). */
+ * solution or a finer trial, so that the choice stands on what was measured in this very scene
+ * (doc/verification/accuracy.md, sections 2 and 8). */
 #ifndef SELAS_ACCURACY_TRIAL_H
 #define SELAS_ACCURACY_TRIAL_H
 
