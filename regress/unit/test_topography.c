@@ -213,10 +213,10 @@ static void test_who_takes_it(void **state)
                    "&material name = 'soil', density = 2.0, p_speed = 2.0, s_speed = 1.0 /\n"
                    "&body material = 'soil', shape = 'half-space' /\n"
                    "&load face = 'z-', shape = 'square', centre = 0, 0, depth = 0.0, size = .5, .5, "
-                   "direction = 0, 0, 1, history = 'gaussian', width = .2, delay = .5 /\n"
+                   "direction = 0, 0, 1, history = 'step' /\n"
                    "&topography shape = 'gaussian', height = 0.3, centre = 1, 0, width = 0.5 /\n"
                    "&receiver name = 'r', position = 1, 0, depth = 0 /\n",
-                   "t.nml:1:", (const char *[]){"level ground", NULL});
+                   "t.nml:1:", (const char *[]){"histories whose spectrum ends", NULL});
 }
 
 int main(void)

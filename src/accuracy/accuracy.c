@@ -7,9 +7,9 @@
 
 #include <string.h>
 
-enum { KINDS = 4 };
-static const struct accuracy_kind *const kinds[KINDS] = {&accuracy_beam, &accuracy_plate, &accuracy_wave,
-                                                         &accuracy_ground};
+enum { KINDS = 5 };
+static const struct accuracy_kind *const kinds[KINDS] = {&accuracy_refined, &accuracy_beam, &accuracy_plate,
+                                                         &accuracy_wave, &accuracy_ground};
 
 static const struct accuracy_kind *kind_of(const struct scene *scene)
 {
@@ -49,8 +49,7 @@ const char *accuracy_gradient(const struct scene *scene)
 
 const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene)
 {
-    if (scene->body.topography != NULL) return "level ground, without &topography";
-    if (scene->body.most_stretch > 1 && kind != &accuracy_ground)
+    if (scene->body.most_stretch > 1 && kind != &accuracy_ground && kind != &accuracy_refined)
         return "an even spacing, without body%grading, but on half-spaces and boxes of ground";
     if (ground_is_damped(scene) && kind != &accuracy_ground)
         return "materials without q_p and q_s, but on half-spaces and boxes of ground";

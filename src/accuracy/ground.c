@@ -2,23 +2,22 @@
  * sections 2 to 4): the largest one for which the error law of surface.c, with the exact velocity's spectrum,
  * gives AIM times the wanted error at every receiver. */
 #include "scene/ground.h"
+#include "accuracy/grade.h"
 #include "accuracy/ground_range.h"
 #include "accuracy/ground_task.h"
 #include "accuracy/kinds.h"
 #include "accuracy/outlook.h"
 #include "base/memory.h"
 #include "exact/half_space.h"
-#include "scene/absorbing_layers.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double SLOWLY = 1.1;
-/* A trial's spacing over the chosen one, at most: a fifth of the run's work; point-steps that a trial may take,
- * a minute or two on one thread; share of the wanted error that is aimed at after a trial, and that is good
- * enough in one. */
-static const double TRIAL_RATIO = 1.5, TRIAL_WORK = 1e9, MEASURED_AIM = .55, MEASURED_MOST = .85;
+/* A trial's spacing over the chosen one, at most: a fifth of the run's work; share of the wanted error that is aimed
+ * at after a trial, and that is good enough in one. */
+static const double TRIAL_RATIO = 1.5, MEASURED_AIM = .55, MEASURED_MOST = .85;
 enum { ROWS = SURFACE_ROWS };
 
 static bool looks_like(const struct scene *scene)
@@ -55,8 +54,8 @@ static double mean_wavelength(const struct scene *scene, const struct surface_pl
  * that little enough comes back (measured). */
 static long enough_layer_points(double accuracy, double h, double wavelength)
 {
-    const long points = accuracy >= .02 ? 8 : accuracy >= .005 ? 10 : 12;
-    return (long)fmin(fmax((double)points, ceil(LAYER_THICKNESS * wavelength / h)), 40);
+    return (long)fmin(fmax((double)accuracy_layer_points(accuracy), ceil(LAYER_THICKNESS * wavelength / h)),
+                      40);
 }
 
 /* Where the error falls slower than h^2.5 it is that of waves that the lattice cannot carry: a history with
@@ -76,20 +75,6 @@ static double quiet_spacing(const struct scene *scene, const struct surface_plac
         finer = dividing_spacing(&scene->body, 3, .999 * finer);
     }
     return h;
-}
-
-/* Points times steps, those of absorbing layers counted as in the choice of a box. */
-static double work_of(const struct scene *scene)
-{
-    const struct body *body = &scene->body;
-    double points = 1, all = 1;
-    for (int c = 0; c < 3; c++) {
-        const double count = body_cells(body, c) + 1;
-        points *= count;
-        all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
-    }
-    return (points + layer_cost(scene) * (all - points)) * scene_fastest(scene) * scene->end_time /
-           (.35 * body->spacing);
 }
 
 /* True if the edges of all squares lie on knots, where tuned splines err least. */
@@ -207,8 +192,8 @@ static selas_status make_trial(struct task *task, const struct surface_ground *g
     set_choice(task, ground, h, &coarse);
     selas_status status = scene_build(trial->deck, &coarse, &scene, &unsaid);
     const bool same = scene != NULL && !(ground->tuned && scene->body.absorbing);
-    if (same && work_of(scene) <= TRIAL_WORK) {
-        status = trial->run(scene, task->exact, error, messages);
+    if (same && accuracy_work(scene) <= ACCURACY_TRIAL_WORK) {
+        status = trial->run(scene, task->exact, error, NULL, messages);
         *made = status == SELAS_OK;
     }
     for (size_t i = 0; i < task->scene->receivers && *made; i++) {
@@ -273,17 +258,22 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
         ground.tuned = false;
         status = find_spacing(task, &ground, most, &h, messages);
     }
-    if (status == SELAS_OK && trial->run != NULL)
+    char graded[GRADE_TEXT] = "";
+    if (status == SELAS_OK && trial->run != NULL) {
+        set_choice(task, &ground, h, choice);
+        accuracy_grade(scene, trial, choice, graded);
         status = narrow(task, &ground, trial, choice, most, &h, &tried, messages);
+    }
+    if (tried == 0) choice->grading = graded[0] = 0;
     if (status == SELAS_OK && tried == 0) status = ground_in_range(scene, h, messages);
     if (status != SELAS_OK) return status;
     set_choice(task, &ground, h, choice);
     char how[48] = "predicted";
     if (tried > 0) snprintf(how, sizeof how, "after a trial with %.6g: expected", tried);
     snprintf(choice->text, sizeof choice->text,
-             "%g wanted: spacing %.6g, %s, leapfrog with the time-dispersion transform; %s error %.2g",
-             task->accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", how,
-             worst(scene, task->place, h, &ground));
+             "%g wanted: spacing %.6g, %s, leapfrog with the time-dispersion transform%s; %s error %.2g",
+             task->accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", graded,
+             how, worst(scene, task->place, h, &ground));
     return SELAS_OK;
 }
 

@@ -18,7 +18,8 @@ struct accuracy_kind {
     bool particles; /* the deck may say gradient and viscosity of particles: there are tables for them */
 };
 
-extern const struct accuracy_kind accuracy_beam, accuracy_ground, accuracy_plate, accuracy_wave;
+extern const struct accuracy_kind accuracy_beam, accuracy_ground, accuracy_plate, accuracy_refined,
+    accuracy_wave;
 
 /* NULL, or what this kind can be served with: the method first. */
 const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scene *scene);

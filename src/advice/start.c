@@ -151,12 +151,14 @@ void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
     if (!leapfrog || stepper->unwarp || told) return;
     const double omega = fmax(typical_number(scene) * plane_wave_speed(scene), typical_frequency(scene));
     const double phase = omega * scene->end_time * pow(omega * stepper->dt, 2) / 24;
+    const bool better = scheme_serves(scheme_find("modified-equation"), stepper->model);
     if (phase > seen)
         advise(adviser,
                "the time error of scheme '%s' stays in the histories: waves that leave at t = 0 err by about "
                "%.2g by "
-               "end_time; scheme = 'modified-equation', or stepping%%safety = %.2g, would be right",
-               stepper->scheme->name, fmin(1, phase), sqrt(seen / 2 / phase) * stepper->dt / stepper->limit);
+               "end_time; %sstepping%%safety = %.2g%s would be right",
+               stepper->scheme->name, fmin(1, phase), better ? "scheme = 'modified-equation', or " : "",
+               sqrt(seen / 2 / phase) * stepper->dt / stepper->limit, better ? "," : "");
 }
 
 /* What waves of a number k, which move at a speed, err by at end_time. */

@@ -3,6 +3,7 @@
 #define SELAS_SIMULATION_H
 
 #include "base/c_locale.h"
+#include "compare/diff.h"
 #include "deck/deck.h"
 #include "exact/exact.h"
 #include "record/record.h"
@@ -122,7 +123,8 @@ void shared_gather_times(selas_simulation *simulation);
 selas_status shared_alone(selas_simulation *simulation, const char *what);
 
 /* host/trial.c: a trial_run (accuracy/trial.h). */
-selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct messages *messages);
+selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct history_file *kept,
+                        struct messages *messages);
 
 /* host/driven_loads.c */
 /* Gives the loads and faces that the host drives their pieces: after the scene is built. */

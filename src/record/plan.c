@@ -6,6 +6,7 @@
 #include "parallel/ranks.h"
 #include "scene/absorbing_layers.h"
 #include "scene/grading.h"
+#include "scene/ground.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
 #include "scene/units.h"
@@ -46,6 +47,7 @@ static double operator_calls(const struct stepper *stepper)
 static void say_step(const struct teller *teller, const struct stepper *stepper)
 {
     say(teller, "scheme", "%s", stepper->scheme->name);
+    if (stepper->scheme_reason != NULL) say(teller, "scheme chosen", "%s", stepper->scheme_reason);
     say(teller, "order in time", "%d", stepper->scheme->order);
     if (stepper->stages > 0) say(teller, "stages", "%ld", stepper->stages);
     say(teller, "time step", "%.9g", stepper->dt);
@@ -93,10 +95,31 @@ static void say_surface(const struct teller *teller, const struct topography *to
         if (topography->text[line][0] != '\0') say(teller, keys[line], "%s", topography->text[line]);
 }
 
-static void say_grading(const struct teller *teller, const struct body *body)
+/* Where the deck leaves it open and the general operator runs anyway. */
+static void say_saving(const struct teller *teller, const struct scene *scene)
 {
+    const struct deck_group *group = scene->deck != NULL ? deck_get(scene->deck, "body", 0) : NULL;
+    const bool general = ground_is_general(scene) || scene->body.topography != NULL;
+    if (group == NULL || deck_given(group, "grading") || scene->dimension < 2 || !general ||
+        !body_is_box(&scene->body) || scene->body.rotated || scene->body.accuracy[0] != '\0')
+        return;
+    const double saved = grading_saves(scene);
+    if (saved >= GRADING_WORTH)
+        say(teller, "spacing over depth",
+            "even; rock below is faster: body%%grading = %g would leave out %.0f %% of the points at about "
+            "the same "
+            "error",
+            GRADING_MEASURED, 100 * saved);
+}
+
+static void say_grading(const struct teller *teller, const struct scene *scene)
+{
+    const struct body *body = &scene->body;
     const struct grading *grading = body->grading;
-    if (grading == NULL) return;
+    if (grading == NULL) {
+        say_saving(teller, scene);
+        return;
+    }
     say(teller, "spacing over depth",
         "%.4g down to a depth of %.4g, then growing to %.4g, by no more than the slowest wave there and "
         "below is "
@@ -122,7 +145,7 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     if (scene->body.chosen) say(teller, "box chosen", "%s", scene->body.choice);
     if (scene->body.model != NULL) say(teller, "ground", "%s", scene->body.model->text);
     say_surface(teller, scene->body.topography);
-    say_grading(teller, &scene->body);
+    say_grading(teller, scene);
     say_interfaces(teller, &scene->body);
     say(teller, "loads", "%zu", scene->loads);
     say(teller, "receivers", "%zu", scene->receivers);

@@ -46,7 +46,10 @@ double layer_cost(const struct scene *scene)
 
 double layer_steps(const struct scene *scene)
 {
-    return strcmp(scene->stepping.scheme, "modified-equation") == 0 ? sqrt(2) : 1;
+    const char *scheme = scene->stepping.scheme;
+    const bool leapfrog =
+        scheme[0] == '\0' ? scene->initial.kind == INITIAL_REST : strcmp(scheme, "leapfrog") == 0;
+    return leapfrog ? 1 : sqrt(2);
 }
 
 /* In the cell of the layer's face, and from cell to cell. Measured in the plane, Poisson's ratio .14 to .49, and in

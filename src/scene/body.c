@@ -247,7 +247,8 @@ void build_body(struct builder *builder)
         body->material = scene->materials; /* build_layers complains unless layers fill the body */
     body->arrangement = (enum arrangement)deck_choice(group, "arrangement", 0);
     body->jitter = deck_real(group, "jitter", 0);
-    body->most_stretch = deck_given(group, "grading") ? deck_real(group, "grading", 0) : 1;
+    body->most_stretch =
+        deck_given(group, "grading") ? deck_real(group, "grading", 0) : fmax(builder->grading, 1);
     body->seed = deck_integer(group, "seed", 0);
     bool right = read_shape(builder, group);
     right = read_rotation(builder, group) && right;

@@ -14,6 +14,8 @@ struct builder {
     bool body_known;     /* box and frame are right: places can be checked against them */
     bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
     double spacing;      /* ... but this one, or 0 for a first guess ... */
+    double grading;      /* ... graded so where the deck says none; 0: even ... */
+    bool large;          /* ... in a box from which nothing returns, where the program fits it ... */
     long layer_points; /* ... with absorbing layers of at least so many points, where the program adds them */
 };
 

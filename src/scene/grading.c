@@ -198,3 +198,17 @@ selas_status scene_grade(struct scene *scene)
     array_free(slowest.speed);
     return good ? SELAS_OK : SELAS_NO_MEMORY;
 }
+
+double grading_saves(const struct scene *scene)
+{
+    struct scene graded = *scene;
+    const int axis = scene->dimension - 1;
+    const double even = (scene->body.high[axis] - scene->body.low[axis]) / scene->body.spacing + 1;
+    double saved = 0;
+    graded.body.grading = NULL;
+    graded.body.most_stretch = GRADING_MEASURED;
+    if (scene_grade(&graded) == SELAS_OK && graded.body.grading != NULL)
+        saved = 1 - ((double)graded.body.grading->cells + 1) / even;
+    grading_free(graded.body.grading);
+    return saved;
+}

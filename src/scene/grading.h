@@ -29,5 +29,10 @@ void grading_free(struct grading *grading);
 /* Lays body.grading for body.most_stretch and the scene's ground anew; an even lattice where the rock gives no reason
  * for another. SELAS_NO_MEMORY. */
 selas_status scene_grade(struct scene *scene);
+/* What share of an even lattice's points a grading of GRADING_MEASURED leaves out. */
+double grading_saves(const struct scene *scene);
+/* The largest that errors were measured with, and the share of the work from which on it is worth its while (G20b). */
+#define GRADING_MEASURED 3.0
+#define GRADING_WORTH 0.2
 
 #endif

@@ -193,7 +193,9 @@ selas_status scene_build(const struct deck *deck, const struct scene_choice *cho
     if (choice != NULL) {
         builder.accurate = true;
         builder.spacing = choice->spacing;
+        builder.grading = choice->grading;
         builder.layer_points = choice->layer_points;
+        builder.large = choice->large;
     }
     (*scene)->deck = deck;
     build_settings(&builder);

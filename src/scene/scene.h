@@ -10,7 +10,7 @@
 #include "deck/deck.h"
 #include "scene/boundary.h"
 
-enum { NAME_SIZE = 64, FACES = 7, BOX_FACES = 6 };
+enum { NAME_SIZE = 64, FACES = 7, BOX_FACES = 6, ACCURACY_TEXT = 400 };
 
 enum face { FACE_NAMES(CHOICE_SYMBOL) };
 
@@ -120,7 +120,8 @@ struct body {
     bool dampers;   /* ... and dampers at its bottom send hardly anything back of that ... */
     double waves_low[3], waves_high[3]; /* ... as far as what is seen of waves comes from ... */
     char choice[200];                   /* ... which box and why, for the plan */
-    char accuracy[200]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
+    char accuracy
+        [ACCURACY_TEXT]; /* what scene%accuracy chose, for the plan; "" if the deck gives the spacing */
 };
 
 enum load_kind { LOAD_KINDS(CHOICE_SYMBOL) };
@@ -262,13 +263,15 @@ struct scene {
 /* What the program chooses in place of the deck (scene%accuracy). */
 struct builder;
 struct scene_choice {
-    double spacing;     /* 0: a first guess */
-    long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
-    int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
-    size_t mechanisms;  /* of damped materials; 0: as without */
-    const char *scheme; /* NULL: as without */
-    double courant;     /* 0: the default step */
-    char text[200];     /* for the plan */
+    double spacing;           /* 0: a first guess */
+    double grading;           /* where the deck says none; 0: even */
+    bool large;               /* the box that the program fits is the one from which nothing returns */
+    long layer_points;        /* of absorbing layers at least, where there are any; 0: the default */
+    int degree, sweeps;       /* of the consistent method; degree 0: as without a choice */
+    size_t mechanisms;        /* of damped materials; 0: as without */
+    const char *scheme;       /* NULL: as without */
+    double courant;           /* 0: the default step */
+    char text[ACCURACY_TEXT]; /* for the plan */
     /* Refuses what cannot be served or leaves no choice (complain()); called when all else is built. */
     void (*check)(struct builder *builder);
 };

@@ -120,13 +120,17 @@ static unsigned long steps_beyond(const struct stepper *stepper)
     return 12 + (unsigned long)ceil(6.0 * width / stepper->dt);
 }
 
+static bool linear_and_symmetric(const struct model *model)
+{
+    return model->self_adjoint && model->spatial->linearise == NULL && model->spatial->after_step == NULL;
+}
+
 /* The transform is exact for linear models at rest at t = 0 that histories known beforehand drive at fixed
  * places. */
 static bool can_unwarp(const struct stepper *stepper)
 {
     const struct model *model = stepper->model;
-    return (stepper->scheme->can & SCHEME_UNWARPS) != 0 && model->self_adjoint &&
-           model->spatial->linearise == NULL && model->spatial->after_step == NULL &&
+    return (stepper->scheme->can & SCHEME_UNWARPS) != 0 && linear_and_symmetric(model) &&
            model->scene->initial.kind == INITIAL_REST && !scene_loads_move(model->scene) &&
            !scene_driven(model->scene);
 }
@@ -156,29 +160,65 @@ static selas_status check_steps(const struct stepper *stepper, struct messages *
 }
 
 /* What the scene and the model ask of the scheme. */
+enum { NEEDS = 5 };
+struct need {
+    enum scheme_ability ability;
+    bool needed;
+    const char *what;
+};
+
+static void set_needs(const struct model *model, struct need need[NEEDS])
+{
+    need[0] = (struct need){SCHEME_MOVING_LOADS, scene_loads_move(model->scene), "loads that move need"};
+    need[1] = (struct need){SCHEME_FILTERS, model->spatial->after_step != NULL,
+                            "a filter (method%filter > 0) needs"};
+    need[2] = (struct need){SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"};
+    need[3] = (struct need){SCHEME_LAYERS, model->layers, "absorbing layers (boundary%layer = 'pml') need"};
+    need[4] = (struct need){SCHEME_DAMPED, model->core->loss != NULL, "damped materials (material%q_p) need"};
+}
+
+/* NULL, or what the scheme cannot do of what is asked. */
+static const struct need *unmet(const struct scheme_class *scheme, const struct need need[NEEDS])
+{
+    for (size_t i = 0; i < NEEDS; i++)
+        if (need[i].needed && (scheme->can & need[i].ability) == 0) return &need[i];
+    return NULL;
+}
+
+bool scheme_serves(const struct scheme_class *scheme, const struct model *model)
+{
+    struct need need[NEEDS];
+    set_needs(model, need);
+    return scheme_fits(scheme, model) && unmet(scheme, need) == NULL;
+}
+
 static selas_status check_abilities(const struct stepper *stepper, struct messages *messages)
 {
     const struct model *model = stepper->model;
-    const struct {
-        enum scheme_ability ability;
-        bool needed;
-        const char *what;
-    } needs[] = {
-        {SCHEME_MOVING_LOADS, scene_loads_move(model->scene), "loads that move need"},
-        {SCHEME_FILTERS, model->spatial->after_step != NULL, "a filter (method%filter > 0) needs"},
-        {SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"},
-        {SCHEME_LAYERS, model->layers, "absorbing layers (boundary%layer = 'pml') need"},
-        {SCHEME_DAMPED, model->core->loss != NULL, "damped materials (material%q_p) need"},
-    };
+    struct need need[NEEDS];
     char names[SCHEME_NAMES_SIZE];
-    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
-        if (needs[i].needed && (stepper->scheme->can & needs[i].ability) == 0)
-            return fail(messages, SELAS_UNSUPPORTED, "%s scheme %s, not '%s'", needs[i].what,
-                        scheme_names(model, needs[i].ability, names), stepper->scheme->name);
+    set_needs(model, need);
+    const struct need *missing = unmet(stepper->scheme, need);
+    if (missing != NULL)
+        return fail(messages, SELAS_UNSUPPORTED, "%s scheme %s, not '%s'", missing->what,
+                    scheme_names(model, missing->ability, names), stepper->scheme->name);
     if (model->single && scene_driven(model->scene))
         return fail(messages, SELAS_UNSUPPORTED,
                     "loads and faces that a host drives need method%%precision = 'double'");
     return SELAS_OK;
+}
+
+/* The scheme of a deck that names none. Motion at t = 0 keeps leapfrog's transform from running, and its time error
+ * would stay: then one that has none of that order, if it can do all that is asked. */
+static const struct scheme_class *choose_default(struct stepper *stepper)
+{
+    const struct model *model = stepper->model;
+    const struct scheme_class *usual = scheme_default(model);
+    const bool stays = usual != NULL && (usual->can & SCHEME_UNWARPS) != 0 && linear_and_symmetric(model) &&
+                       model->scene->initial.kind != INITIAL_REST && !scene_driven(model->scene);
+    if (!stays || !scheme_serves(&scheme_modified_equation, model)) return usual;
+    stepper->scheme_reason = "the body moves at t = 0, where leapfrog's time error would stay";
+    return &scheme_modified_equation;
 }
 
 /* Words of another scheme are told of: the deck may have been made for it. */
@@ -200,7 +240,7 @@ static selas_status choose_scheme(struct stepper *stepper, struct messages *mess
     const struct model *model = stepper->model;
     const char *name = model->scene->stepping.scheme;
     char names[SCHEME_NAMES_SIZE];
-    stepper->scheme = name[0] == '\0' ? scheme_default(model) : scheme_find(name);
+    stepper->scheme = name[0] == '\0' ? choose_default(stepper) : scheme_find(name);
     if (stepper->scheme == NULL) return fail(messages, SELAS_UNSUPPORTED, "there is no scheme '%s'", name);
     if (!scheme_fits(stepper->scheme, model))
         return fail(messages, SELAS_UNSUPPORTED,

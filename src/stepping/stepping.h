@@ -63,6 +63,8 @@ struct scheme_class {
 
 struct stepper {
     const struct scheme_class *scheme;
+    const char *
+        scheme_reason; /* why it is not the usual one, where the deck names none; NULL: it is, or the deck does */
     struct model *model;
     double dt;
     long stages;
@@ -85,6 +87,8 @@ extern const struct scheme_class *const scheme_table[];
 const struct scheme_class *scheme_find(const char *name);
 /* True if the model has the functions that the scheme calls. */
 bool scheme_fits(const struct scheme_class *scheme, const struct model *model);
+/* True if it can do all that the model and its scene ask for. */
+bool scheme_serves(const struct scheme_class *scheme, const struct model *model);
 /* Largest stable dt; 0 if none is, INFINITY if any is. */
 double scheme_limit(const struct scheme_class *scheme, const struct spectrum *spectrum, long stages);
 const struct scheme_class *scheme_default(const struct model *model);

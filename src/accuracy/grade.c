@@ -1,0 +1,65 @@
+/* Whether a graded spacing pays (see the header). */
+#include "accuracy/grade.h"
+
+#include "scene/absorbing_layers.h"
+#include "scene/build.h"
+#include "scene/grading.h"
+#include "scene/ground.h"
+
+#include <math.h>
+#include <stdio.h>
+
+double accuracy_work(const struct scene *scene)
+{
+    const struct body *body = &scene->body;
+    double points = 1, all = 1;
+    for (int c = 0; c < scene->dimension; c++) {
+        const double count = body_cells(body, c) + 1;
+        points *= count;
+        all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
+    }
+    return (points + layer_cost(scene) * (all - points)) * scene_fastest(scene) * scene->end_time /
+           (.35 * body->spacing);
+}
+
+long accuracy_layer_points(double accuracy)
+{
+    return accuracy >= .02 ? 8 : accuracy >= .005 ? 10 : 12;
+}
+
+/* Work of the choice; INFINITY: there is no such scene, or no such lattice. */
+static double work_of(const struct trial *trial, const struct scene_choice *choice)
+{
+    struct messages unsaid = {0};
+    struct scene *scene = NULL;
+    double work = INFINITY;
+    if (scene_build(trial->deck, choice, &scene, &unsaid) == SELAS_OK &&
+        (choice->grading == 0 || scene->body.grading != NULL))
+        work = accuracy_work(scene);
+    scene_free(&scene);
+    messages_free(&unsaid);
+    return work;
+}
+
+static bool asks_general(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    return ground_needs_general(scene) || scene->body.topography != NULL ||
+           (group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general"));
+}
+
+void accuracy_grade(const struct scene *scene, const struct trial *trial, struct scene_choice *choice,
+                    char text[GRADE_TEXT])
+{
+    const struct deck_group *body = deck_get(trial->deck, "body", 0);
+    choice->grading = 0;
+    text[0] = '\0';
+    if (deck_given(body, "grading") || !asks_general(scene)) return;
+    const double even = work_of(trial, choice);
+    choice->grading = GRADING_MEASURED;
+    const double saved = 1 - work_of(trial, choice) / even;
+    if (!(saved >= GRADING_WORTH)) choice->grading = 0;
+    if (choice->grading > 0)
+        snprintf(text, GRADE_TEXT, ", grading %g (%.0f %% of the work less than an even spacing)",
+                 GRADING_MEASURED, 100 * saved);
+}

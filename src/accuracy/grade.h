@@ -1,0 +1,22 @@
+/* Work of a scene, and whether a spacing graded over depth saves of it (doc/theory/graded-spacing.md, section 4). */
+#ifndef SELAS_ACCURACY_GRADE_H
+#define SELAS_ACCURACY_GRADE_H
+
+#include "accuracy/trial.h"
+
+/* Point-steps that a trial may take, a minute or two on one thread. */
+#define ACCURACY_TRIAL_WORK 1e9
+
+/* Points times steps, those of absorbing layers counted as in the choice of a box. */
+double accuracy_work(const struct scene *scene);
+
+/* Of absorbing layers at least, for an error. */
+long accuracy_layer_points(double accuracy);
+
+enum { GRADE_TEXT = 128 };
+/* Sets choice->grading where the scene takes the general operator, the deck says no grading and one at the choice's
+ * spacing saves enough of the work (G20b), with words of it; else to 0 and "". */
+void accuracy_grade(const struct scene *scene, const struct trial *trial, struct scene_choice *choice,
+                    char text[GRADE_TEXT]);
+
+#endif
