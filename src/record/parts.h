@@ -141,15 +141,16 @@ selas_status snapshot_observe(struct recorder *recorder, const struct state *sta
                               struct messages *messages);
 void snapshot_free(struct recorder *recorder);
 /* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
- * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has. */
+ * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has; without it each rank
+ * has one. */
 size_t snapshot_piece(const struct model *model, size_t from, int *holder);
 
 /* run_file.c: run.h5. `work`: folder of the run that goes on, or NULL (unfinished.h). */
 selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages);
-/* snapshot_file.c; together: the first rank writes what the others have */
+/* snapshot_file.c; together */
 selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_record *record,
                                const struct state *state, size_t number, struct messages *messages);
-/* Points, snapshots, histories, settings, provenance: writes the file and gives it its name. */
+/* Together: points, snapshots, histories, settings, provenance: writes the file and gives it its name. */
 selas_status run_file_finish(struct recorder *recorder, const struct run_figures *figures,
                              struct messages *messages);
 /* Lets the folder go; when all results are there (`complete`), what was kept of the unfinished run goes too.

@@ -90,11 +90,18 @@ static bool of_one_rank(const struct model *model, size_t from, size_t points, s
     return true;
 }
 
+/* Any rank can show all points. */
+static size_t even_piece(const struct model *model, size_t from, int *holder)
+{
+    const size_t ranks = (size_t)ranks_count(model->scene->ranks), share = model->points / ranks + 1;
+    *holder = (int)(from / share);
+    return from + share < model->points ? from + share : model->points;
+}
+
 size_t snapshot_piece(const struct model *model, size_t from, int *holder)
 {
     enum { LEAST = 1 << 17, PIECES = 16 };
-    *holder = 0;
-    if (model->core->holder == NULL) return model->points;
+    if (model->core->holder == NULL) return even_piece(model, from, holder);
     const int ranks = ranks_count(model->scene->ranks), dimension = model->scene->dimension;
     const size_t share = model->points / (size_t)ranks / PIECES, most = share > LEAST ? share : LEAST;
     const size_t layers = model->grid[dimension - 1];
