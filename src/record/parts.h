@@ -31,8 +31,9 @@ struct snapshot_record {
     const struct snapshot *snapshot;
     size_t due;        /* index of the next time */
     size_t points;     /* that are shown */
-    size_t *index;     /* [points] which ones, ascending; NULL: all */
     size_t grid[3];    /* of the points shown, 0 0 0 if they form no lattice */
+    size_t corner[3];  /* of the body's lattice, where that of a part begins */
+    size_t *index;     /* [points] which ones, ascending, of a part that is no lattice; else NULL */
     bool regular;      /* the lattice lies along the deck's axes ... */
     double origin[3];  /* ... begins here ... */
     double step[3];    /* ... and has these spacings */
@@ -140,6 +141,8 @@ selas_status snapshot_create(struct recorder *recorder, struct messages *message
 selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
 void snapshot_free(struct recorder *recorder);
+/* The k-th body point that is shown. */
+size_t snapshot_point(const struct model *model, const struct snapshot_record *record, size_t k);
 /* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
  * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has; without it each rank
  * has one. */

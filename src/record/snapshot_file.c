@@ -18,12 +18,12 @@
 /* Points that are listed. */
 struct list {
     const struct model *model;
-    const size_t *index; /* NULL: all */
+    const struct snapshot_record *record; /* NULL: all */
 };
 
 static size_t listed(const struct list *list, size_t row)
 {
-    return list->index != NULL ? list->index[row] : row;
+    return list->record != NULL ? snapshot_point(list->model, list->record, row) : row;
 }
 
 static void give_position(const struct list *list, size_t row, double *value)
@@ -86,28 +86,29 @@ void hdf_points(const struct recorder *recorder, struct walk *walk)
     write_list(walk, "/points/position", H5T_IEEE_F64LE, model->points, 3, &all, give_position);
     for (size_t s = 0; s < recorder->scene->snapshots; s++) {
         const struct snapshot_record *record = &recorder->snapshot[s];
-        const struct list some = {model, record->index};
-        if (record->index != NULL) write_region(walk, &some, s + 1, record->points);
+        const struct list some = {model, record};
+        if (!record->snapshot->whole) write_region(walk, &some, s + 1, record->points);
     }
 }
 
 /* How many of the points from .. end - 1 the record shows; `row`: rows shown before them. */
-static size_t rows_of(const struct snapshot_record *record, size_t row, size_t from, size_t end)
+static size_t rows_of(const struct model *model, const struct snapshot_record *record, size_t row,
+                      size_t from, size_t end)
 {
     size_t rows = 0;
-    if (record->index == NULL) return end - from;
-    while (row + rows < record->points && record->index[row + rows] < end)
+    if (record->snapshot->whole) return end - from;
+    while (row + rows < record->points && snapshot_point(model, record, row + rows) < end)
         rows++;
     return rows;
 }
 
 /* What the record shows of a piece of the body moves to the head of the buffer. */
-static void pick_rows(const struct snapshot_record *record, size_t components, size_t row, size_t rows,
-                      size_t from)
+static void pick_rows(const struct model *model, const struct snapshot_record *record, size_t components,
+                      size_t row, size_t rows, size_t from)
 {
-    for (size_t i = 0; record->index != NULL && i < rows; i++)
+    for (size_t i = 0; !record->snapshot->whole && i < rows; i++)
         memmove(record->buffer + components * i,
-                record->buffer + components * (record->index[row + i] - from),
+                record->buffer + components * (snapshot_point(model, record, row + i) - from),
                 components * sizeof *record->buffer);
 }
 
@@ -121,10 +122,10 @@ static void pass_field(struct recorder *recorder, const struct snapshot_record *
     int holder;
     for (size_t from = 0, row = 0, rows, end; from < model->points; from = end, row += rows) {
         end = snapshot_piece(model, from, &holder);
-        rows = rows_of(record, row, from, end);
+        rows = rows_of(model, record, row, from, end);
         if (holder != me || rows == 0 || walk->failed) continue;
         model->core->field(model, field, state->y, state->a, from, end, record->buffer);
-        pick_rows(record, components, row, rows, from);
+        pick_rows(model, record, components, row, rows, from);
         walk_rows(walk, set, row, rows, components, record->buffer);
     }
 }
