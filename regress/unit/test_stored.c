@@ -1,5 +1,6 @@
 /* HDF5 files from elsewhere: extents with nothing behind them and links out of the file end in a message,
  * before memory is taken; what lies in the file itself is read, compressed too. */
+#include "base/crc64.h"
 #include "base/memory.h"
 #include "base/stored.h"
 #include "box_scene.h"
@@ -169,8 +170,8 @@ static void decks_elsewhere_are_refused(void **state)
                 put_text(file, name[k]);
         if (linked) H5Lcreate_external(other, "provenance", file, "provenance", H5P_DEFAULT, H5P_DEFAULT);
         H5Fclose(file);
-        assert_int_equal(checkpoint_seal(path, &messages), SELAS_OK);
-        assert_int_equal(kept_deck_of_checkpoint(path, &kept, &messages),
+        assert_int_equal(checkpoint_seal(path, NULL, &messages), SELAS_OK);
+        assert_int_equal(kept_deck_of_checkpoint(path, NULL, &kept, &messages),
                          linked ? SELAS_FILE_ERROR : SELAS_OK);
         kept_deck_free(&kept);
         assert_int_equal(kept_deck_of_run(linked ? path : other, &kept, &messages),
@@ -190,6 +191,33 @@ static void arrays_beyond_the_machine(void **state)
     void *some = array_new(1000, 8);
     assert_non_null(some);
     array_free(some);
+}
+
+/* The checksum of a file from those of its pieces, wherever it is cut, in any order. */
+static void checksums_of_pieces_join(void **unused)
+{
+    (void)unused;
+    enum { SIZE = 70001 };
+    static const size_t cut[] = {0, 1, 7, 8, 4096, 65537, SIZE};
+    static char text[SIZE];
+    struct crc64_table table;
+    crc64_prepare(&table);
+    assert_true(crc64_add(&table, 0, "123456789", 9) == UINT64_C(0x995DC9BBDF1939FA));
+    for (size_t i = 0; i < SIZE; i++)
+        text[i] = (char)(i * i / 7 + i);
+    const uint64_t whole = crc64_add(&table, 0, text, SIZE);
+    uint64_t sum = 0;
+    for (size_t k = 0; k < sizeof cut / sizeof *cut; k++) {
+        const uint64_t head = crc64_add(&table, 0, text, cut[k]);
+        const uint64_t rest = crc64_add(&table, 0, text + cut[k], SIZE - cut[k]);
+        assert_true(crc64_join(head, rest, SIZE - cut[k]) == whole);
+    }
+    for (size_t k = sizeof cut / sizeof *cut - 1; k > 0; k--) {
+        const uint64_t part = crc64_add(&table, 0, text + cut[k - 1], cut[k] - cut[k - 1]);
+        sum ^= crc64_join(part, 0, SIZE - cut[k]);
+    }
+    assert_true(sum == whole);
+    assert_true(crc64_join(whole, 0, (uint64_t)1 << 40) != whole);
 }
 
 static int make_folder_of_files(void **state)
@@ -215,7 +243,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_lies_in_the_file_is_read), cmocka_unit_test(huge_extents_are_refused),
         cmocka_unit_test(numbers_elsewhere_are_refused), cmocka_unit_test(decks_elsewhere_are_refused),
-        cmocka_unit_test(arrays_beyond_the_machine),
+        cmocka_unit_test(arrays_beyond_the_machine),     cmocka_unit_test(checksums_of_pieces_join),
     };
     return cmocka_run_group_tests(tests, make_folder_of_files, remove_files);
 }

@@ -64,6 +64,7 @@ static selas_status prepare_restore(selas_simulation *simulation)
                     "with result files restore right after selas_record");
     if (simulation->state.y == NULL)
         status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
+    status = ranks_agree(simulation->ranks, status, &simulation->messages);
     if (status == SELAS_OK && simulation->recording) status = open_again(simulation);
     return ranks_agree(simulation->ranks, status, &simulation->messages);
 }
@@ -131,13 +132,13 @@ static selas_status find_results(selas_simulation *simulation, const char *path)
     return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a name");
 }
 
-selas_status simulation_open_checkpoint(const char *path, selas_simulation **opened)
+selas_status simulation_open_checkpoint(const char *path, struct ranks *ranks, selas_simulation **opened)
 {
     struct kept_deck kept;
     selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
-    status = kept_deck_of_checkpoint(path, &kept, &simulation->messages);
+    status = kept_deck_of_checkpoint(path, ranks, &kept, &simulation->messages);
     if (status == SELAS_OK) status = find_results(simulation, path);
     if (status == SELAS_OK) status = read_kept(simulation, &kept, 0, NULL);
     kept_deck_free(&kept);

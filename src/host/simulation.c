@@ -254,6 +254,7 @@ static selas_status start(selas_simulation *simulation)
     const struct stopwatch begun = start_watch();
     model_computed(simulation->model)->evaluations = 0;
     status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
+    status = ranks_agree(simulation->ranks, status, &simulation->messages);
     if (status == SELAS_OK && simulation->recording)
         status = recorder_open(simulation->recorder, NULL, &simulation->messages);
     status = ranks_agree(simulation->ranks, status, &simulation->messages);

@@ -103,7 +103,7 @@ void simulation_discard(selas_simulation *simulation);
 /* host/checkpoints.c */
 /* Opens the deck that a checkpoint keeps; selas_record and selas_restore make a run of it that goes on in the
  * checkpoint's folder. SELAS_FILE_ERROR with the reason. */
-selas_status simulation_open_checkpoint(const char *path, selas_simulation **simulation);
+selas_status simulation_open_checkpoint(const char *path, struct ranks *ranks, selas_simulation **simulation);
 /* Opens the deck that run.h5 keeps, with overrides; results go to output/NAME-rerun. */
 selas_status simulation_open_run(const char *path, size_t count, const char *const *overrides,
                                  selas_simulation **simulation);

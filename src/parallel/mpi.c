@@ -19,6 +19,7 @@ struct ranks {
     int me, count;
     bool fixed; /* the communicator is a host's */
     double sent, waited;
+    size_t told; /* bytes of this rank's messages that the first one has */
 };
 
 static int length_of(size_t left)
@@ -174,20 +175,21 @@ double ranks_waited(const struct ranks *ranks)
     return ranks == NULL ? 0 : ranks->waited;
 }
 
-/* The text of another rank's messages, for the first one. */
+/* The text of another rank's messages, for the first one: what it has not got before. */
 static void take_messages(struct ranks *ranks, int from, struct messages *messages)
 {
-    unsigned long size = messages->text == NULL ? 0 : messages->length;
+    unsigned long size = messages->text == NULL ? 0 : messages->length - ranks->told;
     char named[64];
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, from, ranks->comm);
     char *text = array_new(size + 1, 1);
     if (text == NULL) MPI_Abort(ranks->comm, 1);
-    if (ranks->me == from && size > 0) memcpy(text, messages->text, size);
+    if (ranks->me == from && size > 0) memcpy(text, messages->text + ranks->told, size);
+    if (ranks->me == from) ranks->told += size;
     MPI_Bcast(text, (int)size, MPI_CHAR, from, ranks->comm);
     snprintf(named, sizeof named, "on rank %d of %d:", from, ranks->count);
     while (size > 0 && text[size - 1] == '\n')
         text[--size] = '\0';
-    if (ranks->me == 0) {
+    if (ranks->me == 0 && size > 0) {
         messages_add(messages, false, false, named);
         messages_add(messages, true, false, text);
     }

@@ -129,10 +129,11 @@ static int exit_status(selas_status status)
 
 /* --- Commands --- */
 
-static selas_status open_named(const struct arguments *arguments, selas_simulation **simulation)
+static selas_status open_named(const struct arguments *arguments, struct ranks *ranks,
+                               selas_simulation **simulation)
 {
     if (strcmp(arguments->command, "restart") == 0)
-        return simulation_open_checkpoint(arguments->deck, simulation);
+        return simulation_open_checkpoint(arguments->deck, ranks, simulation);
     if (strcmp(arguments->command, "rerun") == 0)
         return simulation_open_run(arguments->deck, arguments->overrides, arguments->override, simulation);
     return selas_open_deck_with(arguments->deck, arguments->overrides, arguments->override, simulation);
@@ -213,7 +214,7 @@ int main(int count, char **words)
     signals_no_size_limit();
     H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
                         here */
-    selas_status status = open_named(&arguments, &simulation);
+    selas_status status = open_named(&arguments, ranks, &simulation);
     if (simulation == NULL) { /* no memory for anything */
         ranks_abort(ranks, EXIT_RUN_FAILED);
         status = SELAS_NO_MEMORY;

@@ -84,8 +84,8 @@ static selas_status write_checked(const char *temporary, struct recorder *record
         status =
             fail(messages, SELAS_FILE_ERROR,
                  "the checkpoint '%s' does not read back as it was written (is the disk sound?)", temporary);
-    else if (same && ranks_first(ranks))
-        status = checkpoint_seal(temporary, messages);
+    else if (same)
+        status = checkpoint_seal(temporary, ranks, messages);
     return ranks_agree(ranks, status, messages);
 }
 
@@ -264,7 +264,8 @@ static const char *read_all(const char *path, struct recorder *recorder, struct 
     recorder->entries = (size_t)figures[ENTRIES];
     model_computed(recorder->model)->evaluations = (unsigned long)figures[EVALUATIONS];
     recorder->started = true;
-    for (size_t k = 0; wrong == NULL && recorder->file != NULL && k < recorder->entries; k++)
+    for (size_t k = 0; wrong == NULL && recorder->file != NULL && ranks_first(ranks) && k < recorder->entries;
+         k++)
         if (!snapshot_file_there(recorder, k, recorder->entry[k].time))
             wrong = "a file snapshot_NNNN.h5 that belongs beside it is missing or damaged";
     return wrong_anywhere(recorder, wrong);
@@ -289,7 +290,7 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
 {
     struct ranks *ranks = recorder->scene->ranks;
     char *text = deck_echo(recorder->scene->deck, messages), why[200] = "";
-    const bool whole = !ranks_first(ranks) || checkpoint_whole(path, why, sizeof why);
+    const bool whole = checkpoint_whole(path, ranks, why, sizeof why);
     const char *wrong = text == NULL ? "there is no memory for its deck" : whole ? NULL : why;
     int error = 0;
     double figures[FIGURES] = {0};

@@ -34,20 +34,51 @@ static const char *byte_order(void)
     return first == 1 ? "little-endian" : "big-endian";
 }
 
-/* CRC of the file behind the head; false if it cannot be read to its end. */
-static bool body_checksum(int file, uint64_t *checksum)
+/* CRC of the bytes from .. end - 1 of the file; false if they cannot be read. */
+static bool part_checksum(int file, uint64_t from, uint64_t end, uint64_t *checksum)
 {
     struct crc64_table table;
     char block[BLOCK];
-    off_t at = CHECKPOINT_HEAD;
-    ssize_t length = -1;
     crc64_prepare(&table);
     *checksum = 0;
-    while ((length = pread(file, block, BLOCK, at)) > 0) {
+    while (from < end) {
+        const size_t most = end - from < BLOCK ? (size_t)(end - from) : BLOCK;
+        const ssize_t length = pread(file, block, most, (off_t)from);
+        if (length <= 0) return false;
         *checksum = crc64_add(&table, *checksum, block, (size_t)length);
-        at += length;
+        from += (uint64_t)length;
     }
-    return length == 0;
+    return true;
+}
+
+/* Together: the exclusive or of what ranks have, whose bits are counted. */
+static uint64_t joined(struct ranks *ranks, uint64_t own)
+{
+    enum { BITS = 64 };
+    double bit[BITS];
+    uint64_t value = 0;
+    for (int k = 0; k < BITS; k++)
+        bit[k] = (double)(own >> k & 1);
+    ranks_sum(ranks, BITS, bit);
+    for (int k = 0; k < BITS; k++)
+        value |= ((uint64_t)bit[k] & 1) << k;
+    return value;
+}
+
+/* Together: CRC of all behind the head of a file of `size` bytes, of which each rank reads a share. `read`: could this
+ * rank, where it wants to; false if one could not. */
+static bool body_checksum(int file, uint64_t size, struct ranks *ranks, bool *read, uint64_t *checksum)
+{
+    const uint64_t count = (uint64_t)ranks_count(ranks), me = (uint64_t)ranks_me(ranks);
+    const uint64_t body = size > CHECKPOINT_HEAD ? size - CHECKPOINT_HEAD : 0;
+    const uint64_t first = body / count * me + body % count * me / count;
+    const uint64_t last = body / count * (me + 1) + body % count * (me + 1) / count;
+    uint64_t own = 0;
+    *read = *read && part_checksum(file, CHECKPOINT_HEAD + first, CHECKPOINT_HEAD + last, &own);
+    double failed = !*read;
+    ranks_largest(ranks, 1, &failed);
+    *checksum = joined(ranks, crc64_join(own, 0, body - last));
+    return failed == 0;
 }
 
 static uint64_t text_checksum(const char *text, size_t length)
@@ -57,22 +88,27 @@ static uint64_t text_checksum(const char *text, size_t length)
     return crc64_add(&table, 0, text, length);
 }
 
-selas_status checkpoint_seal(const char *path, struct messages *messages)
+static bool write_head(int file, uint64_t size, uint64_t body)
 {
     char head[CHECKPOINT_HEAD] = {0};
-    uint64_t body = 0;
-    struct stat about;
+    const int length =
+        snprintf(head, sizeof head,
+                 "%s%d\nversion %s\ncommit %.60s\nbytes %s\nsize %" PRIu64 "\nbody %016" PRIx64 "\n",
+                 first_line, FORMAT, selas_version(), build_commit(), byte_order(), size, body);
+    snprintf(head + length, sizeof head - (size_t)length, "head %016" PRIx64 "\n",
+             text_checksum(head, (size_t)length));
+    return pwrite(file, head, sizeof head, 0) == (ssize_t)sizeof head;
+}
+
+selas_status checkpoint_seal(const char *path, struct ranks *ranks, struct messages *messages)
+{
+    uint64_t body;
+    struct stat about = {0};
     const int file = open(path, O_RDWR | O_CLOEXEC);
-    bool good = file >= 0 && fstat(file, &about) == 0 && body_checksum(file, &body);
-    if (good) {
-        const int length = snprintf(
-            head, sizeof head,
-            "%s%d\nversion %s\ncommit %.60s\nbytes %s\nsize %" PRIu64 "\nbody %016" PRIx64 "\n", first_line,
-            FORMAT, selas_version(), build_commit(), byte_order(), (uint64_t)about.st_size, body);
-        snprintf(head + length, sizeof head - (size_t)length, "head %016" PRIx64 "\n",
-                 text_checksum(head, (size_t)length));
-        good = pwrite(file, head, sizeof head, 0) == (ssize_t)sizeof head && fsync(file) == 0;
-    }
+    bool good = file >= 0 && fstat(file, &about) == 0;
+    const bool all = body_checksum(file, (uint64_t)about.st_size, ranks, &good, &body);
+    if (all && ranks_first(ranks)) good = write_head(file, (uint64_t)about.st_size, body);
+    good = good && fsync(file) == 0;
     const int error = errno;
     if (file >= 0) close(file);
     return good ? SELAS_OK : hdf_cannot("write", path, error, messages);
@@ -102,29 +138,11 @@ static bool head_whole(const char head[CHECKPOINT_HEAD + 1])
     return strcmp(kept, made) == 0;
 }
 
-static bool body_whole(int file, const char *head, char *why, size_t size)
+/* The head, read into head[]. */
+static bool head_fits(int file, char head[CHECKPOINT_HEAD + 1], char *why, size_t size)
 {
-    char kept[32], made[32];
+    char value[80], format[16];
     struct stat about;
-    uint64_t body = 0;
-    line_of(head, "size", kept, sizeof kept);
-    const uint64_t wanted = strtoull(kept, NULL, 10);
-    if (fstat(file, &about) != 0 || (uint64_t)about.st_size < wanted) {
-        snprintf(why, size, "it is cut short: %" PRIu64 " bytes of %" PRIu64, (uint64_t)about.st_size,
-                 wanted);
-        return false;
-    }
-    const bool read = body_checksum(file, &body);
-    line_of(head, "body", kept, sizeof kept);
-    snprintf(made, sizeof made, "%016" PRIx64, body);
-    if (read && (uint64_t)about.st_size == wanted && strcmp(kept, made) == 0) return true;
-    snprintf(why, size, "%s", read ? "it is damaged: its checksum is wrong" : "it cannot be read to its end");
-    return false;
-}
-
-static bool whole(int file, char *why, size_t size)
-{
-    char head[CHECKPOINT_HEAD + 1] = {0}, value[80], format[16];
     const ssize_t length = pread(file, head, CHECKPOINT_HEAD, 0);
     snprintf(format, sizeof format, "%d\n", FORMAT);
     if (length <= 0 || strncmp(head, first_line, sizeof first_line - 1) != 0) {
@@ -155,17 +173,39 @@ static bool whole(int file, char *why, size_t size)
         snprintf(why, size, "it was written by a %s machine, this one is %s", value, byte_order());
         return false;
     }
-    return body_whole(file, head, why, size);
+    line_of(head, "size", value, sizeof value);
+    const uint64_t wanted = strtoull(value, NULL, 10);
+    if (fstat(file, &about) == 0 && (uint64_t)about.st_size >= wanted) return true;
+    snprintf(why, size, "it is cut short: %" PRIu64 " bytes of %" PRIu64, (uint64_t)about.st_size, wanted);
+    return false;
 }
 
-bool checkpoint_whole(const char *path, char *why, size_t size)
+/* Together; `fits`: of this rank's look at the head. */
+static bool body_fits(int file, const char *head, bool fits, struct ranks *ranks, char *why, size_t size)
 {
+    char kept[32], made[32];
+    struct stat about = {0};
+    uint64_t body;
+    bool read = fits && fstat(file, &about) == 0;
+    const bool all = body_checksum(file, (uint64_t)about.st_size, ranks, &read, &body);
+    if (!fits) return false;
+    line_of(head, "size", kept, sizeof kept);
+    const bool longer = (uint64_t)about.st_size != strtoull(kept, NULL, 10);
+    line_of(head, "body", kept, sizeof kept);
+    snprintf(made, sizeof made, "%016" PRIx64, body);
+    if (read && !longer && (!all || strcmp(kept, made) == 0)) return true;
+    snprintf(why, size, "%s", read ? "it is damaged: its checksum is wrong" : "it cannot be read to its end");
+    return false;
+}
+
+bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t size)
+{
+    char head[CHECKPOINT_HEAD + 1] = {0};
     const int file = open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0) {
-        snprintf(why, size, "%s", strerror(errno));
-        return false;
-    }
-    const bool good = whole(file, why, size);
-    close(file);
+    bool good = file >= 0;
+    if (!good) snprintf(why, size, "%s", strerror(errno));
+    good = good && head_fits(file, head, why, size);
+    good = body_fits(file, head, good, ranks, why, size);
+    if (file >= 0) close(file);
     return good;
 }

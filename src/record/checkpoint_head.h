@@ -4,14 +4,14 @@
 #ifndef SELAS_RECORD_CHECKPOINT_HEAD_H
 #define SELAS_RECORD_CHECKPOINT_HEAD_H
 
-#include "base/messages.h"
+#include "parallel/ranks.h"
 
 enum { CHECKPOINT_HEAD = 512 };
 
-/* Writes the head of the finished file and brings all of it on the disk. */
-selas_status checkpoint_seal(const char *path, struct messages *messages);
-/* False, with the reason in why[size], unless the file is a whole checkpoint of this version and byte order.
- */
-bool checkpoint_whole(const char *path, char *why, size_t size);
+/* Together: writes the head of the finished file and brings all of it on the disk. */
+selas_status checkpoint_seal(const char *path, struct ranks *ranks, struct messages *messages);
+/* Together: false, with the reason in why[size], unless the file is a whole checkpoint of this version and byte order.
+ * Each rank reads its share of it, and answers true where only others could not. */
+bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t size);
 
 #endif

@@ -44,11 +44,12 @@ bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
     return good;
 }
 
-selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, struct messages *messages)
+selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, struct kept_deck *kept,
+                                     struct messages *messages)
 {
     char why[200] = "it holds no deck";
     *kept = (struct kept_deck){0};
-    if (checkpoint_whole(path, why, sizeof why)) {
+    if (checkpoint_whole(path, ranks, why, sizeof why)) {
         snprintf(why, sizeof why, "it holds no deck");
         const struct quiet quiet = quiet_begin();
         const hid_t file = hdf_open_file(path);

@@ -12,8 +12,9 @@ struct kept_deck {
     char *name;   /* file name without folder and ".nml" */
 };
 
-/* SELAS_FILE_ERROR with the reason if the file is damaged or holds none. */
-selas_status kept_deck_of_checkpoint(const char *path, struct kept_deck *kept, struct messages *messages);
+/* SELAS_FILE_ERROR with the reason if the file is damaged or holds none. Ranks: together; each looks for itself. */
+selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, struct kept_deck *kept,
+                                     struct messages *messages);
 selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct messages *messages);
 void kept_deck_free(struct kept_deck *kept);
 

@@ -31,8 +31,9 @@ struct snapshot_record {
     const struct snapshot *snapshot;
     size_t due;        /* index of the next time */
     size_t points;     /* that are shown */
-    size_t *index;     /* [points] which ones, ascending; NULL: all */
     size_t grid[3];    /* of the points shown, 0 0 0 if they form no lattice */
+    size_t corner[3];  /* of the body's lattice, where that of a part begins */
+    size_t *index;     /* [points] which ones, ascending, of a part that is no lattice; else NULL */
     bool regular;      /* the lattice lies along the deck's axes ... */
     double origin[3];  /* ... begins here ... */
     double step[3];    /* ... and has these spacings */
@@ -140,16 +141,19 @@ selas_status snapshot_create(struct recorder *recorder, struct messages *message
 selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
 void snapshot_free(struct recorder *recorder);
+/* The k-th body point that is shown. */
+size_t snapshot_point(const struct model *model, const struct snapshot_record *record, size_t k);
 /* Body points one piece after the other: where the piece ends that begins at point `from`, and the rank that can show
- * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has. */
+ * it. Pieces of a model with `holder` are planes, 10^5 points or a sixteenth of what a rank has; without it each rank
+ * has one. */
 size_t snapshot_piece(const struct model *model, size_t from, int *holder);
 
 /* run_file.c: run.h5. `work`: folder of the run that goes on, or NULL (unfinished.h). */
 selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages);
-/* snapshot_file.c; together: the first rank writes what the others have */
+/* snapshot_file.c; together */
 selas_status run_file_snapshot(struct recorder *recorder, const struct snapshot_record *record,
                                const struct state *state, size_t number, struct messages *messages);
-/* Points, snapshots, histories, settings, provenance: writes the file and gives it its name. */
+/* Together: points, snapshots, histories, settings, provenance: writes the file and gives it its name. */
 selas_status run_file_finish(struct recorder *recorder, const struct run_figures *figures,
                              struct messages *messages);
 /* Lets the folder go; when all results are there (`complete`), what was kept of the unfinished run goes too.

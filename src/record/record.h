@@ -37,7 +37,7 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
                              struct recorder **recorder, struct messages *messages);
 /* Together, on ranks: the memory of the largest rank, for the plan. */
 void recorder_weigh(struct recorder *recorder);
-/* Makes the folder and locks it against other runs. Not called for `check` and by hosts that want no files.
+/* Together: makes the folder and locks it against other runs. Not called for `check` and by hosts that want no files.
  * `work`: folder with the snapshots of the run that goes on (checkpoint_read), NULL: begins anew. */
 selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages);
 /* To be called with the initial state and after every step: receivers, due snapshots and profiles, energy

@@ -6,7 +6,10 @@
 #include "base/safe_file.h"
 #include "parallel/ranks.h"
 
+#include <errno.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
                              struct recorder **created, struct messages *messages)
@@ -35,15 +38,32 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
     return SELAS_OK;
 }
 
-selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
+static selas_status claim_folder(const struct recorder *recorder, struct messages *messages)
 {
-    recorder->recording = true;
-    if (recorder->file != NULL || !ranks_first(recorder->scene->ranks)) return SELAS_OK;
     selas_status status = make_folder(recorder->scene->output.directory, messages);
     if (status != SELAS_OK) return status;
     char *names = results_names(recorder->scene, recorder, false);
     status = results_claim(recorder->scene, names, messages);
     free(names);
+    return status;
+}
+
+/* The first rank has made it. */
+static selas_status see_folder(const char *folder, struct messages *messages)
+{
+    if (access(folder, W_OK | X_OK) == 0) return SELAS_OK;
+    return fail(messages, SELAS_FILE_ERROR, "cannot write into the folder '%s': %s", folder, strerror(errno));
+}
+
+selas_status recorder_open(struct recorder *recorder, const char *work, struct messages *messages)
+{
+    recorder->recording = true;
+    struct ranks *ranks = recorder->scene->ranks;
+    const char *folder = recorder->scene->output.directory;
+    if (recorder->file != NULL) return SELAS_OK;
+    selas_status status = ranks_first(ranks) ? claim_folder(recorder, messages) : SELAS_OK;
+    status = ranks_agree(ranks, status, messages);
+    if (status == SELAS_OK) status = ranks_agree(ranks, see_folder(folder, messages), messages);
     return status == SELAS_OK ? run_file_open(recorder, work, messages) : status;
 }
 
@@ -136,35 +156,51 @@ static selas_status write_deck(const struct recorder *recorder, struct messages 
     return safe_file_close(&file, status, messages);
 }
 
-/* All but the pictures. */
-static selas_status write_texts(struct recorder *recorder, struct exact *exact,
-                                const struct run_figures *figures, struct messages *messages)
+static selas_status write_texts(struct recorder *recorder, const char *names, struct messages *messages)
 {
-    selas_status status = write_deck(recorder, messages);
+    selas_status status = results_list(recorder->scene, names, messages);
+    if (status == SELAS_OK) status = write_deck(recorder, messages);
     if (status == SELAS_OK) status = histories_write(recorder, messages);
-    if (status == SELAS_OK) status = profile_write(recorder, messages);
+    return status == SELAS_OK ? profile_write(recorder, messages) : status;
+}
+
+/* What comes behind run.h5. */
+static selas_status write_rest(struct recorder *recorder, const char *names, struct exact *exact,
+                               const struct run_figures *figures, struct messages *messages)
+{
+    selas_status status = xdmf_write(recorder, messages);
+    if (status == SELAS_OK) status = report_write(recorder, exact, figures, messages);
+    return status == SELAS_OK ? results_tidy(recorder->scene, names, messages) : status;
+}
+
+/* Together: all but the pictures. */
+static selas_status write_all(struct recorder *recorder, struct exact *exact,
+                              const struct run_figures *figures, struct messages *messages)
+{
+    struct ranks *ranks = recorder->scene->ranks;
+    const bool first = ranks_first(ranks);
+    char *names = first ? results_names(recorder->scene, recorder, true) : NULL;
+    selas_status status = first ? write_texts(recorder, names, messages) : SELAS_OK;
+    status = ranks_agree(ranks, status, messages);
     if (status == SELAS_OK) status = run_file_finish(recorder, figures, messages);
-    if (status == SELAS_OK) status = xdmf_write(recorder, messages);
-    return status == SELAS_OK ? report_write(recorder, exact, figures, messages) : status;
+    if (status == SELAS_OK && first) status = write_rest(recorder, names, exact, figures, messages);
+    free(names);
+    return ranks_agree(ranks, status, messages);
 }
 
 selas_status recorder_write(struct recorder *recorder, struct exact *exact, const struct run_figures *figures,
                             struct messages *messages)
 {
     if (recorder->written) return SELAS_OK;
-    selas_status status = recorder_open(recorder, NULL, messages);
-    if (status == SELAS_OK) status = recorder_finish(recorder, messages);
-    if (status != SELAS_OK || !ranks_first(recorder->scene->ranks)) return status;
+    struct ranks *ranks = recorder->scene->ranks;
+    selas_status status = ranks_agree(ranks, recorder_open(recorder, NULL, messages), messages);
+    if (status == SELAS_OK) status = ranks_agree(ranks, recorder_finish(recorder, messages), messages);
+    if (status != SELAS_OK) return status;
     /* what was computed is written, whether there is something to compare it with or not */
     const selas_status compared = exact != NULL ? histories_compare(recorder, exact, messages) : SELAS_OK;
-    char *names = results_names(recorder->scene, recorder, true);
-    status = results_list(recorder->scene, names, messages);
-    if (status == SELAS_OK)
-        status = write_texts(recorder, compared == SELAS_OK ? exact : NULL, figures, messages);
-    if (status == SELAS_OK) status = results_tidy(recorder->scene, names, messages);
-    free(names);
+    status = write_all(recorder, compared == SELAS_OK ? exact : NULL, figures, messages);
     if (status != SELAS_OK) return status;
-    if (recorder->scene->output.plots) {
+    if (recorder->scene->output.plots && ranks_first(ranks)) {
         plot_histories(recorder, messages);
         plot_snapshots(recorder, messages);
         plot_damping(recorder, messages);

@@ -2,12 +2,13 @@
  *
  * /histories/NAME [rows x 7], /histories/NAME_exact; /points/position [points x 3]; /snapshots/NNNN/FIELD
  * [points x components] (single precision; attributes time, step, group); /settings/GROUP_N attributes;
- * /provenance attributes. It is made when the run is over, under a temporary name until it is complete;
+ * /provenance attributes. It is made when the run is over, by all ranks, under a temporary name until it is complete;
  * snapshots come from the files of their own in which they were kept so far (snapshot_file.c). */
 #include "record/run_file.h"
 
 #include "base/safe_file.h"
 #include "parallel/files.h"
+#include "record/sets.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -94,10 +95,7 @@ bool hdf_numbers(hid_t place, const char *name, size_t count, const double *valu
 hid_t hdf_rows(hid_t place, const char *name, hid_t type, size_t rows, size_t columns)
 {
     const hsize_t size[2] = {rows, columns};
-    const hid_t space = H5Screate_simple(2, size, NULL);
-    const hid_t set = H5Dcreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    H5Sclose(space);
-    return set;
+    return set_make(place, name, type, 2, size);
 }
 
 bool hdf_rows_pass(hid_t set, bool write, size_t first, size_t rows, size_t columns, double *value)
@@ -152,15 +150,15 @@ static bool write_histories(const struct recorder *recorder, hid_t file)
     return good;
 }
 
-static bool write_all(const struct recorder *recorder, const struct run_figures *figures, const char *path,
+static void write_all(const struct recorder *recorder, const struct run_figures *figures, struct walk *walk,
                       struct messages *messages)
 {
-    const hid_t file = hdf_create_file(path, 0);
-    if (file < 0) return false;
-    const bool good = hdf_points(recorder, file) && snapshots_gather(recorder, file) &&
-                      write_histories(recorder, file) && write_settings(recorder->scene->deck, file) &&
-                      write_provenance(recorder, file, figures, messages);
-    return H5Fclose(file) >= 0 && good;
+    const hid_t file = walk->file;
+    hdf_points(recorder, walk);
+    snapshots_gather(recorder, walk);
+    if (walk_makes(walk) && !walk->failed)
+        walk_note(walk, write_histories(recorder, file) && write_settings(recorder->scene->deck, file) &&
+                            write_provenance(recorder, file, figures, messages));
 }
 
 selas_status run_file_open(struct recorder *recorder, const char *work, struct messages *messages)
@@ -169,7 +167,9 @@ selas_status run_file_open(struct recorder *recorder, const char *work, struct m
     struct run_file *file = calloc(1, sizeof *file);
     if (file == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for run.h5");
     selas_status status = safe_file_names(folder, "run.h5", &file->path, &file->temporary, messages);
-    if (status == SELAS_OK) status = unfinished_open(folder, work, &file->unfinished, messages);
+    if (status == SELAS_OK)
+        status =
+            unfinished_open(folder, work, ranks_first(recorder->scene->ranks), &file->unfinished, messages);
     if (status == SELAS_OK) {
         recorder->file = file;
         return SELAS_OK;
@@ -190,20 +190,24 @@ selas_status run_file_finish(struct recorder *recorder, const struct run_figures
                              struct messages *messages)
 {
     struct run_file *file = recorder->file;
+    struct ranks *ranks = recorder->scene->ranks;
+    struct walk walk = {.ranks = ranks, .path = file->temporary, .named = file->path, .mode = SET_WRITE};
     const struct quiet quiet = quiet_begin();
-    const bool good = write_all(recorder, figures, file->temporary, messages);
-    const int error = errno;
+    for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
+        write_all(recorder, figures, &walk, messages);
     quiet_end(quiet);
-    if (good) return safe_file_commit(file->temporary, file->path, messages);
-    remove(file->temporary);
-    return hdf_cannot("write", file->path, error, messages);
+    const bool good = walk_good(&walk), first = ranks_first(ranks);
+    selas_status status = good ? SELAS_OK : walk_cannot(&walk, "write", messages);
+    if (first && good) status = safe_file_commit(file->temporary, file->path, messages);
+    if (first && !good) remove(file->temporary);
+    return ranks_agree(ranks, status, messages);
 }
 
 void run_file_close(struct recorder *recorder, bool complete)
 {
     struct run_file *file = recorder->file;
     if (file == NULL) return;
-    if (complete) unfinished_remove(&file->unfinished);
+    if (complete && ranks_first(recorder->scene->ranks)) unfinished_remove(&file->unfinished);
     unfinished_close(&file->unfinished);
     free(file->path);
     free(file->temporary);

@@ -6,6 +6,7 @@
 #include "base/hdf_quiet.h"
 #include "record/parts.h"
 #include "record/unfinished.h"
+#include "record/walk.h"
 
 #include <hdf5.h>
 
@@ -32,9 +33,9 @@ hid_t hdf_rows(hid_t place, const char *name, hid_t type, size_t rows, size_t co
 bool hdf_rows_pass(hid_t set, bool write, size_t first, size_t rows, size_t columns, double *value);
 hid_t hdf_group(hid_t place, const char *name);
 
-/* snapshot_file.c: group /points, and /snapshots from the files of their own */
-bool hdf_points(const struct recorder *recorder, hid_t file);
-bool snapshots_gather(const struct recorder *recorder, hid_t file);
+/* snapshot_file.c, together: group /points, and /snapshots from the files of their own */
+void hdf_points(const struct recorder *recorder, struct walk *walk);
+void snapshots_gather(const struct recorder *recorder, struct walk *walk);
 /* True if the file of snapshot `number` can be read and shows the time given. */
 bool snapshot_file_there(const struct recorder *recorder, size_t number, double time);
 /* Brings the files of all snapshots so far on the disk. */

@@ -6,11 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Has its place in the file at once: those who write it may be others. */
-static hid_t make_set(hid_t file, const char *name, hid_t type, size_t count)
+hid_t set_make(hid_t file, const char *name, hid_t type, int dimensions, const hsize_t *size)
 {
-    const hsize_t size = count;
-    const hid_t space = H5Screate_simple(1, &size, NULL), creation = H5Pcreate(H5P_DATASET_CREATE);
+    const hid_t space = H5Screate_simple(dimensions, size, NULL), creation = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
@@ -34,7 +32,8 @@ static hid_t of_size(hid_t set, size_t count)
 
 hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode)
 {
-    return mode == SET_WRITE ? make_set(file, name, type, count) : of_size(stored_set(file, name), count);
+    const hsize_t size = count;
+    return mode == SET_WRITE ? set_make(file, name, type, 1, &size) : of_size(stored_set(file, name), count);
 }
 
 hid_t set_open_known(hid_t file, const char *name, size_t count)

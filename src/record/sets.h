@@ -15,6 +15,8 @@ struct set_part {
     size_t here, there, count, times, here_step, there_step;
 };
 
+/* A new set, which has its place in the file at once: those who write it may be others. */
+hid_t set_make(hid_t file, const char *name, hid_t type, int dimensions, const hsize_t *size);
 /* A set of `count` numbers of a type as they are in memory: a new one, or (not SET_WRITE) one that is there and
  * has so many. Close it with H5Dclose; negative on failure. */
 hid_t set_open(hid_t file, const char *name, hid_t type, size_t count, enum set_mode mode);

@@ -29,28 +29,20 @@ static void lattice_of(const struct model *model, size_t grid[3])
     if (model->grid[0] == 0 || grid[0] * grid[1] * grid[2] != model->points) grid[0] = grid[1] = grid[2] = 0;
 }
 
-/* If the chosen points of a lattice are again a box of it, its numbers of points; else 0, 0, 0. */
-static void sub_lattice(const size_t grid[3], const struct snapshot_record *record, size_t part[3])
+size_t snapshot_point(const struct model *model, const struct snapshot_record *record, size_t k)
 {
-    size_t low[3] = {SIZE_MAX, SIZE_MAX, SIZE_MAX}, high[3] = {0, 0, 0};
-    for (size_t k = 0; k < record->points; k++) {
-        const size_t i = record->index[k];
-        const size_t at[3] = {i % grid[0], i / grid[0] % grid[1], i / (grid[0] * grid[1])};
-        for (int axis = 0; axis < 3; axis++) {
-            low[axis] = at[axis] < low[axis] ? at[axis] : low[axis];
-            high[axis] = at[axis] > high[axis] ? at[axis] : high[axis];
-        }
-    }
-    for (int axis = 0; axis < 3; axis++)
-        part[axis] = high[axis] - low[axis] + 1;
-    if (part[0] * part[1] * part[2] != record->points) part[0] = part[1] = part[2] = 0;
+    if (record->snapshot->whole) return k;
+    if (record->index != NULL) return record->index[k];
+    const size_t *grid = record->grid, *corner = record->corner, row = k / grid[0];
+    const size_t plane = corner[2] + row / grid[1], line = corner[1] + row % grid[1];
+    return (plane * model->grid[1] + line) * model->grid[0] + corner[0] + k % grid[0];
 }
 
 /* Where the k-th point of a record is. */
 static void place_of(const struct model *model, const struct snapshot_record *record, size_t k,
                      double position[3])
 {
-    model_position(model, record->index != NULL ? record->index[k] : k, position);
+    model_position(model, snapshot_point(model, record, k), position);
 }
 
 /* A lattice along the deck's axes with equal spacings can be told by origin and spacings alone. */
@@ -90,11 +82,18 @@ static bool of_one_rank(const struct model *model, size_t from, size_t points, s
     return true;
 }
 
+/* Any rank can show all points. */
+static size_t even_piece(const struct model *model, size_t from, int *holder)
+{
+    const size_t ranks = (size_t)ranks_count(model->scene->ranks), share = model->points / ranks + 1;
+    *holder = (int)(from / share);
+    return from + share < model->points ? from + share : model->points;
+}
+
 size_t snapshot_piece(const struct model *model, size_t from, int *holder)
 {
     enum { LEAST = 1 << 17, PIECES = 16 };
-    *holder = 0;
-    if (model->core->holder == NULL) return model->points;
+    if (model->core->holder == NULL) return even_piece(model, from, holder);
     const int ranks = ranks_count(model->scene->ranks), dimension = model->scene->dimension;
     const size_t share = model->points / (size_t)ranks / PIECES, most = share > LEAST ? share : LEAST;
     const size_t layers = model->grid[dimension - 1];
@@ -110,46 +109,83 @@ size_t snapshot_piece(const struct model *model, size_t from, int *holder)
     return end;
 }
 
-/* The points in the region, into `index` if it is not NULL; how many there are. */
-static size_t points_in_region(const struct model *model, const struct snapshot *snapshot, size_t *index)
+/* The points in a region: how many, and the box of a lattice about them. */
+struct found {
+    size_t points, low[3], high[3];
+};
+
+/* Into `index` too if it is not NULL. */
+static struct found look_region(const struct model *model, const struct snapshot *snapshot, size_t *index)
 {
-    size_t points = 0;
+    struct found found = {.low = {SIZE_MAX, SIZE_MAX, SIZE_MAX}};
+    const size_t nx = model->grid[0] > 0 ? model->grid[0] : 1, ny = model->grid[1] > 0 ? model->grid[1] : 1;
     for (size_t i = 0; i < model->points; i++) {
+        const size_t at[3] = {i % nx, i / nx % ny, i / (nx * ny)};
         double x[3];
         model_position(model, i, x);
         if (model->scene->body.topography != NULL) topography_to_lattice(model->scene->body.topography, x);
         if (!in_region(snapshot, x)) continue;
-        if (index != NULL) index[points] = i;
-        points++;
+        if (index != NULL) index[found.points] = i;
+        found.points++;
+        for (int axis = 0; axis < 3; axis++) {
+            found.low[axis] = at[axis] < found.low[axis] ? at[axis] : found.low[axis];
+            found.high[axis] = at[axis] > found.high[axis] ? at[axis] : found.high[axis];
+        }
     }
-    return points;
+    return found;
+}
+
+/* Points of a lattice that are again a box of it need no list. */
+static bool is_box(struct snapshot_record *record, const struct found *found)
+{
+    size_t part[3];
+    for (int axis = 0; axis < 3; axis++)
+        part[axis] = found->high[axis] - found->low[axis] + 1;
+    const bool box = record->grid[0] > 0 && part[0] * part[1] * part[2] == found->points;
+    for (int axis = 0; axis < 3; axis++) {
+        record->grid[axis] = box ? part[axis] : 0;
+        record->corner[axis] = found->low[axis];
+    }
+    return box;
+}
+
+static selas_status no_memory(const struct snapshot_record *record, struct messages *messages)
+{
+    return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", record->points);
+}
+
+static selas_status choose(const struct model *model, size_t number, struct snapshot_record *record,
+                           struct messages *messages)
+{
+    const struct found found = look_region(model, record->snapshot, NULL);
+    record->points = found.points;
+    if (record->points == 0)
+        return fail(messages, SELAS_BAD_SCENE, "the region of snapshot group %zu holds no points",
+                    number + 1);
+    snprintf(record->position, sizeof record->position, "/points/region_%zu/position", number + 1);
+    if (is_box(record, &found)) return SELAS_OK;
+    record->index = array_new(record->points, sizeof *record->index);
+    if (record->index == NULL) return no_memory(record, messages);
+    look_region(model, record->snapshot, record->index);
+    return SELAS_OK;
 }
 
 static selas_status create_one(const struct model *model, size_t number, struct snapshot_record *record,
                                struct messages *messages)
 {
-    const struct snapshot *snapshot = record->snapshot;
-    record->points = snapshot->whole ? model->points : points_in_region(model, snapshot, NULL);
-    if (record->points == 0)
-        return fail(messages, SELAS_BAD_SCENE, "the region of snapshot group %zu holds no points",
-                    number + 1);
+    const bool whole = record->snapshot->whole;
+    record->points = model->points;
+    snprintf(record->position, sizeof record->position, "/points/position");
+    lattice_of(model, record->grid);
+    const selas_status status = whole ? SELAS_OK : choose(model, number, record, messages);
+    if (status != SELAS_OK) return status;
     int holder;
     for (size_t from = 0, end; from < model->points; from = end) {
         end = snapshot_piece(model, from, &holder);
         record->room = end - from > record->room ? end - from : record->room;
     }
     record->buffer = array_new(6 * record->room, sizeof *record->buffer);
-    if (!snapshot->whole) record->index = array_new(record->points, sizeof *record->index);
-    if (record->buffer == NULL || (!snapshot->whole && record->index == NULL))
-        return fail(messages, SELAS_NO_MEMORY, "no memory for snapshots of %zu points", record->points);
-    snprintf(record->position, sizeof record->position, "/points/position");
-    lattice_of(model, record->grid);
-    if (!snapshot->whole) {
-        points_in_region(model, snapshot, record->index);
-        const size_t whole[3] = {record->grid[0], record->grid[1], record->grid[2]};
-        if (whole[0] > 0) sub_lattice(whole, record, record->grid);
-        snprintf(record->position, sizeof record->position, "/points/region_%zu/position", number + 1);
-    }
+    if (record->buffer == NULL) return no_memory(record, messages);
     look_regular(model, record);
     return SELAS_OK;
 }

@@ -146,7 +146,7 @@ static selas_status put_aside(const struct unfinished *unfinished, struct messag
     return status;
 }
 
-selas_status unfinished_open(const char *results, const char *work, struct unfinished *unfinished,
+selas_status unfinished_open(const char *results, const char *work, bool lock, struct unfinished *unfinished,
                              struct messages *messages)
 {
     *unfinished = (struct unfinished){.lock = -1};
@@ -155,8 +155,8 @@ selas_status unfinished_open(const char *results, const char *work, struct unfin
     selas_status status = SELAS_OK;
     if (unfinished->results == NULL || unfinished->path == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the name of a folder");
-    if (status == SELAS_OK) status = take_lock(results, &unfinished->lock, messages);
-    if (status == SELAS_OK && work == NULL) status = put_aside(unfinished, messages);
+    if (status == SELAS_OK && lock) status = take_lock(results, &unfinished->lock, messages);
+    if (status == SELAS_OK && lock && work == NULL) status = put_aside(unfinished, messages);
     if (status != SELAS_OK) unfinished_close(unfinished);
     return status;
 }

@@ -13,11 +13,11 @@ struct unfinished {
     bool made;     /* the folder is there */
 };
 
-/* Locks the folder of the results, which must be there (SELAS_FILE_ERROR, with who holds it, if another run
- * writes there). `work` is the folder of an earlier run that goes on, or NULL: begins anew in
- * `results`/unfinished; if there is a checkpoint in it, it is kept as `results`/unfinished-old with a
- * warning. */
-selas_status unfinished_open(const char *results, const char *work, struct unfinished *unfinished,
+/* Names the folders and, of ranks the first one (`lock`), locks that of the results, which must be there
+ * (SELAS_FILE_ERROR, with who holds it, if another run writes there). `work` is the folder of an earlier run that goes
+ * on, or NULL: begins anew in `results`/unfinished; if there is a checkpoint in it, it is kept as
+ * `results`/unfinished-old with a warning. */
+selas_status unfinished_open(const char *results, const char *work, bool lock, struct unfinished *unfinished,
                              struct messages *messages);
 /* Makes the folder; to be called before anything is written there. */
 selas_status unfinished_make(struct unfinished *unfinished, struct messages *messages);

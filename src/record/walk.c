@@ -1,4 +1,4 @@
-/* Arrays of a checkpoint (see the header). */
+/* What is in a file that ranks share (see the header). */
 #include "record/walk.h"
 
 #include "record/run_file.h"
@@ -13,8 +13,8 @@
 
 enum { PIECE = 1 << 22 }; /* bytes that a rank passes at once */
 
-/* Notes what went wrong first; the reason of what follows is not that of what went before. */
-static void note(struct walk *walk, bool good)
+/* The reason of what follows is not that of what went before. */
+void walk_note(struct walk *walk, bool good)
 {
     if (!good && !walk->failed) walk->error = errno;
     walk->failed = walk->failed || !good;
@@ -34,7 +34,7 @@ selas_status walk_cannot(const struct walk *walk, const char *what, struct messa
     selas_status status = SELAS_OK;
     ranks_largest(walk->ranks, 1, &reason);
     if (walk->failed && (walk->error != 0 || reason == 0))
-        status = hdf_cannot(what, walk->path, walk->error, messages);
+        status = hdf_cannot(what, walk->named != NULL ? walk->named : walk->path, walk->error, messages);
     return ranks_agree(walk->ranks, status, messages);
 }
 
@@ -48,7 +48,7 @@ bool walk_begin(struct walk *walk)
     if (first)
         walk->file =
             walk->mode == SET_WRITE ? hdf_create_file(walk->path, walk->head) : hdf_open_file(walk->path);
-    note(walk, !first || walk->file >= 0);
+    walk_note(walk, !first || walk->file >= 0);
     return walk_good(walk);
 }
 
@@ -62,11 +62,11 @@ static bool there(const struct walk *walk)
 static bool open_together(struct walk *walk)
 {
     walk->room = walk->mode == SET_COMPARE ? malloc(PIECE) : NULL;
-    note(walk, walk->mode != SET_COMPARE || walk->room != NULL);
-    note(walk, there(walk));
+    walk_note(walk, walk->mode != SET_COMPARE || walk->room != NULL);
+    walk_note(walk, there(walk));
     if (!walk_good(walk)) return false;
     walk->file = hdf_open_together(walk->ranks, walk->path, walk->mode == SET_WRITE);
-    note(walk, walk->file >= 0);
+    walk_note(walk, walk->file >= 0);
     if (!walk_good(walk)) {
         if (walk->file >= 0) ranks_abort(walk->ranks, 1); /* to close it, all would have to have it */
         return false;
@@ -76,7 +76,7 @@ static bool open_together(struct walk *walk)
 
 bool walk_again(struct walk *walk)
 {
-    if (walk->file >= 0) note(walk, H5Fclose(walk->file) >= 0);
+    if (walk->file >= 0) walk_note(walk, H5Fclose(walk->file) >= 0);
     walk->file = -1;
     if (!walk->together && ranks_count(walk->ranks) > 1 && walk_good(walk)) {
         walk->together = true;
@@ -86,6 +86,11 @@ bool walk_again(struct walk *walk)
     return false;
 }
 
+bool walk_makes(const struct walk *walk)
+{
+    return !walk->together && ranks_first(walk->ranks);
+}
+
 /* --- Arrays --------------------------------------------------------------------------------------------- */
 
 void walk_pass(struct walk *walk, const char *name, hid_t type, void *data, size_t count)
@@ -93,8 +98,8 @@ void walk_pass(struct walk *walk, const char *name, hid_t type, void *data, size
     if (count == 0 || walk->together) return;
     if (walk->file >= 0 && !walk->failed) {
         const hid_t set = set_open(walk->file, name, type, count, walk->mode);
-        note(walk, set >= 0 && set_pass(set, type, walk->mode, data, 0, count));
-        if (set >= 0) note(walk, H5Dclose(set) >= 0);
+        walk_note(walk, set >= 0 && set_pass(set, type, walk->mode, data, 0, count));
+        if (set >= 0) walk_note(walk, H5Dclose(set) >= 0);
     }
     if (walk->mode == SET_READ) ranks_spread(walk->ranks, 0, data, count * H5Tget_size(type));
 }
@@ -168,19 +173,19 @@ static bool same_part(struct walk *walk, const struct shared *shared, const stru
 }
 
 /* The system's reason may be lost on its way through MPI. */
-static bool wrote_part(struct walk *walk, const struct shared *shared, const struct set_part *part)
+static bool wrote(const struct walk *walk, bool good)
 {
     struct statvfs disk;
-    if (set_pass_part(shared->set, shared->type, true, shared->data, part)) return true;
-    if (statvfs(walk->path, &disk) == 0 && disk.f_bavail * disk.f_frsize < PIECE) errno = ENOSPC;
-    return false;
+    if (!good && statvfs(walk->path, &disk) == 0 && disk.f_bavail * disk.f_frsize < PIECE) errno = ENOSPC;
+    return good;
 }
 
 static bool pass_part(struct walk *walk, const struct shared *shared, const struct set_part *part)
 {
     if (walk->mode == SET_COMPARE) return same_part(walk, shared, part);
-    if (walk->mode == SET_WRITE) return wrote_part(walk, shared, part);
-    return set_pass_part(shared->set, shared->type, false, shared->data, part);
+    const bool write = walk->mode == SET_WRITE;
+    const bool good = set_pass_part(shared->set, shared->type, write, shared->data, part);
+    return write ? wrote(walk, good) : good;
 }
 
 static void pass_parts(struct walk *walk, const struct shared *shared, const struct spread *shares,
@@ -192,7 +197,7 @@ static void pass_parts(struct walk *walk, const struct shared *shared, const str
         const struct cut cut = cut_run(&shares->run[r], window, most);
         for (size_t k = 0; k < parts_of(&cut) && !walk->failed; k++) {
             const struct set_part part = part_of(&shares->run[r], &cut, k, units);
-            note(walk, pass_part(walk, shared, &part));
+            walk_note(walk, pass_part(walk, shared, &part));
         }
     }
 }
@@ -204,13 +209,51 @@ void walk_shared(struct walk *walk, const char *name, hid_t type, size_t units, 
         walk_pass(walk, name, type, data, count * units);
         return;
     }
-    note(walk, !shares->full);
+    walk_note(walk, !shares->full);
     if (walk->file < 0 || (!walk->together && walk->failed)) return;
     const size_t entries = shares->there * units;
     const hid_t set = walk->together ? set_open_known(walk->file, name, entries)
                                      : set_open(walk->file, name, type, entries, walk->mode);
-    note(walk, set >= 0);
+    walk_note(walk, set >= 0);
     const struct shared shared = {set, type, data, H5Tget_size(type)};
     if (walk->together) pass_parts(walk, &shared, shares, units);
-    if (set >= 0) note(walk, H5Dclose(set) >= 0);
+    if (set >= 0) walk_note(walk, H5Dclose(set) >= 0);
+}
+
+/* --- Tables --------------------------------------------------------------------------------------------- */
+
+hid_t walk_group(struct walk *walk, const char *name)
+{
+    if (!walk_makes(walk) || walk->failed) return -1;
+    const hid_t group = hdf_group(walk->file, name);
+    walk_note(walk, group >= 0);
+    return group;
+}
+
+hid_t walk_table(struct walk *walk, const char *name, hid_t type, size_t rows, size_t columns)
+{
+    if (!walk->together && (!walk_makes(walk) || walk->failed)) return -1;
+    const hid_t table = walk->together ? H5Dopen2(walk->file, name, H5P_DEFAULT)
+                                       : hdf_rows(walk->file, name, type, rows, columns);
+    walk_note(walk, table >= 0);
+    if (walk->together || ranks_count(walk->ranks) == 1) return table;
+    walk_close(walk, table);
+    return -1;
+}
+
+void walk_rows(struct walk *walk, hid_t table, size_t first, size_t rows, size_t columns, double *value)
+{
+    if (!walk->failed) walk_note(walk, wrote(walk, hdf_rows_pass(table, true, first, rows, columns, value)));
+}
+
+void walk_share(const struct walk *walk, size_t rows, size_t *first, size_t *end)
+{
+    const size_t count = (size_t)ranks_count(walk->ranks), me = (size_t)ranks_me(walk->ranks);
+    *first = rows / count * me + rows % count * me / count;
+    *end = rows / count * (me + 1) + rows % count * (me + 1) / count;
+}
+
+void walk_close(struct walk *walk, hid_t table)
+{
+    if (table >= 0) walk_note(walk, H5Dclose(table) >= 0);
 }

@@ -1,5 +1,5 @@
-/* One way through all arrays of a checkpoint, for writing, reading and comparing; all ranks walk together. What is
- * the first rank's, or the same for all, it passes alone. Arrays that ranks share come after that: the file is opened
+/* One way through all that is in a file, for writing, reading and comparing; all ranks walk together. What is
+ * the first rank's, or the same for all, it passes alone. What ranks share comes after that: the file is opened
  * by all together, and each rank passes its part straight from where it is (doc/developers/ranks.md).
  *
  *     for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
@@ -16,7 +16,8 @@ struct walk {
     struct ranks *ranks;
     const char *path;
     enum set_mode mode;
-    size_t head; /* bytes before HDF5's own, of a file that is written */
+    size_t head;       /* bytes before HDF5's own, of a file that is written */
+    const char *named; /* in messages; NULL: path */
     /* Set to nothing by who walks. */
     hid_t file;
     bool together; /* behind what the first rank passes alone */
@@ -27,6 +28,10 @@ struct walk {
 
 bool walk_begin(struct walk *walk);
 bool walk_again(struct walk *walk);
+/* Notes what went wrong first on this rank, with the system's reason. */
+void walk_note(struct walk *walk, bool good);
+/* The first rank, or one that is alone, makes what is the same for all. */
+bool walk_makes(const struct walk *walk);
 /* Together, behind a walk: did all go well on all ranks? */
 bool walk_good(const struct walk *walk);
 /* Together, behind a walk that failed: "cannot WHAT 'PATH': ..." with the reason, and the rank. */
@@ -43,6 +48,15 @@ void walk_text(struct walk *walk, const char *name, const char *text); /* not SE
  * one rank, which has the whole. */
 void walk_shared(struct walk *walk, const char *name, hid_t type, size_t units, void *data, size_t count,
                  const struct spread *shares);
+
+/* What is written besides arrays. A group, open to the one that makes it; negative for all others. */
+hid_t walk_group(struct walk *walk, const char *name);
+/* A table, by its whole name, open to all (negative: to those who make it for all, and on failure); its rows from
+ * `first` on; and which rows first .. end - 1 a rank writes where any could. */
+hid_t walk_table(struct walk *walk, const char *name, hid_t type, size_t rows, size_t columns);
+void walk_rows(struct walk *walk, hid_t table, size_t first, size_t rows, size_t columns, double *value);
+void walk_share(const struct walk *walk, size_t rows, size_t *first, size_t *end);
+void walk_close(struct walk *walk, hid_t table);
 
 /* walk_recorder.c: the state and what the recorder has: `rows` of histories, `entries` in the list of
  * snapshots, for which there is room. */

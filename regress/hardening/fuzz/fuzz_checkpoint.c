@@ -65,7 +65,7 @@ static void change(const char *path, struct fuzz_bytes *bytes)
         fuzz_work(file, sizeof name / sizeof *name, name, bytes);
     }
     H5Fclose(file);
-    if (checkpoint_seal(path, &messages) != SELAS_OK) abort();
+    if (checkpoint_seal(path, NULL, &messages) != SELAS_OK) abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -80,7 +80,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const bool raw = fuzz_byte(&bytes) < 128;
     fuzz_file(raw ? bytes.at : made, raw ? bytes.left : length, path);
     if (!raw) change(path, &bytes);
-    fuzz_told(kept_deck_of_checkpoint(path, &kept, &messages), &messages);
+    fuzz_told(kept_deck_of_checkpoint(path, NULL, &kept, &messages), &messages);
     kept_deck_free(&kept);
     fuzz_told(kept_deck_of_run(path, &kept, &messages), &messages);
     kept_deck_free(&kept);

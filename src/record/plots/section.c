@@ -11,8 +11,7 @@
 static void body_position(const struct recorder *recorder, const struct snapshot_record *record, size_t point,
                           double position[3])
 {
-    const size_t i = record->index != NULL ? record->index[point] : point;
-    model_position(recorder->model, i, position);
+    model_position(recorder->model, snapshot_point(recorder->model, record, point), position);
     if (recorder->scene->body.rotated) body_from_deck(&recorder->scene->body, position, position);
 }
 

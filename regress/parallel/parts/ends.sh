@@ -1,0 +1,60 @@
+# shellcheck shell=sh disable=SC2086,SC2154
+# What is refused; how runs end that go wrong.
+one_line "the variant cloud" "on one rank" 3 input/halfspace-cloud.nml
+one_line "a wrong word" "number" 3 regress/parallel/tall.nml body%spacing=wide
+quiet 7 regress/cases/half-space-pml/deck.nml scene%end_time=.1 output%directory="$work/few" && grep -q '^warning: 1 of 7 ranks have work' "$work/log"
+verdict $? "a body of few planes takes fewer ranks and says so"
+quiet 3 regress/parallel/tall.nml scene%end_time=60 stepping%time_step=.3 stepping%force=T output%directory="$work/wild"
+[ $? = 1 ] && [ "$(grep -c '^error: the run went unstable at .* (rank [0-2]), .*' "$work/log")" = 1 ]
+verdict $? "an unstable run ends all ranks, with place and time"
+leg TERM 2 regress/parallel/tall.nml scene%end_time=5000 output%checkpoint_every=20 output%directory="$work/chain"
+printf x | dd of="$work/chain/unfinished/checkpoint.h5" bs=1 seek=5000 conv=notrunc 2>/dev/null
+quiet 3 restart "$work/chain/unfinished/checkpoint.h5"
+[ $? = 1 ] && [ "$(grep -c '^error: ' "$work/log")" = 1 ] && grep -q '^error: .*its checksum is wrong' "$work/log"
+verdict $? "a damaged checkpoint: one line on 3 ranks"
+cat >"$work/last" <<'EOF'
+[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-}}" != 2 ] || eval "$1"
+shift
+exec "$@"
+EOF
+apart() { # apart FIRST WORDS...: the last of 3 ranks runs FIRST before
+    first=$1 here=$PWD program=$(realpath "$build/selas-mpi")
+    shift
+    rm -rf "$work/apart"
+    mkdir -p "$work/apart/elsewhere"
+    (cd "$work/apart" && timeout 100 $mpirun -n 3 sh "$work/last" "$first" "$program" -q "$here/regress/parallel/tall.nml" output%plots=F output%directory=out "$@") >"$work/log" 2>&1
+    bad=$?
+}
+told() { # told STATUS COUNT PATTERN WHAT: it ended so, with as many errors, the pattern's on rank 2, and nothing in half
+    [ "$bad" = "$1" ] && [ "$(grep -c '^error: ' "$work/log")" = "$2" ] && [ "$(grep -c '^on rank 2 of 3:' "$work/log")" = "$2" ] &&
+        grep -q "^error: cannot write $3" "$work/log" && ! find "$work/apart" -name '*.part' | grep -q .
+    verdict $? "$4" || sed 's/^/#   /' "$work/log" | head -8
+}
+apart "cd elsewhere"
+told 1 1 "into the folder 'out': No such file" "a folder that one rank has not: one line"
+apart "ulimit -f 30000" output%checkpoint_every=8 body%high=8,8,60 scene%end_time=.5
+told 0 1 "the checkpoint .*: File too large" "a disk that is full for a checkpoint of one rank: one line, the run ends well"
+[ -e "$work/apart/out/run.h5" ]
+verdict $? "and has its results"
+apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.1 "snapshot(1)%times=.05" "snapshot(1)%fields='velocity','stress','strain'"
+told 1 2 "'out/unfinished/snapshot_0000.h5': File too large" "a disk that is full for a snapshot of one rank: one line, one of the checkpoint"
+apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.05 "snapshot(1)%times=.05" "snapshot(1)%fields='velocity','displacement'" "snapshot(2)%times=.05" "snapshot(2)%fields='strain'"
+told 1 2 "'out/run.h5'" "a disk that is full for one rank at the end: one line, one of the checkpoint"
+end() { # end SIGNAL: sent to the last rank of a long run
+    rm -rf "$work/long"
+    timeout 60 $mpirun -n 3 "$build/selas-mpi" -q regress/parallel/tall.nml scene%end_time=5000 output%checkpoint_every=20 output%directory="$work/long" >"$work/log" 2>&1 &
+    launcher=$!
+    while kill -0 $launcher 2>/dev/null && ! [ -e "$work/long/unfinished/checkpoint.h5" ]; do sleep .1; done
+    kill "-$1" "$(last_rank)"
+    began=$(date +%s)
+    wait $launcher
+    status=$?
+    took=$(($(date +%s) - began))
+}
+end KILL
+[ $status != 0 ] && [ $took -le 10 ]
+verdict $? "a killed rank ends all within 10 s ($took s)"
+end TERM
+[ $status = 1 ] && [ $took -le 10 ] && grep -q '^stopped by .* at step .* the state is kept' "$work/log"
+verdict $? "a signal to one rank stops all ($took s)"
+kills "${KILLS:-10}" regress/parallel/tall-shown.nml

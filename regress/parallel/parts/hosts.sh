@@ -1,0 +1,56 @@
+# shellcheck shell=sh disable=SC2086,SC2154
+# Hosts on ranks; checkpoints that they write.
+host() { # host WHAT RANKS PROGRAM: all ranks see what one alone sees
+    for n in 1 $2; do
+        timeout 60 $mpirun -n "$n" "$3" regress/parallel/tall.nml >"$work/host$n" 2>"$work/log" || break
+    done
+    [ "$(grep -c . "$work/host$2")" = "$2" ] && [ "$(sed 's/^rank [0-9]*://' "$work/host1" "$work/host$2" | sort -u | wc -l)" = 1 ]
+    verdict $? "$1: $2 ranks see what one sees" || sed 's/^/#   /' "$work/log" | head -5
+}
+linked="-Lbuild_ -lselas-mpi -Wl,-rpath,build_"
+linked=$(echo "$linked" | sed "s#build_#$(realpath "$build")#g")
+sed 's/use mpi_f08/use mpi/; s/%mpi_val//' regress/hosts/coupled_ranks.f90 >"$work/coupled_mpi.f90"
+# shellcheck disable=SC2086
+"$mpifc" -std=f2018 -Wall -Wno-compare-reals -I"$build" -o "$work/coupled_f08" regress/hosts/coupled_ranks.f90 "$build/libselas_fortran.a" $linked &&
+    "$mpifc" -I"$build" -o "$work/coupled_mpi" "$work/coupled_mpi.f90" "$build/libselas_fortran.a" $linked &&
+    "$mpicc" -std=c17 -Wall -Werror -Isrc -o "$work/shared_column" regress/hosts/shared_column.c $linked &&
+    "$mpicc" -std=c17 -Wall -Werror -Isrc -o "$work/shared_checkpoint" regress/hosts/shared_checkpoint.c $linked
+verdict $? "hosts on ranks compile (mpi_f08, mpi, C)"
+make -s -o mpi -o all BUILD="$build" PREFIX=/usr DESTDIR="$work/root" install-mpi >"$work/log" 2>&1 &&
+    "$mpicc" -std=c17 -I"$work/root/usr/include" -o "$work/installed" regress/hosts/shared_column.c -L"$work/root/usr/lib" -lselas-mpi -Wl,-rpath,"$work/root/usr/lib" 2>>"$work/log"
+verdict $? "a host compiles with what make install-mpi has put there"
+host_saves() { # host_saves RANKS TO FROM STEPS WORDS...
+    ranks=$1
+    shift
+    timeout 60 $mpirun -n "$ranks" "$work/shared_checkpoint" "$@" >"$work/log" 2>&1
+}
+same_sets() { # same_sets ONE OTHER: what checkpoints hold but for times, energies, and accelerations that steps in one pass do not read
+    h5ls "$1" | cut -d' ' -f1 >"$work/one"
+    h5ls "$2" | cut -d' ' -f1 | cmp -s - "$work/one" && grep -qx y "$work/one" || return 1
+    h5diff --exclude-path /a --exclude-path /figures --exclude-path /watch --exclude-path /before "$1" "$2" >>"$work/log" 2>&1
+}
+saves() { # saves WHAT WORDS...: the same file by 1, 2 and 3 ranks, and after each restart
+    what=$1 bad=0
+    shift
+    for n in 1 2 3; do
+        host_saves $n "$work/saved$n.h5" - 10 "$@" && same_sets "$work/saved1.h5" "$work/saved$n.h5" || bad="$bad $n"
+    done
+    for n in 1 2 3; do
+        host_saves $n "$work/again$n.h5" "$work/saved$((n % 3 + 1)).h5" 10 "$@" && same_sets "$work/again1.h5" "$work/again$n.h5" || bad="$bad again $n"
+    done
+    SELAS_SPARE=1 && export SELAS_SPARE
+    host_saves 3 "$work/spare.h5" - 10 "$@" && same_sets "$work/saved1.h5" "$work/spare.h5" || bad="$bad spare"
+    unset SELAS_SPARE
+    [ "$bad" = 0 ]
+    verdict $? "$what: 1, 2, 3 ranks and 2 of a host's 3 write the same checkpoint, again after restarts"
+    [ "$bad" = 0 ] || { echo "#   $bad"; sed 's/^/#   /' "$work/log" | head -5; }
+}
+saves "layers in single precision" regress/parallel/tall.nml method%precision=single
+saves "points" $points
+host "a coupled host, mpi_f08" 3 "$work/coupled_f08"
+host "a coupled host, mpi" 2 "$work/coupled_mpi"
+host "a host of the installed library" 2 "$work/installed"
+host "a host in C" 3 "$work/shared_column"
+timeout 60 $mpirun -n 3 "$work/shared_column" regress/cases/half-space-pml/deck.nml >"$work/log" 2>&1
+[ "$(grep -c '^error: .* open it with 1 ranks' "$work/log")" = 1 ]
+verdict $? "a host with too many ranks: one line"

@@ -1,0 +1,37 @@
+# shellcheck shell=sh disable=SC2086,SC2154
+# Total-Lagrangian points, particles that move.
+same "1 3 7" "points" $points
+as_planned "a rank sends the bytes a step that the plan of points tells" ranks
+same 7 "points in many planes, central differences" $points body%high=2,1.5,24 profile%to=1,.75,24 method%gradient=central
+same 3 "scattered points" $points body%jitter=.15
+same 3 "points, a moved face and viscosity" $points method%viscosity_alpha=.5 "boundary(1)%kind=displacement" "boundary(1)%direction=.2,0,1" "boundary(1)%history=gaussian" "boundary(1)%width=.4" "boundary(1)%delay=.6" "boundary(1)%amplitude=.05"
+same 3 "damped points" $points method%law=linear material%q_p=40 material%q_s=25
+as_planned "and with damped points" ranks
+same "2 7" "points in layers" $column
+same 3 "points in layers with viscosity, linear gradients" $column method%viscosity_alpha=.5 method%gradient=linear
+same 7 "scattered points in layers" $column body%jitter=.15
+same "2 7" "points along the first axis" $long
+as_planned "a rank sends the bytes a step that the plan of points of all ranks tells" ranks
+along=$sent
+quiet 7 $points output%plots=F output%directory="$work/upright"
+[ "$along" -lt "$(sed -n 's/^halo bytes sent in the last step: //p' "$work/upright/report.txt")" ]
+verdict $? "a beam along the first axis sends no more than one along the last, in planes: $along"
+same 3 "scattered points along the first axis" $long body%jitter=.15
+same 4 "points along the first axis, central differences, linear law" $long method%gradient=central method%law=linear
+same 3 "damped points along the first axis" $long method%law=linear "material(1)%q_p=40" "material(1)%q_s=25" "material(2)%q_p=30" "material(2)%q_s=20"
+as_planned "and with damped points of all ranks" ranks
+memory() { # memory KB WORDS...: one process has no memory for what 4 ranks run
+    limit=$1
+    shift
+    (ulimit -v "$limit" && OMP_NUM_THREADS=1 "$build/selas" -q "$@" output%plots=F output%directory="$work/alone") >"$work/log" 2>&1
+    [ $? = 1 ] && grep -q '^error: no memory' "$work/log" &&
+        (ulimit -v "$limit" && OMP_NUM_THREADS=1 && export OMP_NUM_THREADS && quiet 4 "$@" output%plots=F output%directory="$work/ranks")
+    verdict $? "4 ranks have memory for points that one process has none for"
+}
+memory 400000 regress/parallel/tall-sph.nml body%high=2,1.5,720 "boundary(3)%kind=symmetry" "boundary(3)%layer=" scene%end_time=.5 stepping%time_step=.1 profile%times=.4 "snapshot(1)%every=.4" "snapshot(2)%times=.4"
+same "2 4" "points of a file" regress/cases/cloud/deck.nml
+same 3 "points about a hole in a plane" input/plate.nml body%spacing=.05 scene%end_time=.001 snapshot%times=.001 "profile(1)%times=.001" "profile(2)%times=.001"
+same 2 "points of a beam in its mode, four stages of Runge and Kutta" input/beam.nml scene%end_time=.001 stepping%scheme=rk4
+same "2 7" "particles that move" $moving
+as_planned "a rank sends the bytes a step that the plan of particles tells" ranks
+same 3 "scattered particles that move, hourglass control, stages of Runge, Kutta and Chebyshev" $moving body%jitter=.1 method%kernel=wendland method%hourglass=.2 stepping%scheme=rkc

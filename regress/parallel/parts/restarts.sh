@@ -1,0 +1,13 @@
+# shellcheck shell=sh disable=SC2086,SC2154
+# Runs that go on with other ranks.
+one=3 two=2
+chain "restart with snapshots" regress/parallel/tall-shown.nml scene%end_time=6
+chain "restart, general ground in one pass, layers" $hill stepping%time_step=.03 $layers
+chain "restart, damped general ground, layers" $hill stepping%time_step=.03 $layers $quality
+chain "restart, points along the first axis" regress/parallel/long-sph.nml scene%end_time=6
+chain "restart, points in layers" regress/parallel/column-sph.nml scene%end_time=4
+chain "restart, particles that move" regress/parallel/moving-particles.nml scene%end_time=20
+one=2x2 two=3x1
+chain "restart on blocks" regress/parallel/wide.nml
+chain "restart on blocks, passes one by one, damped" regress/parallel/wide.nml method%fused=F material%q_p=40 material%q_s=25
+chain "restart on blocks, single precision" regress/parallel/wide.nml method%precision=single
