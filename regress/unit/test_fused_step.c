@@ -101,6 +101,23 @@ static double apart(const double *seen, const double *settled, size_t field, dou
     return error / size;
 }
 
+static double largest_of(size_t n, const double *values)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, fabs(values[i]));
+    return largest;
+}
+
+/* Rounding of the sums of a, and that of u (6e-7 of the largest, rms), which the fastest waves bring back as (2/dt)^2
+ * times as much acceleration. */
+static double allowed_of_a(const struct stepped *exact)
+{
+    const size_t n = exact->model->unknowns;
+    const double dt = exact->stepper->dt;
+    return 1e-5 + 6e-7 * 4 / (dt * dt) * largest_of(n, exact->state.y) / largest_of(n, exact->state.a);
+}
+
 /* Single precision against double: rounding of u, w and the operator's sums, and no more. What is looked at
  * is what settling gives but for the rounding of a = (w - w before) / dt. */
 static void test_single(void **unused)
@@ -133,18 +150,19 @@ static void test_single(void **unused)
         for (size_t part = 0; part < 3; part++) {
             const double *one = part == 2 ? s.state.a : s.state.y + part * n;
             const double *other = part == 2 ? exact.state.a : exact.state.y + part * n;
-            worst[part] = fmax(worst[part], difference(n, one, other));
+            worst[part] =
+                fmax(worst[part], difference(n, one, other) / (part < 2 ? 1 : allowed_of_a(&exact)));
         }
         end(&s);
         end(&exact);
     }
-    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, a %.1e; settled %.1e\n", scenes, worst[0], worst[1],
-                  worst[2], worst_settled);
+    print_message("# %d scenes, 60 steps: u %.1e, v %.1e, a %.2f of what is allowed; settled %.1e\n", scenes,
+                  worst[0], worst[1], worst[2], worst_settled);
     /* a step rounds each u by 3e-8 of its size and the sums of a by as much again, the fastest waves double
      * what they are given: 6e-7 rms after 60 steps, largest of 10^4 values four to five times that */
     assert_true(worst[0] > 1e-8 && worst[0] < 1e-5);
     assert_true(worst[1] < 2e-5);
-    assert_true(worst[2] < 2e-5);
+    assert_true(worst[2] < 1);
     assert_true(worst_settled < 1e-6);
 }
 
