@@ -28,8 +28,7 @@ static void widen(struct span *span, double low, double high)
     span->high = fmax(span->high, high);
 }
 
-/* What the box has to hold. */
-struct held {
+struct held { /* what the box has to hold */
     struct span all[3], load[3], dipole[3];
     bool one_centre[3]; /* all that acts has the same centre along this axis and is symmetric about it */
     double centre[3];
@@ -121,9 +120,8 @@ static void add(struct held *held, const struct extent *extent, int dimension)
         widen(&held->all[c], extent->low[c], extent->high[c]);
         if (extent->role != EXTENT_ACTS) continue;
         const double centre = 0.5 * (extent->low[c] + extent->high[c]);
-        const bool first = held->load[c].low > held->load[c].high;
         if (extent->skew[c]) held->one_centre[c] = false;
-        if (first)
+        if (held->load[c].low > held->load[c].high) /* the first */
             held->centre[c] = centre;
         else if (fabs(centre - held->centre[c]) > 1e-9 * (1 + fabs(centre)))
             held->one_centre[c] = false;
@@ -169,20 +167,17 @@ static void put(const struct scene *scene, const struct held *held, const struct
     }
 }
 
-/* Work as for so many points, of the part below the scene's mirror planes; layers: those of the faces, as the scene
- * has them. */
+/* Work as for so many points below the mirror planes; layers: those of the faces, as the scene has them. */
 static double cost(const struct scene *scene)
 {
     const struct body *body = &scene->body;
     const unsigned mirrors = scene_mirror_axes(scene);
     double points = 1.0, all = 1.0;
     for (int c = 0; c < scene->dimension; c++) {
-        const bool mirrored = (mirrors & 1u << c) != 0;
-        const double cells = (body->high[c] - body->low[c]) / body->spacing;
-        const double count = (mirrored ? 0.5 * cells : cells) + 1.0;
-        const size_t beyond = mirrored ? 0 : layer_points(scene, 2 * c + 1);
+        const bool half = (mirrors & 1u << c) != 0;
+        const double count = (body->high[c] - body->low[c]) / body->spacing / (half ? 2 : 1) + 1.0;
         points *= count;
-        all *= count + (double)(layer_points(scene, 2 * c) + beyond);
+        all *= count + (double)(layer_points(scene, 2 * c) + (half ? 0 : layer_points(scene, 2 * c + 1)));
     }
     return all + (layer_cost(scene) - 1.0) * (all - points);
 }
@@ -397,8 +392,7 @@ bool choose_half_space(struct builder *builder, const struct deck_group *group)
         return refuse_box(builder, "body", 0, "rotation", "a body turns about the middle of its box");
     struct scene *sketch = scene_array(builder, 1, sizeof *sketch);
     if (sketch == NULL) return false;
-    const bool drawn = sketch_scene(builder, sketch);
-    const bool right = drawn && choose(builder, group, sketch);
+    const bool right = sketch_scene(builder, sketch) && choose(builder, group, sketch);
     sketch->materials = 0;
     sketch->material = NULL; /* the scene's */
     scene_free(&sketch);
