@@ -11,15 +11,7 @@
 
 double accuracy_work(const struct scene *scene)
 {
-    const struct body *body = &scene->body;
-    double points = 1, all = 1;
-    for (int c = 0; c < scene->dimension; c++) {
-        const double count = body_cells(body, c) + 1;
-        points *= count;
-        all *= count + (double)(layer_points(scene, 2 * c) + layer_points(scene, 2 * c + 1));
-    }
-    return (points + layer_cost(scene) * (all - points)) * scene_fastest(scene) * scene->end_time /
-           (.35 * body->spacing);
+    return scene_work(scene) * scene_fastest(scene) * scene->end_time / (.35 * scene->body.spacing);
 }
 
 long accuracy_layer_points(double accuracy)

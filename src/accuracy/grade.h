@@ -1,4 +1,4 @@
-/* Work of a scene, and whether a spacing graded over depth saves of it (doc/theory/graded-spacing.md, section 4). */
+/* Work of a scene, and whether a spacing graded over depth saves of it (doc/theory/graded-spacing.md, section 3). */
 #ifndef SELAS_ACCURACY_GRADE_H
 #define SELAS_ACCURACY_GRADE_H
 
@@ -7,7 +7,7 @@
 /* Point-steps that a trial may take, a minute or two on one thread. */
 #define ACCURACY_TRIAL_WORK 1e9
 
-/* Points times steps, those of absorbing layers counted as in the choice of a box. */
+/* Points times steps, counted as in the choice of a box. */
 double accuracy_work(const struct scene *scene);
 
 /* Of absorbing layers at least, for an error. */

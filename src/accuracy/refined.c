@@ -66,10 +66,8 @@ static struct scene *build(const struct trial *trial, const struct scene_choice 
     } else if (accuracy_work(scene) > ACCURACY_TRIAL_WORK) {
         fail(messages, SELAS_BAD_SCENE,
              "scene%%accuracy: on general ground it follows from trials, and one with a spacing of %.3g "
-             "would take %.2g "
-             "points times steps, more than the %.0g that a trial may; a larger accuracy, or body%%spacing "
-             "in its "
-             "place, would do",
+             "would take %.2g points times steps, more than the %.0g that a trial may; a larger accuracy, or "
+             "body%%spacing in its place, would do",
              choice->spacing, accuracy_work(scene), ACCURACY_TRIAL_WORK);
         scene_free(&scene);
     } else {
@@ -124,7 +122,7 @@ static double difference(const struct history_file *coarse, const struct history
     return most;
 }
 
-/* With E = C h^p the first two differ from the last by C (h^p - h_3^p): p from the ratio (Eq 14). */
+/* With E = C h^p the first two differ from the last by C (h^p - h_3^p): p from the ratio (Eq 13). */
 static double order_of(const double spacing[TRIALS], double ratio)
 {
     double low = LEAST_ORDER, high = MOST_ORDER;
@@ -250,8 +248,7 @@ static void say(struct scene_choice *choice, double accuracy, const char *graded
         accuracy, choice->spacing, graded);
     snprintf(choice->text + length, sizeof choice->text - (size_t)length,
              "after trials with %.4g and %.4g, held against an even %.4g (order %.2g): expected error %.2g, "
-             "and %.1g "
-             "from the box; trials took %.2g points times steps",
+             "and %.1g from the box; trials took %.2g points times steps",
              spacing[0], spacing[1], spacing[2], trials->order,
              trials->error * pow(choice->spacing / spacing[1], trials->order), trials->box, trials->work);
 }

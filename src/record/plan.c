@@ -107,8 +107,7 @@ static void say_saving(const struct teller *teller, const struct scene *scene)
     if (saved >= GRADING_WORTH)
         say(teller, "spacing over depth",
             "even; rock below is faster: body%%grading = %g would leave out %.0f %% of the points at about "
-            "the same "
-            "error",
+            "the same error",
             GRADING_MEASURED, 100 * saved);
 }
 

@@ -1,6 +1,7 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
  * (doc/theory/absorbing-faces.md, sections 3, 6 and 7). */
 #include "scene/absorbing_layers.h"
+#include "scene/symmetry.h"
 
 #include "scene/echo.h"
 #include "scene/grading.h"
@@ -42,6 +43,19 @@ double layer_cost(const struct scene *scene)
 {
     static const double sweeps = 2.8, exact = 11; /* measured */
     return asks_exact(scene) ? exact : sweeps;
+}
+
+double scene_work(const struct scene *scene)
+{
+    const unsigned mirrors = scene_mirror_axes(scene);
+    double points = 1.0, all = 1.0;
+    for (int c = 0; c < scene->dimension; c++) {
+        const bool half = (mirrors & 1u << c) != 0;
+        const double count = body_cells(&scene->body, c) / (half ? 2 : 1) + 1.0;
+        points *= count;
+        all *= count + (double)(layer_points(scene, 2 * c) + (half ? 0 : layer_points(scene, 2 * c + 1)));
+    }
+    return all + (layer_cost(scene) - 1.0) * (all - points);
 }
 
 double layer_steps(const struct scene *scene)

@@ -13,6 +13,9 @@ enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 /* What a layer point costs against one of the body, by the mass that the deck asks for (regress/studies/layer-cost;
  * doc/developers/performance.md, section 5). */
 double layer_cost(const struct scene *scene);
+/* Work of a step as for so many points of the body, below the scene's mirror planes; layers: those of the faces, as the
+ * scene has them. */
+double scene_work(const struct scene *scene);
 /* Steps with layers for one without: limits of the modified equation, sqrt(12 / 6). */
 double layer_steps(const struct scene *scene);
 

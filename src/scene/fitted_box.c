@@ -7,7 +7,6 @@
 #include "scene/echo.h"
 #include "scene/extent.h"
 #include "scene/ground.h"
-#include "scene/symmetry.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -167,21 +166,6 @@ static void put(const struct scene *scene, const struct held *held, const struct
     }
 }
 
-/* Work as for so many points below the mirror planes; layers: those of the faces, as the scene has them. */
-static double cost(const struct scene *scene)
-{
-    const struct body *body = &scene->body;
-    const unsigned mirrors = scene_mirror_axes(scene);
-    double points = 1.0, all = 1.0;
-    for (int c = 0; c < scene->dimension; c++) {
-        const bool half = (mirrors & 1u << c) != 0;
-        const double count = (body->high[c] - body->low[c]) / body->spacing / (half ? 2 : 1) + 1.0;
-        points *= count;
-        all *= count + (double)(layer_points(scene, 2 * c) + (half ? 0 : layer_points(scene, 2 * c + 1)));
-    }
-    return all + (layer_cost(scene) - 1.0) * (all - points);
-}
-
 /* So large that nothing comes back: (X - load) + (X - seen) >= c_p (until - from) for all pairs. */
 static void fit_large(const struct builder *builder, const struct held *held, struct scene *sketch)
 {
@@ -258,7 +242,7 @@ static double fit_small(const struct builder *builder, const struct held *held, 
         want[down].high = fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx),
                                fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
         put(sketch, held, want, &sketch->body);
-        const double here = cost(sketch);
+        const double here = scene_work(sketch);
         const bool now = level_there(sketch, large) && !tilted(builder);
         if (now == *level ? here >= least : *level) continue;
         best = sketch->body;
@@ -302,7 +286,7 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
         held.plane && !ground_is_general(sketch) && !tilted(builder) && !ground_is_damped(sketch);
     fit_large(builder, &held, sketch);
     const struct body large = sketch->body;
-    const double large_cost = held.whole ? INFINITY : cost(sketch);
+    const double large_cost = held.whole ? INFINITY : scene_work(sketch);
     bool level = true;
     const double small_cost =
         why == NULL ? layer_steps(sketch) * fit_small(builder, &held, &large, sketch, &level) : INFINITY;

@@ -21,16 +21,6 @@ static size_t strips_of(const struct consistent *c)
     return (c->n[1] + TENSOR_STRIP - 1) / TENSOR_STRIP;
 }
 
-/* Is none of the numbers infinite or not a number? */
-static bool all_finite(const double *x, size_t n)
-{
-    double sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] - x[i];
-    return sum == 0;
-}
-
 /* Together: the largest displacement of each strip of rows in each plane; up to what is returned nothing moves. What is
  * no number moves. */
 static double look(const struct consistent *c, const double *u)
@@ -50,7 +40,7 @@ static double look(const struct consistent *c, const double *u)
                 const size_t numbers = (left < TENSOR_STRIP ? left : TENSOR_STRIP) * c->n[0];
                 const double size = passes->largest_size_double(rows, numbers);
                 largest = fmax(largest, size);
-                *loudest = fmax(*loudest, all_finite(rows, numbers) ? size : INFINITY);
+                *loudest = fmax(*loudest, passes->all_finite(rows, numbers) ? size : INFINITY);
             }
         }
     return c->options.quiet * part_largest(c, largest);

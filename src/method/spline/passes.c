@@ -143,7 +143,17 @@ OF_ROWS(4)
 LARGEST_SIZE(largest_size_double, double)
 LARGEST_SIZE(largest_size_single, float)
 
+static bool all_finite(const double *x, size_t n)
+{
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] - x[i];
+    return sum == 0;
+}
+
 const struct passes OF_PROCESSOR(passes) = {{NULL, rows_1, rows_2, rows_3, rows_4},
                                             {NULL, neighbours_1, neighbours_2, neighbours_3, neighbours_4},
                                             largest_size_double,
-                                            largest_size_single};
+                                            largest_size_single,
+                                            all_finite};

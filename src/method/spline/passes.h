@@ -24,6 +24,8 @@ struct passes {
     /* Largest |x[i]|, i < n. */
     double (*largest_size_double)(const double *x, size_t n);
     float (*largest_size_single)(const float *x, size_t n);
+    /* Is none of them infinite or no number? */
+    bool (*all_finite)(const double *x, size_t n);
 };
 EACH_PROCESSOR(struct passes, passes)
 

@@ -69,14 +69,6 @@ static void strip_down(const struct work *w, size_t strip)
                 if (plan->z[z].in == input) piece_down(w, z, j, at, smaller(PIECE, n - at));
 }
 
-static void add_row(double factor, const double *restrict in, size_t n, bool add, double *restrict out)
-{
-    if (!add) memset(out, 0, n * sizeof *out);
-#pragma omp simd
-    for (size_t i = 0; i < n; i++)
-        out[i] += factor * in[i];
-}
-
 /* What an item across makes in a group of rows of plane p. */
 static void group_across(const struct work *w, const struct y_item *item, size_t p, size_t j, size_t rows,
                          double factor, bool add, double *const *sum)
@@ -84,8 +76,11 @@ static void group_across(const struct work *w, const struct y_item *item, size_t
     const size_t nx = w->plan->n[0];
     const struct z_item *source = &w->plan->z[item->source];
     if (item->matrix == NULL) {
-        for (size_t r = 0; r < rows; r++)
-            add_row(factor * item->factor, row_of(w, source, p, j + r), nx, add, sum[r]);
+        const double weight = factor * item->factor;
+        for (size_t r = 0; r < rows; r++) {
+            const double *in = row_of(w, source, p, j + r);
+            w->passes->rows[1](&weight, 1, &in, nx, add, &sum[r]);
+        }
         return;
     }
     const struct columns columns = columns_of(item->matrix, j, rows);
