@@ -39,20 +39,25 @@ static bool has_experts(const struct word_group *group)
     return i < group->words;
 }
 
-static void write_table(const struct word_group *group, bool expert, FILE *file)
+/* "| `low` | real, up to 3; default 0, 0, 0 | meaning |"; a list of words needs no type */
+static void write_row(const struct word *word, FILE *file)
 {
     char type[LINE_SIZE], values[LINE_SIZE];
-    fputs("| name | type | values | default | meaning [unit] |\n|---|---|---|---|---|\n", file);
-    for (size_t j = 0; j < group->words; j++) {
-        const struct word *word = &group->word[j];
-        if ((word->need == EXPERT) != expert) continue;
-        fprintf(file, "| `%s` | %s | %s | %s | %s |\n", word->name, type_text(word, type),
-                values_text(word, values),
-                word->need == OBLIGATORY ? "**must be given**"
-                : word->defaults == NULL ? ""
-                                         : word->defaults,
-                word->gloss);
-    }
+    const bool listed = word->type == WORD_CHOICE;
+    values_text(word, values);
+    fprintf(file, "| `%s` | ", word->name);
+    if (!listed || word->count > 1) fputs(type_text(word, type), file);
+    fprintf(file, "%s%s", listed && word->count > 1 ? ": " : !listed && values[0] != '\0' ? " " : "", values);
+    if (word->need == OBLIGATORY) fputs("; **must be given**", file);
+    if (word->defaults != NULL) fprintf(file, "; default %s", word->defaults);
+    fprintf(file, " | %s |\n", word->gloss);
+}
+
+static void write_table(const struct word_group *group, bool expert, FILE *file)
+{
+    fputs("| name | values | meaning [unit] |\n|---|---|---|\n", file);
+    for (size_t j = 0; j < group->words; j++)
+        if ((group->word[j].need == EXPERT) == expert) write_row(&group->word[j], file);
     putc('\n', file);
 }
 
