@@ -53,11 +53,48 @@ static void write_row(const struct word *word, FILE *file)
     fprintf(file, " | %s |\n", word->gloss);
 }
 
+static void end_row(const struct word_group *same, FILE *file)
+{
+    fprintf(file, " | as of [`&%s`](#%s) | |\n", same->name, same->name);
+}
+
+static bool same_text(const char *a, const char *b)
+{
+    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
+}
+
+static bool same_word(const struct word *a, const struct word *b)
+{
+    return same_text(a->name, b->name) && same_text(a->range, b->range) && same_text(a->gloss, b->gloss);
+}
+
+/* The first group of the table before `group` that has the same optional word, or NULL */
+static const struct word_group *earlier(const struct word_group *group, const struct word *word)
+{
+    for (const struct word_group *other = deck_words()->group; word->need != OBLIGATORY && other < group;
+         other++)
+        for (size_t i = 0; i < other->words; i++)
+            if (same_word(&other->word[i], word)) return other;
+    return NULL;
+}
+
+/* Words that an earlier group has too share a row, which names that group. */
 static void write_table(const struct word_group *group, bool expert, FILE *file)
 {
     fputs("| name | values | meaning [unit] |\n|---|---|---|\n", file);
-    for (size_t j = 0; j < group->words; j++)
-        if ((group->word[j].need == EXPERT) == expert) write_row(&group->word[j], file);
+    const struct word_group *row = NULL; /* of the row that is not ended yet */
+    for (size_t j = 0; j < group->words; j++) {
+        const struct word *word = &group->word[j];
+        if ((word->need == EXPERT) != expert) continue;
+        const struct word_group *same = earlier(group, word);
+        if (row != NULL && same != row) end_row(row, file);
+        if (same == NULL)
+            write_row(word, file);
+        else
+            fprintf(file, "%s`%s`", same == row ? ", " : "| ", word->name);
+        row = same;
+    }
+    if (row != NULL) end_row(row, file);
     putc('\n', file);
 }
 
