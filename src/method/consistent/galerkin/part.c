@@ -231,10 +231,11 @@ void part_exchange(const struct consistent *c, const struct part_fields *fields)
 
 int part_turn_of(const struct rank_part *part, size_t from, size_t end)
 {
-    int turn = 0;
-    while (turn < PART_LAST && (end <= part->sent[turn].from || from >= part->sent[turn].end))
-        turn++;
-    return turn;
+    for (int turn = 0; turn < PART_LAST; turn++) {
+        const struct part_range *sent = &part->sent[turn];
+        if (length(*sent) > 0 && from < sent->end && end > sent->from) return turn;
+    }
+    return PART_LAST;
 }
 
 double part_bytes(const struct consistent *c, const struct part_fields *f)
