@@ -22,6 +22,7 @@ struct pass {
     double level;       /* smaller displacements move nothing */
     size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
     int thread;
+    bool begun; /* it has made a plane */
 };
 
 /* Adds factor times what edges and loads do in plane k. */
@@ -104,6 +105,8 @@ static void pass_block(struct pass *pass, size_t first)
     NAME(fused_planes)(f, pass->thread, first, &pass->fields);
     for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
         add_rest(pass->c, pass->drive, k, factor, pass->fields.u, pass->fields.a);
+        add_faces(pass->c, pass->thread, factor, &pass->fields, !pass->begun, k);
+        pass->begun = true;
         if (!step) continue;
         const struct window edges = reached_by_edges(pass->c, f, k), faces = reached_by_faces(pass->c, f, k);
         struct window *after = &f->will_reach[k];
@@ -144,21 +147,23 @@ static void lay_bounds(const struct fused *f)
         f->bound[thread++] = f->n[2];
 }
 
-/* The blocks of a thread that are the rank's own: all of u that others read is brought on before (stage 0), the rest on
- * the way. */
+/* The blocks of a thread that are the rank's own: all of u that others and faces across depth read is brought on before
+ * (stage 0), the rest on the way; what is made of these faces comes between (stage 1). */
 static void pass_thread(const struct consistent *c, const struct drive *drive,
                         const struct fused_fields *fields, bool bring, double level, int thread, int stage)
 {
     const struct fused *f = FUSED(c);
     const size_t reach = (size_t)f->deep / 2, from = f->bound[thread], end = f->bound[thread + 1];
     const size_t low = !bring || from + reach > end ? end : from + reach;
-    const size_t high = end == f->n[2] ? end : end > low + reach ? end - reach : low;
+    const size_t before = end < f->n[2] ? reach : left_at_faces(c, fields) != NULL ? 1 : 0;
+    const size_t high = end > low + before ? end - before : low;
+    if (stage == 1) make_flat(c, thread, fields);
     if (stage == 0) {
         bring_planes(f, fields, from, low);
         bring_planes(f, fields, high, end);
-        return;
     }
-    struct pass pass = {c, drive, *fields, level, low, high, thread};
+    if (stage < 2) return;
+    struct pass pass = {c, drive, *fields, level, low, high, thread, false};
     for (size_t first = from; first < end; first += FUSED_PLANES)
         if (first >= f->planes.own && first < f->planes.end) pass_block(&pass, first);
     if (bring && pass.next < pass.limit) bring_planes(f, fields, pass.next, pass.limit);
@@ -185,7 +190,7 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
     lay_bounds(f);
     if (step && !bring) bring_before(f, fields, level);
 #pragma omp parallel num_threads(f->threads)
-    for (int stage = bring ? 0 : 1; stage < 2; stage++) {
+    for (int stage = bring ? 0 : 1; stage < 3; stage++) {
 #pragma omp for schedule(static, 1)
         for (int thread = 0; thread < f->threads; thread++) {
             const unsigned before = tiny_as_zero();
@@ -193,7 +198,6 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
             tiny_as_before(before);
         }
     }
-    add_faces(c, step ? fields->dt : 1, fields);
 }
 
 static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
