@@ -74,6 +74,7 @@ static void lay_faces(const struct consistent *c, struct fused_faces *faces, int
         face->at = part_face(c, side);
         if (c->spline[axis]->mirror[end] || face->at == SIZE_MAX) continue;
         face->axis = axis;
+        face->end = end;
         face->factor = end == 0 ? -factor : factor;
         face->from = end == 0 ? 0 : c->n[axis] - h->reach[axis];
         face->to = end == 0 ? h->reach[axis] : c->n[axis];
@@ -83,19 +84,32 @@ static void lay_faces(const struct consistent *c, struct fused_faces *faces, int
     }
 }
 
+/* Of each thread two rows of B, three that are made, and what it has taken of the faces across x. */
+static bool lay_rooms(const struct consistent *c, struct fused_faces *faces)
+{
+    enum { ROWS = 2 + 3 + 2 * 3 * FUSED_MOST_TAPS };
+    const size_t longest = c->n[0] > c->n[1] ? c->n[0] : c->n[1];
+    faces->row = fused_rounded(longest + (size_t)(2 * FUSED_MOST_TAPS), FUSED_VECTOR / sizeof(float));
+    faces->room_size = ROWS * faces->row;
+    faces->room = array_new((size_t)c->threads * faces->room_size, sizeof(double));
+    faces->bytes = sizeof *faces + (size_t)c->threads * faces->room_size * sizeof(double);
+    bool good = faces->room != NULL;
+    for (size_t i = 0; good && i < faces->count; i++) {
+        if (faces->face[i].axis != DEPTH) continue;
+        void **flat = &faces->flat[faces->face[i].end];
+        *flat = array_new(3 * c->plane, sizeof(double));
+        faces->bytes += 3 * c->plane * sizeof(double);
+        good = *flat != NULL;
+    }
+    return good;
+}
+
 static struct fused_faces *faces_new(struct consistent *c, bool layered, double factor)
 {
     struct fused_faces *faces = array_new(1, sizeof *faces);
-    size_t largest = 0;
     if (faces == NULL) return NULL;
-    for (int axis = 0; axis < 3; axis++) {
-        const size_t size = c->volume / c->n[axis];
-        if (size > largest) largest = size;
-    }
     lay_faces(c, faces, layered ? 2 * DEPTH : BOX_FACES, factor);
-    faces->bytes = sizeof *faces + 8 * largest * sizeof(double);
-    faces->work = array_new(8 * largest, sizeof(double));
-    if (faces->work != NULL && (layered ? lay_layered_bands : lay_bands)(c, faces)) return faces;
+    if (lay_rooms(c, faces) && (layered ? lay_layered_bands : lay_bands)(c, faces)) return faces;
     fused_faces_free(faces);
     return NULL;
 }
@@ -141,6 +155,8 @@ void fused_faces_free(struct fused_faces *faces)
     }
     band_free(faces->bare[0]);
     band_free(faces->bare[1]);
-    array_free(faces->work);
+    array_free(faces->room);
+    array_free(faces->flat[0]);
+    array_free(faces->flat[1]);
     array_free(faces);
 }

@@ -81,7 +81,7 @@ enum { SHARE_MIXED, SHARE_AXIAL, SHARES };
 /* What is left at a face (F1b, F1d): `factor` times weights of its planes across, index `at`
  * being read, from .. to - 1 written. */
 struct fused_face {
-    int axis;
+    int axis, end;
     double factor;
     size_t at, from, to;
     const double *column[3]; /* N e by component, from index 0 on */
@@ -92,8 +92,9 @@ struct fused_faces {
     struct fused_face face[BOX_FACES];
     /* [axis] -N D, N (D - lambda / (lambda + mu) E); on layered ground -N D, -N G_lambda, -N G_mu */
     struct band *first[3], *second[3];
-    struct band *bare[2]; /* B over depth of what goes across the face and along it; NULL: the identity */
-    void *work;           /* room for 8 fields of the largest face */
+    struct band *bare[2];  /* B over depth of what goes across the face and along it; NULL: the identity */
+    size_t row, room_size; /* numbers in a row with what is 0 on both sides; in the room of a thread */
+    void *room, *flat[2];  /* of all threads; three components of a face across depth */
     size_t bytes;
 };
 

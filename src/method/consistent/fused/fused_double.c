@@ -15,5 +15,12 @@
 bool fused_add_faces_double(const struct consistent *c, const double *u, double *a)
 {
     const struct fused_fields fields = {.u = u, .a = a};
-    return add_faces(c, 1, &fields);
+    if (left_at_faces(c, &fields) == NULL) return false;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (int thread = 0; thread < c->threads; thread++) {
+        const size_t n = c->n[DEPTH], all = (size_t)c->threads, from = (size_t)thread * n / all;
+        for (size_t k = from; k < (size_t)(thread + 1) * n / all; k++)
+            add_faces(c, thread, 1, &fields, k == from, k);
+    }
+    return true;
 }

@@ -22,6 +22,7 @@ struct pass {
     double level;       /* smaller displacements move nothing */
     size_t next, limit; /* the next plane to be brought on; those from `limit` on are already */
     int thread;
+    bool begun; /* it has made a plane */
 };
 
 /* Adds factor times what edges and loads do in plane k. */
@@ -104,6 +105,8 @@ static void pass_block(struct pass *pass, size_t first)
     NAME(fused_planes)(f, pass->thread, first, &pass->fields);
     for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++) {
         add_rest(pass->c, pass->drive, k, factor, pass->fields.u, pass->fields.a);
+        add_faces(pass->c, pass->thread, factor, &pass->fields, !pass->begun, k);
+        pass->begun = true;
         if (!step) continue;
         const struct window edges = reached_by_edges(pass->c, f, k), faces = reached_by_faces(pass->c, f, k);
         struct window *after = &f->will_reach[k];
@@ -166,7 +169,7 @@ static void pass_thread(const struct consistent *c, const struct drive *drive,
         bring_planes(f, fields, high, last);
         return;
     }
-    struct pass pass = {c, drive, *fields, level, low, high, thread};
+    struct pass pass = {c, drive, *fields, level, low, high, thread, false};
     for (size_t block = from; block < end; block += FUSED_PLANES) {
         pass_block(&pass, block);
         if (lowest) ranks_go_on(f->ranks);
@@ -230,26 +233,41 @@ static void pull_turn(const struct consistent *c, const struct NAME(step_fields)
     part_send(c, &fields, turn);
 }
 
-/* Accelerations, or in a step velocities, with the halo: in turns, so that halos travel while the inside is made. What
- * is added at faces goes before what layers add. */
+/* Faces across depth, before all planes: theirs of u are brought on first, and no more those that `still` have to be. */
+static void begin_faces(const struct consistent *c, const struct fused_fields *fields,
+                        struct part_range *still)
+{
+    const struct fused_faces *faces = c->fused->faces;
+    if (left_at_faces(c, fields) == NULL) return;
+    for (size_t i = 0; i < faces->count; i++) {
+        const size_t at = faces->face[i].at;
+        if (faces->face[i].axis != DEPTH || at < still->from || at >= still->end) continue;
+        bring_planes(FUSED(c), fields, at, at + 1);
+        if (faces->face[i].end == 0)
+            still->from = at + 1;
+        else
+            still->end = at;
+    }
+#pragma omp parallel for num_threads(c->threads) schedule(static, 1)
+    for (int thread = 0; thread < c->threads; thread++)
+        make_flat(c, thread, fields);
+}
+
+/* Accelerations, or in a step velocities, with the halo: in turns, so that halos travel while the inside is made. */
 static void make(const struct consistent *c, const struct drive *drive, const struct fused_fields *fields,
                  double level, const struct NAME(step_fields) * step)
 {
     struct fused *f = FUSED(c);
-    const bool moving = fields->moved != NULL, before = f->rows.ranks > 1, faces = c->fused->faces != NULL;
-    const double factor = moving ? fields->dt : 1;
+    const bool moving = fields->moved != NULL, before = f->rows.ranks > 1;
     struct part_range still = {0, moving && !before ? f->n[2] : 0};
     if (moving && before) bring_before(f, fields, level);
+    begin_faces(c, fields, &still);
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_look)(step->part[p].c, step->part[p].extra);
     for (int turn = 0; turn < PART_TURNS; turn++) {
         pass_turn(c, drive, fields, level, turn, &still);
-        if (!faces) pull_turn(c, step, factor, turn, fields->a);
+        pull_turn(c, step, moving ? fields->dt : 1, turn, fields->a);
     }
-    if (!faces) return;
-    add_faces(c, factor, fields);
-    for (int turn = 0; turn < PART_TURNS; turn++)
-        pull_turn(c, step, factor, turn, fields->a);
 }
 
 /* a := acceleration. */

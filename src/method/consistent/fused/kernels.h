@@ -33,7 +33,8 @@
         real (*relax)(size_t n, size_t rows, size_t step, const struct fused_relax *relax, const real *w,    \
                       real *memory, real *u, real *other, real *column);                                     \
         void (*kick)(size_t n, real dt, const real *a, real *w);                                             \
-        void (*weigh)(size_t n, const double *weight, const real *in, real *out);                            \
+        void (*gather)(size_t n, size_t count, const real *weight, const real *const *row, real *out);       \
+        void (*weigh)(size_t n, size_t taps, const double *weight, const real *in, real *out);               \
         void (*spread)(size_t rows, size_t step, const real *weight, const real *value, real *sum);          \
         void (*keep)(size_t n, const double *weight, size_t step, real *row);                                \
     };                                                                                                       \

@@ -126,12 +126,73 @@ static void kick(size_t n, REAL dt, const REAL *restrict a, REAL *restrict w)
     moved(n, dt, a, w);
 }
 
-/* out += weight in, number by number */
-static void weigh(size_t n, const double *restrict weight, const REAL *restrict in, REAL *restrict out)
+/* Vectors of what `gather` and `weigh` make, side by side from number i on. */
+enum { MOST_ABREAST = 4 };
+
+INLINED void gathered(const int abreast, size_t count, const REAL *weight, const REAL *const *row, size_t i,
+                      const REAL *out, lanes *sum)
 {
+    UNROLLED for (int v = 0; v < abreast; v++) sum[v] = *at(out + i + v * LANES);
+    for (size_t t = 0; t < count; t++)
+        UNROLLED for (int v = 0; v < abreast; v++) sum[v] += weight[t] * *at(row[t] + i + v * LANES);
+}
+
+INLINED lanes factors(const double *weight)
+{
+    if (sizeof(REAL) == sizeof(double)) return *(const lanes *)weight;
+    REAL factor[LANES];
 #pragma omp simd
-    for (size_t i = 0; i < n; i++)
-        out[i] += (REAL)weight[i] * in[i];
+    for (int lane = 0; lane < LANES; lane++)
+        factor[lane] = (REAL)weight[lane];
+    return *at(factor);
+}
+
+INLINED void weighed(const int abreast, size_t n, size_t taps, const double *weight, const REAL *in,
+                     const REAL *out, lanes *sum)
+{
+    UNROLLED for (int v = 0; v < abreast; v++) sum[v] = *at(out + v * LANES);
+    for (size_t t = 0; t < taps; t++, weight += n, in++)
+        UNROLLED for (int v = 0; v < abreast; v++) sum[v] +=
+            factors(weight + v * LANES) * *at(in + v * LANES);
+}
+
+/* out += MAKE(abreast, from number i on), n numbers; the last vector ends with them. */
+#define ABREAST(n, out, MAKE)                                                                                \
+    lanes last[1], sum[MOST_ABREAST];                                                                        \
+    size_t i = n - LANES;                                                                                    \
+    MAKE(1, last);                                                                                           \
+    for (i = 0; i + MOST_ABREAST * LANES <= n; i += MOST_ABREAST * LANES) {                                  \
+        MAKE(MOST_ABREAST, sum);                                                                             \
+        UNROLLED for (int v = 0; v < MOST_ABREAST; v++) * (lanes *)(out + i + v * LANES) = sum[v];           \
+    }                                                                                                        \
+    for (; i + LANES < n; i += LANES) {                                                                      \
+        MAKE(1, sum);                                                                                        \
+        *(lanes *)(out + i) = sum[0];                                                                        \
+    }                                                                                                        \
+    *(lanes *)(out + n - LANES) = last[0];
+
+/* out += sum over rows of weight times row (less than a vector: number by number). */
+static void gather(size_t n, size_t count, const REAL *weight, const REAL *const *row, REAL *out)
+{
+    for (size_t i = 0; n < LANES && i < n; i++)
+        for (size_t t = 0; t < count; t++)
+            out[i] += weight[t] * row[t][i];
+    if (n < LANES) return;
+#define MAKE(abreast, sum) gathered(abreast, count, weight, row, i, out, sum)
+    ABREAST(n, out, MAKE)
+#undef MAKE
+}
+
+/* out += a band matrix, by diagonals, times in. */
+static void weigh(size_t n, size_t taps, const double *weight, const REAL *in, REAL *out)
+{
+    for (size_t i = 0; n < LANES && i < n; i++)
+        for (size_t t = 0; t < taps; t++)
+            out[i] += (REAL)weight[t * n + i] * in[t + i];
+    if (n < LANES) return;
+#define MAKE(abreast, sum) weighed(abreast, n, taps, weight + i, in + i, out + i, sum)
+    ABREAST(n, out, MAKE)
+#undef MAKE
 }
 
 /* FUSED_STRIP numbers of each row += weights times the row's value. */

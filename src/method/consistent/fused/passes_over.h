@@ -280,6 +280,7 @@ const struct NAME(fused_kernels) OF_PROCESSOR(NAME(fused_kernels)) = {{OF(5, 9),
                                                                       drift,
                                                                       relax,
                                                                       kick,
+                                                                      gather,
                                                                       weigh,
                                                                       spread,
                                                                       keep};
