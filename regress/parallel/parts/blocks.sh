@@ -5,6 +5,9 @@ same "2x1 1x2 3x2" "blocks, layers, one pass" $wide
 as_planned "a rank sends the bytes a step that the plan of blocks tells" ranks
 same "2x2" "blocks, layers, passes one by one" $wide method%fused=F
 same "2x2" "blocks, nothing is quiet" $wide method%quiet=0
+deep='body%high=3,9,24 load(2)%centre=.9,6.4,12.4 method%quiet=1e-6'
+same "2x2" "deep blocks, halos that travel while the inside is made" $wide $deep
+same "2x2" "deep blocks, passes one by one" $wide $deep method%fused=F
 reached='method%quiet=1e-6 load(2)%centre=.9,4.4,1.8 body%high=3,18,9 profile(2)%to=.6,17,6.6'
 same "3x2" "blocks in single precision, no wave has reached half of them" $wide method%precision=single $reached
 same "2x2" "blocks, damped ground, one pass" $wide material%q_p=40 material%q_s=25

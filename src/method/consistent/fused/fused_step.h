@@ -151,7 +151,7 @@ static size_t between(size_t a, size_t low, size_t high)
     return a < low ? low : a > high ? high : a;
 }
 
-/* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. `bring`: planes
+/* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. `bring`: those
  * that all threads bring on. */
 static void pass_thread(const struct consistent *c, const struct drive *drive,
                         const struct fused_fields *fields, struct part_range bring, double level, int thread,
