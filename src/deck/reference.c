@@ -60,7 +60,9 @@ static bool same_text(const char *a, const char *b)
 
 static bool same_word(const struct word *a, const struct word *b)
 {
-    return same_text(a->name, b->name) && same_text(a->range, b->range) && same_text(a->gloss, b->gloss);
+    return same_text(a->name, b->name) && a->type == b->type && a->count == b->count &&
+           same_text(a->range, b->range) && same_text(a->defaults, b->defaults) &&
+           same_text(a->gloss, b->gloss);
 }
 
 /* The first group of the table before `group` that has the same optional word, or NULL */
