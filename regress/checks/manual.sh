@@ -1,7 +1,8 @@
 #!/bin/sh
 # The manual holds together: every link between its pages, to files and to headings leads somewhere, every page is in the
 # contents (doc/README.md), every page that the source or a script names is there, and every file that a page names, every
-# command and option of --help is in the man page; messages and warnings of the source and doc/howto/troubleshooting.md fit, no sum looks like a list to Markdown. Argument: the build folder. Prints TAP.
+# command and option of --help is in the man page; messages and warnings of the source and doc/howto/troubleshooting.md fit, no sum looks like a list
+# to Markdown, no average like a tag. Argument: the build folder. Prints TAP.
 selas=$(cd "${1:-build}" && pwd)/selas
 cd "$(dirname "$0")/../.." || exit 1
 texts=$(mktemp) || exit 1
@@ -52,6 +53,12 @@ verdict 'no line of a paragraph or an equation begins like an item of a list' "$
         /^```/ { code = !code }
         !code && /^ *([-+*]|[0-9]+\.) / && (math || (before != "" && !list)) { print FILENAME ": " FNR ": " $0 }
         { list = $0 != "" && (list || /^ *([-+*]|[0-9]+\.) /); math = (math + gsub(/\$\$/, "")) % 2; before = $0 }' $pages
+)"
+verdict 'nothing outside code and equations looks like an HTML tag, which nobody would see' "$(
+    # shellcheck disable=SC2086 # the pages are several words
+    awk '/^```/ { code = !code }
+        code || /^    / { next }
+        { gsub(/`[^`]*`/, ""); if (/<[A-Za-z\/][^>]*>/) print FILENAME ": " FNR ": " $0 }' $pages
 )"
 verdict 'every message of doc/howto/troubleshooting.md is one of the source' "$(
     find src -name '*.[ch]' -exec cat {} + | tr '\n' ' ' | sed "s/\" *\"//g; s/%%/%/g; s/\\\\'/'/g" >"$texts"

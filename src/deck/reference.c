@@ -53,11 +53,6 @@ static void write_row(const struct word *word, FILE *file)
     fprintf(file, " | %s |\n", word->gloss);
 }
 
-static void end_row(const struct word_group *same, FILE *file)
-{
-    fprintf(file, " | as of [`&%s`](#%s) | |\n", same->name, same->name);
-}
-
 static bool same_text(const char *a, const char *b)
 {
     return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
@@ -80,24 +75,28 @@ static const struct word_group *earlier(const struct word_group *group, const st
     return NULL;
 }
 
-/* Words that an earlier group has too share a row, which names that group. */
 static void write_table(const struct word_group *group, bool expert, FILE *file)
 {
     fputs("| name | values | meaning [unit] |\n|---|---|---|\n", file);
-    const struct word_group *row = NULL; /* of the row that is not ended yet */
-    for (size_t j = 0; j < group->words; j++) {
-        const struct word *word = &group->word[j];
-        if ((word->need == EXPERT) != expert) continue;
-        const struct word_group *same = earlier(group, word);
-        if (row != NULL && same != row) end_row(row, file);
-        if (same == NULL)
-            write_row(word, file);
-        else
-            fprintf(file, "%s`%s`", same == row ? ", " : "| ", word->name);
-        row = same;
-    }
-    if (row != NULL) end_row(row, file);
+    for (size_t j = 0; j < group->words; j++)
+        if ((group->word[j].need == EXPERT) == expert && earlier(group, &group->word[j]) == NULL)
+            write_row(&group->word[j], file);
     putc('\n', file);
+}
+
+/* "As of [`&boundary`](#boundary): `amplitude`, `history`." */
+static void write_shared(const struct word_group *group, FILE *file)
+{
+    const struct word_group *before = NULL;
+    for (size_t j = 0; j < group->words; j++) {
+        const struct word_group *same = earlier(group, &group->word[j]);
+        if (same == NULL) continue;
+        if (same != before)
+            fprintf(file, "%sAs of [`&%s`](#%s):", before != NULL ? ".\n\n" : "", same->name, same->name);
+        fprintf(file, "%s `%s`", same == before ? "," : "", group->word[j].name);
+        before = same;
+    }
+    if (before != NULL) fputs(".\n\n", file);
 }
 
 void deck_reference(FILE *file)
@@ -107,6 +106,7 @@ void deck_reference(FILE *file)
         const struct word_group *group = &table->group[i];
         fprintf(file, "### `&%s`\n\n%s; %s.\n\n", group->name, group->gloss, occurrences[group->occurrence]);
         write_table(group, false, file);
+        write_shared(group, file);
         if (!has_experts(group)) continue;
         fprintf(file, "For experts, in `&%s`:\n\n", group->name);
         write_table(group, true, file);
