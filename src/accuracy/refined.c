@@ -14,13 +14,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Power of the spacing with which errors of general ground fall (measured on scenes drawn by chance: it tells
- * more than one scene's own trials do), and the least of those trials' own that is let stand; error at so many
- * points per wavelength of the slowest wave for a first guess; the first trial's spacing over that, and of one
- * trial over the next; how far below the last trial's the choice lies as a rule, and at most where the next one
- * would be too much; the most of a trial's error from which one may tell. */
-static const double ORDER = 3.2, LEAST_ORDER = 1.5, GUESS = .012, GUESS_POINTS = 6, COARSE = 2.83,
-                    FINER = 1.41421356, NEAR = 1.5, FAR = 2.5, CARRIED = .5;
+/* Power of the spacing with which errors fall in ground of one rock and in all other general ground (measured on
+ * scenes drawn by chance: it tells more than one scene's own trials do), and the least of those trials' own that is
+ * let stand; error at so many points per wavelength of the slowest wave for a first guess; the first trial's spacing
+ * over that, and of one trial over the next; how far below the last trial's the choice lies as a rule, and at most
+ * where the next one would be too much; the most of a trial's error from which one may tell. */
+static const double EVEN_ORDER = 4.8, ORDER = 3.2, LEAST_ORDER = 1.5, GUESS = .012, GUESS_POINTS = 6,
+                    COARSE = 2.83, FINER = 1.41421356, NEAR = 1.5, FAR = 2.5, CARRIED = .5;
 enum { MOST_TRIALS = 16, TRIALS = 3 };
 
 static bool looks_like(const struct scene *scene)
@@ -54,7 +54,7 @@ struct trials {
     size_t count;              /* how many there were; the last three are kept */
     double spacing[TRIALS];    /* from the coarsest to the last, which stands last */
     double apart[TRIALS - 1];  /* how far neighbours lie apart */
-    double error;              /* of the last one */
+    double order, error;       /* with which errors are taken to fall; of the last one */
     double box;                /* what the box makes of the histories; INFINITY: not tried */
     double work;               /* of all that were run */
 };
@@ -138,7 +138,7 @@ static selas_status add_trial(const struct scene *scene, const struct trial *tri
     if (status != SELAS_OK || ++trials->count < 2) return status;
     trials->apart[0] = trials->apart[1];
     trials->apart[1] = difference(last - receivers, last, receivers);
-    trials->error = trials->apart[1] / (pow(trials->spacing[1] / spacing, ORDER) - 1);
+    trials->error = trials->apart[1] / (pow(trials->spacing[1] / spacing, trials->order) - 1);
     return status;
 }
 
@@ -207,7 +207,7 @@ static selas_status narrow(const struct scene *scene, double accuracy, const str
         const selas_status status = add_trial(scene, trial, choice, next.spacing, trials, messages);
         if (status != SELAS_OK) return status;
         if (trials->count < TRIALS) continue;
-        const double part = pow(ACCURACY_AIM * accuracy / trials->error, 1 / ORDER);
+        const double part = pow(ACCURACY_AIM * accuracy / trials->error, 1 / trials->order);
         *h = possible(scene, fmin(next.spacing * part, trials->spacing[0]));
         told = *h > 0 && trials->error < CARRIED && next.spacing <= FAR * *h;
         if (told && next.spacing <= NEAR * *h && own_order(trials) >= LEAST_ORDER) return SELAS_OK;
@@ -222,10 +222,15 @@ static selas_status narrow(const struct scene *scene, double accuracy, const str
         accuracy, ACCURACY_TRIAL_WORK, trials->spacing[TRIALS - 1]);
 }
 
+static double order_of(const struct scene *scene)
+{
+    return ground_is_general(scene) || body_is_layered(&scene->body) ? ORDER : EVEN_ORDER;
+}
+
 static double first_guess(const struct scene *scene, double accuracy)
 {
     const double wave = 2 * M_PI * slowest_speed(scene) / source_cutoff(scene);
-    return possible(scene, wave / GUESS_POINTS * pow(ACCURACY_AIM * accuracy / GUESS, 1 / ORDER));
+    return possible(scene, wave / GUESS_POINTS * pow(ACCURACY_AIM * accuracy / GUESS, 1 / order_of(scene)));
 }
 
 static void say(struct scene_choice *choice, double accuracy, const char *graded, const struct trials *trials)
@@ -241,8 +246,9 @@ static void say(struct scene_choice *choice, double accuracy, const char *graded
              "%g wanted: spacing %.6g%s, degree 2, mass vc3, leapfrog with the time-dispersion transform; "
              "after trials with %.4g, %.4g, %.4g (of order %.2g, %.2g taken): expected error %.2g%s%s; "
              "trials took %.2g points times steps",
-             accuracy, choice->spacing, graded, spacing[0], spacing[1], spacing[2], own_order(trials), ORDER,
-             trials->error * pow(choice->spacing / spacing[2], ORDER), box, far, trials->work);
+             accuracy, choice->spacing, graded, spacing[0], spacing[1], spacing[2], own_order(trials),
+             trials->order, trials->error * pow(choice->spacing / spacing[2], trials->order), box, far,
+             trials->work);
 }
 
 static selas_status choose_by(const struct scene *scene, double accuracy, const struct trial *trial,
@@ -267,7 +273,8 @@ static selas_status choose_by(const struct scene *scene, double accuracy, const 
 static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
                            struct scene_choice *choice, struct messages *messages)
 {
-    struct trials trials = {.kept = array_new(TRIALS * scene->receivers, sizeof *trials.kept)};
+    struct trials trials = {.kept = array_new(TRIALS * scene->receivers, sizeof *trials.kept),
+                            .order = order_of(scene)};
     if (trials.kept == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for trials");
     const selas_status status = choose_by(scene, accuracy, trial, choice, &trials, messages);
     free_all(trials.kept, TRIALS * scene->receivers);
