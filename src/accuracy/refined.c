@@ -224,7 +224,7 @@ static selas_status narrow(const struct scene *scene, double accuracy, const str
 
 static double order_of(const struct scene *scene)
 {
-    return ground_is_general(scene) || body_is_layered(&scene->body) ? ORDER : EVEN_ORDER;
+    return scene->materials > 1 || scene->body.model != NULL ? ORDER : EVEN_ORDER;
 }
 
 static double first_guess(const struct scene *scene, double accuracy)
