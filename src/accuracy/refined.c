@@ -193,6 +193,19 @@ static selas_status choose_box(const struct scene *scene, double accuracy, const
 
 /* --- The choice ------------------------------------------------------------------------------------------- */
 
+/* Where the third trial would be too much, up to twice as coarse. */
+static double first_trial(const struct scene *scene, const struct trial *trial,
+                          const struct scene_choice *choice, double guess)
+{
+    struct scene_choice third = *choice;
+    double h = COARSE * guess;
+    for (int i = 0; i < 2; i++) {
+        third.spacing = possible(scene, h / (FINER * FINER));
+        if (accuracy_work_of(trial, &third) > ACCURACY_TRIAL_WORK) h *= FINER;
+    }
+    return possible(scene, h);
+}
+
 /* Trials from coarse to fine until the choice lies near the last one, or as far as may be where the next would be too
  * much. */
 static selas_status narrow(const struct scene *scene, double accuracy, const struct trial *trial,
@@ -201,7 +214,8 @@ static selas_status narrow(const struct scene *scene, double accuracy, const str
 {
     struct scene_choice next = *choice;
     bool told = false;
-    for (next.spacing = possible(scene, COARSE * *h); next.spacing > 0 && trials->count < MOST_TRIALS;
+    for (next.spacing = first_trial(scene, trial, choice, *h);
+         next.spacing > 0 && trials->count < MOST_TRIALS;
          next.spacing = possible(scene, next.spacing / FINER)) {
         if (accuracy_work_of(trial, &next) > ACCURACY_TRIAL_WORK) break;
         const selas_status status = add_trial(scene, trial, choice, next.spacing, trials, messages);
