@@ -93,7 +93,18 @@ told "few points in a pulse" "2.32 points per wavelength of the initial state, .
 sed '/^&boundary/d' start.nml >rollers.nml
 echo "&boundary face = 'all', kind = 'roller' /" >>rollers.nml
 deck=rollers.nml
-untold "the same between rollers" initial%width=.25 initial%centre=2,2
+untold "the same between rollers" initial%width=.25 initial%centre=2,2 scene%end_time=.1
+told "the same for longer" "initial state's shortest waves, 4.01 points each, .* by about 0.23 by end_time; body%spacing = 0.09" initial%width=.25 initial%centre=2,2
+untold "at that spacing" initial%width=.25 initial%centre=2,2 body%spacing=.08
+told "a long way to an S wave" "initial state's shortest waves, 4.63 points each, .* by about 0.02[0-9] by end_time" boundary%kind=free initial%centre=2,2 scene%end_time=12
+wave="initial%kind=plane-wave initial%centre=2,2 initial%direction"
+# shellcheck disable=SC2086
+{
+    untold "a pulse between rollers" $wave=0,1 initial%width=.4
+    told "a pulse askew" "face x-, sliding, cuts the plane wave of t = 0" $wave=.6,.8 initial%width=.4
+    told "a P pulse beside free faces" "face x-, free, cuts the plane wave of t = 0" $wave=0,1 boundary%face=y-,y+ initial%width=.5
+    told "a pulse that begins near a face" "face y-, sliding, cuts the plane wave of t = 0" $wave=0,1 initial%width=.8
+}
 told "few points between rollers" "3.21 points per wavelength of the initial state, .* 4 need body%spacing = 0.128" initial%width=.2 initial%centre=2,2
 told "a pulse that a roller cuts" "initial state reaches face y-, 2 widths away and sliding" initial%centre=2,1
 told "a pulse that a held face cuts" "initial state reaches face x-, 3 widths away and held" boundary%kind=fixed initial%centre=1.5,2

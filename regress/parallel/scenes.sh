@@ -23,7 +23,7 @@ on_grid() { # on_grid RANKS: sets $ranks; 2x3: blocks, two over y and three over
 quiet() { # quiet RANKS WORDS...: the program on ranks; its words in $work/log
     on_grid "$1"
     shift
-    timeout 120 $mpirun -n "$ranks" "$build/selas-mpi" -q "$@" >"$work/log" 2>&1
+    timeout "${REGRESS_TIMEOUT:-120}" $mpirun -n "$ranks" "$build/selas-mpi" -q "$@" >"$work/log" 2>&1
 }
 numbers() { grep -v '^# deck ' "$1"; }
 same_fields() { # same_fields FOLDER: what run.h5 and the XDMF files show, alone and there

@@ -5,6 +5,7 @@
 #include "scene/resolution.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Distance of a face from the centre of the state, along the face's normal. */
 static double distance(const struct scene *scene, int face)
@@ -29,35 +30,82 @@ static bool converts(const struct scene *scene, int face)
     return fabs(direction[face / 2]) < along;
 }
 
-/* Shortest wave that counts: exp(-(x/w)^2 / 2) has 5 % of its spectrum left at k w = 2.448, a wave of 2.567 w. It
- * keeps its frequency where it becomes a slower one: an S wave at faces, any in other rock. */
-static double shortest_wave(const struct scene *scene)
+/* Does what the state sends go on as slower waves? */
+static bool slows_down(const struct scene *scene)
 {
-    const struct initial *initial = &scene->initial;
-    const bool train = initial->kind == INITIAL_PLANE_WAVE && initial->wavelength > 0;
-    const double wave = train ? initial->wavelength : 2.567 * initial->width;
     bool slower = scene->materials > 1 || !body_is_box(&scene->body);
     for (int face = 0; face < 2 * scene->dimension && !slower; face++)
         slower = converts(scene, face);
+    return slower;
+}
+
+/* Shortest wave that counts: exp(-(x/w)^2 / 2) has 5 % of its spectrum left at k w = 2.448, a wave of 2.567 w. It
+ * keeps its frequency where it becomes a slower one: an S wave at faces, any in other rock. */
+static double shortest_wave(const struct scene *scene, bool slower, bool train)
+{
+    const double wave = train ? scene->initial.wavelength : 2.567 * scene->initial.width;
     return slower ? wave * slowest_speed(scene) / plane_wave_speed(scene) : wave;
+}
+
+/* What waves of a number k err by after a way. */
+static double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double way)
+{
+    const double points = 2 * M_PI / (k * scene->body.spacing);
+    return k > 0 && isfinite(way)
+               ? k * way / (2 * M_PI) * (law->floor + law->constant / pow(points, law->order))
+               : 0;
+}
+
+/* How far waves run by end_time, or before they leave through absorbing faces. */
+static double longest_way(const struct scene *scene, double speed)
+{
+    double way = 0;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const int open =
+            boundary_absorbs(&scene->boundary[2 * axis]) + boundary_absorbs(&scene->boundary[2 * axis + 1]);
+        const double edge = scene->body.high[axis] - scene->body.low[axis];
+        way = fmax(way, open > 0 ? 2 * edge / open : INFINITY);
+    }
+    return fmin(way, speed * scene->end_time);
+}
+
+/* Wave number by whose errors a pulse or a Gaussian as a whole errs. */
+static double wave_number_of_errors(const struct scene *scene)
+{
+    const double n = scene->initial.kind == INITIAL_GAUSSIAN ? scene->dimension : 1;
+    return pow(tgamma(8 + n / 2) / tgamma(1 + n / 2), 1 / 14.) / scene->initial.width;
 }
 
 void look_at_short_waves(struct adviser *adviser)
 {
+    /* initial-states.md, Eq 3a and 3b */
+    static const struct wave_law carried = {463, 6, 0}, converted = {.7, 4, 0};
+    static const double seen = .02;
     const struct scene *scene = adviser->scene;
     const struct initial *initial = &scene->initial;
     double centre[3];
     if (initial->kind != INITIAL_PLANE_WAVE && initial->kind != INITIAL_GAUSSIAN) return;
     body_from_deck(&scene->body, initial->centre, centre);
-    const bool anywhere = initial->kind == INITIAL_PLANE_WAVE;
+    const bool anywhere = initial->kind == INITIAL_PLANE_WAVE, train = anywhere && initial->wavelength > 0;
+    const bool slower = slows_down(scene), told = scene->reference.kind[0] != '\0';
     const double spacing = body_spacing_at(&scene->body, anywhere ? scene->body.high : centre);
-    const double wave = shortest_wave(scene);
+    const double wave = shortest_wave(scene, slower, train);
+    const struct wave_law *law = slower && !train ? &converted : &carried;
+    const double k = slower || train ? 2 * M_PI / wave : wave_number_of_errors(scene);
+    const double speed = slower ? slowest_speed(scene) : plane_wave_speed(scene);
+    const double error =
+        error_of_waves(scene, law, k, slower ? speed * scene->end_time : longest_way(scene, speed));
     if (spacing > 0 && wave < FEWEST_POINTS * spacing)
         advise(
             adviser,
             "%.3g points per wavelength of the initial state, as the slowest wave that it becomes; %g need "
             "body%%spacing = %.3g",
             wave / spacing, FEWEST_POINTS, wave / FEWEST_POINTS);
+    else if (spacing > 0 && !told && error > seen && strcmp(scene->method.variant, "consistent") == 0)
+        advise(adviser,
+               "the initial state's shortest waves, %.3g points each, let velocities err by about %.2g by "
+               "end_time; body%%spacing = %.3g would be right",
+               wave / spacing, fmin(1, error), spacing * pow(seen / 2 / error, 1 / law->order));
 }
 
 /* What a face does to a displacement that reaches it; NULL: nothing, or mirrors.c tells. */
@@ -67,8 +115,7 @@ static const char *cut_by(const struct scene *scene, int face)
     double direction[3];
     if (boundary_is_free(boundary))
         return "free, where it begins with a traction that the face does not bear: short waves that the "
-               "points do "
-               "not carry";
+               "points do not carry";
     if (boundary_absorbs(boundary)) return "absorbing, beyond which there is nothing of it";
     if (!boundary_slides(boundary))
         return "held, where it begins with a jump: short waves that the points do not "
@@ -81,13 +128,66 @@ static const char *cut_by(const struct scene *scene, int face)
                      : "sliding, in which it is not its own image: short waves that the points do not carry";
 }
 
-/* At 3.5 widths it is 2e-3 of the peak. */
+/* At so many widths a pulse or Gaussian is 2e-3 of its peak. */
+static const double reach = 3.5;
+
+/* Does a plane wave go by a face, or not reach it at t = 0? */
+static bool suits(const struct scene *scene, int face)
+{
+    const struct initial *initial = &scene->initial;
+    const struct boundary *boundary = &scene->boundary[face];
+    const struct body *body = &scene->body;
+    const int axis = face / 2;
+    double direction[3], motion[3], centre[3], least = INFINITY, most = -INFINITY;
+    body_direction_from_deck(body, initial->direction, direction);
+    body_direction_from_deck(body, initial->shear ? initial->polarisation : initial->direction, motion);
+    body_from_deck(body, initial->centre, centre);
+    if (fabs(direction[axis]) < 1e-9 && fabs(motion[axis]) < 1e-9)
+        return boundary_slides(boundary) || (initial->shear && boundary_is_free(boundary));
+    if (fabs(direction[axis]) < 1e-9 || initial->wavelength > 0)
+        return boundary_moves(boundary) && boundary->slip; /* what it holds is not looked at */
+    for (int corner = 0; corner < 8; corner++) {
+        double s = 0;
+        for (int c = 0; c < scene->dimension; c++) {
+            const bool high = c == axis ? face % 2 != 0 : (corner & 1 << c) != 0;
+            s += direction[c] * ((high ? body->high[c] : body->low[c]) - centre[c]);
+        }
+        least = fmin(least, s);
+        most = fmax(most, s);
+    }
+    return least > reach * initial->width || most < -reach * initial->width;
+}
+
+static void look_at_cut_wave(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        if (boundary_mirrors(boundary) || suits(scene, face)) continue; /* (mirrors.c tells) */
+        advise(
+            adviser,
+            "face %s, %s, cuts the plane wave of t = 0 into short waves that the points do not carry; a "
+            "pulse "
+            "that begins %g widths from it, or beside the wave faces that leave it as it is (rollers; free "
+            "ones, too, along which an S wave is polarised), would be right",
+            face_name((enum face)face),
+            boundary_absorbs(boundary)   ? "absorbing"
+            : boundary_is_free(boundary) ? "free"
+            : boundary_slides(boundary)  ? "sliding"
+                                         : "held",
+            reach);
+        return;
+    }
+}
+
 void look_at_cut_start(struct adviser *adviser)
 {
-    static const double reach = 3.5;
     const struct scene *scene = adviser->scene;
     const double width = scene->initial.width;
-    if (scene->initial.kind != INITIAL_GAUSSIAN || !body_is_box(&scene->body)) return;
+    if (!body_is_box(&scene->body)) return;
+    if (scene->initial.kind == INITIAL_PLANE_WAVE && scene->reference.kind[0] == '\0')
+        look_at_cut_wave(adviser);
+    if (scene->initial.kind != INITIAL_GAUSSIAN) return;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const double away = distance(scene, face);
         const char *cut = away <= reach * width ? cut_by(scene, face) : NULL;
@@ -115,8 +215,8 @@ void look_at_impact(struct adviser *adviser)
             advise(
                 adviser,
                 "velocities jump at face %s, which is held, at t = 0: no spacing resolves their front (about "
-                ".1 "
-                "of them is wrong, less as the square root of the spacing); a face of kind 'velocity' with a "
+                ".1 of them is wrong, less as the square root of the spacing); a face of kind 'velocity' "
+                "with a "
                 "smooth history would be right",
                 face_name((enum face)face));
             return;
@@ -155,18 +255,9 @@ void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
     if (phase > seen)
         advise(adviser,
                "the time error of scheme '%s' stays in the histories: waves that leave at t = 0 err by about "
-               "%.2g by "
-               "end_time; %sstepping%%safety = %.2g%s would be right",
+               "%.2g by end_time; %sstepping%%safety = %.2g%s would be right",
                stepper->scheme->name, fmin(1, phase), better ? "scheme = 'modified-equation', or " : "",
                sqrt(seen / 2 / phase) * stepper->dt / stepper->limit, better ? "," : "");
-}
-
-/* What waves of a number k, which move at a speed, err by at end_time. */
-static double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double speed)
-{
-    const double travelled = k * speed * scene->end_time / (2 * M_PI),
-                 points = 2 * M_PI / (k * scene->body.spacing);
-    return k > 0 && isfinite(speed) ? travelled * (law->floor + law->constant / pow(points, law->order)) : 0;
 }
 
 void look_at_method(struct adviser *adviser, const struct model *model)
@@ -175,13 +266,14 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     const struct scene *scene = adviser->scene;
     const double slowest = slowest_speed(scene), omega = typical_frequency(scene);
     if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0)) return;
-    const double start = error_of_waves(scene, &model->waves, typical_number(scene), plane_wave_speed(scene));
-    const double error = fmax(start, error_of_waves(scene, &model->waves, omega / slowest, slowest));
+    const double start = error_of_waves(scene, &model->waves, typical_number(scene),
+                                        plane_wave_speed(scene) * scene->end_time);
+    const double error =
+        fmax(start, error_of_waves(scene, &model->waves, omega / slowest, slowest * scene->end_time));
     if (error > seen)
         advise(adviser,
                "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
-               "end_time%s; finer "
-               "points, or variant = 'consistent', would be right",
+               "end_time%s; finer points, or variant = 'consistent', would be right",
                model->method->variant, fmin(1, error),
                model->waves.floor > 0 ? ", whatever the spacing with artificial stress" : "");
 }

@@ -39,20 +39,64 @@ static bool has_experts(const struct word_group *group)
     return i < group->words;
 }
 
-static void write_table(const struct word_group *group, bool expert, FILE *file)
+/* "| `low` | real, up to 3; default 0, 0, 0 | meaning |"; a list of words needs no type */
+static void write_row(const struct word *word, FILE *file)
 {
     char type[LINE_SIZE], values[LINE_SIZE];
-    fputs("| name | type | values | default | meaning [unit] |\n|---|---|---|---|---|\n", file);
+    const bool listed = word->type == WORD_CHOICE;
+    values_text(word, values);
+    fprintf(file, "| `%s` | ", word->name);
+    if (!listed || word->count > 1) fputs(type_text(word, type), file);
+    fprintf(file, "%s%s", listed && word->count > 1 ? ": " : !listed && values[0] != '\0' ? " " : "", values);
+    if (word->need == OBLIGATORY) fputs("; **must be given**", file);
+    if (word->defaults != NULL) fprintf(file, "; default %s", word->defaults);
+    fprintf(file, " | %s |\n", word->gloss);
+}
+
+static void end_row(const struct word_group *same, FILE *file)
+{
+    fprintf(file, " | as of [`&%s`](#%s) | |\n", same->name, same->name);
+}
+
+static bool same_text(const char *a, const char *b)
+{
+    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
+}
+
+static bool same_word(const struct word *a, const struct word *b)
+{
+    return same_text(a->name, b->name) && a->type == b->type && a->count == b->count &&
+           same_text(a->range, b->range) && same_text(a->defaults, b->defaults) &&
+           same_text(a->gloss, b->gloss);
+}
+
+/* The first group of the table before `group` that has the same optional word, or NULL */
+static const struct word_group *earlier(const struct word_group *group, const struct word *word)
+{
+    for (const struct word_group *other = deck_words()->group; word->need != OBLIGATORY && other < group;
+         other++)
+        for (size_t i = 0; i < other->words; i++)
+            if (same_word(&other->word[i], word)) return other;
+    return NULL;
+}
+
+/* Words that an earlier group has too share a row, which names that group. */
+static void write_table(const struct word_group *group, bool expert, FILE *file)
+{
+    fputs("| name | values | meaning [unit] |\n|---|---|---|\n", file);
+    const struct word_group *row = NULL; /* of the row that is not ended yet */
     for (size_t j = 0; j < group->words; j++) {
         const struct word *word = &group->word[j];
         if ((word->need == EXPERT) != expert) continue;
-        fprintf(file, "| `%s` | %s | %s | %s | %s |\n", word->name, type_text(word, type),
-                values_text(word, values),
-                word->need == OBLIGATORY ? "**must be given**"
-                : word->defaults == NULL ? ""
-                                         : word->defaults,
-                word->gloss);
+        const struct word_group *same = earlier(group, word);
+        if (row != NULL && same != row) end_row(row, file);
+        if (same == NULL)
+            write_row(word, file);
+        else
+            fprintf(file, "%s`%s`", same == row ? ", " : "| ", word->name);
+        row = same;
     }
+    if (row != NULL) end_row(row, file);
     putc('\n', file);
 }
 

@@ -76,11 +76,21 @@ void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
     (void)bytes;
 }
 
-void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
+void ranks_depart(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
 {
     (void)ranks;
     (void)pieces;
     (void)piece;
+}
+
+void ranks_go_on(struct ranks *ranks)
+{
+    (void)ranks;
+}
+
+void ranks_arrive(struct ranks *ranks)
+{
+    (void)ranks;
 }
 
 double ranks_sent(const struct ranks *ranks)

@@ -20,6 +20,9 @@ struct ranks {
     bool fixed; /* the communicator is a host's */
     double sent, waited;
     size_t told; /* bytes of this rank's messages that the first one has */
+    int under_way;
+    MPI_Request request[MOST_REQUESTS];
+    MPI_Status status[MOST_REQUESTS]; /* not looked at: gcc warns of MPICH's MPI_STATUSES_IGNORE */
 };
 
 static int length_of(size_t left)
@@ -132,36 +135,43 @@ void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
         MPI_Bcast((char *)data + at, length_of(bytes - at), MPI_BYTE, from, ranks->comm);
 }
 
-/* Messages under way. */
-struct requests {
-    int count;
-    MPI_Request request[MOST_REQUESTS];
-    MPI_Status status[MOST_REQUESTS]; /* not looked at: gcc warns of MPICH's MPI_STATUSES_IGNORE */
-};
-
-static MPI_Request *next(const struct ranks *ranks, struct requests *requests)
+static MPI_Request *next(struct ranks *ranks)
 {
-    if (requests->count == MOST_REQUESTS) MPI_Abort(ranks->comm, 1); /* hundreds of GiB in one exchange */
-    return &requests->request[requests->count++];
+    if (ranks->under_way == MOST_REQUESTS) MPI_Abort(ranks->comm, 1); /* hundreds of GiB at once */
+    return &ranks->request[ranks->under_way++];
 }
 
-void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
+void ranks_depart(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
 {
-    struct requests requests;
-    requests.count = 0;
     if (ranks == NULL) return;
     const double begun = MPI_Wtime();
     for (size_t p = 0; p < pieces; p++)
         for (size_t at = 0; at < piece[p].receive_bytes; at += LONGEST)
             MPI_Irecv((char *)piece[p].receive + at, length_of(piece[p].receive_bytes - at), MPI_BYTE,
-                      piece[p].with, 0, ranks->comm, next(ranks, &requests));
+                      piece[p].with, 0, ranks->comm, next(ranks));
     for (size_t p = 0; p < pieces; p++) {
         for (size_t at = 0; at < piece[p].send_bytes; at += LONGEST)
             MPI_Isend((const char *)piece[p].send + at, length_of(piece[p].send_bytes - at), MPI_BYTE,
-                      piece[p].with, 0, ranks->comm, next(ranks, &requests));
+                      piece[p].with, 0, ranks->comm, next(ranks));
         ranks->sent += (double)piece[p].send_bytes;
     }
-    MPI_Waitall(requests.count, requests.request, requests.status);
+    ranks->waited += MPI_Wtime() - begun;
+}
+
+void ranks_go_on(struct ranks *ranks)
+{
+    int all;
+    if (ranks == NULL || ranks->under_way == 0) return;
+    MPI_Testall(ranks->under_way, ranks->request, &all, ranks->status);
+    if (all) ranks->under_way = 0;
+}
+
+void ranks_arrive(struct ranks *ranks)
+{
+    if (ranks == NULL) return;
+    const double begun = MPI_Wtime();
+    MPI_Waitall(ranks->under_way, ranks->request, ranks->status);
+    ranks->under_way = 0;
     ranks->waited += MPI_Wtime() - begun;
 }
 

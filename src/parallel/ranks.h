@@ -47,8 +47,17 @@ void ranks_sum(struct ranks *ranks, size_t n, double *value);
 /* Together: what rank `from` has, for all. */
 void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes);
 
-/* Sends and receives; two ranks name the pieces between them in the same order. Counts the bytes sent. */
-void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece);
+/* Begins to send and receive; two ranks name the pieces between them in the same order. What is sent stays as it is,
+ * and what is received is not looked at, until ranks_arrive() has waited for all that is under way. MPI may need to be
+ * called for messages to go on: ranks_go_on(), by the thread that began. Counts the bytes sent. */
+void ranks_depart(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece);
+void ranks_go_on(struct ranks *ranks);
+void ranks_arrive(struct ranks *ranks);
+static inline void ranks_exchange(struct ranks *ranks, size_t pieces, const struct ranks_piece *piece)
+{
+    ranks_depart(ranks, pieces, piece);
+    ranks_arrive(ranks);
+}
 /* The first rank gets what rank `from` has there; others, and what is the first one's own: nothing to do. */
 static inline void ranks_fetch(struct ranks *ranks, int from, void *data, size_t bytes)
 {

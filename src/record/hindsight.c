@@ -1,5 +1,5 @@
 /* What only the run can tell: rotations that small-strain theory takes for small, and energy that was given and did
- * not arrive. Told once, when end_time is reached, with what would be right (doc/reference/results.md).
+ * not arrive. Told once, when end_time is reached, with what would be right (doc/howto/troubleshooting.md, The run).
  *
  * Rotation w and strain e at a place are the parts of grad u = e + w (nonlinear methods: Green's strain). Small-strain
  * theory gives a body that turns by the angle w edges that are w^2 / 2 too long. Strains are held against w because a

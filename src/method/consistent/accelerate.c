@@ -1,5 +1,6 @@
 /* The H-form (hform.c makes it): acceleration, M v and energies. */
 #include "method/consistent/absorbing/pml.h"
+#include "method/consistent/absorbing/pml_fast.h"
 #include "method/consistent/consistent.h"
 #include "method/consistent/fused/fused.h"
 #include "method/consistent/galerkin/hform.h"
@@ -106,26 +107,61 @@ static void rest_of_plane(const struct consistent *c, const struct drive *drive,
     }
 }
 
-void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
-                      const double *v, double *a)
+static void make_planes(struct consistent *c, const struct drive *drive, double level, struct part_range made,
+                        const double *u, const double *v, double *a)
 {
     const size_t block = block_of(c);
-    const double level = c->fused == NULL ? look(c, u) : -1;
-    if (c->fused != NULL) fused_look_double(c->fused, u);
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t from = c->part.along[DEPTH].own; from < c->part.along[DEPTH].end; from += block) {
+    for (size_t from = made.from; from < made.end; from += block) {
         const int thread = omp_get_thread_num();
-        const size_t last = c->part.along[DEPTH].end, end = from + block < last ? from + block : last;
+        const size_t end = from + block < made.end ? from + block : made.end;
         operator_block(c, thread, from, end, level, u, a);
         for (size_t k = from; k < end; k++)
             rest_of_plane(c, drive, thread, k, u, v, a);
+        if (thread == 0) ranks_go_on(c->part.ranks);
     }
+}
+
+/* What layers add to the planes that a turn sends. */
+static void pull_turn(const struct consistent *c, const double *extra, int turn, double *a)
+{
+    const struct part_range sent = c->part.sent[turn];
+    pml_fast_pull_double(c, turn, 1, extra, a);
+    for (int component = 0; component < c->dimension; component++)
+        for (size_t k = sent.from; k < sent.end; k++)
+            consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
+}
+
+/* What is added to all planes together. */
+static void add_late(struct consistent *c, const struct drive *drive, double half_step, const double *u,
+                     const double *v, double *a)
+{
     const bool faces = c->fused != NULL && fused_add_faces_double(c, u, a);
     if (drive->extra != NULL) pml_accelerate(c, 1, drive->extra, a);
     for (int component = 0; (faces || drive->extra != NULL) && component < c->dimension; component++)
         for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++)
             consistent_clear_held(c, component, k, a + (size_t)component * c->volume + k * c->plane);
     if (c->model.damped && (v != NULL || half_step != 0)) hform_dampers(c, half_step, v, a);
+}
+
+/* Halos travel while the inside is made, but where something is added to all planes together. */
+void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
+                      const double *v, bool travels, double *a)
+{
+    const double level = c->fused == NULL ? look(c, u) : -1;
+    const bool shared = drive->extra != NULL && c->pml->fast != NULL;
+    const bool late =
+        c->model.damped || (drive->extra != NULL && !shared) || (c->fused != NULL && c->fused->faces != NULL);
+    const struct part_fields fields = part_values(c, a, (size_t)c->dimension, sizeof *a);
+    if (c->fused != NULL) fused_look_double(c->fused, u);
+    if (shared && !late) pml_fast_look_double(c, drive->extra);
+    for (int turn = 0; turn < PART_TURNS; turn++) {
+        make_planes(c, drive, level, c->part.made[turn], u, v, a);
+        if (shared && !late) pull_turn(c, drive->extra, turn, a);
+        if (travels && !late) part_send(c, &fields, turn);
+    }
+    if (late) add_late(c, drive, half_step, u, v, a);
+    if (late && travels) part_exchange(c, &fields);
 }
 
 /* Together. */
@@ -161,7 +197,7 @@ void hform_energy(struct consistent *c, const double *y, struct energy *energy)
         energy->kinetic = part_product(c, work, y + n) / 2;
     }
     if (!all_zero(c, y)) {
-        hform_accelerate(c, &(struct drive){0}, 0, y, NULL, work);
+        hform_accelerate(c, &(struct drive){0}, 0, y, NULL, false, work);
         mass_solve(c, &c->hform->factors, work);
         energy->strain = -scale * part_product(c, work, y) / 2;
     }

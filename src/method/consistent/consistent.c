@@ -75,6 +75,14 @@ static void residual_planes(const struct consistent *c, const struct drive *driv
     }
 }
 
+static bool faces_move(const struct consistent *c, const struct drive *drive)
+{
+    bool moving = false;
+    for (int face = 0; face < 2 * c->dimension; face++)
+        moving = moving || (c->moving[face] && drive->motion != NULL);
+    return moving;
+}
+
 static void set_moving(const struct consistent *c, const struct drive *drive, double *a)
 {
     for (int face = 0; face < 2 * c->dimension; face++) {
@@ -107,16 +115,17 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
                        const double *v, double *a)
 {
     struct consistent *c = consistent_of(model);
+    const bool moving = faces_move(c, drive);
     moving_loads_place(c, drive->time, c->hform != NULL && c->general == NULL);
     if (c->general != NULL)
         general_accelerate(c, drive, half_step, u, v, a);
     else if (c->hform != NULL)
-        hform_accelerate(c, drive, half_step, u, v, a);
+        hform_accelerate(c, drive, half_step, u, v, !moving, a);
     else
         exact_accelerate(c, drive, half_step, u, v, a);
     set_moving(c, drive, a);
     const struct part_fields fields = part_values(c, a, (size_t)c->dimension, sizeof *a);
-    part_exchange(c, &fields);
+    if (c->general != NULL || c->hform == NULL || moving) part_exchange(c, &fields);
     model->evaluations++;
 }
 

@@ -43,9 +43,9 @@ int consistent_holder(const struct model *model, size_t point);
 void consistent_field(struct model *model, selas_field field, const double *y, const double *a, size_t from,
                       size_t end, double *value);
 
-/* accelerate.c: a = M^-1 (F - K u - C v), M v and energies with the H-form. */
+/* accelerate.c: a = M^-1 (F - K u - C v), with the halo if it travels, M v and energies with the H-form. */
 void hform_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
-                      const double *v, double *a);
+                      const double *v, bool travels, double *a);
 void hform_weigh(struct consistent *c, const double *v, double *product); /* M v */
 void hform_energy(struct consistent *c, const double *y, struct energy *energy);
 

@@ -144,18 +144,10 @@ void consistent_share(struct model *model, enum model_array array, struct spread
  * once. */
 static double halo_bytes(const struct consistent *c)
 {
-    const struct pml_fast *fast = c->pml == NULL           ? NULL
-                                  : c->pml->single != NULL ? c->pml->single
-                                                           : c->pml->fast;
     const size_t number = c->model.single ? sizeof(float) : sizeof(double);
     const struct part_fields values = part_values(c, NULL, (size_t)c->dimension, number);
     const double operators = c->model.parts > 1 ? c->model.parts : 1;
-    double bytes = part_bytes(c, &values) * (c->model.one_pass != NULL ? 1 : operators);
-    for (size_t s = 0; fast != NULL && s < c->pml->slabs; s++) {
-        const struct part_fields phi = pml_fast_phi(&fast->slab[s], NULL, number);
-        bytes += operators * part_bytes(c, &phi);
-    }
-    return bytes;
+    return part_bytes(c, &values) * (c->model.one_pass != NULL ? 1 : operators);
 }
 
 /* And by the solves of an exact mass, to one neighbour one way or the other. */

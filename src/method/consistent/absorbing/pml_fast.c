@@ -63,15 +63,6 @@ size_t pml_fast_width(const struct consistent *c, size_t numbers)
     return rounded(numbers, c->options.single ? 2 * FAST_LANES : FAST_LANES);
 }
 
-struct part_fields pml_fast_phi(const struct fast_slab *s, void *phi, size_t number)
-{
-    const size_t line = s->width * number, plane = s->ns * line;
-    struct part_fields fields = {phi, 3, s->nb * plane, plane, s->ns, line, 0};
-    if (s->axis[ROLE_F] == 1) fields.row = number;
-    if (s->axis[ROLE_B] == 1) fields = (struct part_fields){phi, 3, s->nb * plane, 0, 1, 0, plane};
-    return fields;
-}
-
 /* Room for a thread: rows of the region of three components and of the slab, groups of rows. */
 static bool lay_buffers(const struct consistent *c, struct pml_fast *f)
 {

@@ -84,7 +84,7 @@ struct fast_slab {
     size_t taps_f;
     void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i; m_jj */
     bool *rests;                     /* [nb] rows in which nothing moves, in this call */
-    bool *moves;                     /* [nb] groups of rows in which something does */
+    bool *moves;                     /* [nb] own rows in which something moves phi */
     bool *idle;                      /* [nb] rows of `wait` and `middle` that are 0 */
 };
 
@@ -104,12 +104,16 @@ struct pml_fast {
 bool pml_fast_create(struct consistent *c);
 /* Numbers in a row of so many, padded. */
 size_t pml_fast_width(const struct consistent *c, size_t numbers);
-/* phi of a slab, for part_exchange(). */
-struct part_fields pml_fast_phi(const struct fast_slab *s, void *phi, size_t number);
 void pml_fast_free(struct consistent *c);
 
 void pml_fast_accelerate_double(const struct consistent *c, double factor, const double *extra, double *a);
 void pml_fast_accelerate_single(const struct consistent *c, double factor, const float *extra, float *a);
+/* The same in turns (part.h): once after memory has gone on, then what is due in each. */
+void pml_fast_look_double(const struct consistent *c, const double *extra);
+void pml_fast_look_single(const struct consistent *c, const float *extra);
+void pml_fast_pull_double(const struct consistent *c, int turn, double factor, const double *extra,
+                          double *a);
+void pml_fast_pull_single(const struct consistent *c, int turn, double factor, const float *extra, float *a);
 /* Brings the windows of planes out to where the last call has changed a. */
 void pml_fast_reached_double(const struct consistent *c, struct window *reached);
 void pml_fast_reached_single(const struct consistent *c, struct window *reached);

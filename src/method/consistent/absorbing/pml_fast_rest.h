@@ -16,13 +16,20 @@ static struct level levels(const struct consistent *c, double displacement, doub
                           (REAL)(displacement * stiffness / (spacing * spacing))};
 }
 
-/* Memory of row b: is any of it larger than the level? */
-static bool memory_loud(const struct fast_slab *s, struct level level, size_t b, const REAL *extra)
+/* Row b of a memory variable: is any of it larger than the level? */
+static bool memory_loud(const struct fast_slab *s, REAL level, size_t b, const REAL *memory)
 {
-    const size_t size = s->ns * s->width, inner = s->nb * size;
-    const REAL *psi = extra + s->slab->psi + b * size, *phi = extra + s->slab->phi + b * size;
-    return kernels()->loud(3, inner, size, level.slope, psi) ||
-           kernels()->loud(3, inner, size, level.force, phi);
+    const size_t size = s->ns * s->width;
+    return kernels()->loud(3, s->nb * size, size, level, memory + b * size);
+}
+
+/* What is 0 already is not written. */
+static void forget_memory(const struct fast_slab *s, size_t b, REAL *memory)
+{
+    const size_t size = s->ns * s->width;
+    if (!memory_loud(s, 0, b, memory)) return;
+    for (size_t i = 0; i < 3; i++)
+        memset(memory + (i * s->nb + b) * size, 0, size * sizeof *memory);
 }
 
 /* Is any number larger than the level that row b reads of a field? */
@@ -39,23 +46,19 @@ static bool field_loud(const struct consistent *c, const struct fast_slab *s, RE
     return false;
 }
 
-/* Is the row at rest: displacements and velocities that it reads, and memory? */
+/* Is the row at rest: displacements and velocities that it reads, and psi? Not phi: ranks know that of own rows. */
 static bool rests(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
                   const REAL *u, const REAL *v, const REAL *extra)
 {
     return level.displacement >= 0 && !field_loud(c, s, level.displacement, b, u) &&
-           !field_loud(c, s, level.velocity, b, v) && !memory_loud(s, level, b, extra);
+           !field_loud(c, s, level.velocity, b, v) && !memory_loud(s, level.slope, b, extra + s->slab->psi);
 }
 
-/* A row at rest forgets its memory and what waits: what is 0 already is not written. */
+/* A row at rest forgets psi and what waits. */
 static void forget_row(const struct fast_slab *s, size_t b, REAL *extra)
 {
-    const size_t size = s->ns * s->width, inner = s->nb * size;
-    const bool left = memory_loud(s, (struct level){0}, b, extra);
-    for (size_t i = 0; i < 3 && left; i++) {
-        memset(extra + s->slab->psi + i * inner + b * size, 0, size * sizeof *extra);
-        memset(extra + s->slab->phi + i * inner + b * size, 0, size * sizeof *extra);
-    }
+    const size_t size = s->ns * s->width;
+    forget_memory(s, b, extra + s->slab->psi);
     if (s->idle[b]) return;
     for (size_t i = 0; i < s->parts; i++)
         memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
@@ -71,8 +74,22 @@ static bool shares_rows(const struct consistent *c, const struct fast_slab *s)
     return part_rows(&c->part) && s->axis[ROLE_F] == 1 && c->options.quiet > 0;
 }
 
-/* Together: rows that rest, or with `groups` groups of rows that move, become those of all ranks. */
-static void agree(const struct consistent *c, bool groups)
+/* Is row b the rank's own? */
+static bool owns_row(const struct consistent *c, const struct fast_slab *s, size_t b)
+{
+    const struct part_axis *own = &c->part.along[s->axis[ROLE_B]];
+    return b >= own->own && b < own->end;
+}
+
+/* One of a group of rows? */
+static bool owns_group(const struct consistent *c, const struct fast_slab *s, size_t g)
+{
+    const struct row_group *group = &s->pull_b.group[g];
+    return owns_row(c, s, group->to) || owns_row(c, s, group->to + group->rows - 1);
+}
+
+/* Together: rows that rest, or with `moves` those that move, become those of all ranks. */
+static void agree(const struct consistent *c, bool moves)
 {
     const size_t whole = c->part.along[DEPTH].whole;
     double *told = FAST(c)->told;
@@ -82,26 +99,32 @@ static void agree(const struct consistent *c, bool groups)
         if (turn == 0) memset(told, 0, 2 * whole * sizeof *told);
         for (size_t i = 0; i < c->pml->slabs; i++) {
             const struct fast_slab *s = &FAST(c)->slab[i];
-            double *moves = told + (size_t)s->slab->end * whole + s->first_b;
-            if (!shares_rows(c, s)) continue;
-            for (size_t n = 0; n < (groups ? s->pull_b.groups : s->nb); n++) {
-                double *tell = moves + (groups ? s->pull_b.group[n].to : n);
-                bool *flag = groups ? &s->moves[n] : &s->rests[n];
+            double *tell = told + (size_t)s->slab->end * whole + s->first_b;
+            for (size_t b = 0; b < s->nb && shares_rows(c, s); b++) {
+                bool *flag = moves ? &s->moves[b] : &s->rests[b];
                 if (turn == 0)
-                    *tell = *flag == groups ? 1 : 0;
+                    tell[b] = *flag == moves ? 1 : 0;
                 else
-                    *flag = (*tell > 0) == groups;
+                    *flag = (tell[b] > 0) == moves && (!moves || owns_row(c, s, b));
             }
         }
     }
 }
 
-/* Do all rows rest that a group of rows is made from? */
-static bool group_rests(const struct fast_slab *s, size_t g)
+/* Do all rows rest that rows from .. end - 1 are made from? */
+static bool rows_rest(const struct fast_slab *s, size_t from, size_t end)
 {
-    const struct row_group *group = &s->pull_b.group[g];
-    const size_t reach = s->taps_f / 2, end = group->to + group->rows + reach;
-    for (size_t b = group->to < reach ? 0 : group->to - reach; b < end && b < s->nb; b++)
+    const size_t reach = s->taps_f / 2;
+    for (size_t b = from < reach ? 0 : from - reach; b < end + reach && b < s->nb; b++)
         if (!s->rests[b]) return false;
     return true;
+}
+
+/* Does any of a group of rows move? */
+static bool group_moves(const struct fast_slab *s, size_t g)
+{
+    const struct row_group *group = &s->pull_b.group[g];
+    for (size_t b = group->to; b < group->to + group->rows; b++)
+        if (s->moves[b]) return true;
+    return false;
 }

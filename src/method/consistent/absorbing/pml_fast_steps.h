@@ -105,23 +105,13 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
     return out;
 }
 
-/* Has the rank none of a group of rows for its own? */
-static bool another_rank(const struct consistent *c, const struct fast_slab *s, size_t g)
+/* Does anything move phi in row b, or phi itself? */
+static bool row_moves(const struct consistent *c, const struct fast_slab *s, struct level level, size_t b,
+                      const REAL *extra)
 {
-    const struct row_group *group = &s->pull_b.group[g];
-    const struct part_axis *b = &c->part.along[s->axis[ROLE_B]];
-    return group->to + group->rows <= b->own || group->to >= b->end;
-}
-
-/* Is there nothing that moves phi in a group of rows? */
-static bool nothing_moves(const struct consistent *c, const struct fast_slab *s, struct level level, size_t g)
-{
-    const struct row_group *group = &s->pull_b.group[g];
     REAL *rows = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
-    if (!group_rests(s, g)) return false;
-    for (size_t b = group->to; b < group->to + group->rows; b++)
-        if (add_divergence(c, s, ROLE_B, level.slope, b, rows, NULL)) return false;
-    return true;
+    return !rows_rest(s, b, b + 1) || memory_loud(s, level.force, b, extra + s->slab->phi) ||
+           add_divergence(c, s, ROLE_B, level.slope, b, rows, NULL);
 }
 
 /* T_j in a group of rows, without m_bb: the parts of lambda and mu, and slopes along b, besides T'_j. */
@@ -174,38 +164,32 @@ static void meet_rows(const struct consistent *c, const struct fast_slab *s, str
     }
 }
 
-/* Groups of rows that move. */
-static void find_moves(const struct consistent *c, const struct fast_slab *s, struct level level)
+/* Own rows that move. */
+static void find_moves(const struct consistent *c, const struct fast_slab *s, struct level level,
+                       const REAL *extra)
 {
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t g = 0; g < s->pull_b.groups; g++)
-        s->moves[g] = !another_rank(c, s, g) && !nothing_moves(c, s, level, g);
+    for (size_t b = 0; b < s->nb; b++)
+        s->moves[b] = owns_row(c, s, b) && row_moves(c, s, level, b, extra);
 }
 
-/* L3 in all of them. */
+/* L3 in all groups that have one of them; the others forget phi. */
 static void move_forces(const struct consistent *c, const struct fast_slab *s, double dt, REAL *extra)
 {
     unsigned long skipped = 0;
 #pragma omp parallel for num_threads(c->threads) schedule(static) reduction(+ : skipped)
     for (size_t g = 0; g < s->pull_b.groups; g++) {
-        if (another_rank(c, s, g)) continue;
-        if (!s->moves[g])
+        const struct row_group *group = &s->pull_b.group[g];
+        if (!owns_group(c, s, g)) continue;
+        if (!group_moves(s, g))
             skipped++;
         else
             force_rows(c, s, dt, g, extra);
+        for (size_t b = group->to; b < group->to + group->rows; b++)
+            if (!s->moves[b]) forget_memory(s, b, extra + s->slab->phi);
     }
     FAST(c)->groups += s->pull_b.groups;
     FAST(c)->skipped += skipped;
-}
-
-/* phi in halo planes, where it hangs on more than the window has. */
-static void exchange_forces(const struct consistent *c, REAL *extra)
-{
-    for (size_t i = 0; i < c->pml->slabs; i++) {
-        const struct fast_slab *s = &FAST(c)->slab[i];
-        const struct part_fields phi = pml_fast_phi(s, extra + s->slab->phi, sizeof *extra);
-        part_exchange(c, &phi);
-    }
 }
 
 double NAME(pml_fast_quiet)(const struct consistent *c, const REAL *u)
@@ -245,11 +229,10 @@ void NAME(pml_fast_remember)(const struct consistent *c, double dt, double to_mi
         meet_rows(c, s, level);
     agree(c, false);
     for (const struct fast_slab *s = slab; s < end; s++)
-        find_moves(c, s, level);
+        find_moves(c, s, level, extra);
     agree(c, true);
     for (const struct fast_slab *s = slab; s < end; s++)
         move_forces(c, s, dt, extra);
-    exchange_forces(c, extra);
 }
 
 /* C2_f of L4 in row r of a group: of psi_jj, each with its B. */
@@ -288,20 +271,47 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
         }
 }
 
-void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const REAL *extra, REAL *a)
+/* Does psi or phi pull an own row of a group? */
+static bool group_pulls(const struct consistent *c, const struct fast_slab *s, size_t g)
+{
+    const size_t from = s->pull_b.group[g].to, end = from + s->pull_b.group[g].rows;
+    return owns_group(c, s, g) && (group_moves(s, g) || !rows_rest(s, from, end));
+}
+
+/* The turn in which a group is due: rows across depth are in all planes of the layer. */
+static bool group_due(const struct consistent *c, const struct fast_slab *s, size_t g, int turn)
+{
+    const size_t from = s->pull_b.group[g].to, end = from + s->pull_b.group[g].rows;
+    return turn == (s->axis[ROLE_B] == DEPTH ? part_turn_of(&c->part, from, end) : PART_LAST);
+}
+
+void NAME(pml_fast_look)(const struct consistent *c, const REAL *extra)
 {
     for (size_t i = 0; i < c->pml->slabs; i++) {
         const struct fast_slab *s = &FAST(c)->slab[i];
-#pragma omp parallel num_threads(c->threads)
-        {
-#pragma omp for schedule(static)
-            for (size_t b = 0; b < s->nb; b++)
-                s->rests[b] = c->options.quiet > 0 && !memory_loud(s, (struct level){0}, b, extra);
-#pragma omp for schedule(static)
-            for (size_t g = 0; g < s->pull_b.groups; g++)
-                if (!another_rank(c, s, g) && !group_rests(s, g)) pull_rows(c, s, factor, g, extra, a);
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t b = 0; b < s->nb; b++) {
+            s->rests[b] = c->options.quiet > 0 && !memory_loud(s, 0, b, extra + s->slab->psi);
+            s->moves[b] = owns_row(c, s, b) && memory_loud(s, 0, b, extra + s->slab->phi);
         }
     }
+}
+
+void NAME(pml_fast_pull)(const struct consistent *c, int turn, double factor, const REAL *extra, REAL *a)
+{
+    for (size_t i = 0; i < c->pml->slabs; i++) {
+        const struct fast_slab *s = &FAST(c)->slab[i];
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+        for (size_t g = 0; g < s->pull_b.groups; g++)
+            if (group_due(c, s, g, turn) && group_pulls(c, s, g)) pull_rows(c, s, factor, g, extra, a);
+    }
+}
+
+void NAME(pml_fast_accelerate)(const struct consistent *c, double factor, const REAL *extra, REAL *a)
+{
+    NAME(pml_fast_look)(c, extra);
+    for (int turn = 0; turn < PART_TURNS; turn++)
+        NAME(pml_fast_pull)(c, turn, factor, extra, a);
 }
 
 void NAME(pml_fast_reached)(const struct consistent *c, struct window *reached)
@@ -313,7 +323,7 @@ void NAME(pml_fast_reached)(const struct consistent *c, struct window *reached)
         if (across != DEPTH) window.from[across] = s->start;
         if (across != DEPTH) window.end[across] = s->start + s->region;
         for (size_t g = 0; g < s->pull_b.groups; g++) {
-            if (group_rests(s, g)) continue;
+            if (!group_pulls(c, s, g)) continue;
             const size_t from = s->pull_b.group[g].to, end = from + s->pull_b.group[g].rows;
             if (across == DEPTH) window.from[1] = from;
             if (across == DEPTH) window.end[1] = end;

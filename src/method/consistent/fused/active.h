@@ -7,6 +7,7 @@
  * along x and y. */
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/fused/kernels.h"
+#include "method/spline/passes.h"
 
 #include <math.h>
 #include <string.h>
@@ -207,6 +208,25 @@ static double largest_of_all(const struct fused *f, double largest)
 {
     if (f->quiet > 0) ranks_largest(f->ranks, 1, &largest);
     return largest;
+}
+
+static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
+{
+    REAL largest = 0;
+    for (size_t component = 0; component < 3; component++) {
+        const REAL size =
+            taken_passes()->NAME(largest_size)(u + component * f->volume + k * f->plane, f->plane);
+        if (size > largest) largest = size;
+    }
+    return largest;
+}
+
+/* Largest |u| before a step: that kept from the last one if u has it still. */
+static double largest_before(const struct fused *f, const REAL *u)
+{
+    if (f->quiet <= 0) return 0;
+    const double largest = plane_size(f, f->loudest, u);
+    return largest_of_all(f, largest > 0 && largest == f->largest ? largest : all_sizes(f, u));
 }
 
 void NAME(fused_look)(struct fused *f, const REAL *u)

@@ -119,49 +119,59 @@ static size_t cost(const struct fused *f, size_t block)
 {
     enum { COMPUTED = 8 };
     const size_t first = block * FUSED_PLANES;
-    const bool own = first >= f->planes.own && first < f->planes.end;
-    size_t sum = 1 + (own ? COMPUTED * FUSED_PLANES * window_points(&f->computed[block]) : 0);
+    size_t sum = 1 + COMPUTED * FUSED_PLANES * window_points(&f->computed[block]);
     for (size_t k = first; k < first + FUSED_PLANES && k < f->n[2]; k++)
         sum += window_points(&f->reached[k]);
     return sum;
 }
 
-/* Where the planes of each thread begin, so that all have about as much to do. What is computed does not
- * depend on the bounds. */
-static void lay_bounds(const struct fused *f)
+/* Where those of the planes begin that each thread makes, so that all have about as much to do. What is computed does
+ * not depend on the bounds. */
+static void lay_bounds(const struct fused *f, struct part_range made)
 {
-    const size_t blocks = (f->n[2] + FUSED_PLANES - 1) / FUSED_PLANES, threads = (size_t)f->threads;
+    const size_t threads = (size_t)f->threads;
     size_t all = 0, done = 0, thread = 1;
-    for (size_t block = 0; block < blocks; block++)
-        all += cost(f, block);
-    f->bound[0] = 0;
-    for (size_t block = 0; block < blocks; block++) {
+    for (size_t first = made.from; first < made.end; first += FUSED_PLANES)
+        all += cost(f, first / FUSED_PLANES);
+    f->bound[0] = made.from;
+    for (size_t first = made.from; first < made.end; first += FUSED_PLANES) {
         while (thread < threads && done * threads >= all * thread)
-            f->bound[thread++] = block * FUSED_PLANES;
-        done += cost(f, block);
+            f->bound[thread++] = first;
+        done += cost(f, first / FUSED_PLANES);
     }
     while (thread <= threads)
-        f->bound[thread++] = f->n[2];
+        f->bound[thread++] = made.end;
 }
 
-/* The blocks of a thread that are the rank's own: all of u that others read is brought on before (stage 0), the rest on
- * the way. */
+static size_t between(size_t a, size_t low, size_t high)
+{
+    return a < low ? low : a > high ? high : a;
+}
+
+/* The blocks of a thread: all of u that others read is brought on before (stage 0), the rest on the way. `bring`: planes
+ * that all threads bring on. */
 static void pass_thread(const struct consistent *c, const struct drive *drive,
-                        const struct fused_fields *fields, bool bring, double level, int thread, int stage)
+                        const struct fused_fields *fields, struct part_range bring, double level, int thread,
+                        int stage)
 {
     const struct fused *f = FUSED(c);
+    const bool lowest = thread == 0, highest = thread + 1 == f->threads;
     const size_t reach = (size_t)f->deep / 2, from = f->bound[thread], end = f->bound[thread + 1];
-    const size_t low = !bring || from + reach > end ? end : from + reach;
-    const size_t high = end == f->n[2] ? end : end > low + reach ? end - reach : low;
+    const size_t first = lowest ? bring.from : between(from, bring.from, bring.end);
+    const size_t last = highest ? bring.end : between(end, first, bring.end);
+    const size_t low = lowest ? first : between(first + reach, first, last);
+    const size_t high = highest ? last : between(less(last, reach), low, last);
     if (stage == 0) {
-        bring_planes(f, fields, from, low);
-        bring_planes(f, fields, high, end);
+        bring_planes(f, fields, first, low);
+        bring_planes(f, fields, high, last);
         return;
     }
     struct pass pass = {c, drive, *fields, level, low, high, thread};
-    for (size_t first = from; first < end; first += FUSED_PLANES)
-        if (first >= f->planes.own && first < f->planes.end) pass_block(&pass, first);
-    if (bring && pass.next < pass.limit) bring_planes(f, fields, pass.next, pass.limit);
+    for (size_t block = from; block < end; block += FUSED_PLANES) {
+        pass_block(&pass, block);
+        if (lowest) ranks_go_on(f->ranks);
+    }
+    bring_planes(f, fields, pass.next, pass.limit);
 }
 
 /* All of u at once: what is computed hangs on what other ranks have in the same planes. */
@@ -176,16 +186,24 @@ static void bring_before(struct fused *f, const struct fused_fields *fields, dou
     meet_loud(f, level);
 }
 
-/* All planes; in a step u is brought on too. */
-static void pass_over(const struct consistent *c, const struct drive *drive,
-                      const struct fused_fields *fields, double level)
+/* The planes that are made in a turn; in a step those of u that they read are brought on too, of those that `still`
+ * have to be. */
+static void pass_turn(const struct consistent *c, const struct drive *drive,
+                      const struct fused_fields *fields, double level, int turn, struct part_range *still)
 {
     struct fused *f = FUSED(c);
-    const bool step = fields->moved != NULL, bring = step && f->rows.ranks == 1;
-    lay_bounds(f);
-    if (step && !bring) bring_before(f, fields, level);
+    const size_t reach = (size_t)f->deep / 2;
+    const struct part_range made = c->part.made[turn];
+    struct part_range bring = *still;
+    if (turn < PART_LAST && made.from >= made.end) return;
+    if (turn == PART_HIGH)
+        still->end = bring.from = between(less(made.from, reach), still->from, still->end);
+    else
+        still->from = bring.end =
+            turn == PART_LAST ? still->end : between(made.end + reach, still->from, still->end);
+    lay_bounds(f, made);
 #pragma omp parallel num_threads(f->threads)
-    for (int stage = bring ? 0 : 1; stage < 2; stage++) {
+    for (int stage = bring.from < bring.end ? 0 : 1; stage < 2; stage++) {
 #pragma omp for schedule(static, 1)
         for (int thread = 0; thread < f->threads; thread++) {
             const unsigned before = tiny_as_zero();
@@ -193,33 +211,6 @@ static void pass_over(const struct consistent *c, const struct drive *drive,
             tiny_as_before(before);
         }
     }
-    add_faces(c, step ? fields->dt : 1, fields);
-}
-
-static REAL plane_size(const struct fused *f, size_t k, const REAL *u)
-{
-    REAL largest = 0;
-    for (size_t component = 0; component < 3; component++) {
-        const REAL size =
-            taken_passes()->NAME(largest_size)(u + component * f->volume + k * f->plane, f->plane);
-        if (size > largest) largest = size;
-    }
-    return largest;
-}
-
-/* Largest |u| before a step: that kept from the last one if u has it still. */
-static double largest_before(const struct fused *f, const REAL *u)
-{
-    if (f->quiet <= 0) return 0;
-    const double largest = plane_size(f, f->loudest, u);
-    return largest_of_all(f, largest > 0 && largest == f->largest ? largest : all_sizes(f, u));
-}
-
-/* The neighbours' planes of w or a. */
-static void exchange(const struct consistent *c, REAL *field)
-{
-    const struct part_fields fields = part_values(c, field, 3, sizeof *field);
-    part_exchange(c, &fields);
 }
 
 /* After an exchange a halo may have reached everywhere. */
@@ -229,6 +220,38 @@ static void halo_reached(const struct consistent *c, const struct fused *f)
         if (part_rows(&c->part) || k < f->planes.own || k >= f->planes.end) f->reached[k] = fused_whole(f);
 }
 
+/* What layers add in a turn; then what is made travels. */
+static void pull_turn(const struct consistent *c, const struct NAME(step_fields) * step, double factor,
+                      int turn, REAL *out)
+{
+    const struct part_fields fields = part_values(c, out, 3, sizeof *out);
+    for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
+        NAME(pml_fast_pull)(step->part[p].c, turn, factor, step->part[p].extra, out);
+    part_send(c, &fields, turn);
+}
+
+/* Accelerations, or in a step velocities, with the halo: in turns, so that halos travel while the inside is made. What
+ * is added at faces goes before what layers add. */
+static void make(const struct consistent *c, const struct drive *drive, const struct fused_fields *fields,
+                 double level, const struct NAME(step_fields) * step)
+{
+    struct fused *f = FUSED(c);
+    const bool moving = fields->moved != NULL, before = f->rows.ranks > 1, faces = c->fused->faces != NULL;
+    const double factor = moving ? fields->dt : 1;
+    struct part_range still = {0, moving && !before ? f->n[2] : 0};
+    if (moving && before) bring_before(f, fields, level);
+    for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
+        NAME(pml_fast_look)(step->part[p].c, step->part[p].extra);
+    for (int turn = 0; turn < PART_TURNS; turn++) {
+        pass_turn(c, drive, fields, level, turn, &still);
+        if (!faces) pull_turn(c, step, factor, turn, fields->a);
+    }
+    if (!faces) return;
+    add_faces(c, factor, fields);
+    for (int turn = 0; turn < PART_TURNS; turn++)
+        pull_turn(c, step, factor, turn, fields->a);
+}
+
 /* a := acceleration. */
 static void accelerate(const struct consistent *c, const struct drive *drive,
                        const struct NAME(step_fields) * step, REAL *a)
@@ -236,10 +259,7 @@ static void accelerate(const struct consistent *c, const struct drive *drive,
     const struct fused_fields fields = {
         .u = step->part[0].u, .a = a, .other = step->parts > 1 ? step->part[1].u : NULL};
     NAME(fused_look)(FUSED(c), step->part[0].u);
-    pass_over(c, drive, &fields, 0);
-    for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
-        NAME(pml_fast_accelerate)(step->part[p].c, 1, step->part[p].extra, a);
-    exchange(c, a);
+    make(c, drive, &fields, 0, step);
 }
 
 void NAME(fused_begin)(const struct consistent *c, const struct drive *drive, double dt,
@@ -334,15 +354,12 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_remember)
     (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);
-    pass_over(c, drive, &fields, level);
-    for (size_t p = 0; p < step->parts && c->pml != NULL; p++) {
-        NAME(pml_fast_accelerate)(step->part[p].c, dt, step->part[p].extra, step->w);
+    make(c, drive, &fields, level, step);
+    for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_reached)(step->part[p].c, f->will_reach);
-    }
     struct window *spare = f->reached;
     f->reached = f->will_reach;
     f->will_reach = spare;
-    exchange(c, step->w);
     halo_reached(c, f);
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];

@@ -87,59 +87,56 @@ double part_product(const struct consistent *c, const double *x, const double *y
 
 /* --- Exchange ----------------------------------------------------------------------------------------- */
 
-/* Planes or rows from .. end - 1. */
-struct range {
-    size_t from, end;
-};
-
-static size_t length(struct range range)
+static size_t length(struct part_range range)
 {
     return range.end - range.from;
 }
 
 enum { MOST_FIELDS = 32 };
 
-/* Messages of an exchange along a slot. */
+/* Messages of an exchange along a slot; over y of the rows of some planes. */
 struct messages_of {
     const struct consistent *c;
     const struct part_fields *fields;
     int slot;
+    struct part_range planes;
     size_t pieces;
     struct ranks_piece piece[2 * MOST_FIELDS];
-    struct range received[2]; /* rows, of the neighbours before and behind */
 };
 
 struct part_fields part_values(const struct consistent *c, void *field, size_t fields, size_t number)
 {
-    const size_t plane = c->plane * number;
-    return (struct part_fields){field, fields, c->volume * number, plane, 1, plane, c->n[0] * number};
+    return (struct part_fields){field, fields, c->volume * number, c->plane * number, c->n[0] * number};
 }
 
-/* Planes whose rows are sent: own ones. */
-static struct range planes_of(const struct consistent *c, const struct part_fields *f)
+static struct part_range own_planes(const struct consistent *c)
 {
-    const struct part_axis *planes = &c->part.along[DEPTH];
-    return f->plane == 0 ? (struct range){0, 1} : (struct range){planes->own, planes->end};
+    return (struct part_range){c->part.along[DEPTH].own, c->part.along[DEPTH].end};
 }
 
-static size_t bytes_of_rows(const struct consistent *c, const struct part_fields *f, size_t rows)
+static size_t bytes_of_rows(const struct part_fields *f, size_t planes, size_t rows)
 {
-    return f->fields * length(planes_of(c, f)) * f->lines * rows * f->row;
+    return f->fields * planes * rows * f->row;
 }
 
-/* Rows of own planes between fields and room. */
-static void pack(const struct consistent *c, const struct part_fields *f, struct range rows, bool out,
-                 char *room)
+/* Room for rows of planes, those of planes before them in front. */
+static char *room_of(const struct messages_of *m, int side, bool received, size_t rows)
 {
-    const struct range planes = planes_of(c, f);
+    return m->c->part.room[2 * side + received] +
+           bytes_of_rows(m->fields, m->planes.from - own_planes(m->c).from, rows);
+}
+
+/* Rows between fields and room. */
+static void pack(const struct messages_of *m, int side, bool received, struct part_range rows)
+{
+    const struct part_fields *f = m->fields;
     const size_t bytes = length(rows) * f->row;
+    char *room = room_of(m, side, received, length(rows));
     for (size_t i = 0; i < f->fields; i++)
-        for (size_t k = planes.from; k < planes.end; k++)
-            for (size_t line = 0; line < f->lines; line++, room += bytes) {
-                char *place =
-                    (char *)f->field + i * f->apart + k * f->plane + line * f->line + rows.from * f->row;
-                memcpy(out ? room : place, out ? place : room, bytes);
-            }
+        for (size_t k = m->planes.from; k < m->planes.end; k++, room += bytes) {
+            char *place = (char *)f->field + i * f->apart + k * f->plane + rows.from * f->row;
+            memcpy(received ? place : room, received ? room : place, bytes);
+        }
 }
 
 static int neighbour(const struct consistent *c, int slot, int side)
@@ -148,17 +145,28 @@ static int neighbour(const struct consistent *c, int slot, int side)
     return ranks_me(c->part.ranks) + (side == 0 ? -step : step);
 }
 
-static void add_pieces(struct messages_of *m, int side, struct range send, struct range receive)
+static bool has_neighbour(const struct part_axis *a, int side)
+{
+    return side == 0 ? a->me > 0 : a->me + 1 < a->ranks;
+}
+
+/* What comes from a neighbour: the halo. */
+static struct part_range received_from(const struct consistent *c, int slot, int side)
+{
+    const struct part_axis *a = &c->part.along[slot];
+    return side == 0 ? (struct part_range){0, a->own} : (struct part_range){a->end, c->n[slot]};
+}
+
+static void add_pieces(struct messages_of *m, int side, struct part_range send, struct part_range receive)
 {
     const struct part_fields *f = m->fields;
     const int with = neighbour(m->c, m->slot, side);
     if (m->slot == 1) {
-        char *const *room = m->c->part.room + 2 * side;
-        pack(m->c, f, send, true, room[0]);
-        m->received[side] = receive;
-        m->piece[m->pieces++] =
-            (struct ranks_piece){with, room[0], room[1], bytes_of_rows(m->c, f, length(send)),
-                                 bytes_of_rows(m->c, f, length(receive))};
+        const size_t planes = length(m->planes);
+        pack(m, side, false, send);
+        m->piece[m->pieces++] = (struct ranks_piece){
+            with, room_of(m, side, false, length(send)), room_of(m, side, true, length(receive)),
+            bytes_of_rows(f, planes, length(send)), bytes_of_rows(f, planes, length(receive))};
         return;
     }
     for (size_t i = 0; i < f->fields; i++) {
@@ -169,42 +177,74 @@ static void add_pieces(struct messages_of *m, int side, struct range send, struc
     }
 }
 
-static void send_all(struct messages_of *m)
+/* Halos along a slot begin to travel; over y those of some planes. */
+static void depart(const struct consistent *c, const struct part_fields *fields, int slot,
+                   struct part_range planes)
 {
-    ranks_exchange(m->c->part.ranks, m->pieces, m->piece);
-    for (int side = 0; side < 2 && m->slot == 1; side++)
-        if (length(m->received[side]) > 0)
-            pack(m->c, m->fields, m->received[side], false, m->c->part.room[2 * side + 1]);
+    const struct part_axis *a = &c->part.along[slot];
+    struct messages_of m = {.c = c, .fields = fields, .slot = slot, .planes = planes};
+    for (int side = 0; side < 2 && length(planes) > 0; side++)
+        if (has_neighbour(a, side))
+            add_pieces(&m, side,
+                       side == 0 ? (struct part_range){a->own, a->own + a->halo}
+                                 : (struct part_range){a->end - a->halo, a->end},
+                       received_from(c, slot, side));
+    ranks_depart(c->part.ranks, m.pieces, m.piece);
 }
 
-/* Is anything of the fields shared along the slot? */
-static bool shared_along(const struct consistent *c, int slot, const struct part_fields *f)
+/* Rows that have come, of planes of a turn. */
+static void take_rows(const struct consistent *c, const struct part_fields *fields, int turn)
 {
-    return c->part.along[slot].ranks > 1 && (slot == DEPTH ? f->plane : f->row) > 0;
+    const struct messages_of m = {.c = c, .fields = fields, .slot = 1, .planes = c->part.sent[turn]};
+    for (int side = 0; side < 2 && length(m.planes) > 0; side++)
+        if (has_neighbour(&c->part.along[1], side)) pack(&m, side, true, received_from(c, 1, side));
 }
 
-/* Rows of own planes first, then planes with all rows of the window, so that corners are right. */
+/* Rows of own planes go before planes, which go with all rows of the window, so that corners are right. */
+void part_send(const struct consistent *c, const struct part_fields *fields, int turn)
+{
+    const struct rank_part *part = &c->part;
+    const bool rows = part_rows(part),
+               apart = length(part->sent[PART_LOW]) + length(part->sent[PART_HIGH]) > 0;
+    if (part->ranks == NULL || fields->fields > MOST_FIELDS) return;
+    if (rows && turn == PART_FIRST) {
+        ranks_arrive(part->ranks);
+        take_rows(c, fields, PART_LOW);
+        take_rows(c, fields, PART_HIGH);
+    }
+    if (apart && turn == (rows ? PART_FIRST : PART_HIGH)) depart(c, fields, DEPTH, own_planes(c));
+    if (rows) depart(c, fields, 1, part->sent[turn]);
+    if (turn < PART_LAST) return;
+    ranks_arrive(part->ranks);
+    if (rows) take_rows(c, fields, PART_FIRST);
+    if (rows) take_rows(c, fields, PART_LAST);
+    if (apart) return;
+    depart(c, fields, DEPTH, own_planes(c));
+    ranks_arrive(part->ranks);
+}
+
 void part_exchange(const struct consistent *c, const struct part_fields *fields)
 {
-    if (fields->fields > MOST_FIELDS) return;
-    for (int slot = 1; slot < 3; slot++) {
-        const struct part_axis *a = &c->part.along[slot];
-        struct messages_of m = {.c = c, .fields = fields, .slot = slot};
-        if (!shared_along(c, slot, fields)) continue;
-        if (a->me > 0) add_pieces(&m, 0, (struct range){a->own, a->own + a->halo}, (struct range){0, a->own});
-        if (a->me + 1 < a->ranks)
-            add_pieces(&m, 1, (struct range){a->end - a->halo, a->end}, (struct range){a->end, c->n[slot]});
-        send_all(&m);
+    for (int turn = 0; turn < PART_TURNS; turn++)
+        part_send(c, fields, turn);
+}
+
+int part_turn_of(const struct rank_part *part, size_t from, size_t end)
+{
+    for (int turn = 0; turn < PART_LAST; turn++) {
+        const struct part_range *sent = &part->sent[turn];
+        if (length(*sent) > 0 && from < sent->end && end > sent->from) return turn;
     }
+    return PART_LAST;
 }
 
 double part_bytes(const struct consistent *c, const struct part_fields *f)
 {
     const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH];
-    const int beside = (y->me > 0) + (y->me + 1 < y->ranks), above = (z->me > 0) + (z->me + 1 < z->ranks);
-    const double rows = shared_along(c, 1, f) ? (double)bytes_of_rows(c, f, y->halo) : 0;
-    const double planes = shared_along(c, DEPTH, f) ? (double)(f->fields * z->halo * f->plane) : 0;
-    return beside * rows + above * planes;
+    const int beside = has_neighbour(y, 0) + has_neighbour(y, 1),
+              above = has_neighbour(z, 0) + has_neighbour(z, 1);
+    return beside * (double)bytes_of_rows(f, length(own_planes(c)), y->halo) +
+           above * (double)(f->fields * z->halo * f->plane);
 }
 
 void part_sweep(const struct consistent *c, int slot, bool forward, size_t reach,
@@ -212,15 +252,21 @@ void part_sweep(const struct consistent *c, int slot, bool forward, size_t reach
                 void *context)
 {
     const struct part_axis *a = &c->part.along[slot];
-    const struct range none = {0, 0};
-    const struct range low = {a->own, a->own + reach}, high = {a->end - reach, a->end};
-    struct messages_of before = {.c = c, .fields = fields, .slot = slot}, after = before;
-    if (forward ? a->me > 0 : a->me + 1 < a->ranks)
-        add_pieces(&before, forward ? 0 : 1, none,
-                   forward ? (struct range){a->own - reach, a->own} : (struct range){a->end, a->end + reach});
-    send_all(&before);
+    const struct part_range none = {0, 0};
+    const struct part_range low = {a->own, a->own + reach}, high = {a->end - reach, a->end};
+    const struct part_range missing =
+        forward ? (struct part_range){a->own - reach, a->own} : (struct part_range){a->end, a->end + reach};
+    const int from = forward ? 0 : 1, to = 1 - from;
+    struct messages_of before = {.c = c, .fields = fields, .slot = slot, .planes = own_planes(c)},
+                       after = before;
+    if (has_neighbour(a, from)) {
+        add_pieces(&before, from, none, missing);
+        ranks_exchange(c->part.ranks, before.pieces, before.piece);
+        if (slot == 1) pack(&before, from, true, missing);
+    }
     work(context, a->own, a->end);
-    if (forward ? a->me + 1 < a->ranks : a->me > 0)
-        add_pieces(&after, forward ? 1 : 0, forward ? high : low, none);
-    send_all(&after);
+    if (has_neighbour(a, to)) {
+        add_pieces(&after, to, forward ? high : low, none);
+        ranks_exchange(c->part.ranks, after.pieces, after.piece);
+    }
 }

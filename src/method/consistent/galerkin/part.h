@@ -28,6 +28,13 @@ struct part_axis {
     size_t *bound;   /* [ranks + 1] where own ones begin, in the body; NULL: one part */
 };
 
+/* Own planes are made in turns, so that halos travel while the rest is made (doc/developers/ranks.md, Order of planes):
+ * those that neighbours over depth get, then the others in two parts. Alone all are in the last. */
+enum { PART_LOW, PART_HIGH, PART_FIRST, PART_LAST, PART_TURNS };
+struct part_range {
+    size_t from, end;
+};
+
 struct rank_part {
     struct ranks *ranks; /* NULL: alone */
     struct part_axis along[3];
@@ -39,6 +46,9 @@ struct rank_part {
     } matrix[PART_MATRICES];
     char *room
         [4]; /* rows that are sent and received, of the neighbours before and behind; NULL: rows are not shared */
+    /* planes of a turn that are made, so many further than those that are sent that what is added to some planes
+     * together can be added once one of them is sent */
+    struct part_range made[PART_TURNS], sent[PART_TURNS];
 };
 
 /* Shares the control values of the body, after the axes are known: sets c->part and the window's sizes; ranks that are
@@ -71,18 +81,21 @@ static inline bool part_owns(const struct rank_part *part, size_t j, size_t k)
     return j >= y->own && j < y->end && k >= z->own && k < z->end;
 }
 
-/* Fields of the window that ranks share, `apart` bytes from one to the next: `plane` bytes a plane (0: there is one,
- * of a rank alone), in it `lines` lines, `line` bytes apart, of `row` bytes for each row over y (0: they have no
- * rows). */
+/* Fields of the window that ranks share, `apart` bytes from one to the next, planes, rows. */
 struct part_fields {
     void *field;
-    size_t fields, apart, plane, lines, line, row;
+    size_t fields, apart, plane, row;
 };
 /* Fields of control values, `number` bytes each. */
 struct part_fields part_values(const struct consistent *c, void *field, size_t fields, size_t number);
 
 /* Together: halos become what the neighbours have. */
 void part_exchange(const struct consistent *c, const struct part_fields *fields);
+
+/* The turn in which what is added to planes from .. end - 1 together is due: the first that sends one of them. */
+int part_turn_of(const struct rank_part *part, size_t from, size_t end);
+/* Together: planes sent in this turn are as they stay; after the last one halos are what the neighbours have. */
+void part_send(const struct consistent *c, const struct part_fields *fields, int turn);
 /* Together: the largest of a number of each rank. */
 double part_largest(const struct consistent *c, double value);
 /* Bytes that a rank sends in part_exchange(). */

@@ -166,12 +166,39 @@ static void take_window(struct consistent *c, int slot)
     c->n[slot] = (end + along->halo < along->whole ? end + along->halo : along->whole) - along->first;
 }
 
-/* Room for rows of all fields, padded ones of layers too. */
+/* Planes of each turn: all in the last if they are few, or if a layer across depth, which adds to its planes together,
+ * reaches planes that are sent before. */
+static void lay_turns(struct consistent *c)
+{
+    enum { FURTHER = PART_PLANES, LEAST = 2 * PART_PLANES };
+    struct part_range *made = c->part.made, *sent = c->part.sent;
+    const struct part_axis *a = &c->part.along[DEPTH];
+    const int face = 2 * axis_of(c, DEPTH);
+    const size_t low = a->me == 0 ? 0 : a->halo, high = a->me + 1 == a->ranks ? 0 : a->halo;
+    const size_t below = low > 0 || c->layer[face] == 0 ? 0 : c->layer[face] + a->halo + FURTHER;
+    const size_t above = high > 0 || c->layer[face + 1] == 0 ? 0 : c->layer[face + 1] + a->halo + FURTHER;
+    const size_t from = a->own + low, end = a->end - (high > 0 ? high : above);
+    for (int turn = 0; turn < PART_TURNS; turn++)
+        made[turn] = sent[turn] = (struct part_range){a->own, turn < PART_LAST ? a->own : a->end};
+    if (a->end < a->own + low + high + below + above + 2 * FURTHER + LEAST) return;
+    sent[PART_LOW].end = from;
+    sent[PART_HIGH] = (struct part_range){a->end - high, a->end};
+    sent[PART_FIRST] = (struct part_range){from, from};
+    if (part_rows(&c->part) && below == 0)
+        sent[PART_FIRST].end += (end - from) * 3 / 4 / FURTHER * FURTHER - FURTHER;
+    sent[PART_LAST] = (struct part_range){sent[PART_FIRST].end, a->end - high};
+    const size_t further = sent[PART_FIRST].end > from ? sent[PART_FIRST].end + FURTHER : 0;
+    made[PART_LOW].end = low > 0 ? from + FURTHER : from;
+    made[PART_HIGH] = (struct part_range){high > 0 ? a->end - high - FURTHER : a->end, a->end};
+    made[PART_FIRST] = (struct part_range){made[PART_LOW].end, further > 0 ? further : made[PART_LOW].end};
+    made[PART_LAST] = (struct part_range){made[PART_FIRST].end, made[PART_HIGH].from};
+}
+
+/* Room for rows of all fields. */
 static bool lay_room(struct consistent *c)
 {
-    enum { PAD = 16 };
     if (!part_rows(&c->part)) return true;
-    const size_t planes = c->n[DEPTH], bytes = PART_NUMBERS * planes * (c->n[0] + PAD) * sizeof(double);
+    const size_t planes = c->n[DEPTH], bytes = PART_NUMBERS * planes * c->n[0] * sizeof(double);
     for (int i = 0; i < 4; i++) {
         c->part.room[i] = array_new(bytes * c->part.along[1].halo, 1);
         if (c->part.room[i] == NULL) return false;
@@ -215,6 +242,7 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
     int used = 1, over_y = 1;
     for (int slot = 0; slot < 3; slot++)
         part->along[slot] = (struct part_axis){.whole = c->n[slot], .end = c->n[slot], .ranks = 1};
+    part->made[PART_LAST] = part->sent[PART_LAST] = (struct part_range){0, c->n[DEPTH]};
     part->ranks = c->model.scene->ranks;
     if (part->ranks == NULL) return SELAS_OK;
     for (int slot = 1; slot < 3; slot++)
@@ -228,6 +256,7 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
     for (int slot = 1; slot < 3; slot++)
         take_window(c, slot);
+    lay_turns(c);
     return lay_room(c) ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
 }
 

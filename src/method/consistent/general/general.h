@@ -67,7 +67,7 @@ void general_free(struct consistent *c);
 /* Position of a point of an axis, by slot, over depth of the window's; 0 where there is no such axis. */
 double general_place(const struct consistent *c, int slot, enum at at, size_t i);
 
-/* a = M^-1 (F - K u - C v), as hform_accelerate(). */
+/* a = M^-1 (F - K u - C v). */
 void general_accelerate(struct consistent *c, const struct drive *drive, double half_step, const double *u,
                         const double *v, double *a);
 void general_weigh(struct consistent *c, const double *v, double *product); /* M v */
