@@ -88,7 +88,7 @@ sed -i "/soil/{/^&block/!d}; s/^&block.*/\&topography shape = 'gaussian', height
 sed "s/^&block.*/\&topography shape = 'gaussian', height = 0.5, centre = 0.0, width = 1.0 \//; s/position = \([0-9.]*\), 0.0/position = \1, depth = 0.0/; s/width = 0.5/width = 0.6/" "$out/basin.nml" >"$out/cover.nml"
 echo "&layer material = 'soil', top = 0.0 /" >>"$out/cover.nml"
 echo "&layer material = 'rock', top = 1.0 /" >>"$out/cover.nml"
-for ground in basin cover; do
+for ground in basin cover hill; do
     rm -rf "$out/run" "$out/run2" "$out/fine"
     "$build/selas" -q "$out/$ground.nml" "output%directory=$out/run" >"$out/log" 2>&1
     sed "s/, accuracy = 0.03//; s/^&body /&spacing = 0.04, /" "$out/$ground.nml" >"$out/fine.nml"
@@ -105,6 +105,11 @@ for ground in basin cover; do
         cat "$out/log"
     fi
 done
+if said=$(regress/studies/accuracy/ground-drawn "$build" 8 8); then
+    echo "ok - a hill in space, drawn: $(echo "$said" | sed -n '1s/ spacing.*//p')"
+else
+    echo "not ok - a hill in space, drawn: $said"
+fi
 planned() { "$build/selas" check "$@" 2>&1; }
 if planned "$out/basin.nml" | grep -q '^accuracy: .*grading 3 (.* % of the work less' &&
     ! planned "$out/hill.nml" | grep -q '^accuracy: .*grading' &&

@@ -19,18 +19,25 @@ long accuracy_layer_points(double accuracy)
     return accuracy >= .02 ? 8 : accuracy >= .005 ? 10 : 12;
 }
 
-/* Work of the choice; INFINITY: there is no such scene, or no such lattice. */
-static double work_of(const struct trial *trial, const struct scene_choice *choice)
+/* Work of the choice, and whether its lattice is graded; INFINITY: there is no such scene. */
+static double work_of(const struct trial *trial, const struct scene_choice *choice, bool *graded)
 {
     struct messages unsaid = {0};
     struct scene *scene = NULL;
     double work = INFINITY;
-    if (scene_build(trial->deck, choice, &scene, &unsaid) == SELAS_OK &&
-        (choice->grading == 0 || scene->body.grading != NULL))
+    if (scene_build(trial->deck, choice, &scene, &unsaid) == SELAS_OK) {
         work = accuracy_work(scene);
+        *graded = scene->body.grading != NULL;
+    }
     scene_free(&scene);
     messages_free(&unsaid);
     return work;
+}
+
+double accuracy_work_of(const struct trial *trial, const struct scene_choice *choice)
+{
+    bool graded;
+    return work_of(trial, choice, &graded);
 }
 
 static bool asks_general(const struct scene *scene)
@@ -47,10 +54,11 @@ void accuracy_grade(const struct scene *scene, const struct trial *trial, struct
     choice->grading = 0;
     text[0] = '\0';
     if (deck_given(body, "grading") || !asks_general(scene)) return;
-    const double even = work_of(trial, choice);
+    bool graded = false;
+    const double even = accuracy_work_of(trial, choice);
     choice->grading = GRADING_MEASURED;
-    const double saved = 1 - work_of(trial, choice) / even;
-    if (!(saved >= GRADING_WORTH)) choice->grading = 0;
+    const double saved = 1 - work_of(trial, choice, &graded) / even;
+    if (!graded || !(saved >= GRADING_WORTH)) choice->grading = 0;
     if (choice->grading > 0)
         snprintf(text, GRADE_TEXT, ", grading %g (%.0f %% of the work less than an even spacing)",
                  GRADING_MEASURED, 100 * saved);

@@ -10,6 +10,9 @@
 /* Points times steps, counted as in the choice of a box. */
 double accuracy_work(const struct scene *scene);
 
+/* That of a choice; INFINITY: there is no such scene. */
+double accuracy_work_of(const struct trial *trial, const struct scene_choice *choice);
+
 /* Of absorbing layers at least, for an error. */
 long accuracy_layer_points(double accuracy);
 

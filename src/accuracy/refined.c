@@ -12,13 +12,16 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-/* Least and largest power of the spacing that errors are taken to fall with; error at so many points per wavelength of
- * the slowest wave and the power for a first guess; spacing of the middle one of three trials over the chosen one,
- * ratio of their spacings; how far below the middle one the choice may lie. */
-static const double LEAST_ORDER = 1.5, MOST_ORDER = 3.5, GUESS = .012, GUESS_POINTS = 6, GUESS_ORDER = 2.5,
-                    MIDDLE = 2, FINER = 1.5, FAR = 2.3;
-enum { ROUNDS = 4, TRIALS = 3 };
+/* Power of the spacing with which errors fall in ground of one rock and in all other general ground (measured on
+ * scenes drawn by chance: it tells more than one scene's own trials do), and the least of those trials' own that is
+ * let stand; error at so many points per wavelength of the slowest wave for a first guess; the first trial's spacing
+ * over that, and of one trial over the next; how far below the last trial's the choice lies as a rule, and at most
+ * where the next one would be too much; the most of a trial's error from which one may tell. */
+static const double EVEN_ORDER = 4.8, ORDER = 3.2, LEAST_ORDER = 1.5, GUESS = .012, GUESS_POINTS = 6,
+                    COARSE = 2.83, FINER = 1.41421356, NEAR = 1.5, FAR = 2.5, CARRIED = .5;
+enum { MOST_TRIALS = 16, TRIALS = 3 };
 
 static bool looks_like(const struct scene *scene)
 {
@@ -47,14 +50,17 @@ static double possible(const struct scene *scene, double h)
 }
 
 struct trials {
-    double spacing[TRIALS]; /* from the coarsest; the last one's lattice is even */
-    double order, error;    /* of the middle one */
-    double box;             /* what the box makes of the histories */
-    double work;            /* of all that were run */
+    struct history_file *kept; /* [TRIALS * receivers], in the order of spacing[] */
+    size_t count;              /* how many there were; the last three are kept */
+    double spacing[TRIALS];    /* from the coarsest to the last, which stands last */
+    double apart[TRIALS - 1];  /* how far neighbours lie apart */
+    double order, error;       /* with which errors are taken to fall; of the last one */
+    double box;                /* what the box makes of the histories; INFINITY: not tried */
+    double work;               /* of all that were run */
 };
 
-/* The scene of a choice; NULL after saying why there is none, or why it is too much for a trial. */
-static struct scene *build(const struct trial *trial, const struct scene_choice *choice, double *work,
+/* The scene of a choice; NULL after saying why there is none. */
+static struct scene *build(const struct trial *trial, const struct scene_choice *choice,
                            struct messages *messages)
 {
     struct scene *scene = NULL;
@@ -63,15 +69,6 @@ static struct scene *build(const struct trial *trial, const struct scene_choice 
         fail(messages, SELAS_BAD_SCENE, "scene%%accuracy, at a spacing of %.3g: %s", choice->spacing,
              said.text != NULL ? said.text : "no memory");
         scene = NULL;
-    } else if (accuracy_work(scene) > ACCURACY_TRIAL_WORK) {
-        fail(messages, SELAS_BAD_SCENE,
-             "scene%%accuracy: on general ground it follows from trials, and one with a spacing of %.3g "
-             "would take %.2g points times steps, more than the %.0g that a trial may; a larger accuracy, or "
-             "body%%spacing in its place, would do",
-             choice->spacing, accuracy_work(scene), ACCURACY_TRIAL_WORK);
-        scene_free(&scene);
-    } else {
-        *work += accuracy_work(scene);
     }
     messages_free(&said);
     return scene;
@@ -81,25 +78,20 @@ static struct scene *build(const struct trial *trial, const struct scene_choice 
 static selas_status run(const struct trial *trial, const struct scene_choice *choice, double *work,
                         struct history_file *kept, struct messages *messages)
 {
-    struct scene *scene = build(trial, choice, work, messages);
-    const selas_status status =
-        scene != NULL ? trial->run(scene, NULL, NULL, kept, messages) : SELAS_BAD_SCENE;
+    struct scene *scene = build(trial, choice, messages);
+    if (scene == NULL) return SELAS_BAD_SCENE;
+    *work += accuracy_work(scene);
+    const selas_status status = trial->run(scene, NULL, NULL, kept, messages);
     scene_free(&scene);
     return status;
 }
 
-static struct history_file *room_for(size_t trials, size_t receivers, struct messages *messages)
-{
-    struct history_file *kept = array_new(trials * receivers, sizeof *kept);
-    if (kept == NULL) fail(messages, SELAS_NO_MEMORY, "no memory for trials");
-    return kept;
-}
-
 static void free_all(struct history_file *kept, size_t count)
 {
-    for (size_t i = 0; kept != NULL && i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         history_file_free(&kept[i]);
-    array_free(kept);
+        kept[i] = (struct history_file){0};
+    }
 }
 
 /* Relative L2 difference of the velocity vector, at the worst receiver. */
@@ -122,38 +114,31 @@ static double difference(const struct history_file *coarse, const struct history
     return most;
 }
 
-/* With E = C h^p the first two differ from the last by C (h^p - h_3^p): p from the ratio (Eq 13). */
-static double order_of(const double spacing[TRIALS], double ratio)
+/* The power with which neighbours come closer. */
+static double own_order(const struct trials *trials)
 {
-    double low = LEAST_ORDER, high = MOST_ORDER;
-    for (int i = 0; i < 40; i++) {
-        const double p = (low + high) / 2, last = pow(spacing[2], p);
-        const bool more = (pow(spacing[0], p) - last) / (pow(spacing[1], p) - last) < ratio;
-        *(more ? &low : &high) = p;
-    }
-    return low;
+    return log(trials->apart[0] / trials->apart[1]) / log(trials->spacing[0] / trials->spacing[1]);
 }
 
-static selas_status run_trials(const struct scene *scene, const struct trial *trial,
-                               const struct scene_choice *choice, struct trials *trials,
-                               struct messages *messages)
+/* One more trial, behind which the three last ones are kept, and what they tell once there are as many. */
+static selas_status add_trial(const struct scene *scene, const struct trial *trial,
+                              const struct scene_choice *choice, double spacing, struct trials *trials,
+                              struct messages *messages)
 {
     const size_t receivers = scene->receivers;
-    struct history_file *kept = room_for(TRIALS, receivers, messages);
-    selas_status status = kept != NULL ? SELAS_OK : SELAS_NO_MEMORY;
-    for (size_t k = TRIALS; k-- > 0 && status == SELAS_OK;) {
-        struct scene_choice tried = *choice;
-        tried.spacing = trials->spacing[k];
-        if (k + 1 == TRIALS) tried.grading = 0;
-        status = run(trial, &tried, &trials->work, kept + k * receivers, messages);
-    }
-    if (status == SELAS_OK) {
-        const struct history_file *fine = kept + (TRIALS - 1) * receivers;
-        const double middle = difference(kept + receivers, fine, receivers);
-        trials->order = order_of(trials->spacing, difference(kept, fine, receivers) / middle);
-        trials->error = middle / (1 - pow(trials->spacing[2] / trials->spacing[1], trials->order));
-    }
-    free_all(kept, TRIALS * receivers);
+    struct history_file *kept = trials->kept, *last = kept + (TRIALS - 1) * receivers;
+    struct scene_choice tried = *choice;
+    for (size_t i = 0; i < receivers; i++)
+        history_file_free(&kept[i]);
+    memmove(kept, kept + receivers, (TRIALS - 1) * receivers * sizeof *kept);
+    memset(last, 0, receivers * sizeof *last);
+    memmove(trials->spacing, trials->spacing + 1, (TRIALS - 1) * sizeof spacing);
+    trials->spacing[TRIALS - 1] = tried.spacing = spacing;
+    const selas_status status = run(trial, &tried, &trials->work, last, messages);
+    if (status != SELAS_OK || ++trials->count < 2) return status;
+    trials->apart[0] = trials->apart[1];
+    trials->apart[1] = difference(last - receivers, last, receivers);
+    trials->error = trials->apart[1] / (pow(trials->spacing[1] / spacing, trials->order) - 1);
     return status;
 }
 
@@ -175,30 +160,31 @@ static bool absorbs(const struct trial *trial, const struct scene_choice *choice
     return absorbing;
 }
 
-/* The fitted box against one from which nothing returns, both with the coarsest trial's points: with layers twice and
- * four times as thick, at last the large box, until they differ by little enough. */
+/* The fitted box against one from which nothing returns, both with the coarsest of the last trials' points: with
+ * layers twice and four times as thick, at last the large box, until they differ by little enough. */
 static selas_status choose_box(const struct scene *scene, double accuracy, const struct trial *trial,
                                struct scene_choice *choice, struct trials *trials, struct messages *messages)
 {
     enum { THICKER = 2 };
     static const double share = .3;
     const size_t receivers = scene->receivers;
+    struct history_file *kept = trials->kept;
     struct scene_choice tried = *choice, large = *choice;
     long points = 0;
     tried.spacing = large.spacing = trials->spacing[0];
     large.large = true;
     if (!absorbs(trial, &tried, &points)) return SELAS_OK;
-    struct history_file *kept = room_for(2, receivers, messages);
-    selas_status status = kept != NULL ? run(trial, &large, &trials->work, kept, messages) : SELAS_NO_MEMORY;
     trials->box = INFINITY;
-    for (int i = 0; i <= THICKER && status == SELAS_OK && trials->box > share * accuracy; i++) {
-        if (i > 0) tried.layer_points = points *= 2;
-        for (size_t k = 0; k < receivers; k++)
-            history_file_free(&kept[receivers + k]);
-        status = run(trial, &tried, &trials->work, kept + receivers, messages);
-        if (status == SELAS_OK) trials->box = difference(kept + receivers, kept, receivers);
+    if (accuracy_work_of(trial, &large) > ACCURACY_TRIAL_WORK) return SELAS_OK;
+    free_all(kept + receivers, 2 * receivers);
+    selas_status status = run(trial, &large, &trials->work, kept + receivers, messages);
+    if (status == SELAS_OK) trials->box = difference(kept, kept + receivers, receivers);
+    for (int i = 0; i < THICKER && status == SELAS_OK && trials->box > share * accuracy; i++) {
+        tried.layer_points = points *= 2;
+        free_all(kept, receivers);
+        status = run(trial, &tried, &trials->work, kept, messages);
+        if (status == SELAS_OK) trials->box = difference(kept, kept + receivers, receivers);
     }
-    free_all(kept, 2 * receivers);
     choice->large = trials->box > share * accuracy;
     if (choice->large) trials->box = 0;
     choice->layer_points = (long)ceil((double)points * tried.spacing / choice->spacing);
@@ -207,57 +193,82 @@ static selas_status choose_box(const struct scene *scene, double accuracy, const
 
 /* --- The choice ------------------------------------------------------------------------------------------- */
 
-static bool find_spacings(const struct scene *scene, double h, double spacing[TRIALS])
+/* Where the third trial would be too much, up to twice as coarse. */
+static double first_trial(const struct scene *scene, const struct trial *trial,
+                          const struct scene_choice *choice, double guess)
 {
-    spacing[0] = possible(scene, FINER * MIDDLE * h);
-    for (int k = 1; k < TRIALS && spacing[k - 1] > 0; k++)
-        spacing[k] = possible(scene, spacing[k - 1] / FINER);
-    return spacing[2] > 0 && spacing[2] < spacing[1] && spacing[1] < spacing[0];
+    struct scene_choice third = *choice;
+    double h = COARSE * guess;
+    for (int i = 0; i < 2; i++) {
+        third.spacing = possible(scene, h / (FINER * FINER));
+        if (accuracy_work_of(trial, &third) > ACCURACY_TRIAL_WORK) h *= FINER;
+    }
+    return possible(scene, h);
 }
 
+/* Trials from coarse to fine until the choice lies near the last one, or as far as may be where the next would be too
+ * much. */
 static selas_status narrow(const struct scene *scene, double accuracy, const struct trial *trial,
                            const struct scene_choice *choice, struct trials *trials, double *h,
                            struct messages *messages)
 {
-    const double *middle = &trials->spacing[1];
-    for (int i = 0; i<ROUNDS && * h> 0 && find_spacings(scene, *h, trials->spacing); i++) {
-        const selas_status status = run_trials(scene, trial, choice, trials, messages);
+    struct scene_choice next = *choice;
+    bool told = false;
+    for (next.spacing = first_trial(scene, trial, choice, *h);
+         next.spacing > 0 && trials->count < MOST_TRIALS;
+         next.spacing = possible(scene, next.spacing / FINER)) {
+        if (accuracy_work_of(trial, &next) > ACCURACY_TRIAL_WORK) break;
+        const selas_status status = add_trial(scene, trial, choice, next.spacing, trials, messages);
         if (status != SELAS_OK) return status;
-        const double part = fmin(fmax(ACCURACY_AIM * accuracy / trials->error, .01), 10);
-        *h = possible(scene, *middle * pow(part, 1 / trials->order));
-        if (*h <= trials->spacing[0] && *middle <= FAR * *h) return SELAS_OK;
+        if (trials->count < TRIALS) continue;
+        const double part = pow(ACCURACY_AIM * accuracy / trials->error, 1 / trials->order);
+        *h = possible(scene, fmin(next.spacing * part, trials->spacing[0]));
+        told = *h > 0 && trials->error < CARRIED && next.spacing <= FAR * *h;
+        if (told && next.spacing <= NEAR * *h && own_order(trials) >= LEAST_ORDER) return SELAS_OK;
     }
+    if (told) return SELAS_OK;
     return fail(
         messages, SELAS_BAD_SCENE,
-        "scene%%accuracy = %g: trials with spacings near %.3g (error %.2g) lead to none; give body%%spacing",
-        accuracy, *middle, trials->error);
+        "scene%%accuracy = %g: on general ground the spacing follows from trials, and those of at most %.0g "
+        "points times steps, down to a spacing of %.3g, do not tell; a larger accuracy, or body%%spacing in "
+        "its "
+        "place, would do",
+        accuracy, ACCURACY_TRIAL_WORK, trials->spacing[TRIALS - 1]);
+}
+
+static double order_of(const struct scene *scene)
+{
+    return scene->materials > 1 || scene->body.model != NULL ? ORDER : EVEN_ORDER;
 }
 
 static double first_guess(const struct scene *scene, double accuracy)
 {
     const double wave = 2 * M_PI * slowest_speed(scene) / source_cutoff(scene);
-    return possible(scene, wave / GUESS_POINTS * pow(ACCURACY_AIM * accuracy / GUESS, 1 / GUESS_ORDER));
+    return possible(scene, wave / GUESS_POINTS * pow(ACCURACY_AIM * accuracy / GUESS, 1 / order_of(scene)));
 }
 
 static void say(struct scene_choice *choice, double accuracy, const char *graded, const struct trials *trials)
 {
-    const double *spacing = trials->spacing;
-    const int length = snprintf(
-        choice->text, sizeof choice->text,
-        "%g wanted: spacing %.6g%s, degree 2, mass vc3, leapfrog with the time-dispersion transform; ",
-        accuracy, choice->spacing, graded);
-    snprintf(choice->text + length, sizeof choice->text - (size_t)length,
-             "after trials with %.4g and %.4g, held against an even %.4g (order %.2g): expected error %.2g, "
-             "and %.1g from the box; trials took %.2g points times steps",
-             spacing[0], spacing[1], spacing[2], trials->order,
-             trials->error * pow(choice->spacing / spacing[1], trials->order), trials->box, trials->work);
+    const double *spacing = trials->spacing, beyond = spacing[TRIALS - 1] / choice->spacing;
+    char box[48] = "", far[80] = "";
+    if (isinf(trials->box)) snprintf(box, sizeof box, ", that of the box not tried");
+    if (trials->box > 0 && isfinite(trials->box))
+        snprintf(box, sizeof box, ", and %.1g from the box", trials->box);
+    if (beyond > NEAR)
+        snprintf(far, sizeof far, "; extrapolated by a factor of %.2g from what trials could take", beyond);
+    snprintf(choice->text, sizeof choice->text,
+             "%g wanted: spacing %.6g%s, degree 2, mass vc3, leapfrog with the time-dispersion transform; "
+             "after trials with %.4g, %.4g, %.4g (of order %.2g, %.2g taken): expected error %.2g%s%s; "
+             "trials took %.2g points times steps",
+             accuracy, choice->spacing, graded, spacing[0], spacing[1], spacing[2], own_order(trials),
+             trials->order, trials->error * pow(choice->spacing / spacing[2], trials->order), box, far,
+             trials->work);
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
-                           struct scene_choice *choice, struct messages *messages)
+static selas_status choose_by(const struct scene *scene, double accuracy, const struct trial *trial,
+                              struct scene_choice *choice, struct trials *trials, struct messages *messages)
 {
     char graded[GRADE_TEXT];
-    struct trials trials = {0};
     double h = first_guess(scene, accuracy);
     if (trial->run == NULL || !(h > 0))
         return fail(messages, SELAS_BAD_SCENE,
@@ -266,12 +277,23 @@ static selas_status choose(const struct scene *scene, double accuracy, const str
     choice->layer_points = accuracy_layer_points(accuracy);
     choice->spacing = h;
     accuracy_grade(scene, trial, choice, graded);
-    selas_status status = narrow(scene, accuracy, trial, choice, &trials, &h, messages);
+    selas_status status = narrow(scene, accuracy, trial, choice, trials, &h, messages);
     choice->spacing = h;
-    if (status == SELAS_OK) status = choose_box(scene, accuracy, trial, choice, &trials, messages);
-    if (status != SELAS_OK) return status;
-    say(choice, accuracy, graded, &trials);
-    return SELAS_OK;
+    if (status == SELAS_OK) status = choose_box(scene, accuracy, trial, choice, trials, messages);
+    if (status == SELAS_OK) say(choice, accuracy, graded, trials);
+    return status;
+}
+
+static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
+                           struct scene_choice *choice, struct messages *messages)
+{
+    struct trials trials = {.kept = array_new(TRIALS * scene->receivers, sizeof *trials.kept),
+                            .order = order_of(scene)};
+    if (trials.kept == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for trials");
+    const selas_status status = choose_by(scene, accuracy, trial, choice, &trials, messages);
+    free_all(trials.kept, TRIALS * scene->receivers);
+    array_free(trials.kept);
+    return status;
 }
 
 const struct accuracy_kind accuracy_refined = {

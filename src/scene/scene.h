@@ -10,7 +10,7 @@
 #include "deck/deck.h"
 #include "scene/boundary.h"
 
-enum { NAME_SIZE = 64, FACES = 7, BOX_FACES = 6, ACCURACY_TEXT = 400 };
+enum { NAME_SIZE = 64, FACES = 7, BOX_FACES = 6, ACCURACY_TEXT = 480 };
 
 enum face { FACE_NAMES(CHOICE_SYMBOL) };
 
