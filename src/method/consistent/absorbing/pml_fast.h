@@ -24,9 +24,10 @@
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/galerkin/window.h"
 
-/* Rows made together, at most: along s, along b; numbers in a vector of doubles; numbers left free beside
+/* Rows made together, at most: along s (more would read more inputs for each row, and not all sums of two vectors
+ * would find registers), along b; numbers in a vector of doubles; numbers left free beside
  * rows that are read with neighbours; blocks of rows that a thread needs. */
-enum { FAST_ROWS = 9, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 27 };
+enum { FAST_ROWS = 6, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 27 };
 
 /* Parts of the T'_i, one a component and those of lambda and mu; products with slopes along f or b: one of both, or one
  * each. */

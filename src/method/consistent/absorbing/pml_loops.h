@@ -4,7 +4,7 @@
 #include "method/consistent/absorbing/pml_kernels.h"
 
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
-enum { LANES = VECTOR_BYTES / sizeof(REAL), MOST_VECTORS = 4, FEW_REGISTERS = VECTOR_BYTES < 64 };
+enum { LANES = VECTOR_BYTES / sizeof(REAL), MOST_VECTORS = 4 };
 
 #define UNROLLED _Pragma("GCC unroll 16")
 
@@ -17,10 +17,9 @@ INLINED const lanes *at(const REAL *place)
  * middle, where that sum stands in the place of the middle's weight and the other inputs are less the middle. */
 enum begin { SET, ADD, CHANGE };
 
-/* out row r := (ADD: out row r) + sum over t of weight[t * of + r] times in row t, `count` vectors. */
-INLINED void rows_block(const int rows, const int of, const int count, const enum begin begin,
-                        const REAL *restrict weight, size_t inputs, const REAL *in, size_t in_step, REAL *out,
-                        size_t out_step)
+/* out row r := (ADD: out row r) + sum over t of weight[t * rows + r] times in row t, `count` vectors. */
+INLINED void rows_block(const int rows, const int count, const enum begin begin, const REAL *restrict weight,
+                        size_t inputs, const REAL *in, size_t in_step, REAL *out, size_t out_step)
 {
     lanes sum[FAST_ROWS][MOST_VECTORS], middle[MOST_VECTORS];
     UNROLLED for (int v = 0; begin == CHANGE && v < count; v++) middle[v] =
@@ -28,9 +27,9 @@ INLINED void rows_block(const int rows, const int of, const int count, const enu
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++)
     {
         sum[r][v] = begin == ADD ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
-        if (begin == CHANGE) sum[r][v] = weight[inputs / 2 * (size_t)of + (size_t)r] * middle[v];
+        if (begin == CHANGE) sum[r][v] = weight[inputs / 2 * (size_t)rows + (size_t)r] * middle[v];
     }
-    for (size_t t = 0; t < inputs; t++, weight += of, in += in_step)
+    for (size_t t = 0; t < inputs; t++, weight += rows, in += in_step)
         UNROLLED for (int v = 0; v < count; v++)
         {
             lanes value = *at(in + v * LANES);
@@ -41,23 +40,17 @@ INLINED void rows_block(const int rows, const int of, const int count, const enu
         (lanes *)(out + (size_t)r * out_step + v * LANES) = sum[r][v];
 }
 
-/* Rows in two halves where not all sums of two vectors find registers, since one vector alone would need a
- * weight for each multiplication. Few rows: four vectors, as few sums wait for each other. */
+/* Few rows: four vectors, as few sums wait for each other. */
 INLINED void rows_all(const int rows, const enum begin begin, const REAL *weight, size_t inputs,
                       const REAL *in, size_t in_step, size_t width, REAL *out, size_t out_step)
 {
-    const int half = FEW_REGISTERS && rows > 6 ? rows / 2 : rows;
-    const int count = FEW_REGISTERS && rows < 3 ? MOST_VECTORS : 2;
+    const int count = rows < 3 ? MOST_VECTORS : 2;
     const size_t together = (size_t)count * LANES;
     size_t i = 0;
-    for (; i + together <= width; i += together) {
-        rows_block(half, rows, count, begin, weight, inputs, in + i, in_step, out + i, out_step);
-        if (half < rows)
-            rows_block(rows - half, rows, count, begin, weight + half, inputs, in + i, in_step,
-                       out + i + (size_t)half * out_step, out_step);
-    }
+    for (; i + together <= width; i += together)
+        rows_block(rows, count, begin, weight, inputs, in + i, in_step, out + i, out_step);
     for (; i < width; i += LANES)
-        rows_block(rows, rows, 1, begin, weight, inputs, in + i, in_step, out + i, out_step);
+        rows_block(rows, 1, begin, weight, inputs, in + i, in_step, out + i, out_step);
 }
 
 /* out row r += matrix by diagonals times in row r, with its neighbours. */
@@ -103,9 +96,6 @@ OF_ROWS(3)
 OF_ROWS(4)
 OF_ROWS(5)
 OF_ROWS(6)
-OF_ROWS(7)
-OF_ROWS(8)
-OF_ROWS(9)
 
 /* Rows of a field, `factor` * v added, n numbers each at the steps given, into rows of `width`, 0 from n on.
  */
@@ -180,7 +170,7 @@ static bool loud(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
 
 #define BY_ROWS(name)                                                                                        \
     {                                                                                                        \
-        NULL, name##_1, name##_2, name##_3, name##_4, name##_5, name##_6, name##_7, name##_8, name##_9       \
+        NULL, name##_1, name##_2, name##_3, name##_4, name##_5, name##_6                                     \
     }
 const struct NAME(pml_kernels) OF_PROCESSOR(NAME(pml_kernels)) = {
     BY_ROWS(set), BY_ROWS(add), BY_ROWS(change), BY_ROWS(along), load, store, sum_up, move, loud};
