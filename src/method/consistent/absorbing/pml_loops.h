@@ -29,13 +29,16 @@ INLINED void rows_block(const int rows, const int count, const enum begin begin,
         sum[r][v] = begin == ADD ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
         if (begin == CHANGE) sum[r][v] = weight[inputs / 2 * (size_t)rows + (size_t)r] * middle[v];
     }
-    for (size_t t = 0; t < inputs; t++, weight += rows, in += in_step)
+    for (size_t t = 0; t < inputs; t++, weight += rows, in += in_step) {
+        lanes value[MOST_VECTORS];
         UNROLLED for (int v = 0; v < count; v++)
         {
-            lanes value = *at(in + v * LANES);
-            if (begin == CHANGE) value -= middle[v];
-            UNROLLED for (int r = 0; r < rows; r++) sum[r][v] += weight[r] * value;
+            value[v] = *at(in + v * LANES);
+            if (begin == CHANGE) value[v] -= middle[v];
         }
+        UNROLLED for (int r = 0; r < rows; r++) /* a weight once for all vectors */
+            UNROLLED for (int v = 0; v < count; v++) sum[r][v] += weight[r] * value[v];
+    }
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) *
         (lanes *)(out + (size_t)r * out_step + v * LANES) = sum[r][v];
 }
@@ -95,7 +98,6 @@ OF_ROWS(2)
 OF_ROWS(3)
 OF_ROWS(4)
 OF_ROWS(5)
-OF_ROWS(6)
 
 /* Rows of a field, `factor` * v added, n numbers each at the steps given, into rows of `width`, 0 from n on.
  */
@@ -170,7 +172,7 @@ static bool loud(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
 
 #define BY_ROWS(name)                                                                                        \
     {                                                                                                        \
-        NULL, name##_1, name##_2, name##_3, name##_4, name##_5, name##_6                                     \
+        NULL, name##_1, name##_2, name##_3, name##_4, name##_5                                               \
     }
 const struct NAME(pml_kernels) OF_PROCESSOR(NAME(pml_kernels)) = {
     BY_ROWS(set), BY_ROWS(add), BY_ROWS(change), BY_ROWS(along), load, store, sum_up, move, loud};
