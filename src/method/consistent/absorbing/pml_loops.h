@@ -147,8 +147,8 @@ INLINED void store_turned(const REAL *restrict in, REAL factor, size_t rows, siz
             a[i * step + r] += factor * in[r * width + i];
 }
 
-/* Rows of a field, `factor` * v added, n numbers each at the steps given (one of them 1), into rows of `width`, 0 from n
- * on. */
+/* Rows of a field, `factor` * v added, n numbers each at the steps given (one of them 1), into rows of `width`, 0 from
+ * n on. */
 static void load(const REAL *restrict u, const REAL *restrict v, REAL factor, size_t rows, size_t step_row,
                  size_t n, size_t step, size_t width, REAL *restrict out)
 {
