@@ -40,6 +40,7 @@ static void lay_sizes(const struct consistent *c, struct fast_slab *fast)
 static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct slab_terms *terms)
 {
     const size_t n = fast->nb * fast->ns * fast->width;
+    size_t waits = 0;
     bool good = pml_lay_tables(fast, terms, f->single);
     fast->middle = pml_numbers(n, f->single);
     fast->rests = array_new(fast->nb, sizeof *fast->rests);
@@ -47,6 +48,8 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
     fast->idle = array_new(fast->nb, sizeof *fast->idle);
     good = good && fast->middle != NULL && fast->rests != NULL && fast->moves != NULL && fast->idle != NULL;
     for (size_t i = 0; i < fast->parts; i++) {
+        if (!pml_waits(fast, (int)i)) continue;
+        waits++;
         fast->wait[i] = pml_numbers(n, f->single);
         good = good && fast->wait[i] != NULL;
     }
@@ -54,7 +57,7 @@ static bool lay_slab(struct pml_fast *f, struct fast_slab *fast, const struct sl
         fast->over[i].wait = pml_numbers(n, f->single);
         good = good && fast->over[i].wait != NULL;
     }
-    f->bytes += (1 + fast->parts + fast->overs) * n * (f->single ? sizeof(float) : sizeof(double));
+    f->bytes += (1 + waits + fast->overs) * n * (f->single ? sizeof(float) : sizeof(double));
     return good;
 }
 

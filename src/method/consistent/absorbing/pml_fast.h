@@ -17,16 +17,18 @@
  *
  * m_ff, m_bb: those of the slabs across f and b. (Across depth, where b = y: m_bb with B, which is the
  * identity there.) In layered ground lambda and mu have a B each in slabs along depth, and a C2_j each in slabs across
- * it: the products with C1_f are two, what they make waits in parts of its own (struct cross). */
+ * it: the products with C1_f are two, what they make waits in parts of its own (struct cross), and as
+ * B_(lambda + 2 mu) = B_lambda + 2 B_mu, T'_j joins them. Where B is the identity phi_ij, i != j, moves on with L2. */
 #ifndef SELAS_METHOD_CONSISTENT_ABSORBING_PML_FAST_H
 #define SELAS_METHOD_CONSISTENT_ABSORBING_PML_FAST_H
 
 #include "method/consistent/absorbing/pml.h"
 #include "method/consistent/galerkin/window.h"
 
-/* Rows made together, at most: along s, along b; numbers in a vector of doubles; numbers left free beside
+/* Rows made together, at most: along s (more would read more inputs for each row, and not all sums of two vectors
+ * would find registers), along b; numbers in a vector of doubles; numbers left free beside
  * rows that are read with neighbours; blocks of rows that a thread needs. */
-enum { FAST_ROWS = 9, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 27 };
+enum { FAST_ROWS = 5, FAST_GROUP = 4, FAST_LANES = 8, FAST_PAD = 16, FAST_BLOCKS = 27 };
 
 /* Parts of the T'_i, one a component and those of lambda and mu; products with slopes along f or b: one of both, or one
  * each. */
@@ -82,7 +84,8 @@ struct fast_slab {
     struct row_table bare[FAST_PARTS]; /* B, by part, over b; no groups: the identity */
     struct row_table pull_b;           /* C2_b */
     size_t taps_f;
-    void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i; m_jj */
+    int own;                         /* the part in which T'_j waits */
+    void *wait[FAST_PARTS], *middle; /* [nb][ns][width]: T'_i, NULL: it is not waited for; m_jj */
     bool *rests;                     /* [nb] rows in which nothing moves, in this call */
     bool *moves;                     /* [nb] own rows in which something moves phi */
     bool *idle;                      /* [nb] rows of `wait` and `middle` that are 0 */

@@ -61,7 +61,7 @@ static void forget_row(const struct fast_slab *s, size_t b, REAL *extra)
     forget_memory(s, b, extra + s->slab->psi);
     if (s->idle[b]) return;
     for (size_t i = 0; i < s->parts; i++)
-        memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
+        if (s->wait[i] != NULL) memset((REAL *)s->wait[i] + b * size, 0, size * sizeof *extra);
     for (size_t n = 0; n < s->overs; n++)
         memset((REAL *)s->over[n].wait + b * size, 0, size * sizeof *extra);
     memset((REAL *)s->middle + b * size, 0, size * sizeof *extra);

@@ -64,6 +64,12 @@ static void move_rows(const struct fast_slab *s, double dt, const REAL *g, REAL 
     }
 }
 
+static void twice(size_t n, const REAL *restrict in, REAL *restrict out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = 2 * in[i];
+}
+
 /* L1 and L2 in row b. */
 static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, double to_middle,
                          size_t b, const REAL *u, const REAL *v, REAL *extra)
@@ -76,19 +82,22 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
     for (int k = 0; k < 3; k++) {
         const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
         const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
-        REAL *middle = i == j ? (REAL *)s->middle + b * size : m, *wait = (REAL *)s->wait[i] + b * size;
+        const int part = i == j ? s->own : i;
+        REAL *middle = i == j ? (REAL *)s->middle + b * size : m;
+        REAL *force = s->wait[part] == NULL ? g : (REAL *)s->wait[part] + b * size;
         kernels()->load(u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf,
                         s->step[ROLE_F], s->width, region);
         apply(&s->gradient[i], region, s->width, s->width, false, g);
         move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
-        apply(&s->second[i], region, s->width, s->width, false, wait);
-        apply(&s->slope[i], middle, s->width, s->width, true, wait);
+        apply(&s->second[i], region, s->width, s->width, false, force);
+        apply(&s->slope[i], middle, s->width, s->width, true, force);
+        if (force == g) move_rows(s, dt, g, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
+        if (part == PART_LAMBDA) twice(size, force, (REAL *)s->wait[PART_MU] + b * size);
         for (size_t n = 0; i == s->axis[ROLE_B] && n < s->overs; n++)
             apply(&s->over[n].change, region, s->width, s->width, false, (REAL *)s->over[n].wait + b * size);
         for (size_t n = 0; i == s->axis[ROLE_F] && n < s->crosses; n++) {
             const struct cross *cross = &s->cross[n];
             REAL *sum = (REAL *)s->wait[cross->part] + b * size;
-            if (cross->part != j) memset(sum, 0, size * sizeof *sum);
             if (cross->change.groups > 0) apply(&cross->change, region, s->width, s->width, false, g);
             apply_along(s, cross->along, g, padded, sum);
         }
@@ -118,11 +127,10 @@ static bool row_moves(const struct consistent *c, const struct fast_slab *s, str
 static void sum_forces(const struct fast_slab *s, size_t g, REAL *sum)
 {
     const size_t size = s->ns * s->width;
-    const int j = s->axis[ROLE_S];
     const struct row_group *group = &s->pull_b.group[g];
-    const REAL *force = over_rows(s, &s->bare[j], g, (const REAL *)s->wait[j], sum);
+    const REAL *force = over_rows(s, &s->bare[s->own], g, (const REAL *)s->wait[s->own], sum);
     if (force != sum) memcpy(sum, force, group->rows * size * sizeof *sum);
-    for (size_t part = PART_LAMBDA; part < s->parts; part++)
+    for (size_t part = PART_MU; part < s->parts; part++)
         apply_group(&s->bare[part].group[g], (const REAL *)s->wait[part], size, size, true, sum, size);
     for (size_t n = 0; n < s->overs; n++)
         apply_group(&s->over[n].over_b.group[g], (const REAL *)s->over[n].wait, size, size, true, sum, size);
@@ -137,15 +145,16 @@ static void force_rows(const struct consistent *c, const struct fast_slab *s, do
     REAL *sum = (REAL *)FAST(c)->buffer[omp_get_thread_num()], *rows = sum + FAST_GROUP * size;
     const int j = s->axis[ROLE_S];
     for (int i = 0; i < 3; i++) {
-        const REAL *force = sum;
         if (i == j)
             sum_forces(s, g, sum);
+        else if (s->wait[i] != NULL)
+            over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
         else
-            force = over_rows(s, &s->bare[i], g, (const REAL *)s->wait[i], sum);
+            continue;
         for (size_t r = 0; r < group->rows; r++) {
             const size_t b = group->to + r;
             if (i == j) add_divergence(c, s, ROLE_B, -1, b, rows, sum + r * size);
-            move_rows(s, dt, force + r * size, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
+            move_rows(s, dt, sum + r * size, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
         }
     }
 }
@@ -244,6 +253,14 @@ static void pull_along(const struct fast_slab *s, const REAL *const psi_b[FAST_P
             apply_along(s, s->cross[n].pull, psi_b[s->cross[n].part] + r * s->ns * s->width, padded, out);
 }
 
+/* B_(lambda + 2 mu) psi_jj from the parts of lambda and mu. */
+static const REAL *add_moduli(size_t n, const REAL *const psi_b[FAST_PARTS], REAL *out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = psi_b[PART_LAMBDA][i] + 2 * psi_b[PART_MU][i];
+    return out;
+}
+
 /* L4 in a group of rows. */
 static void pull_rows(const struct consistent *c, const struct fast_slab *s, double factor, size_t g,
                       const REAL *extra, REAL *a)
@@ -256,8 +273,10 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
     REAL *over = buffer + s->parts * FAST_GROUP * size, *out = over + FAST_GROUP * size;
     REAL *inside = out + s->offset * s->width, *padded = out + s->region * s->width;
     for (size_t i = 0; i < s->parts; i++)
-        psi_b[i] = over_rows(s, &s->bare[i], g, psi + (i < 3 ? i : (size_t)j) * inner,
-                             buffer + i * FAST_GROUP * size);
+        if (i != (size_t)j || s->own == j)
+            psi_b[i] = over_rows(s, &s->bare[i], g, psi + (i < 3 ? i : (size_t)j) * inner,
+                                 buffer + i * FAST_GROUP * size);
+    if (s->own != j) psi_b[j] = add_moduli(group->rows * size, psi_b, buffer + (size_t)j * FAST_GROUP * size);
     over_rows(s, &s->pull_b, g, psi + (size_t)j * inner, over);
     for (size_t r = 0; r < group->rows; r++)
         for (int i = 0; i < 3; i++) {

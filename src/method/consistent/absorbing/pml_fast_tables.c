@@ -174,7 +174,6 @@ static bool lay_crosses(struct fast_slab *fast, const struct slab_terms *terms, 
 {
     const int j = fast->axis[ROLE_S], f = fast->axis[ROLE_F];
     bool good = true;
-    fast->parts = fast->crosses > 1 && j != DEPTH ? FAST_PARTS : 3;
     for (size_t n = 0; good && n < fast->crosses; n++) {
         struct cross *cross = &fast->cross[n];
         const struct tensor_term *term = term_number(&terms->outer, j, f, n);
@@ -218,6 +217,8 @@ bool pml_lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool
     const struct terms *outer = &terms->outer;
     bool good = true;
     fast->taps_f = 2 * reach_along_f(fast, terms) + 1;
+    fast->parts = fast->crosses > 1 && j != DEPTH ? FAST_PARTS : 3;
+    fast->own = fast->parts > 3 ? PART_LAMBDA : j;
     for (int i = 0; good && i < 3; i++) {
         const struct tensor_term *second = term_of(outer, i, i);
         good =
@@ -225,7 +226,7 @@ bool pml_lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool
             lay_across(fast, &fast->second[i], second, inside, region, single) &&
             lay_across(fast, &fast->slope[i], term_of(outer, i, 3 + i), inside, inside, single) &&
             lay_across(fast, &fast->pull[i], term_of(&terms->pull, i, i), region, inside, single) &&
-            (j == DEPTH || second->matrix[DEPTH] == NULL ||
+            (j == DEPTH || second->matrix[DEPTH] == NULL || (i == j && fast->own != j) ||
              lay_over_b(fast, &fast->bare[i], second, 1, single));
         if (good && single)
             take_changes(&fast->second[i], second->matrix[j], second->factor, inside.from, region.from);
@@ -233,6 +234,11 @@ bool pml_lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool
     return good && lay_crosses(fast, terms, inside, region, single) &&
            lay_overs(fast, terms, inside, region, single) &&
            lay_across(fast, &fast->divergence, term_of(outer, j, 6 + f), inside, region, single);
+}
+
+bool pml_waits(const struct fast_slab *fast, int part)
+{
+    return part == fast->own || fast->bare[part].groups > 0;
 }
 
 /* In slabs along depth: is B the same in all terms of a component, and of lambda and of mu? */

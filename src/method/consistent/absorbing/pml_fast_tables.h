@@ -19,6 +19,8 @@ void pml_count_crosses(struct fast_slab *fast, const struct slab_terms *terms);
 bool pml_shares_passes(const struct fast_slab *fast, const struct slab_terms *terms);
 /* Sets taps_f, parts and all tables, where sizes and places are known; false: no memory. */
 bool pml_lay_tables(struct fast_slab *fast, const struct slab_terms *terms, bool single);
+/* After that: does a part wait for its product over b? */
+bool pml_waits(const struct fast_slab *fast, int part);
 void pml_free_tables(struct fast_slab *fast);
 
 #endif

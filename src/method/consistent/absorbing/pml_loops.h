@@ -4,7 +4,7 @@
 #include "method/consistent/absorbing/pml_kernels.h"
 
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
-enum { LANES = VECTOR_BYTES / sizeof(REAL), MOST_VECTORS = 4, FEW_REGISTERS = VECTOR_BYTES < 64 };
+enum { LANES = VECTOR_BYTES / sizeof(REAL), MOST_VECTORS = 4 };
 
 #define UNROLLED _Pragma("GCC unroll 16")
 
@@ -17,10 +17,9 @@ INLINED const lanes *at(const REAL *place)
  * middle, where that sum stands in the place of the middle's weight and the other inputs are less the middle. */
 enum begin { SET, ADD, CHANGE };
 
-/* out row r := (ADD: out row r) + sum over t of weight[t * of + r] times in row t, `count` vectors. */
-INLINED void rows_block(const int rows, const int of, const int count, const enum begin begin,
-                        const REAL *restrict weight, size_t inputs, const REAL *in, size_t in_step, REAL *out,
-                        size_t out_step)
+/* out row r := (ADD: out row r) + sum over t of weight[t * rows + r] times in row t, `count` vectors. */
+INLINED void rows_block(const int rows, const int count, const enum begin begin, const REAL *restrict weight,
+                        size_t inputs, const REAL *in, size_t in_step, REAL *out, size_t out_step)
 {
     lanes sum[FAST_ROWS][MOST_VECTORS], middle[MOST_VECTORS];
     UNROLLED for (int v = 0; begin == CHANGE && v < count; v++) middle[v] =
@@ -28,36 +27,33 @@ INLINED void rows_block(const int rows, const int of, const int count, const enu
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++)
     {
         sum[r][v] = begin == ADD ? *at(out + (size_t)r * out_step + v * LANES) : (lanes){0};
-        if (begin == CHANGE) sum[r][v] = weight[inputs / 2 * (size_t)of + (size_t)r] * middle[v];
+        if (begin == CHANGE) sum[r][v] = weight[inputs / 2 * (size_t)rows + (size_t)r] * middle[v];
     }
-    for (size_t t = 0; t < inputs; t++, weight += of, in += in_step)
+    for (size_t t = 0; t < inputs; t++, weight += rows, in += in_step) {
+        lanes value[MOST_VECTORS];
         UNROLLED for (int v = 0; v < count; v++)
         {
-            lanes value = *at(in + v * LANES);
-            if (begin == CHANGE) value -= middle[v];
-            UNROLLED for (int r = 0; r < rows; r++) sum[r][v] += weight[r] * value;
+            value[v] = *at(in + v * LANES);
+            if (begin == CHANGE) value[v] -= middle[v];
         }
+        UNROLLED for (int r = 0; r < rows; r++) /* a weight once for all vectors */
+            UNROLLED for (int v = 0; v < count; v++) sum[r][v] += weight[r] * value[v];
+    }
     UNROLLED for (int r = 0; r < rows; r++) UNROLLED for (int v = 0; v < count; v++) *
         (lanes *)(out + (size_t)r * out_step + v * LANES) = sum[r][v];
 }
 
-/* Rows in two halves where not all sums of two vectors find registers, since one vector alone would need a
- * weight for each multiplication. Few rows: four vectors, as few sums wait for each other. */
+/* Few rows: four vectors, as few sums wait for each other. */
 INLINED void rows_all(const int rows, const enum begin begin, const REAL *weight, size_t inputs,
                       const REAL *in, size_t in_step, size_t width, REAL *out, size_t out_step)
 {
-    const int half = FEW_REGISTERS && rows > 6 ? rows / 2 : rows;
-    const int count = FEW_REGISTERS && rows < 3 ? MOST_VECTORS : 2;
+    const int count = rows < 3 ? MOST_VECTORS : 2;
     const size_t together = (size_t)count * LANES;
     size_t i = 0;
-    for (; i + together <= width; i += together) {
-        rows_block(half, rows, count, begin, weight, inputs, in + i, in_step, out + i, out_step);
-        if (half < rows)
-            rows_block(rows - half, rows, count, begin, weight + half, inputs, in + i, in_step,
-                       out + i + (size_t)half * out_step, out_step);
-    }
+    for (; i + together <= width; i += together)
+        rows_block(rows, count, begin, weight, inputs, in + i, in_step, out + i, out_step);
     for (; i < width; i += LANES)
-        rows_block(rows, rows, 1, begin, weight, inputs, in + i, in_step, out + i, out_step);
+        rows_block(rows, 1, begin, weight, inputs, in + i, in_step, out + i, out_step);
 }
 
 /* out row r += matrix by diagonals times in row r, with its neighbours. */
@@ -102,43 +98,83 @@ OF_ROWS(2)
 OF_ROWS(3)
 OF_ROWS(4)
 OF_ROWS(5)
-OF_ROWS(6)
-OF_ROWS(7)
-OF_ROWS(8)
-OF_ROWS(9)
 
-/* Rows of a field, `factor` * v added, n numbers each at the steps given, into rows of `width`, 0 from n on.
- */
+/* Four numbers in four rows change places. */
+typedef REAL four __attribute__((vector_size(4 * sizeof(REAL)), aligned(sizeof(REAL)), may_alias));
+INLINED void turn(four row[4])
+{
+    const four even = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6),
+               odd = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7),
+               even_below = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6),
+               odd_below = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+    row[0] = __builtin_shufflevector(even, even_below, 0, 1, 4, 5);
+    row[1] = __builtin_shufflevector(odd, odd_below, 0, 1, 4, 5);
+    row[2] = __builtin_shufflevector(even, even_below, 2, 3, 6, 7);
+    row[3] = __builtin_shufflevector(odd, odd_below, 2, 3, 6, 7);
+}
+
+/* Where numbers of different rows stand together in the field: `rows` of them at n places `step` apart. */
+INLINED void load_turned(const REAL *restrict u, const REAL *restrict v, REAL factor, size_t rows, size_t n,
+                         size_t step, size_t width, REAL *restrict out)
+{
+    const size_t fours = n / 4 * 4, down = rows / 4 * 4;
+    for (size_t i = 0; i < fours; i += 4)
+        for (size_t r = 0; r < down; r += 4) {
+            four row[4];
+            UNROLLED for (size_t k = 0; k < 4; k++) row[k] =
+                *(const four *)(u + (i + k) * step + r) + factor * *(const four *)(v + (i + k) * step + r);
+            turn(row);
+            UNROLLED for (size_t k = 0; k < 4; k++) * (four *)(out + (r + k) * width + i) = row[k];
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = i < fours ? down : 0; r < rows; r++)
+            out[r * width + i] = u[i * step + r] + factor * v[i * step + r];
+}
+
+INLINED void store_turned(const REAL *restrict in, REAL factor, size_t rows, size_t n, size_t step,
+                          size_t width, REAL *restrict a)
+{
+    const size_t fours = n / 4 * 4, down = rows / 4 * 4;
+    for (size_t i = 0; i < fours; i += 4)
+        for (size_t r = 0; r < down; r += 4) {
+            four row[4];
+            UNROLLED for (size_t k = 0; k < 4; k++) row[k] = *(const four *)(in + (r + k) * width + i);
+            turn(row);
+            UNROLLED for (size_t k = 0; k < 4; k++) * (four *)(a + (i + k) * step + r) += factor * row[k];
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = i < fours ? down : 0; r < rows; r++)
+            a[i * step + r] += factor * in[r * width + i];
+}
+
+/* Rows of a field, `factor` * v added, n numbers each at the steps given (one of them 1), into rows of `width`, 0 from
+ * n on. */
 static void load(const REAL *restrict u, const REAL *restrict v, REAL factor, size_t rows, size_t step_row,
                  size_t n, size_t step, size_t width, REAL *restrict out)
 {
     for (size_t r = 0; r < rows; r++)
         for (size_t i = n; i < width; i++)
             out[r * width + i] = 0;
-    if (step == 1) {
-        for (size_t r = 0; r < rows; r++)
-            for (size_t i = 0; i < n; i++)
-                out[r * width + i] = u[r * step_row + i] + factor * v[r * step_row + i];
+    if (step != 1) {
+        load_turned(u, v, factor, rows, n, step, width, out);
         return;
     }
-    for (size_t i = 0; i < n; i++)
-        for (size_t r = 0; r < rows; r++)
-            out[r * width + i] = u[i * step + r * step_row] + factor * v[i * step + r * step_row];
+    for (size_t r = 0; r < rows; r++)
+        for (size_t i = 0; i < n; i++)
+            out[r * width + i] = u[r * step_row + i] + factor * v[r * step_row + i];
 }
 
 /* The other way round: a += factor * rows. */
 static void store(const REAL *restrict in, REAL factor, size_t rows, size_t step_row, size_t n, size_t step,
                   size_t width, REAL *restrict a)
 {
-    if (step == 1) {
-        for (size_t r = 0; r < rows; r++)
-            for (size_t i = 0; i < n; i++)
-                a[r * step_row + i] += factor * in[r * width + i];
+    if (step != 1) {
+        store_turned(in, factor, rows, n, step, width, a);
         return;
     }
-    for (size_t i = 0; i < n; i++)
-        for (size_t r = 0; r < rows; r++)
-            a[i * step + r * step_row] += factor * in[r * width + i];
+    for (size_t r = 0; r < rows; r++)
+        for (size_t i = 0; i < n; i++)
+            a[r * step_row + i] += factor * in[r * width + i];
 }
 
 static void sum_up(size_t n, const REAL *restrict in, REAL *restrict out)
@@ -180,7 +216,7 @@ static bool loud(size_t rows, size_t step, size_t n, REAL level, const REAL *x)
 
 #define BY_ROWS(name)                                                                                        \
     {                                                                                                        \
-        NULL, name##_1, name##_2, name##_3, name##_4, name##_5, name##_6, name##_7, name##_8, name##_9       \
+        NULL, name##_1, name##_2, name##_3, name##_4, name##_5                                               \
     }
 const struct NAME(pml_kernels) OF_PROCESSOR(NAME(pml_kernels)) = {
     BY_ROWS(set), BY_ROWS(add), BY_ROWS(change), BY_ROWS(along), load, store, sum_up, move, loud};
