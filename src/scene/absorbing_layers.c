@@ -134,10 +134,15 @@ double layer_spacing(const struct scene *scene, int face)
     return grading->step * grading_stretch(grading, face_plane(&scene->body, (enum face)face));
 }
 
+bool layer_needed(const struct scene *scene, int face)
+{
+    return layer_asked(scene, face) && !layer_unneeded(scene, face);
+}
+
 size_t layer_points(const struct scene *scene, int face)
 {
     const struct boundary *boundary = &scene->boundary[face];
-    if (!layer_asked(scene, face) || layer_unneeded(scene, face)) return 0;
+    if (!layer_needed(scene, face)) return 0;
     if (boundary->layer_points > 0) return (size_t)boundary->layer_points;
     if (boundary->layer_thickness > 0)
         return within_limits(ceil(boundary->layer_thickness / layer_spacing(scene, face) - 1e-9),
@@ -178,7 +183,7 @@ static bool ground_changes_behind(const struct scene *scene, int face)
 
 double layer_drag(const struct scene *scene, int face)
 {
-    static const double plate = .3, ground = .1; /* measured */
+    static const double plate = 1.2, ground = .3; /* measured */
     for (int axis = 0; axis < scene->dimension; axis++) {
         const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
         if (!boundary_absorbs(low) && !boundary_absorbs(high) &&

@@ -25,7 +25,8 @@ double layer_steps(const struct scene *scene);
 double layer_left_behind(const struct scene *scene, double cells);
 double layer_clearance(const struct scene *scene);
 
-/* Points of the absorbing layer behind a face, 0 if it has none. */
+/* Is there an absorbing layer behind a face? How many points it has, 0 if there is none. */
+bool layer_needed(const struct scene *scene, int face);
 size_t layer_points(const struct scene *scene, int face);
 /* Distance of points across a face, in the layer too. */
 double layer_spacing(const struct scene *scene, int face);

@@ -51,15 +51,16 @@ static const double decay = .7, wavelength_power = 1.65, grazing_power = 1.6;
 static const double late_part = .4, late_decay = .2, late_power = 2.6;
 static const double in_plane = .012, in_space = .0025, along_depth = .043;
 /* And where velocities in the layer are damped besides, at the share s against guided waves,
- *   e = B s max(1, r/d)^.6 Lambda / (h n^2) min(1, Lambda / (h n)):                                        (16)
+ *   e = B s max(1, r/d)^.6 Lambda / h n^(-10/3) min(1, Lambda / (h n)):                                    (16)
  * what weak damping scatters back within a stretched coordinate, B by measurement. */
-static const double dragged_in_plane = .7, dragged_in_space = .2, dragged_grazing = .6;
+static const double dragged_in_plane = 3.5, dragged_in_space = 1, dragged_grazing = .6;
+static const double dragged_power = 10. / 3;
 /* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
 static const double static_reach = 4;
 /* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
  * spacing, so this falls too, and a finer scene is never a worse one. */
 static const double most_wanted = 1e-3, coarse = 12;
-/* Of the part (16), which a few points more hardly lessen. */
+/* Of the part (16): of all faces together, in squares. */
 static const double most_dragged = 4e-3;
 enum { MOST = 40 };
 
@@ -134,9 +135,9 @@ static double of_points(const struct scene *scene, const struct echo *echo, size
 /* (16) */
 static double of_drag(const struct scene *scene, int face, const struct echo *echo, size_t points)
 {
-    const double n = fmax(1, (double)points), waves = echo->wavelength / (n * layer_spacing(scene, face));
+    const double n = fmax(1, (double)points), waves = echo->wavelength / layer_spacing(scene, face);
     return (scene->dimension == 3 ? dragged_in_space : dragged_in_plane) * layer_drag(scene, face) *
-           pow(echo->grazing, dragged_grazing) * waves / n * fmin(1, waves);
+           pow(echo->grazing, dragged_grazing) * waves * pow(n, -dragged_power) * fmin(1, waves / n);
 }
 
 double echo_of_layer(const struct scene *scene, int face, size_t points)
@@ -145,14 +146,23 @@ double echo_of_layer(const struct scene *scene, int face, size_t points)
     return of_points(scene, &echo, points) + of_drag(scene, face, &echo, points);
 }
 
+/* Of what all faces may send back by (16), the share of one. */
+static double share_of_drag(const struct scene *scene)
+{
+    int faces = 0;
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        if (layer_needed(scene, face) && layer_drag(scene, face) > 0) faces++;
+    return 1 / sqrt(fmax(1, faces));
+}
+
 size_t echo_points(const struct scene *scene, int face)
 {
     const struct echo echo = worst_echo(scene, face);
     const double h = layer_spacing(scene, face), finer = coarse * h / fmax(echo.wavelength, h);
-    const double wanted = most_wanted * fmin(1, finer);
+    const double wanted = most_wanted * fmin(1, finer), dragged = most_dragged * share_of_drag(scene);
     size_t points = 0;
     while (points < MOST &&
-           (of_points(scene, &echo, points) > wanted || of_drag(scene, face, &echo, points) > most_dragged))
+           (of_points(scene, &echo, points) > wanted || of_drag(scene, face, &echo, points) > dragged))
         points++;
     return points;
 }

@@ -9,6 +9,8 @@
 
 #include <math.h>
 #include <string.h>
+/* Damping of velocities (Eq 11): this power of d / d_max. */
+static const double drag_power = 4;
 /* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
 static const double layer_relaxation = .1;
 
@@ -21,7 +23,7 @@ static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count
     slab->kept = array_new(count, sizeof *slab->kept);
     if (slab->drag == NULL || slab->kept == NULL) return false;
     for (size_t i = 0; i < count; i++)
-        slab->drag[i] = share * slab->damping[i] * pow(slab->damping[i] / most, 2);
+        slab->drag[i] = share * slab->damping[i] * pow(slab->damping[i] / most, drag_power);
     return true;
 }
 

@@ -151,8 +151,8 @@ static bool silent_face(const struct fused *f, const struct fused_face *face, si
     return true;
 }
 
-/* Plane k of a += factor times (F1b) of the second displacement, or (F1d). A thread takes planes one after the other, this is
- * its first or not. */
+/* Plane k of a += factor times (F1b) of the second displacement, or (F1d). A thread takes planes one after the other,
+ * this is its first or not. */
 static void add_faces(const struct consistent *c, int thread, double factor,
                       const struct fused_fields *fields, bool first, size_t k)
 {
