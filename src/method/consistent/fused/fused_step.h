@@ -233,7 +233,7 @@ static void pull_turn(const struct consistent *c, const struct NAME(step_fields)
     part_send(c, &fields, turn);
 }
 
-/* Faces across depth, before all planes: theirs of u are brought on first, and no more those that `still` have to be. */
+/* Faces across depth, before all planes: theirs of u are brought on first, and leave those that `still` have to be. */
 static void begin_faces(const struct consistent *c, const struct fused_fields *fields,
                         struct part_range *still)
 {
