@@ -139,7 +139,8 @@ INLINED void gathered(const int abreast, size_t count, const REAL *weight, const
 
 INLINED lanes factors(const double *weight)
 {
-    if (sizeof(REAL) == sizeof(double)) return *(const lanes *)weight;
+    const void *same = weight;
+    if (sizeof(REAL) == sizeof(double)) return *at(same);
     REAL factor[LANES];
 #pragma omp simd
     for (int lane = 0; lane < LANES; lane++)
