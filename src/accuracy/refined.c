@@ -223,16 +223,16 @@ static selas_status narrow(const struct scene *scene, double accuracy, const str
         if (trials->count < TRIALS) continue;
         const double part = pow(ACCURACY_AIM * accuracy / trials->error, 1 / trials->order);
         *h = possible(scene, fmin(next.spacing * part, trials->spacing[0]));
-        told = *h > 0 && trials->error < CARRIED && next.spacing <= FAR * *h;
-        if (told && next.spacing <= NEAR * *h && own_order(trials) >= LEAST_ORDER) return SELAS_OK;
+        told =
+            *h > 0 && trials->error < CARRIED && next.spacing <= FAR * *h && own_order(trials) >= LEAST_ORDER;
+        if (told && next.spacing <= NEAR * *h) return SELAS_OK;
     }
     if (told) return SELAS_OK;
     return fail(
         messages, SELAS_BAD_SCENE,
         "scene%%accuracy = %g: on general ground the spacing follows from trials, and those of at most %.0g "
         "points times steps, down to a spacing of %.3g, do not tell; a larger accuracy, or body%%spacing in "
-        "its "
-        "place, would do",
+        "its place, would do",
         accuracy, ACCURACY_TRIAL_WORK, trials->spacing[TRIALS - 1]);
 }
 
