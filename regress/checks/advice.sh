@@ -94,8 +94,10 @@ sed '/^&boundary/d' start.nml >rollers.nml
 echo "&boundary face = 'all', kind = 'roller' /" >>rollers.nml
 deck=rollers.nml
 untold "the same between rollers" initial%width=.25 initial%centre=2,2 scene%end_time=.1
-told "the same for longer" "initial state's shortest waves, 4.01 points each, .* by about 0.23 by end_time; body%spacing = 0.09" initial%width=.25 initial%centre=2,2
-untold "at that spacing" initial%width=.25 initial%centre=2,2 body%spacing=.08
+told "the same for longer" "initial state's shortest waves, 4.01 points each, .* by about 0.039 by end_time; body%spacing = 0.114" initial%width=.25 initial%centre=2,2
+told "at degree 1" "initial state's shortest waves, 4.01 points each, .* by about 0.25 by end_time" initial%width=.25 initial%centre=2,2 method%degree=1
+untold "at degree 4" initial%width=.25 initial%centre=2,2 method%degree=4 method%mass=exact
+untold "at that spacing" initial%width=.25 initial%centre=2,2 body%spacing=.1
 told "a long way to an S wave" "initial state's shortest waves, 4.63 points each, .* by about 0.02[0-9] by end_time" boundary%kind=free initial%centre=2,2 scene%end_time=12
 wave="initial%kind=plane-wave initial%centre=2,2 initial%direction"
 # shellcheck disable=SC2086

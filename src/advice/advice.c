@@ -201,7 +201,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
 {
     struct adviser adviser = {scene, tell, context, 0};
     look_at_resolution(&adviser);
-    look_at_short_waves(&adviser);
+    look_at_short_waves(&adviser, stepper->model);
     look_at_cut_start(&adviser);
     look_at_impact(&adviser);
     look_at_time_error(&adviser, stepper);

@@ -25,7 +25,7 @@ bool has_patch(const struct load *load);
 double half_size(const struct load *load, int axis);
 
 /* Short waves in the state at t = 0, faces that cut it, a velocity that jumps at them. */
-void look_at_short_waves(struct adviser *adviser);
+void look_at_short_waves(struct adviser *adviser, const struct model *model);
 void look_at_cut_start(struct adviser *adviser);
 void look_at_impact(struct adviser *adviser);
 /* Leapfrog's time error where it stays. */

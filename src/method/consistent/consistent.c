@@ -338,6 +338,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     c->model.scene = scene;
     c->model.self_adjoint = true;
     c->model.small_strain = true;
+    c->model.waves = consistent_waves(options);
     status = build(c, messages);
     if (c->pml != NULL) c->model.memory = &memory;
     c->model.layers = c->pml != NULL;

@@ -6,6 +6,8 @@
 
 /* What the deck says of the method's options; what it leaves open has the method's defaults. */
 struct consistent_options consistent_options_of(const struct scene *scene);
+/* What pulses err by that the modified equation moves on at .9 of its limit (regress/studies/bodies/pulse). */
+struct wave_law consistent_waves(const struct consistent_options *options);
 
 /* Refuses options that cannot serve the scene: SELAS_BAD_SCENE, SELAS_UNSUPPORTED. */
 selas_status consistent_check(const struct scene *scene, const struct consistent_options *options,

@@ -138,6 +138,13 @@ static bool given(const struct deck_group *group, const char *word)
     return group != NULL && deck_values(group, word) > 0;
 }
 
+struct wave_law consistent_waves(const struct consistent_options *options)
+{
+    static const double sweeps[] = {0, 2000, 400, 120}, exact[SPLINE_MAX_DEGREE + 1] = {0, 0, 25, 7, 2};
+    if (options->degree == 1) return (struct wave_law){12, 2, 0};
+    return (struct wave_law){options->sweeps > 0 ? sweeps[options->sweeps] : exact[options->degree], 4, 0};
+}
+
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4 and the
  * exact mass where no C-PML stands beside it (that is built on sweeps only): waves in a soft layer are short
  * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/theory/layered.md). Then
