@@ -75,15 +75,25 @@ static double longest_way(const struct scene *scene, double speed)
     return fmin(way, speed * scene->end_time);
 }
 
+/* Wave number of what is typical in the velocity of the initial state, its root mean square; 0: not known. */
+static double typical_number(const struct scene *scene)
+{
+    const struct initial *initial = &scene->initial;
+    const bool plane = initial->kind == INITIAL_PLANE_WAVE;
+    if (plane && initial->wavelength > 0) return 2 * M_PI / initial->wavelength;
+    if (!plane && initial->kind != INITIAL_GAUSSIAN) return 0;
+    return sqrt(1 + (plane ? 1 : scene->dimension) / 2.) / initial->width;
+}
+
 /* What the velocities of a pulse or a Gaussian err by (initial-states.md, Eq 3a). */
 static double error_of_state(const struct scene *scene, const struct wave_law *law, bool slower)
 {
-    static const double turned = .19, spread = .5; /* shares, measured */
+    static const double turned = .093, spread = .24; /* shares, measured */
     const bool plane = scene->initial.kind == INITIAL_PLANE_WAVE;
     const double speed = slower ? slowest_speed(scene) : plane_wave_speed(scene);
     const double way = slower ? speed * scene->end_time : longest_way(scene, speed);
-    const double k = sqrt(1.5) / scene->initial.width * (slower ? plane_wave_speed(scene) / speed : 1);
-    return (slower ? turned : plane ? 1 : spread) * error_of_waves(scene, law, k, way);
+    const double k = typical_number(scene) * (slower ? plane_wave_speed(scene) / speed : 1);
+    return (plane ? 1 : slower ? turned : spread) * error_of_waves(scene, law, k, way);
 }
 
 void look_at_short_waves(struct adviser *adviser, const struct model *model)
@@ -223,16 +233,6 @@ void look_at_impact(struct adviser *adviser)
                 face_name((enum face)face));
             return;
         }
-}
-
-/* Wave number of what is typical in the velocity of the initial state, its root mean square; 0: not known. */
-static double typical_number(const struct scene *scene)
-{
-    const struct initial *initial = &scene->initial;
-    const bool plane = initial->kind == INITIAL_PLANE_WAVE;
-    if (plane && initial->wavelength > 0) return 2 * M_PI / initial->wavelength;
-    if (!plane && initial->kind != INITIAL_GAUSSIAN) return 0;
-    return sqrt(1 + (plane ? 1 : scene->dimension) / 2.) / initial->width;
 }
 
 /* Angular frequency that loads send with half their largest amplitude; 0: not known. */
