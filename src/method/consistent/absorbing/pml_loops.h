@@ -99,82 +99,38 @@ OF_ROWS(3)
 OF_ROWS(4)
 OF_ROWS(5)
 
-/* Four numbers in four rows change places. */
-typedef REAL four __attribute__((vector_size(4 * sizeof(REAL)), aligned(sizeof(REAL)), may_alias));
-INLINED void turn(four row[4])
-{
-    const four even = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6),
-               odd = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7),
-               even_below = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6),
-               odd_below = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
-    row[0] = __builtin_shufflevector(even, even_below, 0, 1, 4, 5);
-    row[1] = __builtin_shufflevector(odd, odd_below, 0, 1, 4, 5);
-    row[2] = __builtin_shufflevector(even, even_below, 2, 3, 6, 7);
-    row[3] = __builtin_shufflevector(odd, odd_below, 2, 3, 6, 7);
-}
-
-/* Where numbers of different rows stand together in the field: `rows` of them at n places `step` apart. */
-INLINED void load_turned(const REAL *restrict u, const REAL *restrict v, REAL factor, size_t rows, size_t n,
-                         size_t step, size_t width, REAL *restrict out)
-{
-    const size_t fours = n / 4 * 4, down = rows / 4 * 4;
-    for (size_t i = 0; i < fours; i += 4)
-        for (size_t r = 0; r < down; r += 4) {
-            four row[4];
-            UNROLLED for (size_t k = 0; k < 4; k++) row[k] =
-                *(const four *)(u + (i + k) * step + r) + factor * *(const four *)(v + (i + k) * step + r);
-            turn(row);
-            UNROLLED for (size_t k = 0; k < 4; k++) * (four *)(out + (r + k) * width + i) = row[k];
-        }
-    for (size_t i = 0; i < n; i++)
-        for (size_t r = i < fours ? down : 0; r < rows; r++)
-            out[r * width + i] = u[i * step + r] + factor * v[i * step + r];
-}
-
-INLINED void store_turned(const REAL *restrict in, REAL factor, size_t rows, size_t n, size_t step,
-                          size_t width, REAL *restrict a)
-{
-    const size_t fours = n / 4 * 4, down = rows / 4 * 4;
-    for (size_t i = 0; i < fours; i += 4)
-        for (size_t r = 0; r < down; r += 4) {
-            four row[4];
-            UNROLLED for (size_t k = 0; k < 4; k++) row[k] = *(const four *)(in + (r + k) * width + i);
-            turn(row);
-            UNROLLED for (size_t k = 0; k < 4; k++) * (four *)(a + (i + k) * step + r) += factor * row[k];
-        }
-    for (size_t i = 0; i < n; i++)
-        for (size_t r = i < fours ? down : 0; r < rows; r++)
-            a[i * step + r] += factor * in[r * width + i];
-}
-
-/* Rows of a field, `factor` * v added, n numbers each at the steps given (one of them 1), into rows of `width`, 0 from
- * n on. */
+/* Rows of a field, `factor` * v added, n numbers each at the steps given, into rows of `width`, 0 from n on.
+ */
 static void load(const REAL *restrict u, const REAL *restrict v, REAL factor, size_t rows, size_t step_row,
                  size_t n, size_t step, size_t width, REAL *restrict out)
 {
     for (size_t r = 0; r < rows; r++)
         for (size_t i = n; i < width; i++)
             out[r * width + i] = 0;
-    if (step != 1) {
-        load_turned(u, v, factor, rows, n, step, width, out);
+    if (step == 1) {
+        for (size_t r = 0; r < rows; r++)
+            for (size_t i = 0; i < n; i++)
+                out[r * width + i] = u[r * step_row + i] + factor * v[r * step_row + i];
         return;
     }
-    for (size_t r = 0; r < rows; r++)
-        for (size_t i = 0; i < n; i++)
-            out[r * width + i] = u[r * step_row + i] + factor * v[r * step_row + i];
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = 0; r < rows; r++)
+            out[r * width + i] = u[i * step + r * step_row] + factor * v[i * step + r * step_row];
 }
 
 /* The other way round: a += factor * rows. */
 static void store(const REAL *restrict in, REAL factor, size_t rows, size_t step_row, size_t n, size_t step,
                   size_t width, REAL *restrict a)
 {
-    if (step != 1) {
-        store_turned(in, factor, rows, n, step, width, a);
+    if (step == 1) {
+        for (size_t r = 0; r < rows; r++)
+            for (size_t i = 0; i < n; i++)
+                a[r * step_row + i] += factor * in[r * width + i];
         return;
     }
-    for (size_t r = 0; r < rows; r++)
-        for (size_t i = 0; i < n; i++)
-            a[r * step_row + i] += factor * in[r * width + i];
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = 0; r < rows; r++)
+            a[i * step + r * step_row] += factor * in[r * width + i];
 }
 
 static void sum_up(size_t n, const REAL *restrict in, REAL *restrict out)
