@@ -6,6 +6,7 @@
 #include "scene/resolution.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* --- The source's spectrum ---------------------------------------------------------------------------- */
 
@@ -60,9 +61,12 @@ static selas_status set_band(const struct scene *scene, struct ground_damping *d
             "damping is fitted to the spectrum of loads and moved faces, and there is none here; give "
             "material%%q_frequency");
     damping->centroid = relaxation_centroid(&damping->band);
-    damping->band.step = stepping->time_step;
+    damping->band.by.dt = stepping->time_step;
     if (stepping->courant > 0)
-        damping->band.step = stepping->courant * scene->body.spacing / scene_fastest(scene);
+        damping->band.by.dt = stepping->courant * scene->body.spacing / scene_fastest(scene);
+    /* the scheme of a body that moves at t = 0, too, if the deck names none */
+    damping->band.by.corrected = strcmp(stepping->scheme, "modified-equation") == 0 ||
+                                 (stepping->scheme[0] == '\0' && scene->initial.kind != INITIAL_REST);
     return SELAS_OK;
 }
 

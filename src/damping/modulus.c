@@ -2,8 +2,7 @@
  * (1979) 4737-4748): its phase speed is sqrt(size/rho) at w_ref and Im M / Re M = 1/Q at every frequency.
  * Q = q (w/w_ref)^b: ln M = -phi/sin(pi b/2) (s/w_ref)^(-b) + const, phi = atan(1/q): the phase is
  * phi (w/w_ref)^(-b) and the modulus causal for |b| < 1.
- * Mechanisms: M = size (1 - sum_l weight_l rate_l/(rate_l + s)); taken on by leapfrog, with rate_l
- * sqrt(1 + (s step/2)^2) in place of rate_l. */
+ * Mechanisms: M = size (1 - sum_l weight_l F_l), F_l = rate_l/(rate_l + s), or what the step makes of it. */
 #include "damping/modulus.h"
 
 #include <math.h>
@@ -34,6 +33,15 @@ static double complex bent(double bend, double complex s)
     return (cos(turn) - cpow(s, -bend)) / sin(turn);
 }
 
+double complex mechanism_at(double rate, const struct mechanism_step *by, double complex s)
+{
+    const double complex turn = s * by->dt;
+    if (!(by->dt > 0)) return rate / (rate + s);
+    if (by->corrected) return (1 - turn * turn / 12) * rate / (rate + 2 / by->dt * ctanh(.5 * turn));
+    const double complex slower = rate * csqrt(1 + .25 * turn * turn);
+    return slower / (slower + s);
+}
+
 double complex modulus_at(const struct modulus *modulus, double complex s)
 {
     if (modulus->bend != 0)
@@ -41,12 +49,8 @@ double complex modulus_at(const struct modulus *modulus, double complex s)
                cexp(.5 * M_PI * modulus->power * bent(modulus->bend, s / modulus->angular_frequency));
     if (modulus->power > 0) return modulus->size * cpow(s / modulus->angular_frequency, modulus->power);
     double complex left = 1;
-    const double complex slower =
-        modulus->step > 0 ? csqrt(1 + .25 * (s * modulus->step) * (s * modulus->step)) : 1;
-    for (size_t l = 0; l < modulus->mechanisms; l++) {
-        const double complex rate = modulus->rate[l] * slower;
-        left -= modulus->weight[l] * rate / (rate + s);
-    }
+    for (size_t l = 0; l < modulus->mechanisms; l++)
+        left -= modulus->weight[l] * mechanism_at(modulus->rate[l], &modulus->by, s);
     return modulus->size * left;
 }
 

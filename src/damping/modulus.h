@@ -4,9 +4,17 @@
 #define SELAS_MODULUS_H
 
 #include <complex.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { MOST_MECHANISMS = 8 };
+
+/* The step that takes mechanisms on (doc/theory/damping.md): leapfrog's (Eq 15) or, corrected, that of the modified
+ * equation (Eq 15b); 0: as if it were short. */
+struct mechanism_step {
+    double dt;
+    bool corrected;
+};
 
 struct modulus {
     double size;  /* rho c^2 at the reference frequency; unrelaxed with mechanisms */
@@ -15,7 +23,7 @@ struct modulus {
     double angular_frequency; /* reference: where constant Q has the size */
     size_t mechanisms;
     double rate[MOST_MECHANISMS], weight[MOST_MECHANISMS];
-    double step; /* of the leapfrog that takes the mechanisms on (doc/theory/damping.md, Eq 15); 0: none */
+    struct mechanism_step by;
 };
 
 /* The modulus that does not depend on frequency. */
@@ -24,6 +32,8 @@ struct modulus modulus_elastic(double size);
 struct modulus modulus_constant_q(double size, double q, double angular_frequency);
 /* The same with Q = q (w/angular_frequency)^bend, -1 < bend < 1. */
 struct modulus modulus_power_q(double size, double q, double bend, double angular_frequency);
+/* What a mechanism takes of a modulus, F_l of Eq 6 (rate/(rate + s) without a step). Re s >= 0. */
+double complex mechanism_at(double rate, const struct mechanism_step *by, double complex s);
 /* Re s > 0. */
 double complex modulus_at(const struct modulus *modulus, double complex s);
 /* Of a solid of this density, at an angular frequency: phase speed and 1/Q. */

@@ -102,12 +102,6 @@ static double not_negative(const struct squares *squares, double x[COLUMNS])
     return residual_of(squares, x, gradient);
 }
 
-/* What leapfrog makes of rates at an angular frequency (modulus.c). */
-static double slowed(const struct relaxation_band *band, double w)
-{
-    return sqrt(fmax(0, 1 - .25 * (w * band->step) * (w * band->step)));
-}
-
 /* Rows for a modulus that is to be fitted to target - given, counted relative to the target. */
 static void set_squares(const struct relaxation_band *band, size_t mechanisms, const double *rate,
                         const double complex *target, const double complex *given, struct squares *squares)
@@ -119,8 +113,8 @@ static void set_squares(const struct relaxation_band *band, size_t mechanisms, c
         squares->b[2 * k] = creal(right);
         squares->b[2 * k + 1] = cimag(right);
         for (size_t j = 0; j <= mechanisms; j++) {
-            const double slower = slowed(band, w) * (j == 0 ? 0 : rate[j - 1]);
-            const double complex a = weight / target[k] * (j == 0 ? 1 : -slower / (slower + I * w));
+            const double complex a =
+                weight / target[k] * (j == 0 ? 1 : -mechanism_at(rate[j - 1], &band->by, I * w));
             squares->a[2 * k][j] = creal(a);
             squares->a[2 * k + 1][j] = cimag(a);
         }
@@ -131,7 +125,7 @@ void relaxation_band_set(struct relaxation_band *band, double top, relaxation_po
                          const void *source)
 {
     double sum = 0;
-    band->step = 0;
+    band->by = (struct mechanism_step){.dt = 0};
     for (int k = 0; k < RELAXATION_SAMPLES; k++) {
         const double w = top * pow(10, -3. * (RELAXATION_SAMPLES - 1 - k) / (RELAXATION_SAMPLES - 1));
         band->angular_frequency[k] = w;
@@ -295,19 +289,19 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
     struct squares squares;
     double complex target[RELAXATION_SAMPLES], given[RELAXATION_SAMPLES];
     double s[COLUMNS], bulk[COLUMNS], sum[2] = {0, 0};
-    struct modulus fitted[2] = {{.mechanisms = mechanisms, .step = band->step},
-                                {.mechanisms = mechanisms, .step = band->step}};
+    struct modulus fitted[2] = {{.mechanisms = mechanisms, .by = band->by},
+                                {.mechanisms = mechanisms, .by = band->by}};
     for (size_t k = 0; k < RELAXATION_SAMPLES; k++)
         target[k] = modulus_at(shear, I * band->angular_frequency[k]);
     gsl_errors_returned();
     set_squares(band, mechanisms, rate, target, NULL, &squares);
     not_negative(&squares, s);
     for (size_t k = 0; k < RELAXATION_SAMPLES; k++) {
-        const double w = band->angular_frequency[k], slower = slowed(band, w);
+        const double w = band->angular_frequency[k];
         target[k] = modulus_at(axial, I * w);
         given[k] = s[0];
         for (size_t l = 0; l < mechanisms; l++)
-            given[k] -= s[l + 1] * slower * rate[l] / (slower * rate[l] + I * w);
+            given[k] -= s[l + 1] * mechanism_at(rate[l], &band->by, I * w);
         given[k] *= 4. / 3;
     }
     set_squares(band, mechanisms, rate, target, given, &squares);

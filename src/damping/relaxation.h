@@ -12,7 +12,7 @@ enum { RELAXATION_SAMPLES = 80 };
  * the step. */
 struct relaxation_band {
     double angular_frequency[RELAXATION_SAMPLES], weight[RELAXATION_SAMPLES];
-    double step; /* of the leapfrog that takes the mechanisms on; 0: as if it were short */
+    struct mechanism_step by;
 };
 
 /* Squared spectrum of the source's velocity at an angular frequency. */

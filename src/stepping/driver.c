@@ -153,21 +153,22 @@ struct drive driver_at(struct driver *driver, double time)
 
 /* Differences at step 0 see the histories continued evenly to t < 0: the scheme's first step is u(1) = u(0) +
  * dt v(0) + dt^2/2 a(0), so a(0) = 2 g(1) / dt^2 takes a face at rest to g(1). */
-struct drive driver_at_step(struct driver *driver, unsigned long n, bool corrected)
+struct drive driver_at_step(struct driver *driver, unsigned long n, enum driver_terms terms)
 {
     const struct scene *scene = driver->scene;
     const size_t loads = scene->loads;
-    const bool differences = corrected || driver->moves;
+    const bool differences = terms != DRIVER_PLAIN || driver->moves;
     const double *before = differences && n > 0 ? row_at(driver, n - 1) : NULL; /* in the order of time */
     const double *now = row_at(driver, n);
     const double *after = differences ? row_at(driver, n + 1) : now;
     if (before == NULL) before = after;
     for (size_t k = 0; k < loads; k++) {
-        driver->last[k] = now[k];
-        if (corrected && scene->load[k].driven != HELD_BY_HOST)
+        driver->last[k] = terms == DRIVER_CORRECTION ? 0 : now[k];
+        if (terms != DRIVER_PLAIN && scene->load[k].driven != HELD_BY_HOST)
             driver->last[k] += (after[k] - 2.0 * now[k] + before[k]) / 12.0;
     }
     for (size_t face = loads; face < loads + FACES && driver->moves; face++)
         set_motion(driver->last + face, before[face], now[face], after[face], driver->dt);
+    if (terms == DRIVER_CORRECTION) memset(driver->last + loads, 0, 3 * FACES * sizeof *driver->last);
     return driver_last(driver, (double)n * driver->dt);
 }

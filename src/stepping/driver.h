@@ -40,9 +40,11 @@ selas_status driver_warp(struct driver *driver, unsigned long rows, struct messa
 /* The drive at any time: derivatives of motions are exact, with a host differences over half a step. A drive
  * holds until the next one is asked for. */
 struct drive driver_at(struct driver *driver, double time);
-/* The drive at step n: derivatives of motions are differences over dt. With `corrected` each amplitude gets
- * one twelfth of its own second difference (the load term of the modified equation). */
-struct drive driver_at_step(struct driver *driver, unsigned long n, bool corrected);
+/* Amplitudes as they are; with the load term of the modified equation, one twelfth of their own second differences;
+ * that term alone, with faces at rest. */
+enum driver_terms { DRIVER_PLAIN, DRIVER_CORRECTED, DRIVER_CORRECTION };
+/* The drive at step n: derivatives of motions are differences over dt. */
+struct drive driver_at_step(struct driver *driver, unsigned long n, enum driver_terms terms);
 /* The drive that was made last. */
 struct drive driver_last(const struct driver *driver, double time);
 

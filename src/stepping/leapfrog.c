@@ -25,7 +25,7 @@ static double limit(const struct spectrum *spectrum, long stages)
 static void start(struct stepper *stepper, struct state *state)
 {
     struct model *model = stepper->model;
-    struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+    struct drive drive = driver_at_step(&stepper->driver, state->step, DRIVER_PLAIN);
     /* a host may change its loads at the time reached, and then wants that acceleration anew */
     stepper->one_pass = model->one_pass != NULL && !scene_driven(model->scene);
     if (stepper->one_pass) {
@@ -40,7 +40,7 @@ static void start(struct stepper *stepper, struct state *state)
 /* What settles a state. */
 static void resume(struct stepper *stepper, struct state *state)
 {
-    if (stepper->one_pass) driver_at_step(&stepper->driver, state->step, false);
+    if (stepper->one_pass) driver_at_step(&stepper->driver, state->step, DRIVER_PLAIN);
 }
 
 static void accelerate(void *scheme, const struct drive *drive, const double *u, const double *v, double *a)
@@ -55,7 +55,7 @@ static void close_step(struct stepper *stepper, struct state *state)
     struct model *model = stepper->model;
     double *u = state->y;
     double *v = state->y + model->unknowns;
-    struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+    struct drive drive = driver_at_step(&stepper->driver, state->step, DRIVER_PLAIN);
     drive.extra = leapfrog_memory(stepper, state);
     const struct drive rest = held_left_out(&stepper->held, model->scene, &drive);
     accelerate(stepper, &rest, u, v, state->a);
@@ -73,7 +73,7 @@ static void step(struct stepper *stepper, struct state *state)
     }
     state->step++;
     state->time = (double)state->step * stepper->dt;
-    const struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+    const struct drive drive = driver_at_step(&stepper->driver, state->step, DRIVER_PLAIN);
     model->one_pass->advance(model, &drive, stepper->dt, state->y, state->a);
 }
 
@@ -99,7 +99,7 @@ const struct scheme_class scheme_leapfrog = {
     .name = "leapfrog",
     .order = 2,
     .can = SCHEME_WAVES | SCHEME_MOVING_LOADS | SCHEME_FILTERS | SCHEME_LAYERS | SCHEME_DAMPED |
-           SCHEME_ONE_PASS | SCHEME_UNWARPS,
+           SCHEME_DAMPED_FACES | SCHEME_ONE_PASS | SCHEME_UNWARPS,
     .default_for = DEFAULT_FOR_ACCELERATE,
     .needs_acceleration = true,
     .evaluations = 1.0,

@@ -61,7 +61,7 @@ const double *leapfrog_memory(const struct stepper *stepper, const struct state 
 bool leapfrog_hold(struct stepper *stepper, struct state *state)
 {
     if (stepper->held.loads == 0) return false;
-    const struct drive drive = driver_at_step(&stepper->driver, state->step, false);
+    const struct drive drive = driver_at_step(&stepper->driver, state->step, DRIVER_PLAIN);
     held_change(&stepper->held, &drive, 0.5 * stepper->dt, state->y + stepper->model->unknowns, state->a);
     return true;
 }

@@ -10,7 +10,10 @@
  * back near the limit. C in a0 makes it unsymmetric, and it grows.) Memory of absorbing layers is the same in both
  * calls. Stable for omega dt <= sqrt(12), with dampers for omega dt <= 2, as K - dt^2/12 K Q K <= K, with layers
  * for omega dt <= sqrt(6) (doc/theory/stepping.md, T6b). The velocity (u(n+1) - u(n-1)) / (2 dt) has the error
- * dt^2/6 u''', which finish() takes out of the histories. */
+ * dt^2/6 u''', which finish() takes out of the histories.
+ *
+ * Damped materials answer to dt^2/12 a0 unrelaxed (doc/theory/damping.md, Eq 15a), so the second call is one on it
+ * alone, and what the first one gave is added. */
 #include "stepping/schemes.h"
 
 #include <math.h>
@@ -28,9 +31,9 @@ static double limit(const struct spectrum *spectrum, long stages)
 }
 
 /* The drive of a step; after the first without loads that are held. */
-static struct drive drive_of(struct stepper *stepper, unsigned long step, bool corrected)
+static struct drive drive_of(struct stepper *stepper, unsigned long step, enum driver_terms terms)
 {
-    const struct drive drive = driver_at_step(&stepper->driver, step, corrected);
+    const struct drive drive = driver_at_step(&stepper->driver, step, terms);
     return step > 0 ? held_left_out(&stepper->held, stepper->model->scene, &drive) : drive;
 }
 
@@ -42,13 +45,23 @@ static void accelerate_by(struct stepper *stepper, const struct drive *given, un
     const size_t n = model->unknowns;
     const double twelfth = stepper->dt * stepper->dt / 12.0, half_step = step > 0 ? 0.5 * stepper->dt : 0.0;
     double *restrict lifted = stepper->work[0];
-    struct drive drive = given != NULL ? *given : drive_of(stepper, step, false);
+    const bool relaxes = model->core->loss != NULL;
+    struct drive drive = given != NULL ? *given : drive_of(stepper, step, DRIVER_PLAIN);
     drive.extra = extra;
     model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
-        lifted[i] = u[i] + twelfth * a[i];
-    if (given == NULL) drive = drive_of(stepper, step, true);
+        lifted[i] = (relaxes ? 0 : u[i]) + twelfth * a[i];
+    if (relaxes) {
+        drive =
+            given != NULL ? (struct drive){.time = given->time} : drive_of(stepper, step, DRIVER_CORRECTION);
+        model->spatial->accelerate(model, &drive, half_step, lifted, NULL, a);
+#pragma omp parallel for simd schedule(static)
+        for (size_t i = 0; i < n; i++)
+            a[i] += lifted[i] / twelfth;
+    }
+    if (given == NULL) drive = drive_of(stepper, step, DRIVER_CORRECTED);
+    if (relaxes) return;
     drive.extra = extra;
     model->spatial->accelerate(model, &drive, half_step, lifted, v, a);
 }
@@ -127,8 +140,8 @@ static selas_status finish(const struct stepper *stepper, size_t n, double *u, d
 const struct scheme_class scheme_modified_equation = {
     .name = "modified-equation",
     .order = 4,
-    .can =
-        SCHEME_WAVES | SCHEME_FILTERS | SCHEME_LAYERS, /* knows how loads vary in time, not how they move */
+    .can = SCHEME_WAVES | SCHEME_FILTERS | SCHEME_LAYERS |
+           SCHEME_DAMPED, /* knows how loads vary in time, not how they move */
     .needs_acceleration = true,
     .evaluations = 2.0,
     .accelerate = accelerate,

@@ -160,7 +160,7 @@ static selas_status check_steps(const struct stepper *stepper, struct messages *
 }
 
 /* What the scene and the model ask of the scheme. */
-enum { NEEDS = 5 };
+enum { NEEDS = 6 };
 struct need {
     enum scheme_ability ability;
     bool needed;
@@ -175,6 +175,8 @@ static void set_needs(const struct model *model, struct need need[NEEDS])
     need[2] = (struct need){SCHEME_ONE_PASS, model->single, "method%precision = 'single' needs"};
     need[3] = (struct need){SCHEME_LAYERS, model->layers, "absorbing layers (boundary%layer = 'pml') need"};
     need[4] = (struct need){SCHEME_DAMPED, model->core->loss != NULL, "damped materials (material%q_p) need"};
+    need[5] = (struct need){SCHEME_DAMPED_FACES, model->core->loss != NULL && model->damped,
+                            "damped materials beside dampers (boundary%layer = 'lysmer') need"};
 }
 
 /* NULL, or what the scheme cannot do of what is asked. */

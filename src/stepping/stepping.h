@@ -17,14 +17,15 @@ struct stepper;
 
 /* What a scheme can do that not every scene or model asks for. */
 enum scheme_ability {
-    SCHEME_WAVES = 1,        /* bounded for undamped waves if the step is short enough */
-    SCHEME_MOVING_LOADS = 2, /* loads may move */
-    SCHEME_FILTERS = 4,      /* calls the filter of a model, which acts on the velocity at half a step */
-    SCHEME_LAYERS = 8,       /* brings the memory of absorbing layers over each step */
-    SCHEME_ONE_PASS = 16,    /* lets a model make whole steps (single precision) */
-    SCHEME_UNWARPS = 32,     /* its only time error is the warp of the time-dispersion transform */
-    SCHEME_STAGES = 64,      /* their number is free */
-    SCHEME_DAMPED = 128      /* brings the memory of damped materials over each step */
+    SCHEME_WAVES = 1,         /* bounded for undamped waves if the step is short enough */
+    SCHEME_MOVING_LOADS = 2,  /* loads may move */
+    SCHEME_FILTERS = 4,       /* calls the filter of a model, which acts on the velocity at half a step */
+    SCHEME_LAYERS = 8,        /* brings the memory of absorbing layers over each step */
+    SCHEME_ONE_PASS = 16,     /* lets a model make whole steps (single precision) */
+    SCHEME_UNWARPS = 32,      /* its only time error is the warp of the time-dispersion transform */
+    SCHEME_STAGES = 64,       /* their number is free */
+    SCHEME_DAMPED = 128,      /* brings the memory of damped materials over each step */
+    SCHEME_DAMPED_FACES = 256 /* and that beside dampers */
 };
 
 /* Models for which a scheme is the default: all that have accelerate(); else by C. */

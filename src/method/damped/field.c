@@ -204,7 +204,7 @@ static struct fitting *fitting_new(const struct damped *d, const struct ground_m
     if (fitting == NULL) return NULL;
     fitting->d = d;
     fitting->modulus =
-        (struct modulus){.size = 1, .mechanisms = d->damping->mechanisms, .step = d->damping->band.step};
+        (struct modulus){.size = 1, .mechanisms = d->damping->mechanisms, .by = d->damping->band.by};
     memcpy(fitting->modulus.rate, d->damping->rate, sizeof fitting->modulus.rate);
     fitting->angular_frequency =
         given->q_frequency > 0 ? 2 * M_PI * given->q_frequency : d->damping->centroid;
