@@ -57,7 +57,7 @@ static void fit_is_that_of_another_program(void **state)
 /* Every frequency of some decades about 1 counts alike. */
 static void band_of_decades(struct relaxation_band *band, double decades)
 {
-    band->step = 0;
+    band->by = (struct mechanism_step){.dt = 0};
     for (int k = 0; k < RELAXATION_SAMPLES; k++) {
         band->angular_frequency[k] = pow(10, decades * ((double)k / (RELAXATION_SAMPLES - 1) - .5));
         band->weight[k] = 1. / RELAXATION_SAMPLES;
