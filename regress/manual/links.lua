@@ -18,6 +18,8 @@ function Link(link)
     local target = file == '' and page or whole(file)
     local table_file = mode == 'site' and target:match('^doc/.*%.txt$')
     if not (target == 'README.md' or target:match('^doc/.*%.md$') or table_file) then return link.content end
+    local chapter = #link.content == 1 and link.content[1].text and link.content[1].text:match('^([%a-]+)%.md$')
+    if chapter then link.content = { pandoc.Str((chapter:gsub('-', ' '))) } end
     if mode == 'book' then
         link.target = '#' .. name(target) .. (anchor ~= '' and '--' .. anchor or '')
     elseif file ~= '' then
