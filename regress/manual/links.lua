@@ -16,7 +16,10 @@ function Link(link)
     if link.target:match('^%a+:') then return nil end
     local file, anchor = link.target:match('^([^#]*)#?(.*)$')
     local target = file == '' and page or whole(file)
-    if not (target == 'README.md' or target:match('^doc/.*%.md$')) then return link.content end
+    local table_file = mode == 'site' and target:match('^doc/.*%.txt$')
+    if not (target == 'README.md' or target:match('^doc/.*%.md$') or table_file) then return link.content end
+    local chapter = #link.content == 1 and link.content[1].text and link.content[1].text:match('^([%a-]+)%.md$')
+    if chapter then link.content = { pandoc.Str((chapter:gsub('-', ' '))) } end
     if mode == 'book' then
         link.target = '#' .. name(target) .. (anchor ~= '' and '--' .. anchor or '')
     elseif file ~= '' then
@@ -49,41 +52,20 @@ function Header(header)
     if mode == 'book' then header.identifier = header.level == 1 and name(page) or name(page) .. '--' .. header.identifier end
     return header
 end
--- weasyprint has no MathML, and pandoc no HTML for fractions, roots, matrices and dots: in the book they stand on one line
-local function term(braced) return (braced:match('^{%w+}$') or braced:match('^{\\%a+}$')) and braced or '(' .. braced:sub(2, -2) .. ')' end
-local function rows(open, close)
-    return function(inside) return open .. inside:gsub('\\\\', ';\\;'):gsub('&', ',\\;') .. close end
-end
-local function one_line(text)
-    if mode ~= 'book' then return text end
-    text = text:gsub('\\begin{bmatrix}(.-)\\end{bmatrix}', rows('[', ']')):gsub('\\begin{cases}(.-)\\end{cases}', rows('\\{', '\\}'))
-    text = text:gsub('\\begin{aligned}(.-)\\end{aligned}', function(lines) return (lines:gsub('&', ''):gsub('\\\\', '\\qquad ')) end)
-    text = text:gsub('\\t?frac(%d)(%d)', '%1/%2\\,'):gsub('\\ddot ', '\\partial_t^2 '):gsub('\\dot ', '\\partial_t '):gsub('{}', '')
-    text = text:gsub('\\arctan', '\\mathrm{arctan}'):gsub('\\[Bb]ig[lr]?%f[%A]', '')
-    local before
-    repeat -- what stands inside another comes with the next round
-        before = text
-        text = text:gsub('\\t?frac(%b{})(%b{})', function(above, below) return term(above) .. ' / ' .. term(below) end)
-        text = text:gsub('\\sqrt(%b{})', function(root) return '\\text{√}' .. term(root) end)
-    until text == before
-    return text
-end
 -- Display equations: the number of \tag stands beside, as not every writer of equations has it
 local function numbered(text)
     local number = text:match('\\tag{(.-)}')
-    local shown = pandoc.Math('DisplayMath', (one_line(text):gsub('\\tag{.-}', '')))
+    local shown = pandoc.Math('DisplayMath', (text:gsub('\\tag{.-}', '')))
     return number and { shown, pandoc.Span('(' .. number .. ')', { class = 'number' }) } or { shown }
 end
-function Math(math)
-    if math.mathtype == 'DisplayMath' then return numbered(math.text) end
-    return pandoc.Math('InlineMath', one_line(math.text))
-end
+function Math(math) return math.mathtype == 'DisplayMath' and numbered(math.text) or nil end
 function CodeBlock(block)
     if block.classes:includes('mermaid') then -- GitHub draws it; here graphviz does
         local graph = block.text:gsub('^flowchart TD', ''):gsub('[%w_]+%[(.-)%]', '"%1"'):gsub('%-%->', '->')
         local drawn = pandoc.pipe('dot', { '-Tsvg' }, 'digraph { size = "7,9"; node [shape = box, fontname = "sans"];' .. graph .. '}')
         return pandoc.RawBlock('html', drawn:match('<svg.*</svg>'))
     end
+    if block.classes:includes('fortran') then block.classes = { 'fortranfree' } return block end -- else a line `call ...` is a comment
     if not block.classes:includes('math') then return nil end
     return pandoc.Div(pandoc.Para(numbered(block.text)), { class = 'equation' })
 end
