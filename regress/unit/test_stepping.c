@@ -214,7 +214,8 @@ static void names_of_schemes(void **state)
     char text[SCHEME_NAMES_SIZE];
     set_up(&f, CHAIN, 1.0, 0.0, "euler");
     assert_string_equal(scheme_names(&f.chain.model, SCHEME_DAMPED_FACES, text), "'leapfrog'");
-    assert_string_equal(scheme_names(&f.chain.model, SCHEME_DAMPED, text), "'leapfrog' or 'modified-equation'");
+    assert_string_equal(scheme_names(&f.chain.model, SCHEME_DAMPED, text),
+                        "'leapfrog' or 'modified-equation'");
     static const struct model_operator rates = {0};
     f.chain.model.spatial = &rates;
     assert_string_equal(scheme_names(&f.chain.model, SCHEME_WAVES, text), "'rk4' or 'lsrk54'");
