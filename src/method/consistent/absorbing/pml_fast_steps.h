@@ -70,6 +70,16 @@ static void twice(size_t n, const REAL *restrict in, REAL *restrict out)
         out[i] = 2 * in[i];
 }
 
+/* C1_f (C2_j u_f) in row b, from C_j u_f where that serves. */
+static void cross_rows(const struct fast_slab *s, size_t b, const REAL *region, REAL *slope, REAL *padded)
+{
+    for (size_t n = 0; n < s->crosses; n++) {
+        const struct cross *cross = &s->cross[n];
+        if (cross->change.groups > 0) apply(&cross->change, region, s->width, s->width, false, slope);
+        apply_along(s, cross->along, slope, padded, (REAL *)s->wait[cross->part] + b * s->ns * s->width);
+    }
+}
+
 /* L1 and L2 in row b. */
 static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, double to_middle,
                          size_t b, const REAL *u, const REAL *v, REAL *extra)
@@ -85,22 +95,19 @@ static void gradient_row(const struct consistent *c, const struct fast_slab *s, 
         const int part = i == j ? s->own : i;
         REAL *middle = i == j ? (REAL *)s->middle + b * size : m;
         REAL *force = s->wait[part] == NULL ? g : (REAL *)s->wait[part] + b * size;
+        const bool over = i == s->axis[ROLE_B];
+        REAL *slope = over && s->over[0].change.groups == 0 ? (REAL *)s->over[0].wait + b * size : g;
         kernels()->load(u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf,
                         s->step[ROLE_F], s->width, region);
-        apply(&s->gradient[i], region, s->width, s->width, false, g);
-        move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
+        apply(&s->gradient[i], region, s->width, s->width, false, slope);
+        move_rows(s, dt, slope, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
+        if (i == s->axis[ROLE_F]) cross_rows(s, b, region, slope, padded);
+        for (size_t n = 0; over && n < s->overs; n++)
+            apply(&s->over[n].change, region, s->width, s->width, false, (REAL *)s->over[n].wait + b * size);
         apply(&s->second[i], region, s->width, s->width, false, force);
         apply(&s->slope[i], middle, s->width, s->width, true, force);
         if (force == g) move_rows(s, dt, g, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
         if (part == PART_LAMBDA) twice(size, force, (REAL *)s->wait[PART_MU] + b * size);
-        for (size_t n = 0; i == s->axis[ROLE_B] && n < s->overs; n++)
-            apply(&s->over[n].change, region, s->width, s->width, false, (REAL *)s->over[n].wait + b * size);
-        for (size_t n = 0; i == s->axis[ROLE_F] && n < s->crosses; n++) {
-            const struct cross *cross = &s->cross[n];
-            REAL *sum = (REAL *)s->wait[cross->part] + b * size;
-            if (cross->change.groups > 0) apply(&cross->change, region, s->width, s->width, false, g);
-            apply_along(s, cross->along, g, padded, sum);
-        }
     }
 }
 
