@@ -41,10 +41,12 @@ static void open_side(struct side *side, int points, const int size[3])
     struct messages messages = {0};
     struct model *model = NULL;
     snprintf(text, sizeof text,
-             "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', quiet = 0, symmetry = F /\n"
+             "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', quiet = 0, symmetry "
+             "= F /\n"
              "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 /\n%s"
              "&body material = 'rock', shape = 'box', low = 3*0.0, high = %d.0, %d.0, %d.0, spacing = 1.0 /\n"
-             "&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = %d,"
+             "&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', "
+             "layer_points = %d,"
              " always = T /\n",
              side->ground, size[0], size[1], size[2], points);
     side->from = from_text(text, 0, NULL);
