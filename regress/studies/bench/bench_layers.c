@@ -1,45 +1,21 @@
 /* What absorbing layers take of a step: boxes with layers of N points behind five faces, all of which moves, even ground
  * and layered ground in turn, CPU time of one thread. Usage: bench_layers [N [ROUNDS [NX NY NZ]]]. The figures are the
  * least of all rounds: a step by control value, what the layers take by control value of their slabs. */
-#include "base/memory.h"
-#include "from_deck.h"
+#include "marched.h"
 #include "method/consistent/absorbing/pml_fast.h"
-#include "method/methods.h"
-#include "stepping/schemes.h"
 
 #include <math.h>
 #include <omp.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
 struct side {
     const char *what, *ground;
-    struct from_deck from;
-    struct stepper stepper;
-    struct state state;
+    struct marched marched;
     double step, memory, pull;
 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void stop(const char *text)
-{
-    fputs(text != NULL ? text : "no memory\n", stderr);
-    exit(1);
-}
 
 static void open_side(struct side *side, int points, const int size[3])
 {
     char text[1024];
-    struct messages messages = {0};
-    struct model *model = NULL;
     snprintf(text, sizeof text,
              "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', quiet = 0, symmetry "
              "= F /\n"
@@ -49,43 +25,29 @@ static void open_side(struct side *side, int points, const int size[3])
              "layer_points = %d,"
              " always = T /\n",
              side->ground, size[0], size[1], size[2], points);
-    side->from = from_text(text, 0, NULL);
-    if (side->from.scene == NULL) stop(side->from.messages.text);
-    if (model_create(side->from.scene, &model, &messages) != SELAS_OK) stop(messages.text);
-    side->stepper = (struct stepper){.scheme = &scheme_leapfrog, .model = model, .dt = .1};
-    side->state = (struct state){.y = array_new(model->state_size, sizeof(double)),
-                                 .a = array_new(model->unknowns, sizeof(double))};
-    if (side->state.y == NULL || side->state.a == NULL) stop(NULL);
-    if (driver_create(&side->stepper.driver, side->from.scene, side->stepper.dt, &messages) != SELAS_OK)
-        stop(messages.text);
-    uint64_t seed = 7;
-    for (size_t i = 0; i < model->unknowns; i++) {
-        seed = seed * 6364136223846793005u + 1442695040888963407u;
-        side->state.y[i] = (double)(seed >> 11) * 0x1p-52 - 1;
-    }
-    scheme_leapfrog.start(&side->stepper, &side->state);
+    open_marched(&side->marched, text);
     side->step = side->memory = side->pull = INFINITY;
 }
 
 /* Times a step, then the layers' part of one more (on which nothing else goes on). */
 static void time_side(struct side *side)
 {
-    struct model *model = side->stepper.model;
+    struct model *model = side->marched.stepper.model;
     const struct consistent *c = consistent_of(model);
-    double *u = side->state.y, *v = u + model->unknowns, start = now();
-    scheme_leapfrog.step(&side->stepper, &side->state);
+    double *u = side->marched.state.y, *v = u + model->unknowns, start = now();
+    step_marched(&side->marched);
     side->step = fmin(side->step, now() - start);
     start = now();
     pml_fast_remember_double(c, .1, -.05, 0, u, v, v + model->unknowns);
     side->memory = fmin(side->memory, now() - start);
     start = now();
-    pml_fast_accelerate_double(c, 1e-9, v + model->unknowns, side->state.a);
+    pml_fast_accelerate_double(c, 1e-9, v + model->unknowns, side->marched.state.a);
     side->pull = fmin(side->pull, now() - start);
 }
 
 static void print_side(const struct side *side)
 {
-    const struct consistent *c = consistent_of(side->stepper.model);
+    const struct consistent *c = consistent_of(side->marched.stepper.model);
     double points = 0;
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct block *inside = &c->pml->slab[s].inside;

@@ -168,14 +168,13 @@ static size_t reach_along_f(const struct fast_slab *fast, const struct slab_term
     return most;
 }
 
-/* Is C2_j of all slopes of u_k in T_jj that C_j of u_k in L1? */
+/* Is C2_j of the slopes of u_k in T_jj that C_j of u_k in L1? In layers over depth of layered ground it has moduli in it.
+ */
 static bool takes_gradient(const struct fast_slab *fast, const struct slab_terms *terms, int k)
 {
     const int j = fast->axis[ROLE_S];
-    const struct band *gradient = term_of(&terms->gradient, k, k)->matrix[j];
-    for (size_t n = 0; n < count_crosses(&terms->outer, j, k); n++)
-        if (term_number(&terms->outer, j, k, n)->matrix[j] != gradient) return false;
-    return true;
+    if (j == DEPTH && fast->crosses > 1) return false;
+    return term_of(&terms->gradient, k, k)->matrix[j] == term_of(&terms->outer, j, k)->matrix[j];
 }
 
 /* Slopes along f. Both of lambda and mu wait apart where they have a B each; then both have one C2_j. */
@@ -207,7 +206,7 @@ static bool lay_overs(struct fast_slab *fast, const struct slab_terms *terms, st
 {
     const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B];
     const struct tensor_term *pull = term_of(&terms->pull, b, j), *slope = term_of(&terms->outer, j, 6 + b);
-    const bool known = fast->overs == 1 && takes_gradient(fast, terms, b);
+    const bool known = takes_gradient(fast, terms, b);
     bool good = lay_over_b(fast, &fast->pull_b, pull, pull->factor, single);
     for (size_t n = 0; good && n < fast->overs; n++) {
         const struct tensor_term *term = term_number(&terms->outer, j, b, n);

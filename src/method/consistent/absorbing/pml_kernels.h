@@ -6,8 +6,8 @@
 #include "base/processor.h"
 #include "method/consistent/absorbing/pml_fast.h"
 
-/* Numbers that are wanted soon, at these steps from row to row and along rows: fetched into the cache while a product is
- * made, those in the place of what is made. */
+/* Numbers that are wanted soon, at these steps from row to row and along rows: fetched into the cache while a product
+ * is made, those in the place of what is made. */
 struct ahead {
     const void *place;
     size_t step_row, step;
