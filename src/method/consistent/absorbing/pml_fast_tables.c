@@ -168,8 +168,8 @@ static size_t reach_along_f(const struct fast_slab *fast, const struct slab_term
     return most;
 }
 
-/* Is C2_j of the slopes of u_k in T_jj that C_j of u_k in L1? In layers over depth of layered ground it has moduli in it.
- */
+/* Is C2_j of the slopes of u_k in T_jj that C_j of u_k in L1? In layers over depth of layered ground it has moduli in
+ * it. */
 static bool takes_gradient(const struct fast_slab *fast, const struct slab_terms *terms, int k)
 {
     const int j = fast->axis[ROLE_S];
