@@ -1,68 +1,29 @@
 /* What damping adds to a step: boxes of N^3 control values that all move, undamped and damped, steps of each
  * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS [PRECISION]]]. A step's figure is the least of all
  * rounds; the ratio is the median over rounds of damped over undamped, side by side. */
-#include "base/memory.h"
-#include "from_deck.h"
-#include "method/methods.h"
-#include "stepping/schemes.h"
+#include "marched.h"
 
 #include <math.h>
 #include <omp.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
 enum { MOST_ROUNDS = 1000, STEPS = 2 };
 
 struct side {
     const char *what, *damping, *method;
-    struct from_deck from;
-    struct stepper stepper;
-    struct state state;
+    struct marched marched;
     double least, taken[MOST_ROUNDS];
 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void stop(const char *text)
-{
-    fputs(text != NULL ? text : "no memory\n", stderr);
-    exit(1);
-}
 
 static void open_side(struct side *side, int n, const char *precision)
 {
     char text[1024];
-    struct messages messages = {0};
-    struct model *model = NULL;
     snprintf(
         text, sizeof text,
         "&scene dimension = 3, end_time = 1.0 /\n&method degree = 2, mass = 'vc3', precision = '%s' %s /\n"
         "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 %s /\n"
         "&body material = 'rock', shape = 'box', low = 3*0.0, high = 3*%d.0, spacing = 1.0 /\n",
         precision, side->method, side->damping, n - 2);
-    side->from = from_text(text, 0, NULL);
-    if (side->from.scene == NULL) stop(side->from.messages.text);
-    if (model_create(side->from.scene, &model, &messages) != SELAS_OK) stop(messages.text);
-    model = model_computed(model); /* the part below mirror planes */
-    side->stepper = (struct stepper){.scheme = &scheme_leapfrog, .model = model, .dt = .1};
-    side->state = (struct state){.y = array_new(model->state_size, sizeof(double)),
-                                 .a = array_new(model->unknowns, sizeof(double))};
-    if (side->state.y == NULL || side->state.a == NULL) stop(NULL);
-    if (driver_create(&side->stepper.driver, side->from.scene, side->stepper.dt, &messages) != SELAS_OK)
-        stop(messages.text);
-    uint64_t seed = 7;
-    for (size_t i = 0; i < model->unknowns; i++) {
-        seed = seed * 6364136223846793005u + 1442695040888963407u;
-        side->state.y[i] = (double)(seed >> 11) * 0x1p-52 - 1;
-    }
-    scheme_leapfrog.start(&side->stepper, &side->state);
+    open_marched(&side->marched, text);
     side->least = INFINITY;
 }
 
@@ -74,14 +35,14 @@ static int ascending(const void *one, const void *other)
 
 static void print_side(const struct side *side, const struct side *first, int rounds)
 {
-    const struct model *model = side->stepper.model;
+    const struct model *model = side->marched.stepper.model;
     const double points = (double)model->unknowns / 3;
     double ratio[MOST_ROUNDS];
     for (int round = 0; round < rounds; round++)
         ratio[round] = side->taken[round] / first->taken[round];
     qsort(ratio, (size_t)rounds, sizeof *ratio, ascending);
     printf("| %s | %s | %.1f | %.2f | %.0f |\n", side->what,
-           side->stepper.one_pass ? "one pass" : "pass by pass", 1e9 * side->least / points,
+           side->marched.stepper.one_pass ? "one pass" : "pass by pass", 1e9 * side->least / points,
            ratio[rounds / 2],
            ((double)model->bytes + (double)(model->state_size + model->unknowns) * sizeof(double)) / points);
 }
@@ -110,7 +71,7 @@ int main(int count, char **word)
         for (int i = 0; i < SIDES; i++) {
             const double start = now();
             for (int step = 0; step < STEPS; step++)
-                scheme_leapfrog.step(&side[i].stepper, &side[i].state);
+                step_marched(&side[i].marched);
             side[i].taken[round] = (now() - start) / STEPS;
             side[i].least = fmin(side[i].least, side[i].taken[round]);
         }

@@ -62,7 +62,7 @@ static bool add_divergence(const struct consistent *c, const struct fast_slab *s
         for (size_t g = 0; sum != NULL && g < s->divergence.groups; g++) {
             const struct row_group *group = &s->divergence.group[g];
             apply_group(group, rows, meeting.width, meeting.width, true,
-                        sum + group->to * s->width + meeting.first, s->width);
+                        sum + group->to * s->width + meeting.first, s->width, NULL);
         }
     }
     return added;

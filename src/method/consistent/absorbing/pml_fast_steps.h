@@ -17,20 +17,27 @@ static const struct NAME(pml_kernels) * kernels(void)
 }
 
 static void apply_group(const struct row_group *group, const REAL *in, size_t in_step, size_t width, bool add,
-                        REAL *out, size_t out_step)
+                        REAL *out, size_t out_step, const struct ahead *ahead)
 {
     const struct NAME(pml_kernels) *k = kernels();
     (add              ? k->add
      : group->changes ? k->change
                       : k->set)[group->rows]((const REAL *)group->weight, group->inputs,
-                                             in + group->from * in_step, in_step, width, out, out_step);
+                                             in + group->from * in_step, in_step, width, out, out_step,
+                                             ahead);
 }
 
-static void apply(const struct row_table *table, const REAL *in, size_t width, size_t step, bool add,
-                  REAL *out)
+/* ahead: NULL, or what is ahead of all rows. */
+static void apply(const struct row_table *table, const REAL *in, size_t step, bool add, REAL *out,
+                  const struct ahead *ahead)
 {
-    for (size_t g = 0; g < table->groups; g++)
-        apply_group(&table->group[g], in, step, width, add, out + table->group[g].to * step, step);
+    for (size_t g = 0; g < table->groups; g++) {
+        const struct row_group *group = &table->group[g];
+        struct ahead part;
+        if (ahead != NULL) part = *ahead;
+        if (ahead != NULL) part.place = (const REAL *)ahead->place + group->to * ahead->step_row;
+        apply_group(group, in, step, step, add, out + group->to * step, step, ahead == NULL ? NULL : &part);
+    }
 }
 
 #include "method/consistent/absorbing/pml_fast_meet.h"
@@ -70,37 +77,54 @@ static void twice(size_t n, const REAL *restrict in, REAL *restrict out)
         out[i] = 2 * in[i];
 }
 
+/* C1_f (C2_j u_f) in row b, from C_j u_f where that serves. */
+static void cross_rows(const struct fast_slab *s, size_t b, const REAL *region, REAL *slope, REAL *padded)
+{
+    for (size_t n = 0; n < s->crosses; n++) {
+        const struct cross *cross = &s->cross[n];
+        if (cross->change.groups > 0) apply(&cross->change, region, s->width, false, slope, NULL);
+        apply_along(s, cross->along, slope, padded, (REAL *)s->wait[cross->part] + b * s->ns * s->width);
+    }
+}
+
+/* The components in turn, that along the slab's axis first: the others add to it. */
+static int component_of(int axis, int turn)
+{
+    return turn == 0 ? axis : turn <= axis ? turn - 1 : turn;
+}
+
 /* L1 and L2 in row b. */
 static void gradient_row(const struct consistent *c, const struct fast_slab *s, double dt, double to_middle,
                          size_t b, const REAL *u, const REAL *v, REAL *extra)
 {
     const size_t size = s->ns * s->width, inner = s->nb * size;
+    const size_t across = s->step[ROLE_S], along = s->step[ROLE_F];
     const int j = s->axis[ROLE_S];
     REAL *region = (REAL *)FAST(c)->buffer[omp_get_thread_num()];
     REAL *g = region + s->region * s->width, *m = g + size, *padded = m + size;
     s->idle[b] = false;
     for (int k = 0; k < 3; k++) {
-        const int i = k == 0 ? j : k <= j ? k - 1 : k; /* j first: the others add to it */
+        const int i = component_of(j, k);
         const size_t from = (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
+        const size_t next = (size_t)component_of(j, (k + 1) % 3) * c->volume + s->first +
+                            (k == 2 ? b + 1 : b) * s->step[ROLE_B];
+        REAL *psi = extra + s->slab->psi + (size_t)i * inner + b * size;
         const int part = i == j ? s->own : i;
         REAL *middle = i == j ? (REAL *)s->middle + b * size : m;
         REAL *force = s->wait[part] == NULL ? g : (REAL *)s->wait[part] + b * size;
-        kernels()->load(u + from, v + from, (REAL)to_middle, s->region, s->step[ROLE_S], s->nf,
-                        s->step[ROLE_F], s->width, region);
-        apply(&s->gradient[i], region, s->width, s->width, false, g);
-        move_rows(s, dt, g, extra + s->slab->psi + (size_t)i * inner + b * size, middle);
-        apply(&s->second[i], region, s->width, s->width, false, force);
-        apply(&s->slope[i], middle, s->width, s->width, true, force);
+        const bool over = i == s->axis[ROLE_B];
+        REAL *slope = over && s->over[0].change.groups == 0 ? (REAL *)s->over[0].wait + b * size : g;
+        kernels()->load(u + from, v + from, (REAL)to_middle, s->region, across, s->nf, along, s->width,
+                        region);
+        apply(&s->gradient[i], region, s->width, false, slope, &(struct ahead){psi, s->width, 1});
+        move_rows(s, dt, slope, psi, middle);
+        if (i == s->axis[ROLE_F]) cross_rows(s, b, region, slope, padded);
+        for (size_t n = 0; over && n < s->overs; n++)
+            apply(&s->over[n].change, region, s->width, false, (REAL *)s->over[n].wait + b * size, NULL);
+        apply(&s->second[i], region, s->width, false, force, &(struct ahead){u + next, across, along});
+        apply(&s->slope[i], middle, s->width, true, force, &(struct ahead){v + next, across, along});
         if (force == g) move_rows(s, dt, g, extra + s->slab->phi + (size_t)i * inner + b * size, NULL);
         if (part == PART_LAMBDA) twice(size, force, (REAL *)s->wait[PART_MU] + b * size);
-        for (size_t n = 0; i == s->axis[ROLE_B] && n < s->overs; n++)
-            apply(&s->over[n].change, region, s->width, s->width, false, (REAL *)s->over[n].wait + b * size);
-        for (size_t n = 0; i == s->axis[ROLE_F] && n < s->crosses; n++) {
-            const struct cross *cross = &s->cross[n];
-            REAL *sum = (REAL *)s->wait[cross->part] + b * size;
-            if (cross->change.groups > 0) apply(&cross->change, region, s->width, s->width, false, g);
-            apply_along(s, cross->along, g, padded, sum);
-        }
     }
 }
 
@@ -110,7 +134,7 @@ static const REAL *over_rows(const struct fast_slab *s, const struct row_table *
 {
     const size_t size = s->ns * s->width;
     if (table->groups == 0) return in + s->pull_b.group[g].to * size;
-    apply_group(&table->group[g], in, size, size, false, out, size);
+    apply_group(&table->group[g], in, size, size, false, out, size, NULL);
     return out;
 }
 
@@ -131,9 +155,10 @@ static void sum_forces(const struct fast_slab *s, size_t g, REAL *sum)
     const REAL *force = over_rows(s, &s->bare[s->own], g, (const REAL *)s->wait[s->own], sum);
     if (force != sum) memcpy(sum, force, group->rows * size * sizeof *sum);
     for (size_t part = PART_MU; part < s->parts; part++)
-        apply_group(&s->bare[part].group[g], (const REAL *)s->wait[part], size, size, true, sum, size);
+        apply_group(&s->bare[part].group[g], (const REAL *)s->wait[part], size, size, true, sum, size, NULL);
     for (size_t n = 0; n < s->overs; n++)
-        apply_group(&s->over[n].over_b.group[g], (const REAL *)s->over[n].wait, size, size, true, sum, size);
+        apply_group(&s->over[n].over_b.group[g], (const REAL *)s->over[n].wait, size, size, true, sum, size,
+                    NULL);
 }
 
 /* L3 in a group of rows. */
@@ -281,12 +306,14 @@ static void pull_rows(const struct consistent *c, const struct fast_slab *s, dou
     for (size_t r = 0; r < group->rows; r++)
         for (int i = 0; i < 3; i++) {
             const size_t b = group->to + r;
-            apply(&s->pull[i], psi_b[i] + r * size, s->width, s->width, false, out);
+            REAL *to = a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B];
+            apply(&s->pull[i], psi_b[i] + r * size, s->width, false, out,
+                  &(struct ahead){to, s->step[ROLE_S], s->step[ROLE_F]});
             kernels()->sum(size, phi + (size_t)i * inner + b * size, inside);
             if (i == s->axis[ROLE_B]) kernels()->sum(size, over + r * size, inside);
             if (i == s->axis[ROLE_F]) pull_along(s, psi_b, r, padded, inside);
             kernels()->store(out, (REAL)factor, s->region, s->step[ROLE_S], s->nf, s->step[ROLE_F], s->width,
-                             a + (size_t)i * c->volume + s->first + b * s->step[ROLE_B]);
+                             to);
         }
 }
 

@@ -168,22 +168,32 @@ static size_t reach_along_f(const struct fast_slab *fast, const struct slab_term
     return most;
 }
 
+/* Is C2_j of the slopes of u_k in T_jj that C_j of u_k in L1? In layers over depth of layered ground it has moduli in
+ * it. */
+static bool takes_gradient(const struct fast_slab *fast, const struct slab_terms *terms, int k)
+{
+    const int j = fast->axis[ROLE_S];
+    if (j == DEPTH && fast->crosses > 1) return false;
+    return term_of(&terms->gradient, k, k)->matrix[j] == term_of(&terms->outer, j, k)->matrix[j];
+}
+
 /* Slopes along f. Both of lambda and mu wait apart where they have a B each; then both have one C2_j. */
 static bool lay_crosses(struct fast_slab *fast, const struct slab_terms *terms, struct span to,
                         struct span from, bool single)
 {
     const int j = fast->axis[ROLE_S], f = fast->axis[ROLE_F];
+    const bool known = takes_gradient(fast, terms, f);
     bool good = true;
     for (size_t n = 0; good && n < fast->crosses; n++) {
         struct cross *cross = &fast->cross[n];
         const struct tensor_term *term = term_number(&terms->outer, j, f, n);
         const struct tensor_term *pull = term_number(&terms->pull, f, j, n);
-        const bool apart = fast->parts > 3, shared = apart && n > 0;
+        const bool apart = fast->parts > 3, shared = known || (apart && n > 0);
+        const double of_change = known ? 1 : term_number(&terms->outer, j, f, shared ? 0 : n)->factor;
         cross->part = !apart ? j : n == 0 ? PART_LAMBDA : PART_MU;
         good = shared || lay_across(fast, &cross->change, term, to, from, single);
         if (good && apart) good = lay_over_b(fast, &fast->bare[cross->part], term, 1, single);
-        cross->along = lay_along_f(
-            fast, term, shared ? term->factor / term_number(&terms->outer, j, f, 0)->factor : 1, single);
+        cross->along = lay_along_f(fast, term, term->factor / of_change, single);
         if (pull != NULL) cross->pull = lay_along_f(fast, pull, pull->factor, single);
         good = good && cross->along != NULL && (pull == NULL || cross->pull != NULL);
     }
@@ -196,11 +206,12 @@ static bool lay_overs(struct fast_slab *fast, const struct slab_terms *terms, st
 {
     const int j = fast->axis[ROLE_S], b = fast->axis[ROLE_B];
     const struct tensor_term *pull = term_of(&terms->pull, b, j), *slope = term_of(&terms->outer, j, 6 + b);
+    const bool known = takes_gradient(fast, terms, b);
     bool good = lay_over_b(fast, &fast->pull_b, pull, pull->factor, single);
     for (size_t n = 0; good && n < fast->overs; n++) {
         const struct tensor_term *term = term_number(&terms->outer, j, b, n);
-        good = lay_across(fast, &fast->over[n].change, term, to, from, single) &&
-               lay_over_b(fast, &fast->over[n].over_b, term, 1, single);
+        good = (known || lay_across(fast, &fast->over[n].change, term, to, from, single)) &&
+               lay_over_b(fast, &fast->over[n].over_b, term, known ? term->factor : 1, single);
     }
     if (fast->parts == 3) return good;
     fast->beyond = array_new(fast->nb, sizeof *fast->beyond);

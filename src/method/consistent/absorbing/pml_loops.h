@@ -43,15 +43,34 @@ INLINED void rows_block(const int rows, const int count, const enum begin begin,
         (lanes *)(out + (size_t)r * out_step + v * LANES) = sum[r][v];
 }
 
+/* Fetches so many numbers of each row from i on, by lines of 64 bytes. Where rows stand together all of a group's are
+ * in one line or two: the first is fetched, the next group's first is the second. */
+INLINED void fetch(const int rows, const size_t numbers, const struct ahead *ahead, size_t i)
+{
+    enum { LINE = 64 / sizeof(REAL) };
+    const REAL *place = (const REAL *)ahead->place + i * ahead->step;
+    if (ahead->step != 1) {
+        for (size_t n = 0; n < numbers; n++)
+            __builtin_prefetch(place + n * ahead->step);
+        return;
+    }
+    for (int r = 0; r < rows; r++, place += ahead->step_row)
+        for (size_t n = 0; n < numbers; n += LINE)
+            __builtin_prefetch(place + n);
+}
+
 /* Few rows: four vectors, as few sums wait for each other. */
 INLINED void rows_all(const int rows, const enum begin begin, const REAL *weight, size_t inputs,
-                      const REAL *in, size_t in_step, size_t width, REAL *out, size_t out_step)
+                      const REAL *in, size_t in_step, size_t width, REAL *out, size_t out_step,
+                      const struct ahead *ahead)
 {
     const int count = rows < 3 ? MOST_VECTORS : 2;
     const size_t together = (size_t)count * LANES;
     size_t i = 0;
-    for (; i + together <= width; i += together)
+    for (; i + together <= width; i += together) {
+        if (ahead != NULL) fetch(rows, together, ahead, i);
         rows_block(rows, count, begin, weight, inputs, in + i, in_step, out + i, out_step);
+    }
     for (; i < width; i += LANES)
         rows_block(rows, 1, begin, weight, inputs, in + i, in_step, out + i, out_step);
 }
@@ -74,19 +93,19 @@ INLINED void along_all(const int rows, const REAL *restrict matrix, size_t taps,
 
 #define OF_ROWS(rows)                                                                                        \
     static void set_##rows(const REAL *weight, size_t inputs, const REAL *in, size_t in_step, size_t width,  \
-                           REAL *out, size_t out_step)                                                       \
+                           REAL *out, size_t out_step, const struct ahead *ahead)                            \
     {                                                                                                        \
-        rows_all(rows, SET, weight, inputs, in, in_step, width, out, out_step);                              \
+        rows_all(rows, SET, weight, inputs, in, in_step, width, out, out_step, ahead);                       \
     }                                                                                                        \
     static void add_##rows(const REAL *weight, size_t inputs, const REAL *in, size_t in_step, size_t width,  \
-                           REAL *out, size_t out_step)                                                       \
+                           REAL *out, size_t out_step, const struct ahead *ahead)                            \
     {                                                                                                        \
-        rows_all(rows, ADD, weight, inputs, in, in_step, width, out, out_step);                              \
+        rows_all(rows, ADD, weight, inputs, in, in_step, width, out, out_step, ahead);                       \
     }                                                                                                        \
     static void change_##rows(const REAL *weight, size_t inputs, const REAL *in, size_t in_step,             \
-                              size_t width, REAL *out, size_t out_step)                                      \
+                              size_t width, REAL *out, size_t out_step, const struct ahead *ahead)           \
     {                                                                                                        \
-        rows_all(rows, CHANGE, weight, inputs, in, in_step, width, out, out_step);                           \
+        rows_all(rows, CHANGE, weight, inputs, in, in_step, width, out, out_step, ahead);                    \
     }                                                                                                        \
     static void along_##rows(const REAL *matrix, size_t taps, const REAL *in, size_t in_step, size_t width,  \
                              REAL *out)                                                                      \
