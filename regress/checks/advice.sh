@@ -132,7 +132,7 @@ scheme() { # scheme WHAT SCHEME OVERRIDE...: what the plan takes where the deck 
 scheme "a motion at t = 0" modified-equation initial%centre=2,2
 scheme "the same, total-Lagrangian with a linear law" modified-equation initial%centre=2,2 method%name=sph method%law=linear
 scheme "the same with a nonlinear law" leapfrog initial%centre=2,2 method%name=sph
-scheme "the same in damped rock" leapfrog initial%centre=2,2 material%q_p=50 material%q_s=50 material%q_frequency=.5
+scheme "the same in damped rock" modified-equation initial%centre=2,2 material%q_p=50 material%q_s=50 material%q_frequency=.5
 solid="scene%dimension=3 body%low=0,0,0 body%high=4,4,4 receiver%position=2,1,1 initial%centre=2,2,2 initial%direction=0,1,0"
 # shellcheck disable=SC2086
 scheme "the same in space" modified-equation $solid

@@ -102,6 +102,13 @@ static double not_negative(const struct squares *squares, double x[COLUMNS])
     return residual_of(squares, x, gradient);
 }
 
+/* What a mechanism takes at an angular frequency; nothing above what steps carry, 2/dt un-warped, pi/dt as it is. */
+static double complex taken_at(const struct relaxation_band *band, double rate, double w)
+{
+    const bool carried = w * band->by.dt < (band->by.corrected ? M_PI : 2);
+    return carried ? mechanism_at(rate, &band->by, I * w) : 0;
+}
+
 /* Rows for a modulus that is to be fitted to target - given, counted relative to the target. */
 static void set_squares(const struct relaxation_band *band, size_t mechanisms, const double *rate,
                         const double complex *target, const double complex *given, struct squares *squares)
@@ -113,8 +120,7 @@ static void set_squares(const struct relaxation_band *band, size_t mechanisms, c
         squares->b[2 * k] = creal(right);
         squares->b[2 * k + 1] = cimag(right);
         for (size_t j = 0; j <= mechanisms; j++) {
-            const double complex a =
-                weight / target[k] * (j == 0 ? 1 : -mechanism_at(rate[j - 1], &band->by, I * w));
+            const double complex a = weight / target[k] * (j == 0 ? 1 : -taken_at(band, rate[j - 1], w));
             squares->a[2 * k][j] = creal(a);
             squares->a[2 * k + 1][j] = cimag(a);
         }
@@ -301,7 +307,7 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
         target[k] = modulus_at(axial, I * w);
         given[k] = s[0];
         for (size_t l = 0; l < mechanisms; l++)
-            given[k] -= s[l + 1] * mechanism_at(rate[l], &band->by, I * w);
+            given[k] -= s[l + 1] * taken_at(band, rate[l], w);
         given[k] *= 4. / 3;
     }
     set_squares(band, mechanisms, rate, target, given, &squares);

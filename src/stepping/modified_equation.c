@@ -37,6 +37,20 @@ static struct drive drive_of(struct stepper *stepper, unsigned long step, enum d
     return step > 0 ? held_left_out(&stepper->held, stepper->model->scene, &drive) : drive;
 }
 
+/* Damped materials: the second call is one on dt^2/12 a alone, lifted, to which a itself is added. */
+static void add_unrelaxed(struct model *model, const struct drive *drive, double half_step, double twelfth,
+                          double *restrict lifted, double *restrict a)
+{
+    const size_t n = model->unknowns;
+#pragma omp parallel for simd schedule(static)
+    for (size_t i = 0; i < n; i++)
+        lifted[i] = twelfth * a[i];
+    model->spatial->accelerate(model, drive, half_step, lifted, NULL, a);
+#pragma omp parallel for simd schedule(static)
+    for (size_t i = 0; i < n; i++)
+        a[i] += lifted[i] / twelfth;
+}
+
 /* With the drive given, or (NULL) that of the step. */
 static void accelerate_by(struct stepper *stepper, const struct drive *given, unsigned long step,
                           const double *extra, const double *restrict u, const double *v, double *restrict a)
@@ -45,23 +59,20 @@ static void accelerate_by(struct stepper *stepper, const struct drive *given, un
     const size_t n = model->unknowns;
     const double twelfth = stepper->dt * stepper->dt / 12.0, half_step = step > 0 ? 0.5 * stepper->dt : 0.0;
     double *restrict lifted = stepper->work[0];
-    const bool relaxes = model->core->loss != NULL;
     struct drive drive = given != NULL ? *given : drive_of(stepper, step, DRIVER_PLAIN);
     drive.extra = extra;
     model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
+    if (model->core->loss != NULL) {
+        const struct drive none = {.time = drive.time};
+        drive = given != NULL ? none : drive_of(stepper, step, DRIVER_CORRECTION);
+        add_unrelaxed(model, &drive, half_step, twelfth, lifted, a);
+        if (given == NULL) drive_of(stepper, step, DRIVER_CORRECTED); /* for driver_last */
+        return;
+    }
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
-        lifted[i] = (relaxes ? 0 : u[i]) + twelfth * a[i];
-    if (relaxes) {
-        drive =
-            given != NULL ? (struct drive){.time = given->time} : drive_of(stepper, step, DRIVER_CORRECTION);
-        model->spatial->accelerate(model, &drive, half_step, lifted, NULL, a);
-#pragma omp parallel for simd schedule(static)
-        for (size_t i = 0; i < n; i++)
-            a[i] += lifted[i] / twelfth;
-    }
+        lifted[i] = u[i] + twelfth * a[i];
     if (given == NULL) drive = drive_of(stepper, step, DRIVER_CORRECTED);
-    if (relaxes) return;
     drive.extra = extra;
     model->spatial->accelerate(model, &drive, half_step, lifted, v, a);
 }
