@@ -37,7 +37,7 @@ bool layer_anywhere(const struct scene *scene);
 double layer_profile_reflection(size_t points);
 double layer_expected_reflection(size_t points);
 /* Waves guided along a layer, whose phase and group velocities may be opposite, would grow in it: velocities there
- * are damped besides, at this share of the layer's own damping d times (d / largest d)^2 (Eq 11); 0: none are. */
+ * are damped besides, at this share of the layer's own damping d times (d / largest d)^4 (Eq 11a); 0: none are. */
 double layer_drag(const struct scene *scene, int face);
 /* Is an absorbing layer that the scene asks for left out, since no wave that the face sends back is seen by
  * receivers and profiles within end_time? */

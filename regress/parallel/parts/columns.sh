@@ -8,6 +8,7 @@ as_planned "and on damped ground of two operators" damped
 same 4 "layers, dissipation" $tall method%dissipation=.02
 same 3 "layers, passes one by one, nothing is quiet" $tall method%fused=F method%quiet=0
 same 4 "damped ground, one pass" $tall material%q_p=40 material%q_s=25
+same 3 "damped ground, modified equation" $tall material%q_p=40 material%q_s=25 stepping%scheme=modified-equation
 same 4 "mirror planes, a moved face and a fixed one" regress/parallel/tall-mirrors.nml scene%end_time=1.5 "boundary%kind=displacement" "boundary%direction=.2,0,1" "boundary%history=gaussian" boundary%width=.4 boundary%delay=.6
 same "2 4" "snapshots, all and a part of the body" $shown
 same 3 "snapshots of damped ground" $shown material%q_p=40 material%q_s=25
