@@ -139,6 +139,37 @@ static void speeds_are_kept(void **state)
     }
 }
 
+/* The velocity of a load that begins at once. */
+static double cut(const void *source, double w)
+{
+    (void)source;
+    return w * w;
+}
+
+/* A source that reaches above what steps carry makes no modulus stiffer than short steps would. */
+static void no_more_than_steps_carry(void **state)
+{
+    (void)state;
+    struct relaxation_band band;
+    struct messages messages = {0};
+    double rate[MOST_MECHANISMS], misfit = 0;
+    const struct modulus forty = modulus_constant_q(1, 40, 2);
+    relaxation_band_set(&band, 4 / .3, cut, NULL);
+    assert_int_equal(relaxation_rates(&band, &forty, 3, rate, &misfit, &messages), SELAS_OK);
+    struct modulus axial = modulus_constant_q(3, 60, 2), shear = modulus_constant_q(1, 30, 2);
+    assert_int_equal(relaxation_fit(&band, 3, rate, &axial, &shear, &messages), SELAS_OK);
+    for (int corrected = 0; corrected < 2; corrected++)
+        for (double dt = .25; dt < 1; dt *= 1.5) { /* the source reaches to 13.3 */
+            band.by = (struct mechanism_step){.dt = dt, .corrected = corrected};
+            struct modulus p = modulus_constant_q(3, 60, 2), s = modulus_constant_q(1, 30, 2);
+            assert_int_equal(relaxation_fit(&band, 3, rate, &p, &s, &messages), SELAS_OK);
+            print_message("steps of %.3f: unrelaxed %.4f (%.4f) %.4f (%.4f)\n", dt, p.size, axial.size,
+                          s.size, shear.size);
+            assert_true(p.size <= axial.size * 1.001 && s.size <= shear.size * 1.001);
+            assert_true(s.size > 1.03); /* still damped: 1 without mechanisms */
+        }
+}
+
 /* Q = q (w/w_ref)^b, the speed at w_ref as said; constant Q for b -> 0. */
 static void q_is_a_power_of_frequency(void **state)
 {
@@ -186,6 +217,7 @@ int main(void)
         cmocka_unit_test(fit_is_that_of_another_program),
         cmocka_unit_test(decades_are_fitted_as_by_another_program),
         cmocka_unit_test(speeds_are_kept),
+        cmocka_unit_test(no_more_than_steps_carry),
         cmocka_unit_test(q_is_a_power_of_frequency),
         cmocka_unit_test(constant_q_is_constant),
         cmocka_unit_test(too_low_a_q_is_refused),

@@ -51,10 +51,9 @@ struct row_table {
 
 /* C1_f (C2_j u_f) of L2, and what it is of in L4. */
 struct cross {
-    struct row_table
-        change;         /* C2_j, region to inside; no groups: that of the cross before it, or C_j of L1 */
-    void *along, *pull; /* C1_f, C2_f by diagonals: [taps_f * width]; NULL: not in L4 */
-    int part;           /* where it waits, with the B of psi_jj in L4 */
+    struct row_table change; /* C2_j, region to inside; no groups: of the cross before it, or C_j of L1 */
+    void *along, *pull;      /* C1_f, C2_f by diagonals: [taps_f * width]; NULL: not in L4 */
+    int part;                /* where it waits, with the B of psi_jj in L4 */
 };
 
 /* C1_b (C2_j u_b) of L3. */

@@ -33,9 +33,10 @@ static void apply(const struct row_table *table, const REAL *in, size_t step, bo
 {
     for (size_t g = 0; g < table->groups; g++) {
         const struct row_group *group = &table->group[g];
-        struct ahead part;
-        if (ahead != NULL) part = *ahead;
-        if (ahead != NULL) part.place = (const REAL *)ahead->place + group->to * ahead->step_row;
+        struct ahead part = {0};
+        if (ahead != NULL)
+            part = (struct ahead){(const REAL *)ahead->place + group->to * ahead->step_row, ahead->step_row,
+                                  ahead->step};
         apply_group(group, in, step, step, add, out + group->to * step, step, ahead == NULL ? NULL : &part);
     }
 }
