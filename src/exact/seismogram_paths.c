@@ -48,7 +48,7 @@ static const struct view *view_of(size_t line, enum strata_column *column)
     return &across[(line - 4 * IN_PLANE) % ACROSS];
 }
 
-/* The jump of a column: sum over m of even[m] cos(m phi) + odd[m] sin(m phi) (Eq 15). */
+/* The jump of a column: sum over m of even[m] cos(m phi) + odd[m] sin(m phi) (Eq 12). */
 struct jump {
     double complex even[HARMONICS], odd[HARMONICS];
 };
