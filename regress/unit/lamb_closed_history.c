@@ -1,4 +1,4 @@
-/* Histories for the closed form: v(t) = f'' * (step response), doc/theory/lamb.md, after Eq 12. For straight lines f'' is a
+/* Histories for the closed form: v(t) = f'' * (step response), doc/theory/lamb.md, after Eq 10. For straight lines f'' is a
  * sum of impulses; for others the step response is tabulated once on Gauss nodes between the arrivals of the
  * waves from corners and edges, where it is smooth, graded towards them. */
 #include "base/memory.h"

@@ -37,7 +37,7 @@ static void symbols(const struct spline *spline, double theta, double symbol[3])
     }
 }
 
-/* Errors of frequencies and slopes against theta itself, and S M >= G^2 (Eqs U3, U4). */
+/* Errors of frequencies and slopes against theta itself, and S M >= G^2 (U3, U4 of regress/studies/tuned-splines). */
 static void test_symbols(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* d'Alembert's solution of the wave equation in one dimension between two ends, by following the two waves
- * u = f(x - ct) + g(x + ct) back through their reflections to the initial state (doc/theory/initial-states.md, Eqs 4 to
- * 6). */
+ * u = f(x - ct) + g(x + ct) back through their reflections to the initial state (doc/theory/initial-states.md, Eqs 4
+ * and 5). */
 #ifndef SELAS_DALEMBERT_H
 #define SELAS_DALEMBERT_H
 

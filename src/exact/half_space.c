@@ -1,5 +1,5 @@
 /* Compliances of the elastic half-space under surface tractions (Lamb 1904, in the notation of Kausel 2006,
- * "Fundamental solutions in elastodynamics", ch. 8; derived in doc/theory/lamb.md, Eqs 1-6).
+ * "Fundamental solutions in elastodynamics", ch. 8; doc/theory/lamb.md, Eqs 1-3).
  *
  * With p = sqrt(k^2 + s^2/cp^2), q = sqrt(k^2 + w), w = s^2/cs^2, kap = 2 k^2 + w, R = kap^2 - 4 k^2 p q,
  * Ep = exp(-p z), Eq = exp(-q z):

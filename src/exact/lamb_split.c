@@ -1,5 +1,5 @@
 /* What is split off the half-space's response before the FFT because it converges badly there, and added in
- * closed form (doc/theory/lamb.md, Eqs 9-9b):
+ * closed form (doc/theory/lamb.md, Eqs 9, 10):
  *  - the static response (Boussinesq, Cerruti; Love 1929), f(t) times a constant: the slow end of the
  *    wavenumber integral;
  *  - the Rayleigh pole, for pulses with kinks: the slow end of the frequency integral. A step load gives
@@ -149,8 +149,14 @@ static int edge_of(double distance, double half)
     return distance < 0 ? -1 : 1;
 }
 
-/* Integrals over kappa = k/|s| of horizontal/kappa, coupled/kappa and (radial - shear)/kappa at the surface:
- * 12-point panels in u = kappa/(1 + kappa), so that the static tail, like kappa^-2, is smooth at u = 1. */
+/* Half a plane x < 0 under a step is self-similar, so that velocity at x = 0 is constant (derived, from Eq 7 of
+ * doc/theory/lamb.md with X = i/kx), at s = cs:
+ *
+ *   v_x = -cs/(pi mu) T_z int_0^inf horizontal dk/k,   v_z = -cs/(pi mu) T_x int_0^inf coupled dk/k,
+ *   v_y = -cs/(2 pi mu) T_x int_0^inf (radial - shear) dk/k in a corner, where the others count half.
+ *
+ * The three integrals, over kappa = k/|s| at the surface: 12-point panels in u = kappa/(1 + kappa), so that the static
+ * tail, like kappa^-2, is smooth at u = 1. */
 static void front_integrals(const struct half_space *ground, bool without_rayleigh, double integral[3])
 {
     enum { PANELS = 8 };

@@ -1,5 +1,5 @@
 /* From responses to motions at a receiver: sources and motions are sums over azimuthal orders, and the integral
- * over the direction phi of the wavenumber makes Bessel functions of them (doc/theory/seismograms.md, Eqs 14-18):
+ * over the direction phi of the wavenumber makes Bessel functions of them (doc/theory/seismograms.md, Eqs 14-16):
  *   1/(2 pi) int exp(i k r cos phi) cos(n phi) dphi = i^n J_n(k r) = C_n.                            (16)
  * A source of cos(m phi) seen through cos(n phi) gives (C_(m-n) + C_(m+n))/2, sines (C_(m-n) - C_(m+n))/2. */
 #include "exact/seismogram_work.h"
@@ -48,7 +48,7 @@ static const struct view *view_of(size_t line, enum strata_column *column)
     return &across[(line - 4 * IN_PLANE) % ACROSS];
 }
 
-/* The jump of a column: sum over m of even[m] cos(m phi) + odd[m] sin(m phi) (Eq 15). */
+/* The jump of a column: sum over m of even[m] cos(m phi) + odd[m] sin(m phi) (Eq 12). */
 struct jump {
     double complex even[HARMONICS], odd[HARMONICS];
 };

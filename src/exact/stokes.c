@@ -1,6 +1,6 @@
 /* Reference 'stokes': a point force (Stokes 1849; Aki & Richards 2002, Eq 4.23) and a moment tensor (their Eq
  * 4.29) in an infinite solid, valid in a box until the first wave that one of its faces sends back can be at
- * the receiver (doc/theory/sources.md, Eqs 1-5).
+ * the receiver (doc/theory/sources.md, Eqs 1, 3, 5).
  *
  * With a = r/c_p, b = r/c_s, g = away/r, the near field needs, for the history f and its integral f1,
  *   integral from a to b of T f(t - T) dT = a f1(t-a) - b f1(t-b) + integral from t-b to t-a of f1,
@@ -98,7 +98,9 @@ static void add_force(const struct solid *solid, const struct load *load, const 
                                           (g[i] * along - load->direction[i]) * f->s[k] / beta2);
 }
 
-/* Aki & Richards Eq 4.29. */
+/* Aki & Richards Eq 4.29, contracted, with m = M g, n = g.M g, tr the trace of M:
+ *   4 pi rho r u = (15 n g - 3 tr g - 6 m) N/r^3 + (6 n g - tr g - 2 m) f(t-a)/(cp^2 r)
+ *                - (6 n g - tr g - 3 m) f(t-b)/(cs^2 r) + n g f'(t-a)/cp^3 - (n g - m) f'(t-b)/cs^3. */
 static void add_moment(const struct solid *solid, const struct load *load, const double g[3], double r,
                        const struct pulses *f, double value[6])
 {

@@ -5,13 +5,22 @@
  * Waves that go down from a level keep tau = S u there and are u(z + h) = N u(z) farther down; those that go
  * up are mirror images, tau = -S' u, u(z - h) = N' u(z), with ' for M . M, M = diag(1, -1). S and N hold P
  * and S together, so that nothing degenerates where P and S motions become parallel (k >> |s|/c), and they
- * hold only exponentials that decay. With p^2 = k^2 + w_p, q^2 = k^2 + w_s: d = p q - k^2 = (k^2 (w_p + w_s)
- * + w_p w_s)/(p q + k^2),                                         (5) S = mu/d [p w_s, k (w_s - 2 d); ., q
- * w_s],                                                       (6) N = e_p + [p q, k q; -k p, -k^2] (e_q -
- * e_p)/d.                                                  (7) Impedances of the ground below a level (B) and
- * above it (T, tau = -T u) follow from reflections: R = (B + S')^-1 (S - B),  H = N' R N,  B_above = (S - S'
- * H)(1 + H)^-1,                           (9) u_bottom = (1 + R) N (1 + H)^-1 u_top, (10) and mirrored for T.
- * A source with jumps (du, dtau): u_above = (B + T)^-1 (dtau - B du).              (13) */
+ * hold only exponentials that decay. With p^2 = k^2 + w_p, q^2 = k^2 + w_s, e_p = exp(-p h), e_q = exp(-q h),
+ * E = diag(e_p, e_q), D = [k, q; -p, -k] the motions of both waves, mu F = mu [2 k p, kap; -kap, -2 k q] their
+ * tractions and kap = 2 k^2 + w_s, S = mu F D^-1 and N = D E D^-1 are, what is small divided out,
+ *
+ *   d = p q - k^2 = (k^2 (w_p + w_s) + w_p w_s) / (p q + k^2) where Re pq > 0,                                    (5)
+ *   S = mu/d [p w_s, k (w_s - 2 d); k (w_s - 2 d), q w_s],                                                        (6)
+ *   N = e_p + [p q, k q; -k p, -k^2] (e_q - e_p)/d,   q - p = (w_s - w_p)/(p + q).                                (7)
+ *
+ * Impedances of the ground below a level (B) and above it (T, tau = -T u) follow from reflections:
+ *
+ *   R = (B + S')^-1 (S - B),   H = N' R N,   B_above = (S - S' H)(1 + H)^-1,                                      (9)
+ *   u_bottom = (1 + R) N (1 + H)^-1 u_top,                                                                      (10)
+ *
+ * and mirrored for T. A source with jumps (du, dtau):
+ *
+ *   u_above = (B + T)^-1 (dtau - B du).                                                                         (13) */
 #include "exact/strata.h"
 
 /* What waves of one wavenumber are in one material. */

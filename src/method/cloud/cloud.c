@@ -17,7 +17,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
     const struct deck_group *group = scene->method.group;
     options.form = &cloud_form;
     options.law = LAW_LINEAR;
-    options.hourglass = 1; /* doc/theory/cloud-method.md, section 4 */
+    options.hourglass = 1; /* doc/theory/cloud-method.md, section 3 */
     if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
     if (deck_values(group, "smoothing_length") > 0)
         options.smoothing_length = deck_real(group, "smoothing_length", 0);

@@ -1,5 +1,5 @@
 /* The smoothed point method as published by Ding, Wu, Long & Liang (2006), with its misprints corrected:
- * what its files share. doc/theory/paper-method.md has every equation; numbers in the comments are the paper's.
+ * what its files share. doc/theory/paper-method.md has the equations; numbers in the comments are the paper's.
  *
  * Unknowns are the components of u at the points in deck coordinates: u[dimension * point + component]. */
 #ifndef SELAS_METHOD_PAPER_PAPER_H

@@ -4,7 +4,7 @@
  *
  * Least-squares gradients near a face take their neighbours from a wide half-ball; along the face they are
  * low-passes, so that short waves of the surface cost hardly any energy (doc/theory/sph-total-lagrangian.md, section
- * 11, has the flexibility of the surface). Differences along the axes are not: the derivative along the face
+ * 10, has the flexibility of the surface). Differences along the axes are not: the derivative along the face
  * is the interior's, the one across it the first difference, whose adjoint load on the last layers, (17, -5,
  * 1, -1) / 12, is close to (3/2, -1/2), the transpose of the linear extrapolation by which a receiver reads
  * the face. */

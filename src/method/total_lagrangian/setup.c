@@ -69,7 +69,7 @@ static double site_volume(const struct tl_model *tl, size_t s)
     return s < tl->cloud->points ? tl->cloud->volume[s] : tl->ghost[s - tl->cloud->points].volume;
 }
 
-/* Exponent of the kernel in the weights of quadratic gradients, and what it does (measured, see the manual).
+/* Exponent of the kernel in the weights of quadratic gradients, and what it does (measured).
  * On a lattice, where the stencil is whole: sharp weights, for they disperse waves least (error of a pulse
  * .012 instead of .030 with exponent 1/2); where faces cut it: flat ones, for the largest gradient weights
  * are there and limit the time step (courant limit .97 instead of .66 with exponent 1). On scattered points

@@ -12,7 +12,7 @@
  * the layer keeps
  *
  *   psi_ij = F_j[C_j u_i],
- *   phi_ij = F_j[T_ij],   T_ij: terms of rho a_i whose outer derivative is along j (Eqs 6 to 9 of the manual).
+ *   phi_ij = F_j[T_ij],   T_ij: terms of rho a_i whose outer derivative is along j (Eqs 6 to 8 of the manual).
  *
  * These memory variables are the extra part of the state; only slabs of layer points have them. */
 #ifndef SELAS_METHOD_CONSISTENT_ABSORBING_PML_H

@@ -16,9 +16,18 @@
  *   a_i += C_j B psi_ij + phi_ij + (C2_f B psi_jj if i = f; C2_b psi_jj if i = b)                       (L4)
  *
  * m_ff, m_bb: those of the slabs across f and b. (Across depth, where b = y: m_bb with B, which is the
- * identity there.) In layered ground lambda and mu have a B each in slabs along depth, and a C2_j each in slabs across
- * it: the products with C1_f are two, what they make waits in parts of its own (struct cross), and as
- * B_(lambda + 2 mu) = B_lambda + 2 B_mu, T'_j joins them. Where B is the identity phi_ij, i != j, moves on with L2. */
+ * identity there.) Where B is the identity phi_ij, i != j, moves on with L2.
+ *
+ * Layered ground has no pair C1, C2 common to both moduli. With B_w = N M_w over depth, w over the density,
+ * D_k = -N G_k^T (C_k but at free ends of axis k) and b = z, in slabs along depth
+ *
+ *   T_j  = B_(lambda + 2 mu) T'_j + B_lambda C_j (C_f u_f + m_ff) + B_mu C_j (D_f u_f + m_ff)
+ *          + N (G_lambda - G_mu^T) C_j u_b + (lambda + mu) / rho C_j m_bb,                              (L5)
+ *
+ * T'_j here without its last term, B_mu for the other T_i; psi_jj acts by B_lambda D_f + B_mu C_f if i = f. What the
+ * products with C_j u_f make waits in parts of its own (struct cross). As B_(lambda + 2 mu) = B_lambda + 2 B_mu, T'_j
+ * joins what B_lambda acts on, twice of it what B_mu does. In slabs across depth the matrices of lambda and of mu over
+ * depth stand in place of the B. */
 #ifndef SELAS_METHOD_CONSISTENT_ABSORBING_PML_FAST_H
 #define SELAS_METHOD_CONSISTENT_ABSORBING_PML_FAST_H
 

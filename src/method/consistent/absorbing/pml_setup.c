@@ -28,7 +28,7 @@ static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count
 }
 
 /* d(x) = (p + 1) c_p ln(1/R) / (2 L) * (distance / L)^p: then the integral of d over the layer's thickness L,
- * there and back, takes the amplitude down to R at normal incidence (Eq 10). */
+ * there and back, takes the amplitude down to R at normal incidence (Eq 9). */
 double pml_damping_at(const struct consistent *c, const struct slab *slab, double x)
 {
     const struct spline *spline = c->spline[slab->axis];

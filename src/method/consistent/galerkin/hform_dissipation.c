@@ -1,4 +1,4 @@
-/* A little dissipation of the shortest waves (manual, section 11): to the acceleration comes
+/* A little dissipation of the shortest waves (manual, section 12): to the acceleration comes
  *
  *   -rate sum over axes of P v,   P = N B^T B dx / (256 (sweeps + 1)),
  *

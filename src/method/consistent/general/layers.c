@@ -269,7 +269,7 @@ void general_layers_take(const struct consistent *c, size_t at, size_t n, const 
     }
 }
 
-/* By the trapezoidal rule (Eq 11 of absorbing-faces.md). */
+/* By the trapezoidal rule (Eq 10 of absorbing-faces.md). */
 void general_layers_prepare(struct consistent *c, double dt)
 {
     for (size_t l = 0; l < c->general->layers; l++) {
