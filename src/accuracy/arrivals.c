@@ -1,5 +1,5 @@
 /* Plane waves as they arrive at receivers, exact, and what a lattice makes of them
- * (doc/verification/accuracy.md, section 5, Eqs 6 to 10). */
+ * (doc/verification/accuracy.md, section 5). */
 #include "accuracy/arrivals.h"
 #include "base/fft_room.h"
 #include "base/memory.h"

@@ -33,13 +33,13 @@ void lattice_wave_set(struct lattice_wave *wave, const struct accuracy_setting *
  */
 double lattice_speed_error(const struct lattice_wave *wave, double spacing, double omega);
 
-/* What a recorded velocity errs wherever the wave is (doc/verification/accuracy.md, Eqs 7, 8): in time, and
+/* What a recorded velocity errs wherever the wave is (doc/verification/accuracy.md, section 5): in time, and
  * in place where it is read between lattice points. */
 double lattice_local_error(const struct lattice_wave *wave, double spacing, double omega,
                            const double position[3]);
-/* What each reflection at a held end costs (Eq 10). */
+/* What each reflection at a held end costs. */
 double lattice_held_error(const struct lattice_wave *wave, double spacing, double omega);
-/* The part of a wave that a damper (a transmitting face) sends back (Eq 9). */
+/* The part of a wave that a damper (a transmitting face) sends back. */
 double lattice_damper_error(const struct lattice_wave *wave, double spacing, double omega);
 
 #endif

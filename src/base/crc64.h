@@ -14,12 +14,9 @@ void crc64_prepare(struct crc64_table *table);
 /* Checksum of what came before (0: nothing) and `size` bytes more. */
 uint64_t crc64_add(const struct crc64_table *table, uint64_t before, const void *data, size_t size);
 
-/* Checksum of two pieces that follow each other from those of each. It is linear: of many pieces, the exclusive or of
- * what each gives with nothing (0) behind it for as many bytes as follow. */
-uint64_t crc64_join(uint64_t before, uint64_t after, uint64_t size_after);
-
-/* That of two pieces which follow each other, from those of each. It is linear: that of many is the exclusive or of
- * what each gives before others of checksum 0. */
+/* Checksum of two pieces that follow each other from those of each: crc(AB) = x^(8 |B|) crc(A) + crc(B) modulo the
+ * polynomial. It is linear: of many pieces, the exclusive or of what each gives with nothing (0) behind it for as many
+ * bytes as follow. */
 uint64_t crc64_join(uint64_t before, uint64_t after, uint64_t size_after);
 
 #endif

@@ -292,7 +292,7 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
     char *text = deck_echo(recorder->scene->deck, messages), why[200] = "";
     const bool whole = checkpoint_whole(path, ranks, why, sizeof why);
     const char *wrong = text == NULL ? "there is no memory for its deck" : whole ? NULL : why;
-    int error = 0;
+    int error = text == NULL ? ENOMEM : 0;
     double figures[FIGURES] = {0};
     wrong = wrong_anywhere(recorder, wrong);
     if (wrong == NULL) wrong = read_file(recorder, state, path, text, figures, &error, messages);

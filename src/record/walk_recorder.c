@@ -4,6 +4,8 @@
 #include "base/memory.h"
 #include "record/parts.h"
 
+#include <errno.h>
+
 static void pass_traces(struct walk *walk, struct recorder *recorder, size_t rows)
 {
     for (size_t r = 0; r < recorder->scene->receivers; r++) {
@@ -36,6 +38,7 @@ static void pass_entries(struct walk *walk, struct recorder *recorder, size_t en
     double missing = number == NULL ? 1.0 : 0.0;
     ranks_largest(walk->ranks, 1, &missing);
     if (missing > 0.0 || number == NULL) {
+        if (number == NULL) walk->error = ENOMEM;
         array_free(number);
         walk->failed = true;
         return;

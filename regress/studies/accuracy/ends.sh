@@ -1,5 +1,5 @@
 #!/bin/sh
-# The coefficients of plane pulses in src/accuracy/lattice.c (doc/verification/accuracy.md, Eqs 7, 9, 10, and the steps of the four settings), anew. Bars in which
+# The coefficients of plane pulses in src/accuracy/lattice.c (doc/verification/accuracy.md, section 5, and the steps of the four settings), anew. Bars in which
 # P waves have speed 1; pulses u = exp(-x^2 / 2), whose velocity has the spectrum omega exp(-omega^2 / 2), so that |omega^k V| / |V| is the square root of
 # 1.5 2.5 ... (k factors): 1.936, 3.623, 7.685 for k = 2, 3, 4. Usage: sh regress/studies/accuracy/ends.sh [BUILD] (seconds). Leaves output/accuracy-ends/.
 set -eu
@@ -39,7 +39,7 @@ setting() { # setting DEGREE MASS SCHEME: overrides
     echo "method%degree=$1 method%mass=$2 stepping%scheme=$3"
 }
 
-echo "Eq 7, the modified equation's recorded velocity: error / (omega dt)^4, degree 4, from two distances"
+echo "the modified equation's recorded velocity: error / (omega dt)^4, degree 4, from two distances"
 for h in .25 .125 .0625; do
     # shellcheck disable=SC2046 # several words
     bar $h 30 10 free 18 34 -- $(setting 4 exact modified-equation)
@@ -48,7 +48,7 @@ for h in .25 .125 .0625; do
         printf "    spacing %s: %.4f\n", h, sqrt(near^2 - 8^2 * way) / 7.685 / dt^4 }'
 done
 for scheme in leapfrog modified-equation; do
-    echo "Eq 9, what a damper sends back with $scheme: error / (omega dt)^2"
+    echo "what a damper sends back with $scheme: error / (omega dt)^2"
     for h in .5 .25 .125; do
         for dm in '2 vc3' '3 exact' '4 exact'; do
             [ "$scheme" = leapfrog ] && [ "$dm" != '2 vc3' ] && continue
@@ -58,7 +58,7 @@ for scheme in leapfrog modified-equation; do
         done
     done
 done
-echo "Eq 10, one reflection at a held end with sweeps beyond one at a free end: error / (omega h / c)^3, degree 2, modified equation"
+echo "one reflection at a held end with sweeps beyond one at a free end: error / (omega h / c)^3, degree 2, modified equation"
 for h in .25 .125 .0625 .03125; do
     # shellcheck disable=SC2046 # several words
     bar $h 36 20 fixed 30 -- $(setting 2 vc3 modified-equation)

@@ -1,6 +1,22 @@
-/* Which points of the body a rank makes (doc/developers/ranks.md, Eqs R5 to R7). Those of a lattice are made in
- * planes over the last axis: the own ones, and as many about them as the rows need that forces on the own points take.
- * Other points are made by every rank. */
+/* Which points of the body a rank makes (doc/developers/ranks.md). Those of a lattice are made in planes over the last
+ * axis, `step` apart: the own ones o .. o' - 1 of n, and as many about them as the rows need that forces on the own
+ * points take. A row reaches over r planes, one of pairs over p, and rows of lattice points that are L or more away
+ * from both ends of the body are alike,
+ *
+ *   r = ceil((1.5 kernel radius + 2 jitter) / step),   p = ceil((1.6 spacing + 2 jitter) / step),
+ *   L = 2 (1 + ceil(1.5 kernel radius / least step of the axes)),                                         (R5)
+ *
+ * 1.5 radii being the most that a fit may widen to, `spacing` the largest (volume of a point)^(1/dimension), jitter in
+ * lengths. With f = min(o, n - L - 1) on a lattice, f = o else, are made
+ *
+ *   transposed rows of f .. o' - 1,   rows of gradients of f - r - p .. o' - 1 + r + p,
+ *   rows of pairs of f - r - b .. o' - 1 + r + b,   b = 1 + floor(64 / points of a plane),                 (R6)
+ *   points of f - e .. o' - 1 + e,   e = 2 r + max(p, b) + 2 + cloud_margin(),                             (R7)
+ *
+ * S and G of (R3) and, for pairs, one block of points beyond; with all neighbours of points with rows, and a plane
+ * below the first one with rows. In one process nearly every lattice point has the row of the point below; a row of its
+ * own would differ by rounding. So a part that begins further up makes the L + 2 r + 2 first planes besides, and takes
+ * the rows of plane L for those of the plane below its first ones. Other points are made by every rank. */
 #include "method/total_lagrangian/setup.h"
 
 #include "base/memory.h"

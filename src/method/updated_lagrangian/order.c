@@ -7,7 +7,7 @@
 #include "base/vectors.h"
 
 /* Eight particles may have this many times the neighbours of one between them before they are better summed
- * one by one (measured: doc/developers/performance.md). */
+ * one by one. */
 static const double MOST = 2;
 
 /* First entry from k on of particle i's list that its kernel can reach before the next search; the end of the

@@ -24,7 +24,8 @@
  *
  *   A = -N S_mu, of u_z -N S_(lambda+2mu),   C_x, C_y = N (G_mu - G_lambda^T),   C_z = N (G_lambda - G_mu^T);   (F1c)
  *
- * at faces across x and y that are no mirrors this leaves, i across the face, j along the ground,
+ * with K_ij = lambda G_i^T G_j + mu G_i G_j^T and G_i^T = E_i - D_i a face across x or y that is neither mirror nor
+ * held leaves, i across the face, j along the ground (nothing at the ends of depth and where two faces meet),
  *
  *   a_i -= N E_i (D_j N M_lambda u_j + N G_lambda u_z),   a_j -= N E_i D_j N M_mu u_i,   a_z -= N E_i N G_mu u_i.
  *                                                                                                       (F1d) */
