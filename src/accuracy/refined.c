@@ -230,7 +230,7 @@ static selas_status try_mechanisms(const struct trial *trial, const struct scene
 }
 
 /* The fewest mechanisms whose run lies within a share of the wanted error of constant Q, of which those with BETTER
- * more stand for: these are off themselves, by as much less as their fit is (doc/verification/accuracy.md, section 8).
+ * more stand for: these are off themselves, by as much less as their fit is (doc/verification/accuracy.md, Eq 13a).
  * The points are those of the coarsest of the last trials. */
 static selas_status find_mechanisms(const struct scene *scene, double accuracy, const struct trial *trial,
                                     const struct scene_choice *choice, struct trials *trials,
