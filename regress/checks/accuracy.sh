@@ -110,6 +110,12 @@ if said=$(regress/studies/accuracy/ground-drawn "$build" 8 8); then
 else
     echo "not ok - a hill in space, drawn: $said"
 fi
+sed "s/^&material.*rock.*/\&material name = 'rock', density = 1.3, p_speed = 2.6, s_speed = 1.5, q_p = 10.0, q_s = 6.0 \//; s/accuracy = 0.03/accuracy = 0.02/" "$out/hill.nml" >"$out/damped.nml"
+if said=$(DAMPED=1 DECK="$out/damped.nml" regress/studies/accuracy/ground-drawn "$build") && echo "$said" | grep -q ' right .*; 3 mechanisms, '; then
+    echo "ok - a damped hill: $(echo "$said" | sed -n '1s/.* right \([^ ]*\) .*/\1/p') of the error that is wanted"
+else
+    echo "not ok - a damped hill: $said"
+fi
 planned() { "$build/selas" check "$@" 2>&1; }
 if planned "$out/basin.nml" | grep -q '^accuracy: .*grading 3 (.* % of the work less' &&
     ! planned "$out/hill.nml" | grep -q '^accuracy: .*grading' &&

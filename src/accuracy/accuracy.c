@@ -51,7 +51,7 @@ const char *accuracy_refusal(const struct accuracy_kind *kind, const struct scen
 {
     if (scene->body.most_stretch > 1 && kind != &accuracy_ground && kind != &accuracy_refined)
         return "an even spacing, without body%grading, but on half-spaces and boxes of ground";
-    if (ground_is_damped(scene) && kind != &accuracy_ground)
+    if (ground_is_damped(scene) && kind != &accuracy_ground && kind != &accuracy_refined)
         return "materials without q_p and q_s, but on half-spaces and boxes of ground";
     if (kind->variant != NULL && strcmp(kind->variant, scene->method.variant) != 0) return kind->served;
     return kind->refusal(scene);

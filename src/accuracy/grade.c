@@ -9,9 +9,18 @@
 #include <math.h>
 #include <stdio.h>
 
+static bool asks_general(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    return ground_needs_general(scene) || scene->body.topography != NULL ||
+           (group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general"));
+}
+
 double accuracy_work(const struct scene *scene)
 {
-    return scene_work(scene) * scene_fastest(scene) * scene->end_time / (.35 * scene->body.spacing);
+    static const double damped = 4; /* a step of damped ground over one without, general operator: measured */
+    const double step = ground_is_damped(scene) && asks_general(scene) ? damped : 1;
+    return step * scene_work(scene) * scene_fastest(scene) * scene->end_time / (.35 * scene->body.spacing);
 }
 
 long accuracy_layer_points(double accuracy)
@@ -38,13 +47,6 @@ double accuracy_work_of(const struct trial *trial, const struct scene_choice *ch
 {
     bool graded;
     return work_of(trial, choice, &graded);
-}
-
-static bool asks_general(const struct scene *scene)
-{
-    const struct deck_group *group = scene->method.group;
-    return ground_needs_general(scene) || scene->body.topography != NULL ||
-           (group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general"));
 }
 
 void accuracy_grade(const struct scene *scene, const struct trial *trial, struct scene_choice *choice,

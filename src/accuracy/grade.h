@@ -7,7 +7,7 @@
 /* Point-steps that a trial may take, a minute or two on one thread. */
 #define ACCURACY_TRIAL_WORK 1e9
 
-/* Points times steps, counted as in the choice of a box. */
+/* Points times steps, counted as in the choice of a box; four times where the general operator has damped ground. */
 double accuracy_work(const struct scene *scene);
 
 /* That of a choice; INFINITY: there is no such scene. */

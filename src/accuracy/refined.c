@@ -34,7 +34,6 @@ static const char *refusal(const struct scene *scene)
     const double cutoff = source_cutoff(scene);
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
     if (scene->initial.kind != INITIAL_REST) return "ground at rest at t = 0";
-    if (ground_is_damped(scene)) return "general ground without q_p and q_s";
     if (scene_loads_move(scene)) return "loads that do not move";
     if (!(cutoff > 0) || !isfinite(cutoff)) return "histories whose spectrum ends";
     return NULL;
@@ -57,6 +56,8 @@ struct trials {
     double order, error;       /* with which errors are taken to fall; of the last one */
     double box;                /* what the box makes of the histories; INFINITY: not tried */
     double work;               /* of all that were run */
+    size_t mechanisms;         /* of damped ground; 0: there is no damping ... */
+    double off;                /* ... and how far off constant Q */
 };
 
 /* The scene of a choice; NULL after saying why there is none. */
@@ -191,6 +192,87 @@ static selas_status choose_box(const struct scene *scene, double accuracy, const
     return status;
 }
 
+/* --- Mechanisms ------------------------------------------------------------------------------------------- */
+
+/* What so many are off by their fit; INFINITY: there is none. */
+static double fit_off(const struct trial *trial, const struct scene_choice *choice)
+{
+    struct messages unsaid = {0};
+    struct scene *scene = NULL;
+    struct ground_damping *damping = NULL;
+    double off = INFINITY;
+    if (scene_build(trial->deck, choice, &scene, &unsaid) == SELAS_OK &&
+        ground_damping_new(scene, true, &damping, &unsaid) == SELAS_OK)
+        off = ground_damping_off(damping);
+    ground_damping_free(damping);
+    scene_free(&scene);
+    messages_free(&unsaid);
+    return off;
+}
+
+/* Mechanisms from one up to the most: what their fits are off (0: not tried), and their histories. */
+struct fits {
+    double off[MOST_MECHANISMS + 1];
+    struct history_file *kept; /* [MOST_MECHANISMS + 1][receivers] */
+};
+
+/* Runs so many mechanisms, unless that has been done or no fit is passive. */
+static selas_status try_mechanisms(const struct trial *trial, const struct scene_choice *choice, size_t count,
+                                   size_t receivers, struct fits *fits, double *work,
+                                   struct messages *messages)
+{
+    struct scene_choice tried = *choice;
+    if (fits->off[count] > 0) return SELAS_OK;
+    tried.mechanisms = count;
+    fits->off[count] = fit_off(trial, &tried);
+    if (isinf(fits->off[count])) return SELAS_OK;
+    return run(trial, &tried, work, fits->kept + count * receivers, messages);
+}
+
+/* The fewest mechanisms whose run lies within a share of the wanted error of constant Q, of which those with BETTER
+ * more stand for: these are off themselves, by as much less as their fit is (doc/verification/accuracy.md, Eq 13a).
+ * The points are those of the coarsest of the last trials. */
+static selas_status find_mechanisms(const struct scene *scene, double accuracy, const struct trial *trial,
+                                    const struct scene_choice *choice, struct trials *trials,
+                                    struct fits *fits, struct messages *messages)
+{
+    enum { BETTER = 2 };
+    static const double share = .3;
+    struct scene_choice coarse = *choice;
+    selas_status status = SELAS_OK;
+    coarse.spacing = trials->spacing[0];
+    trials->off = INFINITY;
+    while (status == SELAS_OK && trials->off > share * accuracy && trials->mechanisms < MOST_MECHANISMS - 1) {
+        const size_t n = ++trials->mechanisms, receivers = scene->receivers;
+        const size_t better = n + BETTER < MOST_MECHANISMS ? n + BETTER : MOST_MECHANISMS;
+        status = try_mechanisms(trial, &coarse, n, receivers, fits, &trials->work, messages);
+        if (status == SELAS_OK)
+            status = try_mechanisms(trial, &coarse, better, receivers, fits, &trials->work, messages);
+        if (status == SELAS_OK && isfinite(fits->off[n]) && fits->off[better] < fits->off[n])
+            trials->off = difference(fits->kept + n * receivers, fits->kept + better * receivers, receivers) /
+                          (1 - fits->off[better] / fits->off[n]);
+    }
+    if (status != SELAS_OK || trials->off <= share * accuracy) return status;
+    return fail(
+        messages, SELAS_BAD_SCENE,
+        "scene%%accuracy = %g is out of reach here: %zu relaxation mechanisms are %.2g off constant Q",
+        accuracy, trials->mechanisms, trials->off);
+}
+
+static selas_status choose_mechanisms(const struct scene *scene, double accuracy, const struct trial *trial,
+                                      const struct scene_choice *choice, struct trials *trials,
+                                      struct messages *messages)
+{
+    if (!ground_is_damped(scene)) return SELAS_OK;
+    const size_t count = (MOST_MECHANISMS + 1) * scene->receivers;
+    struct fits fits = {.kept = array_new(count, sizeof *fits.kept)};
+    if (fits.kept == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for trials");
+    const selas_status status = find_mechanisms(scene, accuracy, trial, choice, trials, &fits, messages);
+    free_all(fits.kept, count);
+    array_free(fits.kept);
+    return status;
+}
+
 /* --- The choice ------------------------------------------------------------------------------------------- */
 
 /* Where the third trial would be too much, up to twice as coarse. */
@@ -250,19 +332,22 @@ static double first_guess(const struct scene *scene, double accuracy)
 static void say(struct scene_choice *choice, double accuracy, const char *graded, const struct trials *trials)
 {
     const double *spacing = trials->spacing, beyond = spacing[TRIALS - 1] / choice->spacing;
-    char box[48] = "", far[80] = "";
+    char box[48] = "", far[80] = "", damping[64] = "";
     if (isinf(trials->box)) snprintf(box, sizeof box, ", that of the box not tried");
     if (trials->box > 0 && isfinite(trials->box))
         snprintf(box, sizeof box, ", and %.1g from the box", trials->box);
+    if (trials->mechanisms > 0)
+        snprintf(damping, sizeof damping, "; %zu mechanisms, %.2g off constant Q", trials->mechanisms,
+                 trials->off);
     if (beyond > NEAR)
         snprintf(far, sizeof far, "; extrapolated by a factor of %.2g from what trials could take", beyond);
     snprintf(choice->text, sizeof choice->text,
              "%g wanted: spacing %.6g%s, degree 2, mass vc3, leapfrog with the time-dispersion transform; "
-             "after trials with %.4g, %.4g, %.4g (of order %.2g, %.2g taken): expected error %.2g%s%s; "
+             "after trials with %.4g, %.4g, %.4g (of order %.2g, %.2g taken): expected error %.2g%s%s%s; "
              "trials took %.2g points times steps",
              accuracy, choice->spacing, graded, spacing[0], spacing[1], spacing[2], own_order(trials),
              trials->order, trials->error * pow(choice->spacing / spacing[2], trials->order), box, far,
-             trials->work);
+             damping, trials->work);
 }
 
 static selas_status choose_by(const struct scene *scene, double accuracy, const struct trial *trial,
@@ -279,7 +364,9 @@ static selas_status choose_by(const struct scene *scene, double accuracy, const 
     accuracy_grade(scene, trial, choice, graded);
     selas_status status = narrow(scene, accuracy, trial, choice, trials, &h, messages);
     choice->spacing = h;
+    if (status == SELAS_OK) status = choose_mechanisms(scene, accuracy, trial, choice, trials, messages);
     if (status == SELAS_OK) status = choose_box(scene, accuracy, trial, choice, trials, messages);
+    choice->mechanisms = trials->mechanisms;
     if (status == SELAS_OK) say(choice, accuracy, graded, trials);
     return status;
 }

@@ -152,6 +152,31 @@ selas_status ground_damping_new(const struct scene *scene, bool fitted, struct g
     return status;
 }
 
+static double modulus_off(const struct relaxation_band *band, const struct modulus *fitted,
+                          const struct modulus *wanted)
+{
+    double sum = 0, all = 0;
+    for (size_t k = 0; k < RELAXATION_SAMPLES; k++) {
+        const double complex s = I * band->angular_frequency[k];
+        const double off = cabs(modulus_at(fitted, s) / modulus_at(wanted, s) - 1);
+        sum += band->weight[k] * off * off;
+        all += band->weight[k];
+    }
+    return sqrt(sum / all);
+}
+
+double ground_damping_off(const struct ground_damping *damping)
+{
+    double most = 0;
+    for (size_t i = 0; i < damping->materials; i++) {
+        const struct damped_moduli *fitted = &damping->fitted[i], *wanted = &damping->wanted[i];
+        if (!(wanted->shear.power > 0)) continue;
+        most = fmax(most, modulus_off(&damping->band, &fitted->axial, &wanted->axial));
+        most = fmax(most, modulus_off(&damping->band, &fitted->shear, &wanted->shear));
+    }
+    return most;
+}
+
 void ground_damping_free(struct ground_damping *damping)
 {
     if (damping == NULL) return;

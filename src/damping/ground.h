@@ -28,6 +28,9 @@ selas_status ground_damping_new(const struct scene *scene, bool fitted, struct g
                                 struct messages *messages);
 void ground_damping_free(struct ground_damping *damping);
 
+/* Largest root mean square, weighed by the band, of |M/M_wanted - 1| of all moduli as fitted. */
+double ground_damping_off(const struct ground_damping *damping);
+
 /* samples.c: values of a model's ground that have, of all, the least and the largest loss in compression at some Q_s:
  * at most MOST_SAMPLES; how many. Those without Q as one of them, undamped. */
 enum { SAMPLE_CLASSES = 8, MOST_SAMPLES = 2 * SAMPLE_CLASSES + 1 };

@@ -180,8 +180,9 @@ bool take_spacing(const struct builder *builder, const struct deck_group *group,
 {
     const struct scene *scene = builder->scene;
     if (builder->accurate &&
-        !(builder->spacing > 0)) { /* a first guess: a sixteenth of what a P wave covers */
-        *spacing = scene_fastest(scene) * scene->end_time / 16;
+        !(builder->spacing > 0)) { /* a first guess: a sixteenth of what a P wave covers, or of an edge */
+        const double covered = scene_fastest(scene) * scene->end_time; /* 0: all speeds are a model's */
+        *spacing = (covered > 0 ? covered : scene->body.high[0] - scene->body.low[0]) / 16;
         return *spacing > 0;
     }
     if (builder->accurate) {
