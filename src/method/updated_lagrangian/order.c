@@ -1,4 +1,4 @@
-/* Lists of neighbours for eight particles at a time (contract.h), and the choice between them
+/* Lists of neighbours for eight particles at a time (gather.h), and the choice between them
  * and lists of single particles. The choice is made once, from the reference places, so that it does not
  * depend on the history of the run. */
 #include "method/updated_lagrangian/updated_lagrangian.h"
