@@ -57,6 +57,9 @@ told "few points per wavelength" "3.08 points per wavelength .* 4 need body%spac
 told "a small step" "leave stepping%time_step" stepping%time_step=1e-3
 told "a receiver at an absorbing face" "receiver 'r' lies at the absorbing face x+ .*(0.5) inside" receiver%position=3.9,2
 told "a load on an absorbing face" "load 1 acts on the absorbing face y+" load%face=y+ load%centre=0,4
+told "few points ahead of a load that moves" "3.08 points per wavelength .* ahead of what moves" load%velocity=.5,0 load%width=.6 \
+    load%delay=4 "boundary(2)%kind=free"
+told "an edge that comes by" "load 1 comes by receiver 'r'" load%velocity=.25,0 receiver%position=1,0 "boundary(2)%kind=free"
 # lambda = mu: (cR/cs)^2 = 2 - 2/sqrt 3
 told "a load faster than the Rayleigh wave" "load 1 moves at 0.95, faster than the Rayleigh wave (0.9194)" load%velocity=-.95,0 "boundary(2)%kind=free"
 told "a patch beside the lattice" "edges of load 1 along x lie between points; -0.5 to 0.5 would" method%variant=paper load%size=1.1 "boundary(2)%kind=free"

@@ -40,6 +40,8 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 void look_at_clearance(struct adviser *adviser);
 /* Receivers in the midst of a point source. */
 void look_at_nearness(struct adviser *adviser);
+/* Receivers that the edges of a moving patch come by. */
+void look_at_passed(struct adviser *adviser, size_t load);
 /* Moment tensors beside interfaces of general ground. */
 void look_at_interfaces(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */

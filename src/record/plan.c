@@ -37,7 +37,8 @@ static void say_resolution(const struct teller *teller, const struct scene *scen
     if (!(points > 0.0)) return;
     say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
         source_cutoff(scene), 100.0 * SOURCE_COUNTS);
-    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)", points);
+    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff%s)", points,
+        scene_loads_move(scene) ? ", ahead of what moves" : "");
 }
 
 static double operator_calls(const struct stepper *stepper)

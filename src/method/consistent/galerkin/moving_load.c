@@ -1,7 +1,7 @@
 /* Moving patches: the load vector F_i(t) = f(t) * integral of N_i over the patch at centre + velocity t, a
- * product of one line per axis (the integrals are exact, whatever the place of the patch between the points), each a
- * mean over the way, without the frequencies that points do not carry (Eq 7a). With the H-form M^-1 is a product over the axes too, so each line gets its own factor (manual,
- * doc/theory/sources.md, Eqs 6, 7). A few hundred multiplications per step and patch. */
+ * product of one line per axis (the integrals are exact, whatever the place of the patch between the points),
+ * as a mean over the way, without the frequencies that points do not carry (manual, doc/theory/sources.md, Eqs 6,
+ * 7, 7a). With the H-form M^-1 is a product over the axes too, so each line gets its own factor. */
 #include "method/consistent/galerkin/moving_load.h"
 
 #include "base/memory.h"
