@@ -15,21 +15,21 @@
 
 void moving_weights(double weight[MOVING_SHIFTS])
 {
-    static const double flat = 9.0950; /* second zero of the spherical Bessel function j_2 */
+    static const double flat = 13.6980; /* third zero of the spherical Bessel function j_3 */
     double sum = weight[0] = 1;
     for (int j = 1; j < MOVING_SHIFTS; j++) {
         const double part = (double)j / MOVING_SHIFTS;
-        weight[j] = sin(flat * part) / (flat * part) * (1 - part * part);
+        weight[j] = sin(flat * part) / (flat * part) * pow(1 - part * part, 2);
         sum += 2 * weight[j];
     }
     for (int j = 0; j < MOVING_SHIFTS; j++)
         weight[j] /= sum;
 }
 
-/* The mean's reach: six spacings over the slowest S wave's speed, or the load's where that is more. */
+/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more. */
 static double lag(const struct scene *scene, const double centre[3], const double velocity[3])
 {
-    static const double spacings = 6;
+    static const double spacings = 9;
     double slowest = slowest_speed(scene);
     if (!isfinite(slowest)) { /* a model from a file */
         const struct rock rock = ground_at(scene, centre);

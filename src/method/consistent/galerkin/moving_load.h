@@ -5,7 +5,7 @@
 
 #include "method/consistent/galerkin/galerkin.h"
 
-enum { MOVING_SHIFTS = 12 };
+enum { MOVING_SHIFTS = 18 };
 
 struct moving_line {
     double *value;   /* [control values of the axis] */
