@@ -219,6 +219,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_interfaces(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
+    look_at_rests(&adviser);
     look_at_columns(&adviser);
     look_at_levelled(&adviser);
     look_at_tilted(&adviser);
