@@ -26,18 +26,16 @@ void moving_weights(double weight[MOVING_SHIFTS])
         weight[j] /= sum;
 }
 
-/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more. */
+/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more; none where the load
+ * is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
 static double lag(const struct scene *scene, const double centre[3], const double velocity[3])
 {
-    static const double spacings = 9;
-    double slowest = slowest_speed(scene);
-    if (!isfinite(slowest)) { /* a model from a file */
-        const struct rock rock = ground_at(scene, centre);
-        slowest = sqrt(rock.mu / rock.density);
-    }
-    const double speed =
-        sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
-    return spacings / MOVING_SHIFTS * scene->body.spacing / fmax(slowest, speed);
+    static const double spacings = 9, rayleigh = .92;
+    const struct rock rock = ground_at(scene, centre);
+    const double here = sqrt(rock.mu / rock.density), slowest = fmin(slowest_speed(scene), here);
+    const double speed = hypot(hypot(velocity[0], velocity[1]), velocity[2]);
+    return speed < rayleigh * here ? spacings / MOVING_SHIFTS * scene->body.spacing / fmax(slowest, speed)
+                                   : 0;
 }
 
 /* The mean is one of lines then. */
@@ -71,7 +69,7 @@ static selas_status create(struct consistent *c, size_t index, struct moving_loa
     moving->lag = lag(scene, moving->centre, moving->velocity);
     moving->work = array_new(2 * longest, sizeof *moving->work);
     moving->shifted = moving->work + longest;
-    moving->terms = along_an_axis(moving->velocity) ? 1 : 2 * MOVING_SHIFTS - 1;
+    moving->terms = moving->lag == 0 || along_an_axis(moving->velocity) ? 1 : 2 * MOVING_SHIFTS - 1;
     moving->line = calloc((size_t)moving->terms, sizeof *moving->line);
     bool good = moving->work != NULL && moving->line != NULL;
     for (int i = 0; good && i < 9 * moving->terms; i++) {
