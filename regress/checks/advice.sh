@@ -57,6 +57,22 @@ told "few points per wavelength" "3.08 points per wavelength .* 4 need body%spac
 told "a small step" "leave stepping%time_step" stepping%time_step=1e-3
 told "a receiver at an absorbing face" "receiver 'r' lies at the absorbing face x+ .*(0.5) inside" receiver%position=3.9,2
 told "a load on an absorbing face" "load 1 acts on the absorbing face y+" load%face=y+ load%centre=0,4
+told "few points ahead of a load that moves" "3.08 points per wavelength .* ahead of what moves" load%velocity=.5,0 load%width=.6 \
+    load%delay=4 "boundary(2)%kind=free"
+told "an edge that comes by" "load 1 comes by receiver 'r'" load%velocity=.25,0 receiver%position=1,0 "boundary(2)%kind=free"
+cat >rest.nml <<'END'
+&scene dimension = 3, end_time = 40 /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', shape = 'half-space', spacing = .25 /
+&load kind = 'moment-tensor', centre = 0, 0, 2, moment = 1, .3, -.5, .2, .6, .1, history = 'error-function', width = .6, delay = 3 /
+&receiver name = 'r', position = 4, 0, 0 /
+&output plots = F /
+END
+deck=rest.nml
+told "what stays between layers" "load 1 stays on, .* err by 0.4 of what is left at receiver 'r'"
+untold "what stays, far from layers" body%low=-8,-8,0 body%high=8,8,9
+untold "what stays, seen early" scene%end_time=10
+unset deck
 # lambda = mu: (cR/cs)^2 = 2 - 2/sqrt 3
 told "a load faster than the Rayleigh wave" "load 1 moves at 0.95, faster than the Rayleigh wave (0.9194)" load%velocity=-.95,0 "boundary(2)%kind=free"
 told "a patch beside the lattice" "edges of load 1 along x lie between points; -0.5 to 0.5 would" method%variant=paper load%size=1.1 "boundary(2)%kind=free"

@@ -487,6 +487,38 @@ static void ground_from_a_model_is_passive(void **state)
     remove(model_path);
 }
 
+/* Mechanisms over the unit of time are the same in all units, a moment tensor beside a force or not. */
+static void mechanisms_in_other_units(void **state)
+{
+    (void)state;
+    static const char text[] = "&scene dimension=2, end_time=%g /\n&material name='m', density=1, "
+                               "p_speed=%g, s_speed=%g, q_p=60, q_s=30 /\n"
+                               "&body material='m', low=-2,0, high=2,2, spacing=.25 /\n"
+                               "&load kind='moment-tensor', centre=0,1, moment=1,.3,0,.2,0,0, "
+                               "history='ricker', frequency=%g, delay=%g /\n"
+                               "&load kind='body-force', shape='point', centre=.5,1, direction=0,1, "
+                               "history='gaussian', width=%g, delay=%g /\n";
+    double rate[2][3], centroid[2];
+    for (int k = 0; k < 2; k++) {
+        const double unit = k == 0 ? 1 : 1e-3;
+        char deck[1000];
+        struct ground_damping *damping = NULL;
+        snprintf(deck, sizeof deck, text, 9 * unit, 1.8 / unit, 1 / unit, .4 / unit, 3 * unit, 1.5 * unit,
+                 7 * unit);
+        struct from_deck from = right_scene(deck);
+        assert_int_equal(ground_damping_new(from.scene, true, &damping, &from.messages), SELAS_OK);
+        assert_true(damping->mechanisms <= 3);
+        for (size_t l = 0; l < damping->mechanisms; l++)
+            rate[k][l] = damping->rate[l] * unit;
+        centroid[k] = damping->centroid * unit;
+        if (k == 1) assert_near(centroid[1], centroid[0], 1e-6 * centroid[0]);
+        for (size_t l = 0; k == 1 && l < damping->mechanisms; l++)
+            assert_near(rate[1][l], rate[0][l], 1e-4 * rate[0][l]);
+        ground_damping_free(damping);
+        from_deck_free(&from);
+    }
+}
+
 #define SAME                                                                                                 \
     "&scene dimension = 3, end_time = 1.0 /\n&method operator = 'general', mechanisms = 2 /\n"               \
     "&body name = 'b', material = 'm', low = 3*0.0, high = 5.0, 4.0, 4.0, spacing = 1.0 /\n"                 \
@@ -540,10 +572,15 @@ static void one_rock_by_many_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plane_wave_in_a_bar),           cmocka_unit_test(plane_wave_in_particles),
-        cmocka_unit_test(nothing_grows_below_the_limit), cmocka_unit_test(energy_falls_by_what_damping_takes),
-        cmocka_unit_test(stress_is_that_of_the_moduli),  cmocka_unit_test(general_ground_is_passive),
-        cmocka_unit_test(particles_are_passive),         cmocka_unit_test(ground_from_a_model_is_passive),
+        cmocka_unit_test(mechanisms_in_other_units),
+        cmocka_unit_test(plane_wave_in_a_bar),
+        cmocka_unit_test(plane_wave_in_particles),
+        cmocka_unit_test(nothing_grows_below_the_limit),
+        cmocka_unit_test(energy_falls_by_what_damping_takes),
+        cmocka_unit_test(stress_is_that_of_the_moduli),
+        cmocka_unit_test(general_ground_is_passive),
+        cmocka_unit_test(particles_are_passive),
+        cmocka_unit_test(ground_from_a_model_is_passive),
         cmocka_unit_test(one_rock_by_many_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

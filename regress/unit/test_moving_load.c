@@ -1,11 +1,14 @@
-/* Moving patches in the consistent method: at any time their forces are those of a patch at rest where the
- * moving one then is; stepping does not un-warp them. */
+/* Moving patches in the consistent method: at any time their forces are the mean, over the way, of those of patches at
+ * rest where the moving one then is; stepping does not un-warp them. */
 #include "base/memory.h"
+#include "method/consistent/galerkin/moving_load.h"
 #include "method/methods.h"
 #include "model/model.h"
 #include "stepping/stepping.h"
 
 #include "from_deck.h"
+
+#include <stdlib.h>
 
 static const char deck[] = "&scene dimension=3, end_time=2 /\n"
                            "&material name='m', density=1.3, lambda=1, mu=.8 /\n"
@@ -14,7 +17,7 @@ static const char deck[] = "&scene dimension=3, end_time=2 /\n"
                            "%s&boundary face='z+', kind='transmitting', layer='lysmer' /\n"
                            "&boundary face='y-', kind='roller' /\n"
                            "&method name='smoothed-point', variant='consistent', %s /\n"
-                           "&load face='z-', shape='%s', %s direction=.2,-.5,1, amplitude=2.5,\n"
+                           "&load face='z-', shape='%s', %s direction=.2,-.5,1,\n"
                            "  history='gaussian', width=.3, delay=1, %s /\n"
                            "&load face='z-', shape='square', centre=.5,.5,0, size=.5,.5, direction=0,0,1,\n"
                            "  history='step' /\n";
@@ -58,32 +61,82 @@ static double *forces(struct run *run, double time, double power[2])
     return a;
 }
 
-static void compare(const char *layers, const char *method, const char *shape, const char *size)
+/* Adds a weight times the forces of the patch at rest. */
+static void add_resting(const char *const words[4], const double centre[2], double time, double weight,
+                        double *sum, double *power)
 {
-    /* from the middle across points, to and over the edge of the body at x = 1.5, and far beyond it */
-    static const double times[] = {0, .31, .8, 1.37, 1.6};
+    char place[128];
+    struct run resting;
+    double part[2];
+    const double half[2] = {words[3][0] != '\0' ? .299 : 0, words[3][0] != '\0' ? .199 : 0};
+    const bool beyond = fabs(centre[0] - .25) > 1.25 + half[0] || fabs(centre[1]) > 1 + half[1]; /* refused */
+    snprintf(place, sizeof place, "amplitude=%g, centre=%.17g,%.17g,0", beyond ? 1e-300 : 2.5,
+             beyond ? 0 : centre[0], beyond ? 0 : centre[1]);
+    start(&resting, words[0], words[1], words[2], words[3], place);
+    assert_true(resting.stepper->unwarp);
+    double *a = forces(&resting, time, part);
+    for (size_t k = 0; k < resting.model->unknowns; k++)
+        sum[k] += weight * a[k];
+    *power += weight * part[0];
+    array_free(a);
+    finish(&resting);
+}
+
+static void compare_along(const char *const words[4], double vx, double vy)
+{
+    /* across points, to and over the edge of the body at x = 1.5 */
+    static const double times[] = {0, .8, 1.6};
     struct run moving;
-    start(&moving, layers, method, shape, size, "centre=-.3,.1,0, velocity=1.1,-.2,0");
+    char way[128];
+    double weight[MOVING_SHIFTS];
+    moving_weights(weight);
+    snprintf(way, sizeof way, "amplitude=2.5, centre=.9,.1,0, velocity=%g,%g,0", vx, vy);
+    start(&moving, words[0], words[1], words[2], words[3], way);
     assert_false(moving.stepper->unwarp);
+    const double lag = ((const struct consistent *)moving.model)->moving_load[0].lag;
+    assert_true(lag > 0);
     for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
-        char place[128];
-        struct run resting;
-        double power[2][2], largest = 0;
-        snprintf(place, sizeof place, "centre=%.17g,%.17g,0", -.3 + 1.1 * times[i], .1 - .2 * times[i]);
-        start(&resting, layers, method, shape, size, place);
-        assert_true(resting.stepper->unwarp);
-        double *expected = forces(&resting, times[i], power[0]), *found = forces(&moving, times[i], power[1]);
+        double *expected = array_new(moving.model->unknowns, sizeof *expected), power = 0, found_power[2],
+               largest = 0;
+        assert_non_null(expected);
+        for (int j = 1 - MOVING_SHIFTS; j < MOVING_SHIFTS; j++) {
+            const double t = times[i] + j * lag, centre[2] = {.9 + vx * t, .1 + vy * t};
+            add_resting(words, centre, times[i], weight[abs(j)], expected, &power);
+        }
+        double *found = forces(&moving, times[i], found_power);
         for (size_t k = 0; k < moving.model->unknowns; k++)
             largest = fmax(largest, fabs(expected[k]));
         assert_true(largest > 0);
         for (size_t k = 0; k < moving.model->unknowns; k++)
             assert_near(found[k], expected[k], 1e-13 * largest);
-        assert_near(power[1][0], power[0][0], 1e-12 * fabs(power[0][0]));
+        assert_near(found_power[0], power, 1e-11 * fabs(power));
         array_free(expected);
         array_free(found);
-        finish(&resting);
     }
     finish(&moving);
+}
+
+static void compare(const char *layers, const char *method, const char *shape, const char *size)
+{
+    const char *const words[4] = {layers, method, shape, size};
+    compare_along(words, .45, -.1);
+    compare_along(words, .45, 0);
+}
+
+/* Waves of six points and more pass, of three and less do not. */
+static void the_mean_passes_what_points_carry(void **unused)
+{
+    (void)unused;
+    double weight[MOVING_SHIFTS];
+    moving_weights(weight);
+    for (double x = 0; x < 5; x += .01) { /* angular frequency times spacing over speed */
+        double part = weight[0];
+        for (int j = 1; j < MOVING_SHIFTS; j++)
+            part += 2 * weight[j] * cos(x * .5 * j);
+        if (x == 0) assert_near(part, 1, 1e-14);
+        if (x < 1.047) assert_near(part, 1, .015);
+        if (x > 2.094) assert_near(part, 0, .02);
+    }
 }
 
 static void forces_follow_the_patch(void **unused)
@@ -106,8 +159,9 @@ static void a_patch_that_has_left_pushes_no_more(void **unused)
     static const char layers[] = "&layer material='n', top=0 /\n&layer material='m', top=.4 /\n";
     struct run run;
     double power[2], power_later[2];
-    start(&run, layers, "degree=2, mass='vc3'", "square", "size=.6,.4,", "centre=-.3,.1,0, velocity=4,0,0");
-    double *a = forces(&run, .9, power), *later = forces(&run, 1.1, power_later);
+    start(&run, layers, "degree=2, mass='vc3'", "square", "size=.6,.4,",
+          "amplitude=2.5, centre=-.3,.1,0, velocity=4,0,0");
+    double *a = forces(&run, 1.2, power), *later = forces(&run, 1.4, power_later);
     for (size_t k = 0; k < run.model->unknowns; k++)
         assert_near(a[k], later[k], 0); /* only the resting step is left */
     assert_near(power[0], power_later[0], 0);
@@ -146,6 +200,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forces_follow_the_patch),
+        cmocka_unit_test(the_mean_passes_what_points_carry),
         cmocka_unit_test(a_patch_that_has_left_pushes_no_more),
         cmocka_unit_test(what_cannot_move_is_refused),
     };

@@ -34,10 +34,12 @@ static void look_at_resolution(struct adviser *adviser)
             "fronts by about a tenth, whatever the spacing; smoothing = %.3g would be right",
             1.01 * jump_smoothing(FEWEST_POINTS * spacing / slowest));
     if (points > 0.0 && points < FEWEST_POINTS)
-        advise(adviser,
-               "%.3g points per wavelength of the slowest wave at the source's cutoff; %g need body%%spacing "
-               "= %.3g or a smoother history",
-               points, FEWEST_POINTS, spacing * points / FEWEST_POINTS);
+        advise(
+            adviser,
+            "%.3g points per wavelength of the slowest wave at the source's cutoff%s; %g need body%%spacing "
+            "= %.3g or a smoother history",
+            points, scene_loads_move(scene) ? ", ahead of what moves" : "", FEWEST_POINTS,
+            spacing * points / FEWEST_POINTS);
 }
 
 /* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency
@@ -217,6 +219,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_interfaces(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
+    look_at_rests(&adviser);
     look_at_columns(&adviser);
     look_at_levelled(&adviser);
     look_at_tilted(&adviser);
@@ -225,6 +228,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
         look_at_path(&adviser, k);
+        look_at_passed(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }
     return adviser.count;

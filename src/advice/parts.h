@@ -36,10 +36,14 @@ void look_at_method(struct adviser *adviser, const struct model *model);
 void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
+/* Loads that stay on between layers that give way. */
+void look_at_rests(struct adviser *adviser);
 /* Moment tensors too near to layers. */
 void look_at_clearance(struct adviser *adviser);
 /* Receivers in the midst of a point source. */
 void look_at_nearness(struct adviser *adviser);
+/* Receivers that the edges of a moving patch come by. */
+void look_at_passed(struct adviser *adviser, size_t load);
 /* Moment tensors beside interfaces of general ground. */
 void look_at_interfaces(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */

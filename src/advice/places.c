@@ -180,3 +180,46 @@ void look_at_grading(struct adviser *adviser)
                     "grading errors are "
                     "less for the same time (method%%operator = 'general' says that it is meant)");
 }
+
+/* Does a moving patch come over a receiver, or within two spacings of it? */
+static bool passes(const struct scene *scene, const struct load *load, const double position[3])
+{
+    double from[3], velocity[3], place[3], first = 0.0, last = scene->end_time;
+    body_from_deck(&scene->body, load->centre, from);
+    body_direction_from_deck(&scene->body, load->velocity, velocity);
+    body_from_deck(&scene->body, position, place);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double half = half_size(load, axis) + 2.0 * scene->body.spacing, way = place[axis] - from[axis];
+        if (velocity[axis] == 0.0 && fabs(way) > half) return false;
+        if (velocity[axis] == 0.0) continue;
+        const double one = (way - half) / velocity[axis], other = (way + half) / velocity[axis];
+        first = fmax(first, fmin(one, other));
+        last = fmin(last, fmax(one, other));
+    }
+    return first < last;
+}
+
+/* Measured: a square of four and eight points along an edge, smooth histories, against the exact half-space. */
+void look_at_passed(struct adviser *adviser, size_t k)
+{
+    static const double slow = 0.2;
+    const struct scene *scene = adviser->scene;
+    const struct load *load = &scene->load[k];
+    double speed = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        speed = hypot(speed, load->velocity[axis]);
+    if (load->kind != LOAD_TRACTION || !(speed > slow * slowest_speed(scene)) ||
+        scene->reference.kind[0] != '\0')
+        return;
+    for (size_t r = 0; r < scene->receivers; r++) {
+        if (!passes(scene, load, scene->receiver[r].position)) continue;
+        advise(adviser,
+               "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, of which some is "
+               "wrong at "
+               "any spacing (at a quarter, half and .7 of the S waves' speed .03, .08 and .3 at four points "
+               "along "
+               "an edge, .015 and .05 at eight); displacements, or a receiver beside the path, would do",
+               k + 1, scene->receiver[r].name);
+        return;
+    }
+}

@@ -18,14 +18,17 @@ static double power_of(const struct history *history, double angular_frequency, 
 }
 
 /* Squared spectrum of the velocities that loads and moved faces make: their rates, and of moment tensors, far
- * away, the rates of those. */
+ * away, the rates of those, over their own frequency: whatever the unit of time, they count beside the others. */
 static double source_power(const void *data, double angular_frequency)
 {
     const struct scene *scene = data;
     double sum = 0;
-    for (size_t i = 0; i < scene->loads; i++)
-        sum += power_of(&scene->load[i].history, angular_frequency,
-                        scene->load[i].kind == LOAD_MOMENT_TENSOR ? 2 : 1);
+    for (size_t i = 0; i < scene->loads; i++) {
+        const struct history *history = &scene->load[i].history;
+        const bool moment = scene->load[i].kind == LOAD_MOMENT_TENSOR;
+        const double own = moment && history->rate > 0 ? history->rate : 1;
+        sum += power_of(history, angular_frequency, moment ? 2 : 1) / (own * own);
+    }
     for (size_t face = 0; face < FACES; face++)
         if (boundary_moves(&scene->boundary[face]))
             sum += power_of(&scene->boundary[face].history, angular_frequency, 1);

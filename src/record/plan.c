@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <string.h>
 
 struct teller {
     void (*tell)(void *context, const char *key, const char *value);
@@ -36,7 +37,8 @@ static void say_resolution(const struct teller *teller, const struct scene *scen
     if (!(points > 0.0)) return;
     say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
         source_cutoff(scene), 100.0 * SOURCE_COUNTS);
-    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff)", points);
+    say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff%s)", points,
+        scene_loads_move(scene) ? ", ahead of what moves" : "");
 }
 
 static double operator_calls(const struct stepper *stepper)
@@ -189,6 +191,19 @@ static void say_tables(const struct teller *teller, const struct scene *scene)
         say_table(teller, "boundary", scene->boundary[face].group + 1, &scene->boundary[face].history);
 }
 
+/* What a method says of itself; steps in one pass are leapfrog's alone. */
+struct method_teller {
+    struct teller to;
+    bool one_pass;
+};
+
+static void say_of_method(void *context, const char *key, const char *value)
+{
+    const struct method_teller *teller = context;
+    const bool apart = strcmp(key, "step") == 0 && !teller->one_pass;
+    teller->to.tell(teller->to.context, key, apart ? "apart from the operator" : value);
+}
+
 void plan_tell(const struct recorder *recorder,
                void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -210,7 +225,8 @@ void plan_tell(const struct recorder *recorder,
     if (model->grid[0] > 0)
         say(&teller, "lattice", "%zu x %zu x %zu", model->grid[0], model->grid[1] > 0 ? model->grid[1] : 1,
             model->grid[2] > 0 ? model->grid[2] : 1);
-    if (model->core->describe != NULL) model->core->describe(model, tell, context);
+    struct method_teller own = {teller, (recorder->stepper->scheme->can & SCHEME_ONE_PASS) != 0};
+    if (model->core->describe != NULL) model->core->describe(model, say_of_method, &own);
     say_step(&teller, recorder->stepper);
     say_resolution(&teller, scene);
     say_parts(&teller, scene);

@@ -33,9 +33,25 @@ double jump_smoothing(double period)
     return 8 / pow(SOURCE_COUNTS, .25) * period / 6.283185307179586477;
 }
 
+/* The source's cutoff of waves ahead of the loads: one that runs after them crowds them (faster than they it is told of
+ * for itself). */
+static double cutoff_ahead(const struct scene *scene, double speed)
+{
+    double omega = source_cutoff(scene);
+    for (size_t k = 0; k < scene->loads; k++) {
+        const double *velocity = scene->load[k].velocity;
+        const double own =
+            sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
+        const double cutoff = history_cutoff(&scene->load[k].history, SOURCE_COUNTS);
+        if (own < .92 * speed) omega = fmax(omega, cutoff / (1 - own / speed));
+    }
+    return omega;
+}
+
 double points_per_wavelength(const struct scene *scene)
 {
-    const double omega = source_cutoff(scene), slowest = slowest_speed(scene);
-    if (!(omega > 0.0) || !isfinite(omega) || !isfinite(slowest) || !(scene->body.spacing > 0.0)) return 0.0;
-    return 6.283185307179586477 * slowest / omega / scene->body.spacing;
+    const double cutoff = source_cutoff(scene), slowest = slowest_speed(scene);
+    if (!(cutoff > 0.0) || !isfinite(cutoff) || !isfinite(slowest) || !(scene->body.spacing > 0.0))
+        return 0.0;
+    return 6.283185307179586477 * slowest / cutoff_ahead(scene, slowest) / scene->body.spacing;
 }

@@ -20,7 +20,7 @@ double slowest_speed(const struct scene *scene);
  * smoothing))^4). */
 double jump_smoothing(double period);
 
-/* Of the slowest wave at that frequency; 0 if nothing tells. */
+/* Of the slowest wave at that frequency, ahead of loads that move; 0 if nothing tells. */
 double points_per_wavelength(const struct scene *scene);
 
 #endif

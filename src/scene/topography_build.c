@@ -188,12 +188,18 @@ static struct range range_of(const struct body *body)
     return range;
 }
 
+/* Heights less than a millionth of the spacing are none. */
+static double height(double drop, double spacing)
+{
+    return fabs(drop) < 1e-6 * spacing ? 0 : -drop;
+}
+
 static void tell(const struct builder *builder, struct topography *topography, const struct range *range)
 {
     const double h = builder->scene->body.spacing, stretch = 4 / 3. / topography->depth;
     const size_t size = sizeof topography->text[0];
     snprintf(topography->text[0], size, "heights %.4g to %.4g above face %s, steepest slope %.3g degrees",
-             -range->high + 0., -range->low + 0., topography->axis == 2 ? "z-" : "y-",
+             height(range->high, h), height(range->low, h), topography->axis == 2 ? "z-" : "y-",
              atan(range->slope) * 45 / atan(1));
     snprintf(topography->text[1], size,
              "vertical spacing %.4g to %.4g, level below a depth of %.4g; along the steepest slope %.4g",

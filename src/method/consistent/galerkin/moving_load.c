@@ -1,14 +1,51 @@
 /* Moving patches: the load vector F_i(t) = f(t) * integral of N_i over the patch at centre + velocity t, a
- * product of one line per axis (the integrals are exact, whatever the place of the patch between the points).
- * With the H-form M^-1 is a product over the axes too, so each line gets its own factor (manual,
- * doc/theory/sources.md, Eqs 6, 7). A few hundred multiplications per step and patch. */
+ * product of one line per axis (the integrals are exact, whatever the place of the patch between the points),
+ * as a mean over the way, without the frequencies that points do not carry (manual, doc/theory/sources.md, Eqs 6,
+ * 7, 7a). With the H-form M^-1 is a product over the axes too, so each line gets its own factor. */
 #include "method/consistent/galerkin/moving_load.h"
 
 #include "base/memory.h"
 #include "method/consistent/galerkin/hform.h"
+#include "scene/ground.h"
+#include "scene/resolution.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+void moving_weights(double weight[MOVING_SHIFTS])
+{
+    static const double flat = 13.6980; /* third zero of the spherical Bessel function j_3 */
+    double sum = weight[0] = 1;
+    for (int j = 1; j < MOVING_SHIFTS; j++) {
+        const double part = (double)j / MOVING_SHIFTS;
+        weight[j] = sin(flat * part) / (flat * part) * pow(1 - part * part, 2);
+        sum += 2 * weight[j];
+    }
+    for (int j = 0; j < MOVING_SHIFTS; j++)
+        weight[j] /= sum;
+}
+
+/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more; none where the load
+ * is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
+static double lag(const struct scene *scene, const double centre[3], const double velocity[3])
+{
+    static const double spacings = 9, rayleigh = .92;
+    const struct rock rock = ground_at(scene, centre);
+    const double here = sqrt(rock.mu / rock.density), slowest = fmin(slowest_speed(scene), here);
+    const double speed = hypot(hypot(velocity[0], velocity[1]), velocity[2]);
+    return speed < rayleigh * here ? spacings / MOVING_SHIFTS * scene->body.spacing / fmax(slowest, speed)
+                                   : 0;
+}
+
+/* The mean is one of lines then. */
+static bool along_an_axis(const double velocity[3])
+{
+    int axes = 0;
+    for (int axis = 0; axis < 3; axis++)
+        axes += velocity[axis] != 0;
+    return axes <= 1;
+}
 
 static selas_status create(struct consistent *c, size_t index, struct moving_load *moving,
                            struct messages *messages)
@@ -29,14 +66,18 @@ static selas_status create(struct consistent *c, size_t index, struct moving_loa
         if (axis != face_axis(load->face) && load->shape == LOAD_SQUARE)
             moving->half[axis] = load->size[edge++] / 2;
     }
-    moving->work = array_new(longest, sizeof *moving->work);
-    bool good = moving->work != NULL;
-    for (int component = 0; component < c->dimension; component++)
-        for (int axis = 0; axis < c->dimension; axis++) {
-            struct moving_line *line = &moving->line[component][axis];
-            line->value = array_new(c->spline[axis]->count, sizeof *line->value);
-            good = good && line->value != NULL;
-        }
+    moving->lag = lag(scene, moving->centre, moving->velocity);
+    moving->work = array_new(2 * longest, sizeof *moving->work);
+    moving->shifted = moving->work + longest;
+    moving->terms = moving->lag == 0 || along_an_axis(moving->velocity) ? 1 : 2 * MOVING_SHIFTS - 1;
+    moving->line = calloc((size_t)moving->terms, sizeof *moving->line);
+    bool good = moving->work != NULL && moving->line != NULL;
+    for (int i = 0; good && i < 9 * moving->terms; i++) {
+        if (i / 3 % 3 >= c->dimension || i % 3 >= c->dimension) continue;
+        struct moving_line *line = &moving->line[i / 9][i / 3 % 3][i % 3];
+        line->value = array_new(c->spline[i % 3]->count, sizeof *line->value);
+        good = line->value != NULL;
+    }
     return good ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for a moving load");
 }
 
@@ -54,9 +95,11 @@ selas_status moving_loads_create(struct consistent *c, struct messages *messages
 void moving_loads_free(struct consistent *c)
 {
     for (size_t l = 0; l < c->moving_loads; l++) {
-        array_free(c->moving_load[l].work);
-        for (int i = 0; i < 9; i++)
-            array_free(c->moving_load[l].line[i / 3][i % 3].value);
+        struct moving_load *moving = &c->moving_load[l];
+        array_free(moving->work);
+        for (int i = 0; moving->line != NULL && i < 9 * moving->terms; i++)
+            array_free(moving->line[i / 9][i / 3 % 3][i % 3].value);
+        free(moving->line);
     }
     array_free(c->moving_load);
 }
@@ -72,26 +115,44 @@ static void find_range(size_t count, struct moving_line *line)
         line->to--;
 }
 
-static void place_line(const struct consistent *c, struct moving_load *moving, int component, int axis,
-                       double time, struct moving_line *line)
+/* Adds `weight` times the integrals over the patch, or the point, with its centre at x. */
+static void add_patch(const struct consistent *c, struct moving_load *moving, int component, int axis,
+                      double x, double weight, double *line)
+{
+    const struct spline *spline = c->spline[axis];
+    const bool odd = axis == component;
+    const double small = 1e-12 * (spline->high - spline->low), half = moving->half[axis];
+    if (x + half < spline->low - small || x - half > spline->high + small) return;
+    if (half > 0)
+        tuned_moments(spline, odd, x - half, x + half, moving->work, moving->shifted);
+    else
+        consistent_point_line(c, axis, odd, false, true, fmin(fmax(x, spline->low), spline->high),
+                              moving->shifted);
+    for (size_t i = 0; i < spline->count; i++)
+        line[i] += weight * moving->shifted[i];
+}
+
+/* The line of a term: that of a shift, or the mean over all of them. */
+static void place_line(const struct consistent *c, struct moving_load *moving, int term, int component,
+                       int axis, double time, struct moving_line *line)
 {
     const struct spline *spline = c->spline[axis];
     const struct load *load = &c->model.scene->load[moving->load];
-    const bool odd = axis == component;
-    const double x = moving->centre[axis] + moving->velocity[axis] * time, half = moving->half[axis];
-    const double small = 1e-12 * (spline->high - spline->low);
-    if (axis == face_axis(load->face))
-        consistent_point_line(c, axis, odd, false, false,
-                              load->face % 2 == 0 ? c->model.scene->body.low[axis]
-                                                  : c->model.scene->body.high[axis],
-                              line->value);
-    else if (half > 0)
-        tuned_moments(spline, odd, x - half, x + half, moving->work, line->value);
-    else if (x < spline->low - small || x > spline->high + small)
-        memset(line->value, 0, spline->count * sizeof *line->value);
+    const double x = moving->centre[axis] + moving->velocity[axis] * time;
+    const double shift = moving->lag * moving->velocity[axis];
+    double weight[MOVING_SHIFTS];
+    moving_weights(weight);
+    memset(line->value, 0, spline->count * sizeof *line->value);
+    if (axis == face_axis(load->face)) {
+        const double plane = face_plane(&c->model.scene->body, load->face);
+        consistent_point_line(c, axis, axis == component, false, false, plane, line->value);
+        for (size_t i = 0; moving->terms > 1 && i < spline->count; i++)
+            line->value[i] *= weight[abs(term + 1 - MOVING_SHIFTS)];
+    } else if (moving->terms > 1 || shift == 0)
+        add_patch(c, moving, component, axis, x + (term + 1 - MOVING_SHIFTS) * shift, 1, line->value);
     else
-        consistent_point_line(c, axis, odd, false, true, fmin(fmax(x, spline->low), spline->high),
-                              line->value);
+        for (int j = 1 - MOVING_SHIFTS; j < MOVING_SHIFTS; j++)
+            add_patch(c, moving, component, axis, x + j * shift, weight[abs(j)], line->value);
     find_range(spline->count, line);
 }
 
@@ -117,9 +178,10 @@ void moving_loads_place(struct consistent *c, double time, bool divided)
         struct moving_load *moving = &c->moving_load[l];
         for (int component = 0; component < c->dimension; component++) {
             if (moving->direction[component] == 0) continue;
-            for (int axis = 0; axis < c->dimension; axis++) {
-                struct moving_line *line = &moving->line[component][axis];
-                place_line(c, moving, component, axis, time, line);
+            for (int i = 0; i < moving->terms * c->dimension; i++) {
+                const int term = i / c->dimension, axis = i % c->dimension;
+                struct moving_line *line = &moving->line[term][component][axis];
+                place_line(c, moving, term, component, axis, time, line);
                 if (divided) divide_line(c, component, axis, moving->work, line);
             }
         }
@@ -127,14 +189,29 @@ void moving_loads_place(struct consistent *c, double time, bool divided)
 }
 
 /* The three lines by slot; 1 where there is no axis. */
-static void by_slot(const struct consistent *c, const struct moving_load *moving, int component,
+static void by_slot(const struct consistent *c, const struct moving_load *moving, int term, int component,
                     const struct moving_line *line[3])
 {
     static double one = 1;
     static const struct moving_line nothing = {&one, 0, 1};
     line[0] = line[1] = line[2] = &nothing;
     for (int axis = 0; axis < c->dimension; axis++)
-        line[c->slot[axis]] = &moving->line[component][axis];
+        line[c->slot[axis]] = &moving->line[term][component][axis];
+}
+
+/* A term of a load in plane k, times a factor. */
+static void add_term(const struct consistent *c, const struct moving_line *const line[3], double factor,
+                     size_t k, double *plane)
+{
+    const size_t depth = c->part.along[DEPTH].first + k;
+    if (depth < line[2]->from || depth >= line[2]->to) return;
+    factor *= line[2]->value[depth];
+    for (size_t j = 0; factor != 0 && j < c->n[1]; j++) {
+        const size_t row = c->part.along[1].first + j;
+        if (row < line[1]->from || row >= line[1]->to) continue;
+        for (size_t i = line[0]->from; i < line[0]->to; i++)
+            plane[j * c->n[0] + i] += factor * line[1]->value[row] * line[0]->value[i];
+    }
 }
 
 void moving_loads_add(const struct consistent *c, const struct drive *drive, int component, size_t k,
@@ -142,20 +219,32 @@ void moving_loads_add(const struct consistent *c, const struct drive *drive, int
 {
     for (size_t l = 0; drive->load != NULL && l < c->moving_loads; l++) {
         const struct moving_load *moving = &c->moving_load[l];
-        const struct moving_line *line[3];
-        if (moving->direction[component] == 0) continue;
-        by_slot(c, moving, component, line);
+        const double amplitude = drive->load[moving->load] * c->model.scene->load[moving->load].amplitude;
+        for (int term = 0; moving->direction[component] != 0 && term < moving->terms; term++) {
+            const struct moving_line *line[3];
+            by_slot(c, moving, term, component, line);
+            add_term(c, line, amplitude * moving->direction[component], k, plane);
+        }
+    }
+}
+
+/* Power of a term on a component of the velocity. */
+static double power_of_term(const struct consistent *c, const struct moving_line *const line[3],
+                            const double *field)
+{
+    double power = 0;
+    for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++) {
         const size_t depth = c->part.along[DEPTH].first + k;
         if (depth < line[2]->from || depth >= line[2]->to) continue;
-        const double factor = drive->load[moving->load] * c->model.scene->load[moving->load].amplitude *
-                              moving->direction[component] * line[2]->value[depth];
-        for (size_t j = 0; factor != 0 && j < c->n[1]; j++) {
+        for (size_t j = c->part.along[1].own; j < c->part.along[1].end; j++) {
             const size_t row = c->part.along[1].first + j;
             if (row < line[1]->from || row >= line[1]->to) continue;
             for (size_t i = line[0]->from; i < line[0]->to; i++)
-                plane[j * c->n[0] + i] += factor * line[1]->value[row] * line[0]->value[i];
+                power += line[2]->value[depth] * line[1]->value[row] * line[0]->value[i] *
+                         field[k * c->plane + j * c->n[0] + i];
         }
     }
+    return power;
 }
 
 double moving_loads_power(const struct consistent *c, const struct drive *drive, const double *v)
@@ -164,23 +253,13 @@ double moving_loads_power(const struct consistent *c, const struct drive *drive,
     for (size_t l = 0; drive->load != NULL && l < c->moving_loads; l++) {
         const struct moving_load *moving = &c->moving_load[l];
         const double amplitude = drive->load[moving->load] * c->model.scene->load[moving->load].amplitude;
-        for (int component = 0; component < c->dimension; component++) {
+        for (int i = 0; i < moving->terms * c->dimension; i++) {
+            const int term = i / c->dimension, component = i % c->dimension;
             const struct moving_line *line[3];
             if (moving->direction[component] == 0) continue;
-            by_slot(c, moving, component, line);
-            const double *field = v + (size_t)component * c->volume;
-            for (size_t k = c->part.along[DEPTH].own; k < c->part.along[DEPTH].end; k++) {
-                const size_t depth = c->part.along[DEPTH].first + k;
-                if (depth < line[2]->from || depth >= line[2]->to) continue;
-                for (size_t j = c->part.along[1].own; j < c->part.along[1].end; j++) {
-                    const size_t row = c->part.along[1].first + j;
-                    if (row < line[1]->from || row >= line[1]->to) continue;
-                    for (size_t i = line[0]->from; i < line[0]->to; i++)
-                        power += amplitude * moving->direction[component] * line[2]->value[depth] *
-                                 line[1]->value[row] * line[0]->value[i] *
-                                 field[k * c->plane + j * c->n[0] + i];
-                }
-            }
+            by_slot(c, moving, term, component, line);
+            power += amplitude * moving->direction[component] *
+                     power_of_term(c, line, v + (size_t)component * c->volume);
         }
     }
     return power;

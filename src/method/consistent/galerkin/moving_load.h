@@ -5,6 +5,8 @@
 
 #include "method/consistent/galerkin/galerkin.h"
 
+enum { MOVING_SHIFTS = 18 };
+
 struct moving_line {
     double *value;   /* [control values of the axis] */
     size_t from, to; /* others are 0 */
@@ -14,9 +16,14 @@ struct moving_load {
     size_t load;                                 /* index into scene->loads */
     double centre[3], direction[3], velocity[3]; /* body's frame */
     double half[3];                              /* half edges by axis; 0 across the face and for a point */
-    struct moving_line line[3][3];               /* [component][axis]: the vector is their product */
-    double *work;                                /* longest axis */
+    double lag;                                  /* time from shift to shift of the mean over the way */
+    int terms;                                   /* the vector is a sum of so many products of lines: */
+    struct moving_line (*line)[3][3];            /* [terms][component][axis] */
+    double *work, *shifted;                      /* longest axis */
 };
+
+/* Weights w_j of the mean over the way, j = 0 to MOVING_SHIFTS - 1, w_-j = w_j (Eq 7a): their sum over all j is 1. */
+void moving_weights(double weight[MOVING_SHIFTS]);
 
 /* All loads of the scene that move. SELAS_UNSUPPORTED: neither squares nor points. */
 selas_status moving_loads_create(struct consistent *c, struct messages *messages);
