@@ -123,9 +123,9 @@ static double nearest_layer(const struct scene *scene, const double place[3])
     return nearest;
 }
 
-/* A layer gives way to what stays: at most .02 (r / d)^2 of it errs, with d from the source to the layer and r to the
- * receiver. Measured: 3-D, a patch on a half-space and a moment tensor below a soil of half the rock's moduli, r / d .3 to 4,
- * against the exact solutions (doc/theory/absorbing-faces.md, section 7). */
+/* A layer gives way to what stays: at most .02 (r / d)^2 of it errs, with d from the source to the layer and r to
+ * the receiver. Measured: 3-D, a patch on a half-space and a moment tensor below a soil of half the rock's moduli,
+ * r / d .3 to 4, against the exact solutions (doc/theory/absorbing-faces.md, section 7). */
 void look_at_rests(struct adviser *adviser)
 {
     static const double seen = .02, soft = .02;

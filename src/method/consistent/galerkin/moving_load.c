@@ -26,8 +26,8 @@ void moving_weights(double weight[MOVING_SHIFTS])
         weight[j] /= sum;
 }
 
-/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more; none where the load
- * is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
+/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more; none where the
+ * load is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
 static double lag(const struct scene *scene, const double centre[3], const double velocity[3])
 {
     static const double spacings = 9, rayleigh = .92;
