@@ -86,6 +86,10 @@ bool source_at(const struct spline *spline, bool odd, bool slope, double x, stru
     struct images images;
     double away[WIDE], moment[MOMENTS], weight[WIDE];
     if (spline->degree == TUNED_DEGREE) return false;
+    const double rounding =
+        1e-9 * (spline->high - spline->low); /* of a place on an end, in a body that is turned */
+    if (x < spline->low && x > spline->low - rounding) x = spline->low;
+    if (x > spline->high && x < spline->high + rounding) x = spline->high;
     const bool inside = spline_images(spline, odd, x, WIDE, &images);
     if (!inside && !end_images(spline, x, 0, &images) && !end_images(spline, x, 1, &images)) return false;
     double farthest = 0;
