@@ -29,7 +29,9 @@ struct part_axis {
 };
 
 /* Own planes are made in turns, so that halos travel while the rest is made (doc/developers/ranks.md, Order of planes):
- * those that neighbours over depth get, then the others in two parts. Alone all are in the last. */
+ * those that neighbours over depth get, low and high, then the others in two parts, first and last. Alone all are in
+ * the last. Where rows are not shared, planes travel after high. Where they are, first is three quarters of the inside:
+ * rows of low and high travel after high; planes with all rows, and rows of first, after first; its own after last. */
 enum { PART_LOW, PART_HIGH, PART_FIRST, PART_LAST, PART_TURNS };
 struct part_range {
     size_t from, end;
