@@ -134,14 +134,16 @@ void look_at_rests(struct adviser *adviser)
     size_t load = 0, receiver = 0;
     if (scene->dimension < 3 || scene->reference.kind[0] != '\0') return;
     for (size_t k = 0; k < scene->loads; k++) {
-        const double *from = scene->load[k].centre;
+        const struct load *one = &scene->load[k];
+        const double *from = one->centre;
         double place[3];
+        if (load_moves(one) || !(has_patch(one) || one->shape == LOAD_POINT)) continue;
         body_from_deck(&scene->body, from, place);
         const double away = fmax(nearest_layer(scene, place), scene->body.spacing);
         for (size_t r = 0; isfinite(away) && r < scene->receivers; r++) {
             const double *to = scene->receiver[r].position,
                          way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-            if (way / away <= worst || !rests(scene, &scene->load[k].history, way + 2.0 * away)) continue;
+            if (way / away <= worst || !rests(scene, &one->history, way + 2.0 * away)) continue;
             worst = way / away;
             farthest = 1.5 * way;
             load = k;
@@ -149,11 +151,10 @@ void look_at_rests(struct adviser *adviser)
         }
     }
     if (soft * worst * worst < seen) return;
-    advise(adviser,
-           "load %zu stays on, and absorbing layers give way to what stays: when the waves are gone, "
-           "displacements may err "
-           "by %.1g of what is left at receiver '%s' (velocities do not); body%%low and body%%high %.2g from "
-           "the "
-           "load would be right",
-           load + 1, fmin(1.0, soft * worst * worst), scene->receiver[receiver].name, farthest);
+    advise(
+        adviser,
+        "load %zu stays on, and absorbing layers give way to what stays: when the waves are gone, "
+        "displacements may err by %.1g of what is left at receiver '%s' (velocities do not); body%%low and "
+        "body%%high %.2g from the load would be right",
+        load + 1, fmin(1.0, soft * worst * worst), scene->receiver[receiver].name, farthest);
 }

@@ -213,13 +213,13 @@ void look_at_passed(struct adviser *adviser, size_t k)
         return;
     for (size_t r = 0; r < scene->receivers; r++) {
         if (!passes(scene, load, scene->receiver[r].position)) continue;
-        advise(adviser,
-               "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, of which some is "
-               "wrong at "
-               "any spacing (at a quarter, half and .7 of the S waves' speed .03, .08 and .3 at four points "
-               "along "
-               "an edge, .015 and .05 at eight); displacements, or a receiver beside the path, would do",
-               k + 1, scene->receiver[r].name);
+        advise(
+            adviser,
+            "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, of which some is "
+            "wrong at any spacing (at a quarter, half and .7 of the S waves' speed .03, .08 and .3 at four "
+            "points along an edge, .015 and .05 at eight); displacements, or a receiver beside the path, "
+            "would do",
+            k + 1, scene->receiver[r].name);
         return;
     }
 }

@@ -66,7 +66,9 @@ static selas_status create(struct consistent *c, size_t index, struct moving_loa
         if (axis != face_axis(load->face) && load->shape == LOAD_SQUARE)
             moving->half[axis] = load->size[edge++] / 2;
     }
+    moving->face = face_axis(load->face);
     moving->lag = lag(scene, moving->centre, moving->velocity);
+    moving_weights(moving->weight);
     moving->work = array_new(2 * longest, sizeof *moving->work);
     moving->shifted = moving->work + longest;
     moving->terms = moving->lag == 0 || along_an_axis(moving->velocity) ? 1 : 2 * MOVING_SHIFTS - 1;
@@ -140,19 +142,15 @@ static void place_line(const struct consistent *c, struct moving_load *moving, i
     const struct load *load = &c->model.scene->load[moving->load];
     const double x = moving->centre[axis] + moving->velocity[axis] * time;
     const double shift = moving->lag * moving->velocity[axis];
-    double weight[MOVING_SHIFTS];
-    moving_weights(weight);
     memset(line->value, 0, spline->count * sizeof *line->value);
-    if (axis == face_axis(load->face)) {
-        const double plane = face_plane(&c->model.scene->body, load->face);
-        consistent_point_line(c, axis, axis == component, false, false, plane, line->value);
-        for (size_t i = 0; moving->terms > 1 && i < spline->count; i++)
-            line->value[i] *= weight[abs(term + 1 - MOVING_SHIFTS)];
-    } else if (moving->terms > 1 || shift == 0)
+    if (axis == moving->face)
+        consistent_point_line(c, axis, axis == component, false, false,
+                              face_plane(&c->model.scene->body, load->face), line->value);
+    else if (moving->terms > 1 || shift == 0)
         add_patch(c, moving, component, axis, x + (term + 1 - MOVING_SHIFTS) * shift, 1, line->value);
     else
         for (int j = 1 - MOVING_SHIFTS; j < MOVING_SHIFTS; j++)
-            add_patch(c, moving, component, axis, x + j * shift, weight[abs(j)], line->value);
+            add_patch(c, moving, component, axis, x + j * shift, moving->weight[abs(j)], line->value);
     find_range(spline->count, line);
 }
 
@@ -180,6 +178,7 @@ void moving_loads_place(struct consistent *c, double time, bool divided)
             if (moving->direction[component] == 0) continue;
             for (int i = 0; i < moving->terms * c->dimension; i++) {
                 const int term = i / c->dimension, axis = i % c->dimension;
+                if (term > 0 && axis == moving->face) continue;
                 struct moving_line *line = &moving->line[term][component][axis];
                 place_line(c, moving, term, component, axis, time, line);
                 if (divided) divide_line(c, component, axis, moving->work, line);
@@ -188,15 +187,16 @@ void moving_loads_place(struct consistent *c, double time, bool divided)
     }
 }
 
-/* The three lines by slot; 1 where there is no axis. */
-static void by_slot(const struct consistent *c, const struct moving_load *moving, int term, int component,
-                    const struct moving_line *line[3])
+/* The three lines by slot, that across the face the same for all terms; 1 where there is no axis. The term's weight. */
+static double by_slot(const struct consistent *c, const struct moving_load *moving, int term, int component,
+                      const struct moving_line *line[3])
 {
     static double one = 1;
     static const struct moving_line nothing = {&one, 0, 1};
     line[0] = line[1] = line[2] = &nothing;
     for (int axis = 0; axis < c->dimension; axis++)
-        line[c->slot[axis]] = &moving->line[term][component][axis];
+        line[c->slot[axis]] = &moving->line[axis == moving->face ? 0 : term][component][axis];
+    return moving->terms > 1 ? moving->weight[abs(term + 1 - MOVING_SHIFTS)] : 1;
 }
 
 /* A term of a load in plane k, times a factor. */
@@ -222,8 +222,8 @@ void moving_loads_add(const struct consistent *c, const struct drive *drive, int
         const double amplitude = drive->load[moving->load] * c->model.scene->load[moving->load].amplitude;
         for (int term = 0; moving->direction[component] != 0 && term < moving->terms; term++) {
             const struct moving_line *line[3];
-            by_slot(c, moving, term, component, line);
-            add_term(c, line, amplitude * moving->direction[component], k, plane);
+            const double weight = by_slot(c, moving, term, component, line);
+            add_term(c, line, amplitude * moving->direction[component] * weight, k, plane);
         }
     }
 }
@@ -257,8 +257,8 @@ double moving_loads_power(const struct consistent *c, const struct drive *drive,
             const int term = i / c->dimension, component = i % c->dimension;
             const struct moving_line *line[3];
             if (moving->direction[component] == 0) continue;
-            by_slot(c, moving, term, component, line);
-            power += amplitude * moving->direction[component] *
+            const double weight = by_slot(c, moving, term, component, line);
+            power += weight * amplitude * moving->direction[component] *
                      power_of_term(c, line, v + (size_t)component * c->volume);
         }
     }

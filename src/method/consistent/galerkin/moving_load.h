@@ -16,10 +16,11 @@ struct moving_load {
     size_t load;                                 /* index into scene->loads */
     double centre[3], direction[3], velocity[3]; /* body's frame */
     double half[3];                              /* half edges by axis; 0 across the face and for a point */
-    double lag;                                  /* time from shift to shift of the mean over the way */
-    int terms;                                   /* the vector is a sum of so many products of lines: */
-    struct moving_line (*line)[3][3];            /* [terms][component][axis] */
-    double *work, *shifted;                      /* longest axis */
+    int face;                                    /* axis across the face, along which nothing changes */
+    double lag, weight[MOVING_SHIFTS]; /* time from shift to shift of the mean over the way; its weights */
+    int terms;                         /* the vector is a sum of so many products of lines: */
+    struct moving_line (*line)[3][3];  /* [terms][component][axis] */
+    double *work, *shifted;            /* longest axis */
 };
 
 /* Weights w_j of the mean over the way, j = 0 to MOVING_SHIFTS - 1, w_-j = w_j (Eq 7a): their sum over all j is 1. */
