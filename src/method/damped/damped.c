@@ -226,8 +226,7 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
 {
     struct model *model = &d->model;
     struct model *first = d->part[0].model;
-    size_t extra = 0, bytes = 0, most = 0;
-    extra = d->damping->mechanisms * first->unknowns;
+    size_t extra = d->damping->mechanisms * first->unknowns, bytes = 0, most = 0;
     for (size_t p = 0; p < d->parts; p++) {
         d->part[p].extra = extra;
         extra += d->part[p].model->state_size - 2 * first->unknowns;
@@ -235,6 +234,9 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
         bytes += d->part[p].model->bytes;
     }
     const bool room = relax(d, extra) == SELAS_OK;
+    bytes = 0; /* with what steps in one pass take, or no more need */
+    for (size_t p = 0; p < d->parts; p++)
+        bytes += d->part[p].model->bytes;
     if (first->single && first->one_pass == NULL)
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%precision = 'single' needs one damped material and no more");

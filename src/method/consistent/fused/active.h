@@ -32,6 +32,20 @@ static void forget_sizes(const struct fused *f, size_t k)
     memset(strips_of(f, k), 0, f->strips * sizeof(REAL));
 }
 
+/* Brings the fields that relax on. */
+static void relax_rows(const struct fused *f, const struct fused_fields *fields, size_t n, size_t rows,
+                       size_t at)
+{
+    const size_t length = n == f->n[0] ? rows * n : n, end = at + rows * f->n[0]; /* whole rows as one */
+    for (size_t from = at; from < end; from += n == f->n[0] ? length : f->n[0]) {
+        REAL *field[FUSED_FIELDS_KEPT];
+        for (size_t k = 0; k < fields->relax->fields; k++)
+            field[k] = (REAL *)fields->kept[k] + from;
+        NAME(taken_fused_kernels)
+        ()->relax(length, fields->relax, (const REAL *)fields->a + from, field, NULL);
+    }
+}
+
 /* Brings rows of u on; gives the largest. */
 static REAL move_rows(const struct fused *f, const struct fused_fields *fields, size_t n, size_t rows,
                       size_t at, REAL *column)
@@ -40,8 +54,8 @@ static REAL move_rows(const struct fused *f, const struct fused_fields *fields, 
     const REAL *w = (const REAL *)fields->a + at;
     REAL *u = (REAL *)fields->moved + at;
     if (fields->relax == NULL) return kernels->drift(n, rows, f->n[0], (REAL)fields->dt, w, u, column);
-    REAL *other = fields->other == NULL ? NULL : (REAL *)fields->other + at;
-    return kernels->relax(n, rows, f->n[0], fields->relax, w, (REAL *)fields->memory + at, u, other, column);
+    relax_rows(f, fields, n, rows, at);
+    return kernels->measure(n, rows, f->n[0], u, column);
 }
 
 /* Numbers of plane k of a field u or, with `fields`, of their u brought on: a window of it. */

@@ -32,6 +32,7 @@
 #ifndef SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
 #define SELAS_METHOD_CONSISTENT_FUSED_FUSED_H
 
+#include "method/consistent/fused/relax.h"
 #include "method/consistent/galerkin/galerkin.h"
 #include "method/consistent/galerkin/window.h"
 
@@ -104,26 +105,8 @@ static inline size_t fused_rounded(size_t n, size_t unit)
     return (n + unit - 1) / unit * unit;
 }
 
-/* How displacements e_p that relax go on with their memory (model.h, relaxing), in a step of dt:
- * D_l := kept_l D_l + taken_l w, and with D_l and w before it e_p += by_rate_p w + sum over l of by_memory_pl D_l.
- * One kind of ground has not more than two parts. */
+/* One kind of ground has not more than two parts that relax (relax.h). */
 enum { FUSED_PARTS = 2 };
-struct fused_relax {
-    size_t mechanisms, parts;
-    size_t order[MODEL_MECHANISMS],
-        at[MODEL_MECHANISMS]; /* mechanism of the scene, where its memory begins */
-    double dt, kept[MODEL_MECHANISMS], taken[MODEL_MECHANISMS];
-    double given[FUSED_PARTS], weight[FUSED_PARTS][MODEL_MECHANISMS]; /* e_p = given_p u + weight_pl D_l */
-    double by_rate[FUSED_PARTS], by_memory[FUSED_PARTS][MODEL_MECHANISMS];
-    double from_parts[FUSED_PARTS], from_memory[MODEL_MECHANISMS];
-};
-
-/* Mechanisms whose memory steps go on with. Of two parts e_0, e_1 and the other D_l tell the last:
- * D_last = sum over p of from_parts_p e_p + sum over l of from_memory_l D_l. */
-static inline size_t fused_remembered(const struct fused_relax *relax)
-{
-    return relax->mechanisms - (relax->parts > 1 ? 1 : 0);
-}
 
 /* Rows in the ring of each field of a plane, rows before it, numbers in all. */
 struct fused_rings {
@@ -180,8 +163,9 @@ struct fused_fields {
     void *a;     /* w in a step */
     void *moved; /* u again */
     double dt;
-    const struct fused_relax *relax; /* u goes on by this and its `memory`, `other` too; NULL: by dt w */
-    void *memory, *other;            /* other: e_1, NULL if there is one part */
+    const struct fused_relax *relax; /* the fields `kept` go on by this, u being the first; NULL: u by dt w */
+    void *const *kept;
+    const void *other;               /* e_1, NULL if there is one part */
     const struct pml *dragged;       /* layers that damp w besides once u has gone on; NULL: none do */
     size_t bring_on, before;         /* planes of u to be brought on on the way */
 };
@@ -231,11 +215,12 @@ void fused_count(struct fused *fused);
 void fused_forget(struct fused *fused); /* these counts; takes NULL */
 
 /* What steps in one pass work on. Each part has displacements u and the layers' memory variables (NULL
- * without layers); with `relax` (NULL: none) u of part p is e_p, and its memory is there. */
+ * without layers); with `relax` (NULL: none) u of part p is e_p, and these and memory are the fields `kept`. */
 #define STEP_FIELDS(real, precision)                                                                         \
     struct step_fields_##precision {                                                                         \
-        real *w, *work, *memory;                                                                             \
+        real *w, *work;                                                                                      \
         const struct fused_relax *relax;                                                                     \
+        void *kept[FUSED_FIELDS_KEPT];                                                                       \
         size_t parts;                                                                                        \
         struct {                                                                                             \
             const struct consistent *c;                                                                      \

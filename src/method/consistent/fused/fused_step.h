@@ -298,16 +298,10 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
 {
     const struct fused_relax *relax = step->relax;
     if (relax == NULL) return step->w;
-    const size_t remembered = fused_remembered(relax), last = relax->mechanisms - 1;
-    const REAL *other = step->part[step->parts - 1].u;
-    const REAL factor = (REAL)(relax->by_rate[part] / relax->dt);
-    REAL before[MODEL_MECHANISMS], told[FUSED_PARTS] = {0};
-    for (size_t l = 0; l <= last; l++)
-        before[l] = (REAL)(relax->by_memory[part][l] / relax->dt);
-    for (size_t p = 0; p < step->parts; p++)
-        told[p] = before[last] * (REAL)relax->from_parts[p];
-    for (size_t l = 0; l < remembered; l++)
-        before[l] += before[last] * (REAL)relax->from_memory[l];
+    REAL by[FUSED_FIELDS_KEPT];
+    for (size_t f = 0; f < relax->fields; f++)
+        by[f] = (REAL)(relax->by[part][f] / relax->dt);
+    const REAL factor = (REAL)(relax->rate[part] / relax->dt);
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct block *region = &c->pml->slab[s].region;
         const size_t rows = region->n[1] * region->n[2];
@@ -318,9 +312,8 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
             const size_t at = row / rows * c->volume + k * c->plane + j * c->n[0] + region->at[0];
             for (size_t i = at; i < at + region->n[0]; i++) {
                 REAL sum = factor * step->w[i];
-                for (size_t l = 0; l < remembered; l++)
-                    sum += before[l] * step->memory[relax->at[l] + i];
-                if (step->parts > 1) sum += told[0] * step->part[0].u[i] + told[1] * other[i];
+                for (size_t f = 0; f < relax->fields; f++)
+                    sum += by[f] * ((const REAL *)step->kept[f])[i];
                 step->work[i] = sum;
             }
         }
@@ -328,20 +321,13 @@ static const REAL *rates(const struct consistent *c, const struct NAME(step_fiel
     return step->work;
 }
 
-/* u itself at a place. */
-static double displacement(const struct NAME(step_fields) * step, size_t at)
+/* u itself, and memory, at an entry of a state. */
+static void tell(const struct NAME(step_fields) * step, size_t n, size_t at, double *y)
 {
-    const struct fused_relax *relax = step->relax;
-    double u = step->part[0].u[at], told = 0;
-    if (relax == NULL) return u;
-    for (size_t p = 0; p < step->parts; p++)
-        told += relax->from_parts[p] * step->part[p].u[at];
-    for (size_t l = 0; l < relax->mechanisms; l++) {
-        const double memory = l < fused_remembered(relax) ? step->memory[relax->at[l] + at] : told;
-        told += relax->from_memory[l] * memory;
-        u -= relax->weight[0][l] * memory;
-    }
-    return u / relax->given[0];
+    if (step->relax == NULL)
+        y[at] = step->part[0].u[at];
+    else
+        fused_tell(step->relax, n, at, (const void *const *)step->kept, sizeof(REAL), y);
 }
 
 /* The layers' memory goes on before u does, from the displacements in the middle of the step; what it does
@@ -358,7 +344,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
                                         .moved = u,
                                         .dt = dt,
                                         .relax = step->relax,
-                                        .memory = step->memory,
+                                        .kept = step->kept,
                                         .dragged = dragged ? c->pml : NULL,
                                         .other = step->parts > 1 ? step->part[1].u : NULL};
     const double level = f->quiet * largest_before(f, u);
@@ -382,7 +368,7 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
         const double before = watch->before[i], after = step->w[at];
-        y[at] = displacement(step, at);
+        tell(step, n, at, y);
         y[n + at] = (before + after) / 2;
         a[at] = (after - before) / dt;
     }

@@ -30,8 +30,8 @@
         fused_y_##precision *y_stiff, *y_stiff_ends;                                                         \
         real (*measure)(size_t n, size_t rows, size_t step, const real *u, real *column);                    \
         real (*drift)(size_t n, size_t rows, size_t step, real dt, const real *w, real *u, real *column);    \
-        real (*relax)(size_t n, size_t rows, size_t step, const struct fused_relax *relax, const real *w,    \
-                      real *memory, real *u, real *other, real *column);                                     \
+        void (*relax)(size_t n, const struct fused_relax *relax, const real *w, real *const *field,          \
+                      real *const *change);                                                                  \
         void (*kick)(size_t n, real dt, const real *a, real *w);                                             \
         void (*gather)(size_t n, size_t count, const real *weight, const real *const *row, real *out);       \
         void (*weigh)(size_t n, size_t taps, const double *weight, const real *in, real *out);               \

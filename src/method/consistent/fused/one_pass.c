@@ -5,57 +5,16 @@
 
 #include "base/memory.h"
 
-#include <math.h>
 #include <string.h>
 
 static const struct model_one_pass one_pass;
 
-/* What memory is but for u: e_1 - (given_1 / given_0) e_0 = sum over l of this times D_l. */
-static double between(const struct relaxing *relaxing, size_t l)
+/* Factors of a step of dt, if displacements relax. */
+static const struct fused_relax *relax_of(const struct consistent *c, double dt, struct fused_relax *factors)
 {
-    const struct relaxing_part *part = relaxing->part;
-    return part[1].weight[l] - part[1].given / part[0].given * part[0].weight[l];
-}
-
-/* Mechanisms in the order of the scene, but of two parts the one last that they tell best. */
-static void lay_order(const struct relaxing *relaxing, size_t n, struct fused_relax *relax)
-{
-    const size_t last = relaxing->mechanisms - 1;
-    size_t best = last;
-    for (size_t l = 0; l < last && relaxing->parts > 1; l++)
-        if (fabs(between(relaxing, l)) > fabs(between(relaxing, best))) best = l;
-    for (size_t l = 0; l <= last; l++) {
-        relax->order[l] = l == best ? last : l == last ? best : l;
-        relax->at[l] = relax->order[l] * n;
-    }
-    if (relaxing->parts == 1) return;
-    relax->from_parts[1] = 1 / between(relaxing, best);
-    relax->from_parts[0] = -relaxing->part[1].given / relaxing->part[0].given * relax->from_parts[1];
-    for (size_t l = 0; l < last; l++)
-        relax->from_memory[l] = -between(relaxing, relax->order[l]) * relax->from_parts[1];
-}
-
-/* Factors of a step of dt. */
-static struct fused_relax relax_of(const struct consistent *c, double dt)
-{
-    const struct relaxing *relaxing = c->fused->relaxing;
-    struct fused_relax relax = {.mechanisms = relaxing->mechanisms, .parts = relaxing->parts, .dt = dt};
-    lay_order(relaxing, c->model.unknowns, &relax);
-    for (size_t p = 0; p < relaxing->parts; p++) {
-        relax.given[p] = relaxing->part[p].given;
-        relax.by_rate[p] = relax.given[p] * dt;
-    }
-    for (size_t l = 0; l < relaxing->mechanisms; l++) {
-        const double half = relaxing->rate[relax.order[l]] * dt / 2;
-        relax.kept[l] = (1 - half) / (1 + half);
-        relax.taken[l] = dt / (1 + half);
-        for (size_t p = 0; p < relaxing->parts; p++) {
-            relax.weight[p][l] = relaxing->part[p].weight[relax.order[l]];
-            relax.by_rate[p] += relax.weight[p][l] * relax.taken[l];
-            relax.by_memory[p][l] = -2 * half / (1 + half) * relax.weight[p][l];
-        }
-    }
-    return relax;
+    if (c->fused->relaxing == NULL) return NULL;
+    *factors = fused_relax_of(c->fused->relaxing, dt);
+    return factors;
 }
 
 /* The model of a part, and where in the state's extra part its own begins. */
@@ -72,15 +31,15 @@ static struct step_fields_double fields_double(const struct consistent *c, doubl
     const size_t n = c->model.unknowns;
     double *w = c->fused->kept, *memory = y + 2 * n;
     struct step_fields_double fields = {.w = w, .work = c->hform->work, .relax = relax, .parts = 1};
-    if (relax != NULL) {
-        fields.parts = relax->parts;
-        fields.memory = memory;
-    }
+    if (relax != NULL) fields.parts = relax->parts;
+    for (size_t l = 0; relax != NULL && l < c->fused->relaxing->mechanisms; l++)
+        if (relax->of[l] > 0) fields.kept[relax->of[l]] = memory + l * n;
     for (size_t p = 0; p < fields.parts; p++) {
         size_t extra;
         fields.part[p].c = part_of(c, p, &extra);
         fields.part[p].u = relax != NULL ? w + (1 + p) * n : y;
         fields.part[p].extra = memory + extra;
+        fields.kept[p] = fields.part[p].u;
     }
     return fields;
 }
@@ -98,40 +57,25 @@ static struct step_fields_single fields_single(const struct consistent *c, const
     float *kept = c->fused->kept, *memory = kept + 2 * n;
     void *work = c->hform->work;
     struct step_fields_single fields = {.w = kept + n, .work = work, .relax = relax, .parts = 1};
-    if (relax != NULL) {
-        fields.parts = relax->parts;
-        fields.memory = memory;
-    }
+    if (relax != NULL) fields.parts = relax->parts;
+    for (size_t l = 0; relax != NULL && l < c->fused->relaxing->mechanisms; l++)
+        if (relax->of[l] > 0) fields.kept[relax->of[l]] = memory + l * n;
     for (size_t p = 0; p < fields.parts; p++) {
         size_t extra;
         fields.part[p].c = part_of(c, p, &extra);
         fields.part[p].u = p == 0 ? kept : memory + extra_of(c);
         fields.part[p].extra = memory + extra;
+        fields.kept[p] = fields.part[p].u;
     }
     return fields;
-}
-
-/* sum over l of weight_pl D_l at an entry of a state. */
-static double remembered(const struct relaxing *relaxing, size_t p, size_t n, const double *y, size_t at)
-{
-    double sum = 0;
-    for (size_t l = 0; l < relaxing->mechanisms; l++)
-        sum += relaxing->part[p].weight[l] * y[(2 + l) * n + at];
-    return sum;
-}
-
-/* e_p of a state at an entry. */
-static double effective(const struct relaxing *relaxing, size_t p, size_t n, const double *y, size_t at)
-{
-    return relaxing->part[p].given * y[at] + remembered(relaxing, p, n, y, at);
 }
 
 static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
     const struct relaxing *relaxing = c->fused->relaxing;
-    const struct fused_relax factors = relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
-    const struct fused_relax *relax = relaxing != NULL ? &factors : NULL;
+    struct fused_relax factors;
+    const struct fused_relax *relax = relax_of(c, dt, &factors);
     const size_t n = model->unknowns;
     watch_sort(&c->watch);
     model->evaluations++;
@@ -142,7 +86,7 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
             kept[i] = (float)y[i];
         for (size_t p = 0; p < fields.parts && relax != NULL; p++)
             for (size_t i = 0; i < n; i++)
-                fields.part[p].u[i] = (float)effective(relaxing, p, n, y, i);
+                fields.part[p].u[i] = (float)fused_effective(relaxing, p, n, y, i);
         fused_begin_single(c, drive, dt, &fields, a);
         return;
     }
@@ -150,15 +94,15 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
     memcpy(fields.w, y + n, n * sizeof *y);
     for (size_t p = 0; p < fields.parts && relax != NULL; p++)
         for (size_t i = 0; i < n; i++)
-            fields.part[p].u[i] = effective(relaxing, p, n, y, i);
+            fields.part[p].u[i] = fused_effective(relaxing, p, n, y, i);
     fused_begin_double(c, drive, dt, &fields, a);
 }
 
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    const struct fused_relax factors = c->fused->relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
-    const struct fused_relax *relax = c->fused->relaxing != NULL ? &factors : NULL;
+    struct fused_relax factors;
+    const struct fused_relax *relax = relax_of(c, dt, &factors);
     model->evaluations++;
     if (model->single) {
         const struct step_fields_single fields = fields_single(c, relax);
@@ -169,33 +113,11 @@ static void advance(struct model *model, const struct drive *drive, double dt, d
     }
 }
 
-/* u, and the memory that the parts tell, where e_0 stands in a state; e_1: in either precision, NULL if there is
- * one part. */
-static void tell_displacements(const struct consistent *c, const struct fused_relax *relax, const double *e_1,
-                               const float *single, double *y)
-{
-    const struct relaxing *relaxing = c->fused->relaxing;
-    const size_t n = c->model.unknowns, last = relax->mechanisms - 1;
-#pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t i = 0; i < n; i++) {
-        if (relax->parts > 1) {
-            double *told = y + 2 * n + relax->at[last] + i;
-            const double other = e_1 != NULL ? e_1[i] : single != NULL ? (double)single[i] : 0;
-            double memory = relax->from_parts[0] * y[i] + relax->from_parts[1] * other;
-            for (size_t l = 0; l < last; l++)
-                memory += relax->from_memory[l] * y[2 * n + relax->at[l] + i];
-            if (memory != *told) *told = memory;
-        }
-        const double u = (y[i] - remembered(relaxing, 0, n, y, i)) / relaxing->part[0].given;
-        if (u != y[i]) y[i] = u;
-    }
-}
-
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    const struct fused_relax factors = c->fused->relaxing != NULL ? relax_of(c, dt) : (struct fused_relax){0};
-    const struct fused_relax *relax = c->fused->relaxing != NULL ? &factors : NULL;
+    struct fused_relax factors;
+    const struct fused_relax *relax = relax_of(c, dt, &factors);
     const size_t n = model->unknowns;
     if (model->single) {
         const struct step_fields_single fields = fields_single(c, relax);
@@ -203,11 +125,15 @@ static void settle(struct model *model, const struct drive *drive, double dt, do
         fused_settle_single(c, drive, dt, &fields, y, a);
         for (size_t i = 2 * n; i < 2 * n + extra_of(c); i++)
             y[i] = kept[i];
-        if (relax != NULL) tell_displacements(c, relax, NULL, fields.part[1].u, y);
+        if (relax != NULL)
+            fused_tell_all(relax, n, c->threads, (const void *const *)fields.kept,
+                       sizeof(float), y);
     } else {
         const struct step_fields_double fields = fields_double(c, y, relax);
         fused_settle_double(c, drive, dt, &fields, y, a);
-        if (relax != NULL) tell_displacements(c, relax, fields.part[1].u, NULL, y);
+        if (relax != NULL)
+            fused_tell_all(relax, n, c->threads, (const void *const *)fields.kept,
+                       sizeof(double), y);
     }
 }
 

@@ -63,61 +63,86 @@ static REAL drift(size_t n, size_t rows, size_t step, REAL dt, const REAL *w, RE
     return measured_rows(n, rows, step, u, column);
 }
 
-/* u, `other` if there are two parts, and their memory go on (fused.h, fused_relax), n numbers. */
-INLINED void relaxed(const size_t mechanisms, const size_t parts, size_t n, const struct fused_relax *r,
-                     const REAL *restrict w, REAL *restrict memory, REAL *restrict u, REAL *restrict other)
+/* Less than a vector of a row: what is not there is 0, or stays. */
+INLINED lanes part_of(const REAL *row, size_t count)
 {
-    const REAL by_rate = (REAL)r->by_rate[0], other_by_rate = (REAL)r->by_rate[1];
-    const REAL from = (REAL)r->from_parts[0], from_other = (REAL)r->from_parts[1];
-#pragma omp simd
-    for (size_t i = 0; i < n; i++) {
-        REAL change = by_rate * w[i], change_other = other_by_rate * w[i];
-        REAL told = parts > 1 ? from * u[i] + from_other * other[i] : 0;
-        for (size_t l = 0; l < mechanisms; l++) {
-            const bool last = parts > 1 && l + 1 == mechanisms;
-            const REAL before = last ? told : memory[r->at[l] + i];
-            if (!last) memory[r->at[l] + i] = (REAL)r->kept[l] * before + (REAL)r->taken[l] * w[i];
-            if (!last && parts > 1) told += (REAL)r->from_memory[l] * before;
-            change += (REAL)r->by_memory[0][l] * before;
-            if (parts > 1) change_other += (REAL)r->by_memory[1][l] * before;
+    lanes value = {0};
+    memcpy(&value, row, count * sizeof *row);
+    return value;
+}
+
+INLINED void put_part(REAL *row, size_t count, lanes value)
+{
+    if (count >= LANES)
+        *(lanes *)row = value;
+    else
+        memcpy(row, &value, count * sizeof *row);
+}
+
+/* Fields of displacements that relax go on (relax.h, F2), n numbers; change, if it is not NULL: by how much those of
+ * the parts do. */
+INLINED void relaxed(const size_t parts, const size_t fields, size_t n, const struct fused_relax *r,
+                     const REAL *w, REAL *const *field, REAL *const *change)
+{
+    REAL rate[FUSED_FIELDS_KEPT], by[FUSED_FIELDS_KEPT][FUSED_FIELDS_KEPT], *to[FUSED_FIELDS_KEPT];
+    for (size_t f = 0; f < fields; f++) {
+        to[f] = field[f];
+        rate[f] = (REAL)r->rate[f];
+        for (size_t g = 0; g < fields; g++)
+            by[f][g] = (REAL)r->by[f][g];
+    }
+    for (size_t i = 0; i < n; i += LANES) {
+        const size_t count = n - i;
+        const lanes speed = count >= LANES ? *at(w + i) : part_of(w + i, count);
+        lanes z[FUSED_FIELDS_KEPT] = {0};
+        UNROLLED for (size_t f = 0; f < fields; f++) z[f] =
+            count >= LANES ? *at(to[f] + i) : part_of(to[f] + i, count);
+        UNROLLED for (size_t p = 0; p < parts; p++)
+        {
+            lanes sum = rate[p] * speed;
+            UNROLLED for (size_t g = 0; g < fields; g++) sum += by[p][g] * z[g];
+            put_part(to[p] + i, count, z[p] + sum);
+            if (change != NULL) put_part(change[p] + i, count, sum);
         }
-        u[i] += change;
-        if (parts > 1) other[i] += change_other;
+        UNROLLED for (size_t f = parts; f < fields; f++)
+            put_part(to[f] + i, count, z[f] + (rate[f] * speed + by[f][f] * z[f]));
     }
 }
 
 INLINED void relaxed_by(const size_t parts, size_t n, const struct fused_relax *r, const REAL *w,
-                        REAL *memory, REAL *u, REAL *other)
+                        REAL *const *field, REAL *const *change)
 {
-    switch (r->mechanisms) {
-    case 1:
-        relaxed(1, parts, n, r, w, memory, u, other);
-        break;
-    case 2:
-        relaxed(2, parts, n, r, w, memory, u, other);
-        break;
-    case 3:
-        relaxed(3, parts, n, r, w, memory, u, other);
-        break;
-    case 4:
-        relaxed(4, parts, n, r, w, memory, u, other);
-        break;
-    default:
-        relaxed(r->mechanisms, parts, n, r, w, memory, u, other);
-    }
+    if (r->fields == parts)
+        relaxed(parts, parts, n, r, w, field, change);
+    else if (r->fields == parts + 1)
+        relaxed(parts, parts + 1, n, r, w, field, change);
+    else if (r->fields == parts + 2)
+        relaxed(parts, parts + 2, n, r, w, field, change);
+    else if (r->fields == parts + 3)
+        relaxed(parts, parts + 3, n, r, w, field, change);
+    else
+        relaxed(parts, r->fields, n, r, w, field, change);
 }
 
-static REAL relax(size_t n, size_t rows, size_t step, const struct fused_relax *r, const REAL *w,
-                  REAL *memory, REAL *u, REAL *other, REAL *column)
+static void relax(size_t n, const struct fused_relax *r, const REAL *w, REAL *const *field,
+                  REAL *const *change)
 {
-    const size_t length = n == step ? rows * n : n; /* whole rows as one */
-    for (size_t at = 0; at < rows * step; at += n == step ? length : step) {
-        if (other == NULL)
-            relaxed_by(1, length, r, w + at, memory + at, u + at, NULL);
-        else
-            relaxed_by(2, length, r, w + at, memory + at, u + at, other + at);
+    switch (r->parts) {
+    case 1:
+        relaxed_by(1, n, r, w, field, change);
+        break;
+    case 2:
+        relaxed_by(2, n, r, w, field, change);
+        break;
+    case 3:
+        relaxed_by(3, n, r, w, field, change);
+        break;
+    case 4:
+        relaxed_by(4, n, r, w, field, change);
+        break;
+    default:
+        relaxed(r->parts, r->fields, n, r, w, field, change);
     }
-    return measured_rows(n, rows, step, u, column);
 }
 
 /* w += dt a */

@@ -7,6 +7,8 @@
 #include "base/machine.h"
 #include "method/consistent/fused/kernels.h"
 
+#include <string.h>
+
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
 enum { LANES = VECTOR_BYTES / sizeof(REAL), GROUP = FUSED_VECTOR / sizeof(REAL) };
 

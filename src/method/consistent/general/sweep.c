@@ -98,20 +98,35 @@ static double factor_at(const struct consistent *c, int slot, enum at at, bool s
     return at == AT_KNOTS ? .5 : .125;
 }
 
+/* Moduli of part p, that of `ground`. */
+static bool lay_moduli(const struct general *ground, struct sweep *s, size_t p)
+{
+    for (int f = 0; f < 3; f++) {
+        const struct family *family = &ground->family[f];
+        const size_t rows = family->n[1] * family->n[2];
+        void *lambda = s->moduli[p].lambda[f] = widened(s, family->lambda, family->n[0], rows);
+        void *mu = s->moduli[p].mu[f] = widened(s, family->mu, family->n[0], rows);
+        if (lambda == NULL || mu == NULL) return false;
+        for (size_t row = 0; p > 0 && family->runs > 0 && row < rows; row++)
+            for (size_t n = family->first_run[row]; n < family->first_run[row + 1]; n++)
+                for (size_t i = 0; i < family->run[n].count; i++) {
+                    set(s, lambda, row * s->width + family->run[n].from + i, 0);
+                    set(s, mu, row * s->width + family->run[n].from + i, 0);
+                }
+    }
+    return true;
+}
+
 static bool lay_points(const struct consistent *c, struct sweep *s)
 {
     const struct hill *hill = c->general->hill;
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
-        const size_t rows = family->n[1] * family->n[2];
         s->points[f][0] = family->n[1];
         s->points[f][1] = family->n[2];
         for (int slot = 0; slot < 3; slot++)
             s->factor[f][slot] =
                 factor_at(c, 0, family->at[0], slot == 0) * factor_at(c, 1, family->at[1], slot == 1);
-        s->lambda[f] = widened(s, family->lambda, family->n[0], rows);
-        s->mu[f] = widened(s, family->mu, family->n[0], rows);
-        if (s->lambda[f] == NULL || s->mu[f] == NULL) return false;
         for (int i = 0; hill != NULL && i < 3; i++) {
             s->hill[f][i] =
                 widened(s, i == 0 ? hill->drop[f] : hill->slope[f][i - 1], family->n[0], family->n[1]);
@@ -137,14 +152,26 @@ static void lay_parts(const struct consistent *c, struct sweep *s)
     }
 }
 
+/* Rooms of the threads, for all parts. */
+static bool lay_buffers(const struct consistent *c, struct sweep *s)
+{
+    const size_t taken = s->stride * sizeof(double) / s->number; /* a row of doubles */
+    const size_t room =
+        (SPAN * 3 * (s->parts * DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
+         3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
+            s->stride +
+        (s->layered ? SPAN * 3 * s->parts * DEPTH_FIELDS + 9 : 0) * s->stride + s->part_size + taken;
+    for (size_t thread = 0; thread < (size_t)c->threads; thread++) {
+        array_free(s->buffer[thread]);
+        s->buffer[thread] = numbers(s, room);
+        if (s->buffer[thread] == NULL) return false;
+    }
+    return true;
+}
+
 static bool lay_fields(const struct consistent *c, struct sweep *s)
 {
     const size_t planes = s->n[2], threads = (size_t)c->threads;
-    const size_t taken = s->stride * sizeof(double) / s->number; /* a row of doubles */
-    const size_t room = (SPAN * 3 * (DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
-                         3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
-                            s->stride +
-                        (s->layered ? SPAN * 3 * DEPTH_FIELDS + 9 : 0) * s->stride + s->part_size + taken;
     s->root = numbers(s, s->volume);
     s->ready = numbers(s, 3 * planes * s->rows * s->stride + s->stride);
     s->size = array_new(planes * s->n[1], sizeof *s->size);
@@ -162,11 +189,7 @@ static bool lay_fields(const struct consistent *c, struct sweep *s)
         return false;
     for (size_t i = 0; i < s->volume; i++)
         set(s, s->root, i, c->general->root[i]);
-    for (size_t thread = 0; thread < threads; thread++) {
-        s->buffer[thread] = numbers(s, room);
-        if (s->buffer[thread] == NULL) return false;
-    }
-    return true;
+    return lay_buffers(c, s);
 }
 
 /* Rows where loads act. */
@@ -192,6 +215,7 @@ bool sweep_create(struct consistent *c)
     s->volume = c->volume;
     s->quiet = c->options.quiet;
     s->threads = c->threads;
+    s->parts = 1;
     for (int slot = 0; slot < 3; slot++) {
         s->n[slot] = c->n[slot];
         s->cells[slot] = c->general->cells[slot];
@@ -203,9 +227,32 @@ bool sweep_create(struct consistent *c)
     s->stride = s->width + FUSED_VECTOR / s->number;
     s->rows = fused_rounded(s->n[1], FUSED_ROWS);
     lay_parts(c, s);
-    if (!lay_pairs(c, s) || !lay_inverse(c, s) || !lay_points(c, s) || !lay_fields(c, s)) return false;
+    if (!lay_pairs(c, s) || !lay_inverse(c, s) || !lay_moduli(c->general, s, 0) || !lay_points(c, s) ||
+        !lay_fields(c, s))
+        return false;
     lay_loaded(c, s);
     c->general->bytes += s->bytes;
+    return true;
+}
+
+bool sweep_relax(struct consistent *c, const struct relaxing *relaxing)
+{
+    struct sweep *s = c->general->sweep;
+    const bool single = s->number == sizeof(float);
+    const size_t fields = single ? 1 + relaxing->mechanisms : relaxing->parts, before = s->bytes;
+    s->parts = relaxing->parts;
+    s->bytes -= s->kept_bytes;
+    s->kept_bytes = (1 + fields) * c->model.unknowns * s->number;
+    s->bytes += s->kept_bytes;
+    array_free(s->kept);
+    s->kept = array_new(1, s->kept_bytes);
+    s->relaxing = array_new(1, sizeof *s->relaxing);
+    if (s->kept == NULL || s->relaxing == NULL) return false;
+    *s->relaxing = *relaxing;
+    for (size_t p = 1; p < relaxing->parts; p++)
+        if (!lay_moduli(consistent_of(relaxing->part[p].model)->general, s, p)) return false;
+    if (relaxing->parts > 1 && !lay_buffers(c, s)) return false;
+    c->model.bytes += s->bytes - before;
     return true;
 }
 
@@ -216,8 +263,10 @@ void sweep_free(struct sweep *s)
         array_free(s->x[i]);
         array_free(s->y[i]);
         array_free(s->z[i]);
-        array_free(s->lambda[i]);
-        array_free(s->mu[i]);
+        for (size_t p = 0; p < FUSED_FIELDS_KEPT; p++) {
+            array_free(s->moduli[p].lambda[i]);
+            array_free(s->moduli[p].mu[i]);
+        }
         for (int j = 0; j < 3; j++)
             array_free(s->hill[i][j]);
     }
@@ -236,5 +285,6 @@ void sweep_free(struct sweep *s)
     array_free(s->waiting);
     array_free(s->bound);
     array_free(s->kept);
+    array_free(s->relaxing);
     array_free(s);
 }

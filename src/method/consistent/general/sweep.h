@@ -38,6 +38,11 @@ struct sweep_part {
     size_t at[3], n[3], stride, start;
 };
 
+/* [family]: rows of `width` numbers; of parts but the first 0 at points that are not isotropic. */
+struct sweep_moduli {
+    void *lambda[3], *mu[3];
+};
+
 struct sweep {
     size_t n[3], plane, volume; /* of the fields */
     size_t cells[3], low[3];    /* control values beyond a symmetry plane at the low end: 0 or 1 */
@@ -49,7 +54,7 @@ struct sweep {
     void *weights;            /* of all pairs */
     void *x[3], *y[3], *z[3]; /* [component]: N by vectors, by rows, by planes */
     bool *plain;              /* groups of rows of y with the same weights */
-    void *lambda[3], *mu[3];  /* [family]: rows of `width` numbers */
+    struct sweep_moduli moduli[FUSED_FIELDS_KEPT]; /* of the parts of damped ground, else one */
     size_t points[3][2];      /* [family]: rows and planes */
     double factor[3][3];      /* [family]: of slopes along x, y and depth */
     void *hill[3][3];         /* [family]: s and its slopes, rows of `width` numbers */
@@ -65,8 +70,10 @@ struct sweep {
     struct rows *filled;  /* [planes]: rows of `ready` that are not 0 */
     struct rows *waiting; /* [planes]: rows of forces */
     bool known;           /* `reached` and `largest` are right */
-    void *kept;           /* w, and in single precision u before it */
+    void *kept; /* w, in single precision behind u; the fields that relax behind it, but in double memory */
     size_t kept_bytes;
+    struct relaxing *relaxing; /* NULL: steps do not relax */
+    size_t parts;              /* of damped ground, else 1 */
     int threads;
     size_t *bound; /* [threads + 1] planes where those of a thread begin */
     void **buffer; /* [threads] */
@@ -106,6 +113,10 @@ struct sweep {
          * change them; and the pulls of their stresses, those along y apart. */ \
         void (*slopes)(const struct sweep_row_##precision *row);                                                    \
         void (*stresses)(const struct sweep_row_##precision *row);                                                  \
+        /* The same of several parts: the stresses of one, from slopes that are there or not, in the place of or   \
+         * beside those of others; then what they pull at. */ \
+        void (*stresses_of)(const struct sweep_row_##precision *row, bool made, bool more);                         \
+        void (*pulls_of)(const struct sweep_row_##precision *row, bool made);                                       \
         /* out[d][i] -= sum over q of weight[q][d] in[q][i], i < width; apart: in[] has all PULL_FIELDS, those    \
          * of y with the weights of values */ \
         void (*pulls)(bool apart, size_t width, const real *const in[PULL_FIELDS],                                  \
@@ -136,23 +147,43 @@ SWEEP_KERNELS(float, single)
 bool sweep_create(struct consistent *c);
 void sweep_free(struct sweep *sweep);
 
-/* sweep_step.h. w := v + dt/2 a from w = v; a in `work`; extra: memory of absorbing layers, double in either
- * precision, which stands behind u and v in y. */
-void sweep_begin_double(struct consistent *c, const struct drive *drive, double dt, const double *u,
-                        double *extra, double *w, double *work);
-void sweep_begin_single(struct consistent *c, const struct drive *drive, double dt, const float *u,
-                        double *extra, float *w, float *work);
+/* From now on steps relax, and have the parts' stiffness in them; false: no memory. */
+bool sweep_relax(struct consistent *c, const struct relaxing *relaxing);
+
+/* What steps work on. Each part has displacements u and the layers' memory in the state, double in either precision; if
+ * they relax u of part p is e_p, and these and memory are the fields `kept`, else u alone is. */
+#define SWEEP_FIELDS(real, precision)                                                                        \
+    struct sweep_fields_##precision {                                                                        \
+        real *w, *work;                                                                                      \
+        const struct fused_relax *relax;                                                                     \
+        size_t fields, parts;                                                                                \
+        void *kept[FUSED_FIELDS_KEPT];                                                                       \
+        struct {                                                                                             \
+            struct general *ground;                                                                          \
+            real *u;                                                                                         \
+            double *extra;                                                                                   \
+        } part[FUSED_FIELDS_KEPT];                                                                           \
+    };
+SWEEP_FIELDS(double, double)
+SWEEP_FIELDS(float, single)
+#undef SWEEP_FIELDS
+
+/* sweep_step.h. w := v + dt/2 a from w = v; a in `work`. */
+void sweep_begin_double(struct consistent *c, const struct drive *drive, double dt,
+                        const struct sweep_fields_double *fields);
+void sweep_begin_single(struct consistent *c, const struct drive *drive, double dt,
+                        const struct sweep_fields_single *fields);
 /* u += dt w, w += dt a at the new u, with the loads of the drive, and the layers' memory; entries of y and a that are
  * watched. */
-void sweep_advance_double(struct consistent *c, const struct drive *drive, double dt, double *u, double *w,
-                          double *y, double *a);
-void sweep_advance_single(struct consistent *c, const struct drive *drive, double dt, float *u, float *w,
-                          double *y, double *a);
-/* u and v = w - dt/2 a in y; a if it is not NULL. */
-void sweep_settle_double(struct consistent *c, const struct drive *drive, double dt, double *u, double *w,
-                         double *work, double *y, double *a);
-void sweep_settle_single(struct consistent *c, const struct drive *drive, double dt, float *u, float *w,
-                         float *work, double *y, double *a);
+void sweep_advance_double(struct consistent *c, const struct drive *drive, double dt,
+                          const struct sweep_fields_double *fields, double *y, double *a);
+void sweep_advance_single(struct consistent *c, const struct drive *drive, double dt,
+                          const struct sweep_fields_single *fields, double *y, double *a);
+/* u of the first part and v = w - dt/2 a in y; a if it is not NULL. */
+void sweep_settle_double(struct consistent *c, const struct drive *drive, double dt,
+                         const struct sweep_fields_double *fields, double *y, double *a);
+void sweep_settle_single(struct consistent *c, const struct drive *drive, double dt,
+                         const struct sweep_fields_single *fields, double *y, double *a);
 
 /* one_pass.c: as fused_steps_create(). */
 selas_status general_steps_create(struct consistent *c, struct messages *messages);

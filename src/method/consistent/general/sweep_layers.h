@@ -6,9 +6,10 @@
  * stresses along a layer's axis are kept apart in rings. Once those of a plane are complete phi of layers across x
  * and y goes on there; of layers across depth, once all planes are. */
 
-/* psi of the points of a row goes on, or has gone on already, and comes to their slopes; rate: w in the place of u. */
+/* psi of a part at the points of a row goes on, or has gone on already, and comes to their slopes; rate: of what u has
+ * moved by. */
 static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * points,
-                       const struct NAME(sweep_row) * rate, int f, size_t m, size_t j)
+                       const struct NAME(sweep_row) * rate, size_t p, int f, size_t m, size_t j)
 {
     const struct general *g = pass->c->general;
     const struct NAME(sweep_kernels) *kernels = NAME(taken_sweep_kernels)();
@@ -20,12 +21,12 @@ static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * p
         const size_t place = general_layer_place(layer, f, first, j, m), n = end - first;
         for (size_t component = 0; component < 3; component++) {
             const size_t row = (3 * component + (size_t)layer->slot) * points->stride + first;
-            double *psi = pass->extra + at + component * layer->points[f];
+            double *psi = pass->fields->part[p].extra + at + component * layer->points[f];
             if (rate == NULL)
                 kernels->recall(n, psi, points->scratch + row);
             else
                 kernels->remember(n, layer->slot == 0, layer->kept[along] + place,
-                                  layer->taken[along] + place, (REAL)(pass->dt / 2), rate->scratch + row, psi,
+                                  layer->taken[along] + place, half_rate(pass), rate->scratch + row, psi,
                                   points->scratch + row);
         }
     }

@@ -23,6 +23,26 @@ static void scale_row(const struct sweep *s, size_t component, const REAL *root,
     NAME(taken_sweep_kernels)()->scale(s->n[0], root, row + s->low[0], out);
 }
 
+/* What a corner pulls at, of all parts. */
+static void pull_corner(const struct pass *pass, size_t n, size_t component, double pull[3])
+{
+    memset(pull, 0, 3 * sizeof *pull);
+    for (size_t p = 0; p < pass->fields->parts; p++) {
+        const struct corner *corner = &pass->fields->part[p].ground->corner[n];
+        double slope[3][3], own[3];
+        for (size_t of = 0; of < 3; of++)
+            for (int slot = 0; slot < 3; slot++) {
+                const REAL *u = pass->fields->part[p].u + of * pass->s->volume;
+                slope[of][slot] =
+                    corner->slope[slot] * ((double)u[general_corner_seen(pass->c, corner, slot, 1)] -
+                                           (double)u[general_corner_seen(pass->c, corner, slot, 0)]);
+            }
+        general_corner_pull(corner, slope, (int)component, own);
+        for (int slot = 0; slot < 3; slot++)
+            pull[slot] += own[slot];
+    }
+}
+
 /* Corners (corners.c) that act on plane k. */
 static void add_corners(const struct pass *pass, const struct rings *r, size_t k, size_t component,
                         const struct rows *rows)
@@ -33,15 +53,8 @@ static void add_corners(const struct pass *pass, const struct rings *r, size_t k
         const struct corner *corner = &g->corner[n];
         const size_t end = corner->high[2] ? s->n[2] - 1 : 0, beside = corner->high[2] ? end - 1 : 1;
         if (k != end && k != beside) continue;
-        double slope[3][3], pull[3];
-        for (size_t of = 0; of < 3; of++)
-            for (int slot = 0; slot < 3; slot++) {
-                const REAL *u = pass->u + of * s->volume;
-                slope[of][slot] =
-                    corner->slope[slot] * ((double)u[general_corner_seen(pass->c, corner, slot, 1)] -
-                                           (double)u[general_corner_seen(pass->c, corner, slot, 0)]);
-            }
-        general_corner_pull(corner, slope, (int)component, pull);
+        double pull[3];
+        pull_corner(pass, n, component, pull);
         for (int slot = 0; slot < 3; slot++)
             for (int next = 0; next < 2; next++) {
                 const size_t at = general_corner_seen(pass->c, corner, slot, next);

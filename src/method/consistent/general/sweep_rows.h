@@ -9,8 +9,8 @@ enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS, P_ROWS = 
 
 /* Rows of a thread's buffer, each with room before it. */
 struct rings {
-    REAL *value, *pull; /* [SPAN slots][component][DEPTH_FIELDS], [PULL_FIELDS] */
-    REAL *rate;         /* as `value`, of w */
+    REAL *value, *pull; /* [part][SPAN slots][component][DEPTH_FIELDS]; [SPAN slots][component][PULL_FIELDS] */
+    REAL *rate;         /* as `value`, of what displacements have moved by */
     REAL *scratch, *rates;
     REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
     REAL *part;  /* of each layer (struct sweep_part) */
@@ -26,12 +26,13 @@ struct pass {
     struct consistent *c;
     struct sweep *s;
     const struct drive *drive;
-    REAL *u, *out; /* out += factor a; with `moving` u += dt w before, w being out */
+    const struct NAME(sweep_fields) * fields;
+    REAL *out; /* out += factor a; with `moving` fields go on by w before, w being out */
     REAL factor;
     bool moving;
     double dt;                   /* of the step, while moving */
     double level;                /* smaller displacements move nothing */
-    double *extra;               /* memory of absorbing layers */
+    double *extra;               /* memory of absorbing layers, that of forces for all parts */
     struct rows deep[BOX_FACES]; /* of those over depth: rows where it may not be 0 */
 };
 
@@ -43,10 +44,10 @@ static size_t unclamped(const struct sweep *s, int slot)
 static struct rings rings_of(const struct sweep *s, REAL *buffer)
 {
     struct rings r = {.value = buffer + GROUP};
-    r.pull = r.value + (size_t)(SPAN * V_ROWS) * s->stride;
+    r.pull = r.value + s->parts * SPAN * V_ROWS * s->stride;
     r.scratch = r.pull + (size_t)(SPAN * P_ROWS) * s->stride;
     r.rate = r.scratch + (size_t)(9 + STRESS_ROOM) * s->stride;
-    r.rates = r.rate + (size_t)(s->layered ? SPAN * V_ROWS : 0) * s->stride;
+    r.rates = r.rate + (s->layered ? s->parts * SPAN * V_ROWS : 0) * s->stride;
     r.force = r.rates + (size_t)(s->layered ? 9 : 0) * s->stride;
     r.part = r.force + 3 * SPAN * unclamped(s, 1) * s->stride;
     r.scaled = r.part + s->part_size;
@@ -70,23 +71,69 @@ static size_t less(size_t a, size_t b)
     return a > b ? a - b : 0;
 }
 
+/* What u of a part has moved by in a step, or what that is a multiple of (half_rate()): w, or if displacements relax
+ * room that steps do not need else. */
+static REAL *rate_of(const struct pass *pass, size_t p)
+{
+    void *room = pass->fields->part[p].ground->work;
+    return pass->fields->relax == NULL ? pass->out : (REAL *)room;
+}
+
+static REAL half_rate(const struct pass *pass)
+{
+    return pass->fields->relax == NULL ? (REAL)(pass->dt / 2) : (REAL).5;
+}
+
+/* Fields that relax go on in a row from number `at` on; where it is not reached they are 0, and so is what they move
+ * by, for layers. */
+static void relax_row(const struct pass *pass, size_t at, bool reached)
+{
+    const struct NAME(sweep_fields) *fields = pass->fields;
+    const size_t n = pass->s->n[0];
+    REAL *field[FUSED_FIELDS_KEPT], *change[FUSED_FIELDS_KEPT];
+    for (size_t p = 0; p < fields->parts; p++) {
+        change[p] = rate_of(pass, p) + at;
+        if (!reached && pass->s->layered) memset(change[p], 0, n * sizeof(REAL));
+    }
+    if (!reached) return;
+    for (size_t f = 0; f < fields->fields; f++)
+        field[f] = (REAL *)fields->kept[f] + at;
+    NAME(taken_fused_kernels)
+    ()->relax(n, fields->relax, pass->out + at, field, pass->s->layered ? change : NULL);
+}
+
+/* The largest displacement in a row from number `at` on. */
+static REAL row_size(const struct pass *pass, size_t at)
+{
+    REAL most = 0;
+    for (size_t p = 0; p < pass->fields->parts; p++) {
+        const REAL size = taken_passes()->NAME(largest_size)(pass->fields->part[p].u + at, pass->s->n[0]);
+        if (!(size <= most)) most = size;
+    }
+    return most;
+}
+
 /* Largest |u| of each row of plane k, those of u brought on. */
 static void bring_plane(const struct pass *pass, size_t k)
 {
     const struct sweep *s = pass->s;
-    const struct rows *reached = &s->reached[k];
+    const struct rows *rows = &s->reached[k];
+    const bool relaxes = pass->moving && pass->fields->relax != NULL;
     const REAL dt = pass->moving ? pass->factor : 0;
     for (size_t j = 0; j < s->n[1]; j++) {
         double *size = &s->size[k * s->n[1] + j];
+        const bool reached = !pass->moving || (j >= rows->from && j < rows->end);
         *size = 0;
-        if (pass->moving && (j < reached->from || j >= reached->end)) continue;
+        if (!reached && !relaxes) continue;
         for (size_t component = 0; component < 3; component++) {
             const size_t at = component * s->volume + k * s->plane + j * s->n[0];
-            REAL most;
-            if (pass->moving)
-                most = NAME(taken_sweep_kernels)()->bring(s->n[0], dt, pass->out + at, pass->u + at);
-            else
-                most = taken_passes()->NAME(largest_size)(pass->u + at, s->n[0]);
+            REAL most = 0;
+            if (relaxes) relax_row(pass, at, reached);
+            if (pass->moving && !relaxes)
+                most = NAME(taken_sweep_kernels)()->bring(s->n[0], dt, pass->out + at,
+                                                          pass->fields->part[0].u + at);
+            else if (reached)
+                most = row_size(pass, at);
             if (!(most <= *size)) *size = most;
         }
     }
@@ -104,6 +151,12 @@ static struct rows loud_rows(const struct pass *pass, size_t m)
 }
 
 /* --- Points ---------------------------------------------------------------------------------------------- */
+
+/* The ring of a part. */
+static REAL *ring_of(const struct sweep *s, REAL *rings, size_t p)
+{
+    return rings + p * SPAN * V_ROWS * s->stride;
+}
 
 static REAL *ring_row(const struct sweep *s, REAL *ring, size_t row, int component, int field)
 {
@@ -177,19 +230,52 @@ static void take_values(const struct sweep *s, REAL *ring, size_t j, int value,
         }
 }
 
-/* Slopes of u at a row of points where layers are, with their memory. */
+/* Slopes of u of a part at a row of points where layers are, with their memory. */
 static void slope_row_of(const struct pass *pass, const struct rings *r,
-                         const struct NAME(sweep_row) * points, int value, int f, size_t m, size_t j,
-                         enum task task)
+                         const struct NAME(sweep_row) * points, size_t p, int value, int f, size_t m,
+                         size_t j, enum task task)
 {
     struct NAME(sweep_row) rate = *points;
     NAME(taken_sweep_kernels)()->slopes(points);
     if (task != PULL) {
-        take_values(pass->s, r->rate, j, value, &rate);
+        take_values(pass->s, ring_of(pass->s, r->rate, p), j, value, &rate);
         rate.scratch = r->rates;
         NAME(taken_sweep_kernels)()->slopes(&rate);
     }
-    add_memory(pass, points, task != PULL ? &rate : NULL, f, m, j);
+    add_memory(pass, points, task != PULL ? &rate : NULL, p, f, m, j);
+}
+
+/* Moduli of a part at row j. */
+static void take_moduli(const struct pass *pass, size_t p, int f, size_t m, size_t j,
+                        struct NAME(sweep_row) * points)
+{
+    const struct sweep *s = pass->s;
+    const struct family *family = &pass->fields->part[p].ground->family[f];
+    const size_t at = m * s->points[f][0] + j, row = m * family->n[1] + j;
+    points->lambda = (const REAL *)s->moduli[p].lambda[f] + at * s->width;
+    points->mu = (const REAL *)s->moduli[p].mu[f] + at * s->width;
+    if (family->runs == 0) return;
+    points->run = family->run + family->first_run[row];
+    points->runs = family->first_run[row + 1] - family->first_run[row];
+    points->stiffness = family->stiffness;
+}
+
+/* Slopes and stresses of a part at row j, and what they pull at if there is no other part. */
+static void point_row_of(const struct pass *pass, const struct rings *r, struct NAME(sweep_row) * points,
+                         size_t p, int value, int f, size_t m, size_t j, enum task task)
+{
+    const struct NAME(sweep_kernels) *kernels = NAME(taken_sweep_kernels)();
+    const bool layered = pass->s->layered;
+    take_moduli(pass, p, f, m, j, points);
+    take_values(pass->s, ring_of(pass->s, r->value, p), j, value, points);
+    if (layered) slope_row_of(pass, r, points, p, value, f, m, j, task);
+    if (task == MOVE) return;
+    if (pass->fields->parts > 1)
+        kernels->stresses_of(points, layered, p > 0);
+    else if (layered)
+        kernels->stresses(points);
+    else
+        kernels->points(points);
 }
 
 /* Row j of the points of a family. */
@@ -198,23 +284,15 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
 {
     const struct sweep *s = pass->s;
     const struct family *family = &pass->c->general->family[f];
-    const size_t at = m * s->points[f][0] + j, row = m * family->n[1] + j;
     const int across = family->at[DEPTH] == AT_KNOTS ? ACROSS_KNOTS : ACROSS_MIDDLES;
     const enum sweep_field value = family->at[DEPTH] == AT_KNOTS ? VALUE_KNOTS : VALUE_MIDDLES;
     struct NAME(sweep_row) points = {.x_knots = family->at[0] == AT_KNOTS,
                                      .y_knots = family->at[1] == AT_KNOTS,
                                      .width = s->width,
                                      .stride = s->stride,
-                                     .lambda = (const REAL *)s->lambda[f] + at * s->width,
-                                     .mu = (const REAL *)s->mu[f] + at * s->width,
                                      .scratch = r->scratch};
     for (int slot = 0; slot < 3; slot++)
         points.factor[slot] = (REAL)s->factor[f][slot];
-    if (family->runs > 0) {
-        points.run = family->run + family->first_run[row];
-        points.runs = family->first_run[row + 1] - family->first_run[row];
-        points.stiffness = family->stiffness;
-    }
     struct hill_row level;
     struct NAME(sweep_hill) hill;
     if (general_hill_row(pass->c, family, j, m, &level)) {
@@ -224,19 +302,16 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
             hill.slope[slot] = (const REAL *)s->hill[f][1 + slot] + j * s->width;
         points.hill = &hill;
     }
-    take_values(s, r->value, j, (int)value, &points);
     for (int component = 0; component < 3; component++)
         for (size_t d = 0; d < SPAN; d++) {
             points.pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value);
             points.slope_pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value + 1);
             points.across_pull[component][d] = pull_row(s, r->pull, j + d, component, across);
         }
-    if (!s->layered) {
-        NAME(taken_sweep_kernels)()->points(&points);
-        return;
-    }
-    slope_row_of(pass, r, &points, (int)value, f, m, j, task);
-    if (task != MOVE) NAME(taken_sweep_kernels)()->stresses(&points);
+    for (size_t p = 0; p < pass->fields->parts; p++)
+        point_row_of(pass, r, &points, p, (int)value, f, m, j, task);
+    if (task != MOVE && pass->fields->parts > 1)
+        NAME(taken_sweep_kernels)()->pulls_of(&points, s->layered);
 }
 
 static REAL *force_row(const struct sweep *s, const struct rings *r, size_t k, size_t component, size_t row)
@@ -261,11 +336,13 @@ static void write_row(const struct pass *pass, const struct rings *r, size_t m, 
     keep_row(pass, r, m, row);
 }
 
-/* Both fields that a row of points needs. */
+/* All fields that a row of points needs. */
 static void read_rows(const struct pass *pass, const struct rings *r, size_t m, size_t row, enum task task)
 {
-    read_row(pass, pass->u, r->value, m, row);
-    if (task != PULL) read_row(pass, pass->out, r->rate, m, row);
+    for (size_t p = 0; p < pass->fields->parts; p++) {
+        read_row(pass, pass->fields->part[p].u, ring_of(pass->s, r->value, p), m, row);
+        if (task != PULL) read_row(pass, rate_of(pass, p), ring_of(pass->s, r->rate, p), m, row);
+    }
 }
 
 /* All points of pair m that move anything. */

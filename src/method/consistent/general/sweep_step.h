@@ -141,79 +141,101 @@ static void sweep_over(struct pass *pass)
     part_exchange(pass->c, &fields);
 }
 
-static void accelerate(struct consistent *c, const struct drive *drive, const REAL *u, double *extra,
-                       REAL *work)
+static void accelerate(struct consistent *c, const struct drive *drive,
+                       const struct NAME(sweep_fields) * fields)
 {
-    struct pass pass = {
-        .c = c, .s = c->general->sweep, .drive = drive, .factor = 1, .out = work, .extra = extra};
-    pass.u = (REAL *)u; /* stands still */
-    memset(work, 0, c->model.unknowns * sizeof *work);
+    struct pass pass = {.c = c,
+                        .s = c->general->sweep,
+                        .drive = drive,
+                        .fields = fields,
+                        .factor = 1,
+                        .out = fields->work,
+                        .extra = fields->part[0].extra};
+    memset(fields->work, 0, c->model.unknowns * sizeof *fields->work);
     sweep_over(&pass);
 }
 
-/* Rows where u or w is not 0, in the halo all, and the largest u. */
-static void find_reached(const struct consistent *c, const REAL *u, const REAL *w)
+/* Is any of the fields or w not 0 in a row from number `at` on? */
+static bool row_moves(const struct sweep *s, const struct NAME(sweep_fields) * fields, size_t at)
 {
-    struct sweep *s = c->general->sweep;
+    bool moves = taken_passes()->NAME(largest_size)(fields->w + at, s->n[0]) != 0;
+    for (size_t f = 0; f < fields->fields && !moves; f++)
+        moves = taken_passes()->NAME(largest_size)((const REAL *)fields->kept[f] + at, s->n[0]) != 0;
+    return moves;
+}
+
+/* Rows that move, in the halo all, and the largest u. */
+static void find_reached(const struct pass *pass)
+{
+    struct sweep *s = pass->s;
     s->largest = 0;
     for (size_t k = 0; k < s->n[2]; k++) {
-        const bool halo = k < c->part.along[DEPTH].own || k >= c->part.along[DEPTH].end;
+        const bool halo = k < pass->c->part.along[DEPTH].own || k >= pass->c->part.along[DEPTH].end;
         s->reached[k] = (struct rows){0, halo ? s->n[1] : 0};
         for (size_t component = 0; component < 3; component++)
             for (size_t j = 0; j < s->n[1]; j++) {
                 const size_t at = component * s->volume + k * s->plane + j * s->n[0];
-                const double size = taken_passes()->NAME(largest_size)(u + at, s->n[0]);
+                const double size = row_size(pass, at);
                 if (size > s->largest) s->largest = size;
-                if (size != 0 || taken_passes()->NAME(largest_size)(w + at, s->n[0]) != 0)
-                    join(&s->reached[k], j, j + 1);
+                if (row_moves(s, pass->fields, at)) join(&s->reached[k], j, j + 1);
             }
     }
-    s->largest = part_largest(c, s->largest);
+    s->largest = part_largest(pass->c, s->largest);
     s->known = true;
 }
 
-void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt, const REAL *u,
-                       double *extra, REAL *w, REAL *work)
+void NAME(sweep_begin)(struct consistent *c, const struct drive *drive, double dt,
+                       const struct NAME(sweep_fields) * fields)
 {
     c->general->sweep->known = false;
-    accelerate(c, drive, u, extra, work);
+    accelerate(c, drive, fields);
     for (size_t i = 0; i < c->model.unknowns; i++)
-        w[i] += (REAL)(dt / 2) * work[i];
+        fields->w[i] += (REAL)(dt / 2) * fields->work[i];
 }
 
-void NAME(sweep_settle)(struct consistent *c, const struct drive *drive, double dt, REAL *u, REAL *w,
-                        REAL *work, double *y, double *a)
+void NAME(sweep_settle)(struct consistent *c, const struct drive *drive, double dt,
+                        const struct NAME(sweep_fields) * fields, double *y, double *a)
 {
-    const struct NAME(settled) settled = {c->model.unknowns, c->threads, u, w, work};
-    accelerate(c, drive, u, y + 2 * c->model.unknowns, work);
+    const struct NAME(settled)
+        settled = {c->model.unknowns, c->threads, fields->part[0].u, fields->w, fields->work};
+    accelerate(c, drive, fields);
     NAME(settle)(&settled, dt, y, a);
 }
 
-void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double dt, REAL *u, REAL *w,
-                         double *y, double *a)
+/* u itself, and memory, at an entry of a state. */
+static void tell(const struct NAME(sweep_fields) * fields, size_t n, size_t at, double *y)
+{
+    if (fields->relax == NULL)
+        y[at] = fields->part[0].u[at];
+    else
+        fused_tell(fields->relax, n, at, (const void *const *)fields->kept, sizeof(REAL), y);
+}
+
+void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double dt,
+                         const struct NAME(sweep_fields) * fields, double *y, double *a)
 {
     struct sweep *s = c->general->sweep;
     const struct watch *watch = &c->watch;
-    double *extra = y + 2 * c->model.unknowns;
+    const REAL *w = fields->w;
     if (s->layered) general_layers_prepare(c, dt);
     for (size_t i = 0; i < watch->count; i++)
         watch->before[i] = w[watch->entry[i]] * (s->layered ? pml_kept(c, watch->entry[i]) : 1);
-    if (!s->known) find_reached(c, u, w);
     struct pass pass = {.c = c,
                         .s = s,
                         .drive = drive,
-                        .u = u,
-                        .out = w,
+                        .fields = fields,
+                        .out = fields->w,
                         .factor = (REAL)dt,
                         .moving = true,
                         .dt = dt,
-                        .level = s->quiet * s->largest,
-                        .extra = extra};
+                        .extra = fields->part[0].extra};
+    if (!s->known) find_reached(&pass);
+    pass.level = s->quiet * s->largest;
     sweep_over(&pass);
     for (size_t i = 0; i < watch->count; i++) {
         const size_t at = watch->entry[i];
         const double before = watch->before[i], after = w[at];
-        y[at] = u[at];
+        tell(fields, c->model.unknowns, at, y);
         y[c->model.unknowns + at] = (before + after) / 2;
         a[at] = (after - before) / dt;
     }
