@@ -1,49 +1,7 @@
 /* Steps of damped ground in one pass with two displacements (method/consistent/fused/fused.h, F1a and F1b) against
  * the parts' operators one by one: faces, masses and layers by chance, threads, planes at rest, single
  * precision. */
-#include "chance.h"
-#include "few.h"
-#include "from_deck.h"
-
-#include "base/memory.h"
-#include "method/consistent/consistent.h"
-#include "method/consistent/fused/fused.h"
-#include "method/consistent/galerkin/galerkin.h"
-#include "method/damped/damped.h"
-#include "method/methods.h"
-#include "stepping/stepping.h"
-
-#include <math.h>
-#include <omp.h>
-
-/* A model with its stepper and state. */
-struct damped_run {
-    struct from_deck from;
-    struct model *model;
-    struct stepper *stepper;
-    struct state state;
-};
-
-static struct damped_run run_of(const char *deck, bool one_pass)
-{
-    struct damped_run run = {.from = right_scene(deck)};
-    struct messages messages = {0};
-    if (model_create(run.from.scene, &run.model, &messages) != SELAS_OK) print_error("%s", messages.text);
-    assert_non_null(run.model);
-    assert_non_null(run.model->one_pass);
-    if (!one_pass) run.model->one_pass = NULL;
-    assert_int_equal(stepper_create(run.model, &run.stepper, &messages), SELAS_OK);
-    assert_int_equal(state_create(run.stepper, &run.state, &messages), SELAS_OK);
-    return run;
-}
-
-static void run_free(struct damped_run *run)
-{
-    state_free(&run->state);
-    stepper_free(&run->stepper);
-    model_free(&run->model);
-    from_deck_free(&run->from);
-}
+#include "damped_run.h"
 
 static void drawn(size_t size, char *deck, int number, const char *words)
 {
@@ -83,17 +41,6 @@ static void draw(size_t size, char *deck, int number, const char *words)
     }
 }
 
-static double apart(size_t n, const double *one, const double *other)
-{
-    double most = 0, largest = 0;
-    for (size_t i = 0; i < n; i++) {
-        most = fmax(most, fabs(one[i] - other[i]));
-        largest = fmax(largest, fabs(other[i]));
-    }
-    assert_true(largest > 0);
-    return most / largest;
-}
-
 static void operators_in_one(void **unused)
 {
     (void)unused;
@@ -122,35 +69,21 @@ static void operators_in_one(void **unused)
     assert_true(worst < 1e-12);
 }
 
-/* The same bits with any number of threads, looked at on the way or not; some of the body is at rest. */
+static void some_is_skipped(struct damped_run *run)
+{
+    const struct fused *fused = consistent_of(((struct damped *)run->model)->part[0].model)->fused;
+    assert_true((run->model->single ? fused->single : fused)->skipped > 0);
+}
+
+/* Some of the body is at rest. */
 static void the_same_bits(void **unused)
 {
     (void)unused;
     for (int single = 0; single < 2; single++) {
         char deck[2000];
-        double *first = NULL;
         draw(sizeof deck, deck, 2, single ? ", precision = 'single'" : "");
-        for (int threads = 1; threads <= 3; threads++) {
-            omp_set_num_threads(threads);
-            struct damped_run run = run_of(deck, true);
-            const size_t n = run.model->state_size;
-            for (int step = 0; step < 30; step++) {
-                run.stepper->scheme->step(run.stepper, &run.state);
-                if (threads == 2 && step % 9 == 4) state_settle(run.stepper, &run.state, false);
-            }
-            state_settle(run.stepper, &run.state, false);
-            if (first == NULL) {
-                first = array_new(n, sizeof *first);
-                memcpy(first, run.state.y, n * sizeof *first);
-            }
-            assert_memory_equal(first, run.state.y, n * sizeof *first);
-            const struct fused *fused = consistent_of(((struct damped *)run.model)->part[0].model)->fused;
-            assert_true((single ? fused->single : fused)->skipped > 0);
-            run_free(&run);
-        }
-        array_free(first);
+        assert_same_states(deck, some_is_skipped);
     }
-    omp_set_num_threads(1);
 }
 
 int main(void)
