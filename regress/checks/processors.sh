@@ -28,7 +28,7 @@ END
 sed -e "s/'total-lagrangian'.*/'updated-lagrangian'/" -e '/^  gradient/d' -e '/^  hourglass/d' "$input/beam-3d.nml" >particles.nml
 cp "$input/beam-3d.nml" solid.nml
 cp "$input/../regress/cases/hill/deck.nml" hill.nml
-for name in layers damped relaxing relaxing-single pass sweep sweep-layers single modified plate flying moving; do
+for name in layers damped relaxing relaxing-single pass sweep sweep-layers sweep-damped single modified plate flying moving; do
     scene $name
     sed -i '/^&profile/d' $name.nml # their times are later than the short runs here
 done
@@ -74,6 +74,8 @@ each sweep sweep scene%end_time=2.0
 each sweep sweep-single scene%end_time=2.0 method%precision=single
 each sweep-layers sweep-layers scene%end_time=3.0
 each sweep-layers sweep-layers-single scene%end_time=3.0 method%precision=single
+each sweep-damped sweep-damped scene%end_time=3.0
+each sweep-damped sweep-damped-single scene%end_time=3.0 method%precision=single
 each single single scene%end_time=2.5
 each modified modified
 each modified ground method%degree=4 method%mass=exact stepping%scheme=leapfrog scene%end_time=2.0

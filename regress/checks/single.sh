@@ -41,6 +41,7 @@ held pass 4 || failures=$((failures + 1))
 held pass 24 || failures=$((failures + 1))
 held sweep 4 || failures=$((failures + 1))
 held sweep-layers 4 || failures=$((failures + 1))
+held sweep-damped 4 || failures=$((failures + 1))
 held single 4 || failures=$((failures + 1))
 # slow: displacements that hardly move while their forces are rounded
 slow='load%history=gaussian load%frequency= load%width=2 load%delay=10'

@@ -11,9 +11,8 @@ static void drawn(size_t size, char *deck, int number, bool hilly, bool layers, 
 {
     static const char *const kind[] = {"free", "fixed", "roller", "symmetry"};
     static const char *const face[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
-    static const int quality[3][3][2] = {{{20, 20}, {20, 20}, {20, 20}},
-                                         {{30, 16}, {30, 16}, {30, 16}},
-                                         {{30, 16}, {8, 6}, {160, 90}}};
+    static const int quality[3][3][2] = {
+        {{20, 20}, {20, 20}, {20, 20}}, {{30, 16}, {30, 16}, {30, 16}}, {{30, 16}, {8, 6}, {160, 90}}};
     const int(*q)[2] = quality[number / 3 % 3];
     const size_t sure = chance(3);
     int at = snprintf(deck, size,
@@ -35,7 +34,8 @@ static void drawn(size_t size, char *deck, int number, bool hilly, bool layers, 
                        "q_frequency = 0.5 /\n"
                        "&layer material = 'm', top = 0.0 /\n"
                        "&layer material = 'n', top = 2.0, dip = 15.0, strike = 40.0 /\n"
-                       "&block material = 'o', shape = 'ellipsoid', centre = 2.0, 2.2, 1.6, size = 2.4, 1.9, 1.5 /\n",
+                       "&block material = 'o', shape = 'ellipsoid', centre = 2.0, 2.2, 1.6, size = 2.4, 1.9, "
+                       "1.5 /\n",
                        q[1][0], q[1][1], q[2][0], q[2][1]);
     if (hilly)
         at += snprintf(deck + at, size - (size_t)at,
@@ -109,6 +109,13 @@ static void operators_in_one(void **unused)
     assert_true(worst < 1e-12);
 }
 
+/* Those of one family, n numbers. */
+static void forget_moduli(struct sweep *sweep, size_t p, size_t n)
+{
+    memset(sweep->moduli[p].lambda[1], 0, n * sizeof(double));
+    memset(sweep->moduli[p].mu[1], 0, n * sizeof(double));
+}
+
 /* What is left out of a part, or of a mechanism, shows. */
 static void each_counts(void **unused)
 {
@@ -129,7 +136,7 @@ static void each_counts(void **unused)
         if (p >= d->parts)
             relaxing->rate[left_out - 2 * d->parts] = 0;
         else if (left_out % 2 == 0)
-            memset(sweep->moduli[p].mu[1], 0, family->n[1] * family->n[2] * sweep->width * sizeof(double));
+            forget_moduli(sweep, p, family->n[1] * family->n[2] * sweep->width);
         else
             memset(family->stiffness, 0, family->run[family->runs - 1].at * sizeof(double));
         march(&less, 24);

@@ -250,7 +250,7 @@ struct model {
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
     bool untold;        /* power() does not tell all that dampers absorb */
     unsigned energy_calls; /* operator calls that energy() takes, if more than one */
-    unsigned parts;        /* operators whose sum a step takes, if more than one */
+    unsigned parts;        /* operators whose sum a step takes, each rounded, if more than one */
     enum patch_sight patch;
     struct wave_law waves;
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */

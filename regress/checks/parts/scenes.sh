@@ -1,6 +1,6 @@
 # Small scenes for restarts: every method, schemes of each kind, boundaries with memory. Sourced by
 # regress/checks/restart.sh and regress/hardening/kills. scene NAME writes NAME.nml; the names are in $scenes.
-scenes='layers damped damped-particles relaxing relaxing-single pass sweep sweep-layers sweep-single single modified paper plate bar flying moving'
+scenes='layers damped damped-particles relaxing relaxing-single pass sweep sweep-layers sweep-single sweep-damped single modified paper plate bar flying moving'
 rock="&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /"
 steel="&material name = 'steel', density = 7800.0, young = 2e11, poisson = 0.3 /"
 marks="&snapshot every = 0.4, fields = 'velocity', 'stress' /
@@ -101,6 +101,12 @@ END
 $rock
 $fine
 $tilted
+END
+    sweep-damped) cat <<END ;; # relaxation mechanisms of three operators, with layers
+&method mechanisms = 2 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0, q_p = 30, q_s = 20 /
+$fine
+${tilted%%mu = 0.4*}mu = 0.4, q_p = 12, q_s = 9, q_frequency = 0.3, q_power = 0.2${tilted#*mu = 0.4}
 END
     modified) cat <<END ;; # fourth order in time, dampers
 &scene dimension = 2, end_time = 4.0 /

@@ -9,6 +9,8 @@ same 3 "general ground, dampers" $stepped "boundary(1)%face=x-,y+,z+" "boundary(
 same "2 4" "general ground, layers, one pass" $stepped $layers
 same 2 "the same, passes one by one" $stepped method%fused=F $layers
 same 3 "the same in single precision" $stepped method%precision=single body%high=4,4,16 $layers
-same 3 "damped general ground, layers" $stepped $layers $quality
+same "1 2 3 4" "damped general ground, layers, one pass" $stepped $layers $quality
+same 3 "the same, passes one by one" $stepped method%fused=F $layers $quality
+same 2 "the same in single precision" $stepped method%precision=single body%high=4,4,16 $layers $quality
 same 3 "general ground in two dimensions, layers" regress/parallel/tall-plane.nml load%delay=.5 scene%end_time=1.5 snapshot%every=.7
 same "3 4" "moment tensors beside the sides of a block" regress/parallel/block-side.nml

@@ -1,8 +1,8 @@
 /* What damping adds to a step: boxes of N^3 control values that all move, undamped and damped, steps of each
- * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS [PRECISION [GROUND]]]], GROUND even, general (three
- * rocks, a tilted interface and a block), hill or layers (the same below a hill, with absorbing layers at the sides and
- * below). A step's figure is the least of all rounds; the ratio is the median over rounds of damped over undamped, side
- * by side. */
+ * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS [PRECISION [GROUND]]]], GROUND even, level (even by the
+ * general operator), general (three rocks, a tilted interface and a block), hill or layers (the same below a hill, with
+ * absorbing layers at the sides and below). A step's figure is the least of all rounds; the ratio is the median over
+ * rounds of damped over undamped, side by side. */
 #include "marched.h"
 
 #include <math.h>
@@ -22,13 +22,14 @@ struct side {
 static int put_ground(char *text, size_t size, const struct side *side, int n, const char *ground)
 {
     const double width = n - 2;
-    int at = snprintf(
-        text, size,
-        "&material name = 'clay', density = 0.9, p_speed = 1.5, s_speed = 0.8 %s /\n"
-        "&material name = 'sand', density = 0.8, p_speed = 1.3, s_speed = 0.7 %s /\n"
-        "&layer material = 'clay', top = 0.0 /\n&layer material = 'rock', top = %g, dip = 15.0, strike = 30.0 /\n"
-        "&block material = 'sand', shape = 'ellipsoid', centre = 2*%g, %g, size = 2*%g, %g /\n",
-        side->damping[1], side->damping[2], .4 * width, .5 * width, .3 * width, .5 * width, .3 * width);
+    int at = snprintf(text, size,
+                      "&material name = 'clay', density = 0.9, p_speed = 1.5, s_speed = 0.8 %s /\n"
+                      "&material name = 'sand', density = 0.8, p_speed = 1.3, s_speed = 0.7 %s /\n"
+                      "&layer material = 'clay', top = 0.0 /\n&layer material = 'rock', top = %g, dip = "
+                      "15.0, strike = 30.0 /\n"
+                      "&block material = 'sand', shape = 'ellipsoid', centre = 2*%g, %g, size = 2*%g, %g /\n",
+                      side->damping[1], side->damping[2], .4 * width, .5 * width, .3 * width, .5 * width,
+                      .3 * width);
     if (strcmp(ground, "general") == 0) return at;
     at += snprintf(text + at, size - (size_t)at,
                    "&topography shape = 'gaussian', height = %g, centre = 2*%g, width = %g /\n", .1 * width,
@@ -50,7 +51,8 @@ static void open_side(struct side *side, int n, const char *precision, const cha
         "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 %s /\n"
         "&body material = 'rock', shape = 'box', low = 3*0.0, high = 3*%d.0, spacing = 1.0 /\n",
         precision, general ? ", operator = 'general'" : "", side->method, side->damping[0], n - 2);
-    if (general && strcmp(ground, "level") != 0) put_ground(text + at, sizeof text - (size_t)at, side, n, ground);
+    if (general && strcmp(ground, "level") != 0)
+        put_ground(text + at, sizeof text - (size_t)at, side, n, ground);
     open_marched(&side->marched, text);
     side->least = INFINITY;
 }
@@ -69,7 +71,7 @@ static void print_side(const struct side *side, const struct side *first, int ro
     for (int round = 0; round < rounds; round++)
         ratio[round] = side->taken[round] / first->taken[round];
     qsort(ratio, (size_t)rounds, sizeof *ratio, ascending);
-    printf("| %s, operators: %u | %s | %.1f | %.2f | %.0f |\n", side->what, model->parts > 1 ? model->parts : 1,
+    printf("| %s | %s | %.1f | %.2f | %.0f |\n", side->what,
            side->marched.stepper.one_pass ? "one pass" : "pass by pass", 1e9 * side->least / points,
            ratio[rounds / 2],
            ((double)model->bytes + (double)(model->state_size + model->unknowns) * sizeof(double)) / points);
@@ -86,7 +88,10 @@ int main(int count, char **word)
         {.what = "Q_p = Q_s, n = 1", .damping = {ONE, ONE, ONE}, .method = ", mechanisms = 1"},
         {.what = "Q_p = Q_s, n = 3", .damping = {ONE, ONE, ONE}, .method = ", mechanisms = 3"},
         {.what = "Q_p = 2 Q_s, n = 3", .damping = {TWO, TWO, TWO}, .method = ", mechanisms = 3"},
-        {.what = "three Q, n = 3", .damping = {HARD, TWO, SOFT}, .method = ", mechanisms = 3", .general = true},
+        {.what = "three Q, n = 3",
+         .damping = {HARD, TWO, SOFT},
+         .method = ", mechanisms = 3",
+         .general = true},
         {.what = "Q_p = Q_s, n = 3",
          .damping = {ONE, ONE, ONE},
          .method = ", mechanisms = 3, fused = .false.",

@@ -233,6 +233,7 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
         if (bytes + d->part[p].model->setup_bytes > most) most = bytes + d->part[p].model->setup_bytes;
         bytes += d->part[p].model->bytes;
     }
+    first->parts = (unsigned)d->parts;
     const bool room = relax(d, extra) == SELAS_OK;
     bytes = 0; /* with what steps in one pass take, or no more need */
     for (size_t p = 0; p < d->parts; p++)
@@ -240,7 +241,6 @@ static selas_status fill(struct damped *d, const struct scene *scene, struct mes
     if (first->single && first->one_pass == NULL)
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%precision = 'single' needs one damped material and no more");
-    first->parts = (unsigned)d->parts;
     *model = *first;
     d->core = damped_core;
     if (first->core->holder == NULL) d->core.holder = NULL;

@@ -165,9 +165,9 @@ struct fused_fields {
     double dt;
     const struct fused_relax *relax; /* the fields `kept` go on by this, u being the first; NULL: u by dt w */
     void *const *kept;
-    const void *other;               /* e_1, NULL if there is one part */
-    const struct pml *dragged;       /* layers that damp w besides once u has gone on; NULL: none do */
-    size_t bring_on, before;         /* planes of u to be brought on on the way */
+    const void *other;         /* e_1, NULL if there is one part */
+    const struct pml *dragged; /* layers that damp w besides once u has gone on; NULL: none do */
+    size_t bring_on, before;   /* planes of u to be brought on on the way */
 };
 
 /* Builds c->fused if the scene is one for it (c->fused stays NULL if not); false: no memory. Needs c->hform.

@@ -126,14 +126,12 @@ static void settle(struct model *model, const struct drive *drive, double dt, do
         for (size_t i = 2 * n; i < 2 * n + extra_of(c); i++)
             y[i] = kept[i];
         if (relax != NULL)
-            fused_tell_all(relax, n, c->threads, (const void *const *)fields.kept,
-                       sizeof(float), y);
+            fused_tell_all(relax, n, c->threads, (const void *const *)fields.kept, sizeof(float), y);
     } else {
         const struct step_fields_double fields = fields_double(c, y, relax);
         fused_settle_double(c, drive, dt, &fields, y, a);
         if (relax != NULL)
-            fused_tell_all(relax, n, c->threads, (const void *const *)fields.kept,
-                       sizeof(double), y);
+            fused_tell_all(relax, n, c->threads, (const void *const *)fields.kept, sizeof(double), y);
     }
 }
 

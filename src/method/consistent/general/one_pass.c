@@ -163,13 +163,13 @@ static void settle(struct model *model, const struct drive *drive, double dt, do
         sweep_settle_single(c, drive, dt, &fields, y, a);
         if (relax != NULL)
             fused_tell_all(relax, model->unknowns, c->threads, (const void *const *)fields.kept,
-                       sizeof(float), y);
+                           sizeof(float), y);
     } else {
         const struct sweep_fields_double fields = fields_double(c, y, relax);
         sweep_settle_double(c, drive, dt, &fields, y, a);
         if (relax != NULL)
             fused_tell_all(relax, model->unknowns, c->threads, (const void *const *)fields.kept,
-                       sizeof(double), y);
+                           sizeof(double), y);
     }
 }
 
@@ -195,6 +195,7 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
 {
     for (size_t p = 0; p < relaxing->parts; p++)
         if (relaxing->part[p].model->one_pass != &one_pass) return SELAS_UNSUPPORTED;
+    model->parts = 1; /* what is rounded is the sum of their stresses */
     return sweep_relax(consistent_of(model), relaxing) ? SELAS_OK : SELAS_NO_MEMORY;
 }
 

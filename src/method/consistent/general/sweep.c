@@ -156,11 +156,11 @@ static void lay_parts(const struct consistent *c, struct sweep *s)
 static bool lay_buffers(const struct consistent *c, struct sweep *s)
 {
     const size_t taken = s->stride * sizeof(double) / s->number; /* a row of doubles */
-    const size_t room =
-        (SPAN * 3 * (s->parts * DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
-         3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
-            s->stride +
-        (s->layered ? SPAN * 3 * s->parts * DEPTH_FIELDS + 9 : 0) * s->stride + s->part_size + taken;
+    const size_t room = (SPAN * 3 * (s->parts * DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
+                         3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
+                            s->stride +
+                        (s->layered ? SPAN * 3 * s->parts * DEPTH_FIELDS + 9 : 0) * s->stride + s->part_size +
+                        taken;
     for (size_t thread = 0; thread < (size_t)c->threads; thread++) {
         array_free(s->buffer[thread]);
         s->buffer[thread] = numbers(s, room);

@@ -51,16 +51,16 @@ struct sweep {
     size_t width, stride; /* numbers of a row, from row to row */
     size_t rows;          /* of a plane that is ready */
     struct over_depth *pair;
-    void *weights;            /* of all pairs */
-    void *x[3], *y[3], *z[3]; /* [component]: N by vectors, by rows, by planes */
-    bool *plain;              /* groups of rows of y with the same weights */
+    void *weights;                                 /* of all pairs */
+    void *x[3], *y[3], *z[3];                      /* [component]: N by vectors, by rows, by planes */
+    bool *plain;                                   /* groups of rows of y with the same weights */
     struct sweep_moduli moduli[FUSED_FIELDS_KEPT]; /* of the parts of damped ground, else one */
-    size_t points[3][2];      /* [family]: rows and planes */
-    double factor[3][3];      /* [family]: of slopes along x, y and depth */
-    void *hill[3][3];         /* [family]: s and its slopes, rows of `width` numbers */
-    void *root;               /* [volume] */
-    void *ready;              /* [component][planes][rows][stride]: N along x and y of the forces */
-    bool layered;             /* the body has absorbing layers: the same on all ranks */
+    size_t points[3][2];                           /* [family]: rows and planes */
+    double factor[3][3];                           /* [family]: of slopes along x, y and depth */
+    void *hill[3][3];                              /* [family]: s and its slopes, rows of `width` numbers */
+    void *root;                                    /* [volume] */
+    void *ready;  /* [component][planes][rows][stride]: N along x and y of the forces */
+    bool layered; /* the body has absorbing layers: the same on all ranks */
     struct sweep_part part[BOX_FACES];
     size_t part_size; /* numbers of their rings */
     double quiet, largest;
@@ -81,63 +81,63 @@ struct sweep {
 };
 
 /* s and its slopes along x and y at the points of a row, f and its slope over depth (G16). */
-#define SWEEP_KERNELS(real, precision)                                                                              \
-    struct sweep_hill_##precision {                                                                                 \
-        const real *drop, *slope[2];                                                                                \
-        real share, fall;                                                                                           \
-    };                                                                                                              \
+#define SWEEP_KERNELS(real, precision)                                                                               \
+    struct sweep_hill_##precision {                                                                                  \
+        const real *drop, *slope[2];                                                                                 \
+        real share, fall;                                                                                            \
+    };                                                                                                               \
     /* A row of points of a family: moduli, factors of slopes along x, y and depth; y_knots, x_knots: where  \
-     * its points are; hill NULL: level. Runs as in points.h. */      \
-    struct sweep_row_##precision {                                                                                  \
-        bool x_knots, y_knots;                                                                                      \
-        size_t width, stride;                                                                                       \
-        real factor[3];                                                                                             \
-        const real *lambda, *mu;                                                                                    \
-        const struct sweep_hill_##precision *hill;                                                                  \
-        const struct run_of_points *run;                                                                            \
-        size_t runs;                                                                                                \
-        const double *stiffness;                                                                                    \
-        const real *value[3][SPAN], *slope[3][SPAN]; /* [component] over depth, rows of control values */           \
-        real *pull[3][SPAN], *slope_pull[3][SPAN];   /* the last of them is set, the others grow */                 \
-        real *across_pull[3][SPAN];                  /* of stresses() */                                            \
-        real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */         \
-    };                                                                                                              \
-    struct sweep_kernels_##precision {                                                                              \
-        /* u += dt w, n numbers; gives the largest |u| */                                                           \
-        real (*bring)(size_t n, real dt, const real *w, real *u);                                                   \
-        /* out[q][i] := sum over d of weight[q][d] in[d][i], i < n */                                               \
-        void (*depth)(size_t n, const real *const in[SPAN], const real weight[DEPTH_FIELDS][SPAN],                  \
-                      real *const out[DEPTH_FIELDS]);                                                               \
-        void (*points)(const struct sweep_row_##precision *row);                                                    \
+     * its points are; hill NULL: level. Runs as in points.h. */       \
+    struct sweep_row_##precision {                                                                                   \
+        bool x_knots, y_knots;                                                                                       \
+        size_t width, stride;                                                                                        \
+        real factor[3];                                                                                              \
+        const real *lambda, *mu;                                                                                     \
+        const struct sweep_hill_##precision *hill;                                                                   \
+        const struct run_of_points *run;                                                                             \
+        size_t runs;                                                                                                 \
+        const double *stiffness;                                                                                     \
+        const real *value[3][SPAN], *slope[3][SPAN]; /* [component] over depth, rows of control values */            \
+        real *pull[3][SPAN], *slope_pull[3][SPAN];   /* the last of them is set, the others grow */                  \
+        real *across_pull[3][SPAN];                  /* of stresses() */                                             \
+        real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */          \
+    };                                                                                                               \
+    struct sweep_kernels_##precision {                                                                               \
+        /* u += dt w, n numbers; gives the largest |u| */                                                            \
+        real (*bring)(size_t n, real dt, const real *w, real *u);                                                    \
+        /* out[q][i] := sum over d of weight[q][d] in[d][i], i < n */                                                \
+        void (*depth)(size_t n, const real *const in[SPAN], const real weight[DEPTH_FIELDS][SPAN],                   \
+                      real *const out[DEPTH_FIELDS]);                                                                \
+        void (*points)(const struct sweep_row_##precision *row);                                                     \
         /* The same in two: slopes at the points, [3 * component + slot] rows of the scratch, where others may    \
-         * change them; and the pulls of their stresses, those along y apart. */ \
-        void (*slopes)(const struct sweep_row_##precision *row);                                                    \
-        void (*stresses)(const struct sweep_row_##precision *row);                                                  \
+         * change them; and the pulls of their stresses, those along y apart. */  \
+        void (*slopes)(const struct sweep_row_##precision *row);                                                     \
+        void (*stresses)(const struct sweep_row_##precision *row);                                                   \
         /* The same of several parts: the stresses of one, from slopes that are there or not, in the place of or   \
          * beside those of others; then what they pull at. */ \
-        void (*stresses_of)(const struct sweep_row_##precision *row, bool made, bool more);                         \
-        void (*pulls_of)(const struct sweep_row_##precision *row, bool made);                                       \
+        void (*stresses_of)(const struct sweep_row_##precision *row, bool made, bool more);                          \
+        void (*pulls_of)(const struct sweep_row_##precision *row, bool made);                                        \
         /* out[d][i] -= sum over q of weight[q][d] in[q][i], i < width; apart: in[] has all PULL_FIELDS, those    \
-         * of y with the weights of values */ \
-        void (*pulls)(bool apart, size_t width, const real *const in[PULL_FIELDS],                                  \
-                      const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                                \
-        /* Memory of absorbing layers at n points of a row: slope[i] += psi[i]; */                                  \
-        void (*recall)(size_t n, const double *psi, real *slope);                                                   \
+         * of y with the weights of values */  \
+        void (*pulls)(bool apart, size_t width, const real *const in[PULL_FIELDS],                                   \
+                      const real weight[DEPTH_FIELDS][SPAN], real *const out[SPAN]);                                 \
+        /* Memory of absorbing layers at n points of a row: slope[i] += psi[i]; */                                   \
+        void (*recall)(size_t n, const double *psi, real *slope);                                                    \
         /* psi brought on by the slope less `half` of its rate before, by factors of one point or of each along   \
-         * the row; */ \
-        void (*remember)(size_t n, bool along, const double *kept, const double *taken, real half,                  \
-                         const real *rate, double *psi, real *slope);                                               \
-        /* out[i] += root[i] phi[i] */                                                                              \
-        void (*pull)(size_t n, const double *phi, const real *root, real *out);                                     \
-        /* out[i] -= a one[i] + b other[i], i < n */                                                                \
-        void (*keep)(size_t n, real a, const real *one, real b, const real *other, real *out);                      \
-        /* out[i] := factor[i] in[i], i < n */                                                                      \
-        void (*scale)(size_t n, const real *factor, const real *in, real *out);                                     \
+         * the row; */  \
+        void (*remember)(size_t n, bool along, const double *kept, const double *taken, real half,                   \
+                         const real *rate, double *psi, real *slope);                                                \
+        /* out[i] += root[i] phi[i] */                                                                               \
+        void (*pull)(size_t n, const double *phi, const real *root, real *out);                                      \
+        /* out[i] -= a one[i] + b other[i], i < n */                                                                 \
+        void (*keep)(size_t n, real a, const real *one, real b, const real *other, real *out);                       \
+        /* out[i] := factor[i] in[i], i < n */                                                                       \
+        void (*scale)(size_t n, const real *factor, const real *in, real *out);                                      \
         /* out[p][i] += factor root[p][i] sum over t of weight[p][t] in[p + t][i], p < planes, i < n; what is   \
-         * `ahead` numbers on, the next row, is asked for */   \
-        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,            \
-                       real factor, const real *const *root, real *const *out);                                     \
-    };                                                                                                              \
+         * `ahead` numbers on, the next row, is asked for */    \
+        void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,             \
+                       real factor, const real *const *root, real *const *out);                                      \
+    };                                                                                                               \
     EACH_PROCESSOR(struct sweep_kernels_##precision, sweep_kernels_##precision)
 SWEEP_KERNELS(double, double)
 SWEEP_KERNELS(float, single)

@@ -95,7 +95,7 @@ INLINED lanes slope_pull(const bool knots, const REAL *row)
 #include "method/consistent/general/sweep_points_over.h"
 
 INLINED void pulls_taken(const bool apart, size_t width, const REAL *const in[PULL_FIELDS],
-                      const REAL weight[DEPTH_FIELDS][SPAN], REAL *const out[SPAN])
+                         const REAL weight[DEPTH_FIELDS][SPAN], REAL *const out[SPAN])
 {
     REAL w[DEPTH_FIELDS][SPAN], *to[SPAN];
     memcpy(w, weight, sizeof w);
@@ -177,5 +177,6 @@ static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in
         out[i] = factor[i] * in[i];
 }
 
-const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {
-    bring, depth, points, slopes, stresses, stresses_of, pulls_of, pulls, recall, remember, pull, keep, scale, finish};
+const struct NAME(sweep_kernels)
+    OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth,  points,   slopes, stresses, stresses_of, pulls_of,
+                                         pulls, recall, remember, pull,   keep,     scale,       finish};

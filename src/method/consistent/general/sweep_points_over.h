@@ -15,8 +15,8 @@ INLINED lanes strain_of(const bool knots, const bool made, REAL factor, const RE
     return factor * value_of(knots, row);
 }
 
-INLINED void level_stresses(const bool knots, const bool made, const bool more, const struct NAME(sweep_row) * row,
-                            const REAL *in, REAL *out)
+INLINED void level_stresses(const bool knots, const bool made, const bool more,
+                            const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
 {
     const size_t stride = row->stride, width = row->width;
     const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2], *lambda = row->lambda,
@@ -30,17 +30,17 @@ INLINED void level_stresses(const bool knots, const bool made, const bool more, 
         put_or_add(more, out + YY * stride + i, pressure + twice * eyy);
         put_or_add(more, out + ZZ * stride + i, pressure + twice * ezz);
         put_or_add(more, out + YZ * stride + i,
-            mu * (strain_of(knots, made, z, AT(1, 2)) + strain_of(knots, made, y, AT(2, 1))));
+                   mu * (strain_of(knots, made, z, AT(1, 2)) + strain_of(knots, made, y, AT(2, 1))));
         put_or_add(more, out + ZX * stride + i,
-            mu * (strain_of(knots, made, z, AT(0, 2)) + strain_x(knots, made, x, AT(2, 0))));
+                   mu * (strain_of(knots, made, z, AT(0, 2)) + strain_x(knots, made, x, AT(2, 0))));
         put_or_add(more, out + XY * stride + i,
-            mu * (strain_of(knots, made, y, AT(0, 1)) + strain_x(knots, made, x, AT(1, 0))));
+                   mu * (strain_of(knots, made, y, AT(0, 1)) + strain_x(knots, made, x, AT(1, 0))));
     }
 }
 
 /* Below a surface that is not level: slopes along the axes (G17), and what pulls along the lattice's depth. */
-INLINED void tilted_stresses(const bool knots, const bool made, const bool more, const struct NAME(sweep_row) * row,
-                             const REAL *in, REAL *out)
+INLINED void tilted_stresses(const bool knots, const bool made, const bool more,
+                             const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
 {
     const struct NAME(sweep_hill) hill = *row->hill;
     const size_t stride = row->stride, width = row->width;
@@ -103,7 +103,8 @@ INLINED void other_points(const bool knots, const bool made, const bool more,
 {
     const struct NAME(sweep_hill) *hill = row->hill;
     const size_t stride = row->stride;
-    lanes up = {0}, one = {0}, two = {0}, x[3], y[3], z[3], stress[STRESSES] = {0};
+    const lanes none = {0};
+    lanes up = none + 1, one = none, two = none, x[3], y[3], z[3], stress[STRESSES] = {0};
     if (hill != NULL) {
         up = 1 / (1 + hill->fall * at(hill->drop + i));
         one = hill->share * at(hill->slope[0] + i) * up;
@@ -113,13 +114,8 @@ INLINED void other_points(const bool knots, const bool made, const bool more,
     {
         const REAL *along = in + 3 * c * stride + i;
         const lanes down = strain_of(knots, made, row->factor[2], along + 2 * stride);
-        const lanes less_x = one * down, less_y = two * down;
-        x[c] = strain_x(knots, made, row->factor[0], along);
-        y[c] = strain_of(knots, made, row->factor[1], along + stride);
-        z[c] = down;
-        if (hill == NULL) continue;
-        x[c] -= less_x;
-        y[c] -= less_y;
+        x[c] = strain_x(knots, made, row->factor[0], along) - one * down;
+        y[c] = strain_of(knots, made, row->factor[1], along + stride) - two * down;
         z[c] = up * down;
     }
     const lanes strain[STRESSES] = {x[0], y[1], z[2], y[2] + z[1], z[0] + x[2], x[1] + y[0]};

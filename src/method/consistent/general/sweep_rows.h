@@ -9,8 +9,9 @@ enum { GROUP = FUSED_VECTOR / sizeof(REAL), V_ROWS = 3 * DEPTH_FIELDS, P_ROWS = 
 
 /* Rows of a thread's buffer, each with room before it. */
 struct rings {
-    REAL *value, *pull; /* [part][SPAN slots][component][DEPTH_FIELDS]; [SPAN slots][component][PULL_FIELDS] */
-    REAL *rate;         /* as `value`, of what displacements have moved by */
+    REAL *value,
+        *pull;  /* [part][SPAN slots][component][DEPTH_FIELDS]; [SPAN slots][component][PULL_FIELDS] */
+    REAL *rate; /* as `value`, of what displacements have moved by */
     REAL *scratch, *rates;
     REAL *force; /* [SPAN planes][component][rows of unclamped control values] */
     REAL *part;  /* of each layer (struct sweep_part) */
@@ -310,8 +311,7 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
         }
     for (size_t p = 0; p < pass->fields->parts; p++)
         point_row_of(pass, r, &points, p, (int)value, f, m, j, task);
-    if (task != MOVE && pass->fields->parts > 1)
-        NAME(taken_sweep_kernels)()->pulls_of(&points, s->layered);
+    if (task != MOVE && pass->fields->parts > 1) NAME(taken_sweep_kernels)()->pulls_of(&points, s->layered);
 }
 
 static REAL *force_row(const struct sweep *s, const struct rings *r, size_t k, size_t component, size_t row)
