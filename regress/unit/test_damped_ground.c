@@ -50,7 +50,7 @@ static void drawn(size_t size, char *deck, int number, bool hilly, bool layers, 
     }
 }
 
-/* The worst of u, v, a, memory of mechanisms and of layers: that of slopes part by part, that of forces of all parts. */
+/* The worst of u, v, a, memory of mechanisms, and of layers: of slopes part by part, of forces in all parts. */
 static double difference(const struct damped_run *one, const struct damped_run *other)
 {
     const struct damped *d = (const struct damped *)one->model;

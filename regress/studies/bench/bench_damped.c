@@ -1,6 +1,6 @@
 /* What damping adds to a step: boxes of N^3 control values that all move, undamped and damped, steps of each
- * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS [PRECISION [GROUND]]]], GROUND even, level (even by the
- * general operator), general (three rocks, a tilted interface and a block), hill or layers (the same below a hill, with
+ * in turn, CPU time of one thread. Usage: bench_damped [N [ROUNDS [PRECISION [GROUND]]]], GROUND even, level (even by
+ * the general operator), general (three rocks, a tilted interface and a block), hill or layers (the same below a hill, with
  * absorbing layers at the sides and below). A step's figure is the least of all rounds; the ratio is the median over
  * rounds of damped over undamped, side by side. */
 #include "marched.h"

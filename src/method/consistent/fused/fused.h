@@ -7,7 +7,8 @@
  *   a_z = A_z u_z + N_x [m S_x b_z + G_x q C_z u_x] + N_y [m S_y b_z + G_y q C_z u_y]
  *
  * p = -(lambda + 2 mu) / rho, m = -mu / rho, q = (lambda + mu) / rho, G with its share of the boundary terms
- * (Eq 17 of the manual). Edges, loads, dampers and layers are added by others.
+ * (Eq 17 of the manual). All weights come from tables by row: ends, held values and symmetry planes cost no branch.
+ * Edges, loads, dampers and layers are added by others.
  *
  * Damped ground whose lambda and mu relax unlike each other has a second displacement e that acts by lambda_e
  * alone. It goes through the same passes, since they are linear in the moduli:

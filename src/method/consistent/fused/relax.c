@@ -10,7 +10,7 @@ enum { MOST = FUSED_FIELDS_KEPT };
 static void find_told(const struct relaxing *relaxing, bool told[MODEL_MECHANISMS])
 {
     const struct relaxing_part *part = relaxing->part;
-    double left[MOST][MODEL_MECHANISMS];
+    double left[MOST][MODEL_MECHANISMS] = {{0}};
     bool used[MOST] = {true};
     memset(told, 0, MODEL_MECHANISMS * sizeof *told);
     for (size_t p = 1; p < relaxing->parts; p++)
