@@ -103,15 +103,6 @@ static bool turn_runs(struct family *family)
     return turned != NULL;
 }
 
-/* Vectors of the kernels read beyond the last number (sweep_points_over.h). */
-static bool leave_room(struct family *family, struct found *found)
-{
-    void *numbers = family->stiffness;
-    const bool good = grow(&numbers, &found->room_of_numbers, found->numbers, STIFFNESSES, sizeof(double));
-    family->stiffness = numbers;
-    return good;
-}
-
 static bool lay_row(struct consistent *c, struct family *family, const struct medium *medium, size_t j,
                     size_t k, struct found *found, const struct sums *sums)
 {
@@ -161,7 +152,7 @@ static bool lay_families(struct consistent *c, struct medium *medium, const stru
     for (int f = 0; f < 3; f++) {
         family[f].runs = family[f].first_run[family[f].n[1] * family[f].n[2]] = found[f].runs;
         c->general->bytes += found[f].room_of_numbers * sizeof(double);
-        if (!turn_runs(&family[f]) || !leave_room(&family[f], &found[f])) return false;
+        if (!turn_runs(&family[f])) return false;
     }
     return true;
 }

@@ -79,10 +79,10 @@ static bool lay_inverse(struct consistent *c, struct sweep *s)
     return true;
 }
 
-/* A table of rows of n numbers as rows of `width`, 0 beyond, and for a vector behind the last one. */
+/* A table of rows of n numbers as rows of `width`, 0 beyond. */
 static void *widened(struct sweep *s, const double *table, size_t n, size_t rows)
 {
-    void *wide = numbers(s, rows * s->width + FUSED_VECTOR / s->number);
+    void *wide = numbers(s, rows * s->width);
     for (size_t row = 0; wide != NULL && row < rows; row++)
         for (size_t i = 0; i < n; i++)
             set(s, wide, row * s->width + i, table[row * n + i]);

@@ -73,73 +73,47 @@ INLINED void tilted_stresses(const bool knots, const bool made, const bool more,
 #undef AT
 }
 
-/* Moduli of points one after the other. */
-INLINED lanes moduli(const double *law)
-{
-    const void *same = law;
-    if (sizeof(REAL) == sizeof(double)) return at(same);
-    REAL value[LANES];
-    for (int lane = 0; lane < LANES; lane++)
-        value[lane] = (REAL)law[lane];
-    return at(value);
-}
+#define VALUE_AT(row) (knots ? (row)[i] + (row)[i + 1] : 6 * (row)[i + 1] + ((row)[i] + (row)[i + 2]))
+#define SLOPE_AT(row) (knots ? (row)[i + 1] - (row)[i] : (row)[i + 2] - (row)[i])
 
-/* The first `count` numbers of a vector into a row, or beside what is there. */
-INLINED void put_some(const bool more, size_t count, REAL *row, lanes value)
-{
-    if (more) value += at(row);
-    if (count >= LANES)
-        put(row, value);
-    else
-        for (size_t lane = 0; lane < count; lane++)
-            row[lane] = value[lane];
-}
-
-/* The same at points that are not isotropic: `count` of them from number i on, with every `step`-th number of `law`; a
- * vector reads more than that, but is not written where there are less. */
-INLINED void other_points(const bool knots, const bool made, const bool more,
-                          const struct NAME(sweep_row) * row, size_t i, size_t count, const double *law,
-                          size_t step, const REAL *in, REAL *out)
-{
-    const struct NAME(sweep_hill) *hill = row->hill;
-    const size_t stride = row->stride;
-    const lanes none = {0};
-    lanes up = none + 1, one = none, two = none, x[3], y[3], z[3], stress[STRESSES] = {0};
-    if (hill != NULL) {
-        up = 1 / (1 + hill->fall * at(hill->drop + i));
-        one = hill->share * at(hill->slope[0] + i) * up;
-        two = hill->share * at(hill->slope[1] + i) * up;
-    }
-    UNROLLED for (size_t c = 0; c < 3; c++)
-    {
-        const REAL *along = in + 3 * c * stride + i;
-        const lanes down = strain_of(knots, made, row->factor[2], along + 2 * stride);
-        x[c] = strain_x(knots, made, row->factor[0], along) - one * down;
-        y[c] = strain_of(knots, made, row->factor[1], along + stride) - two * down;
-        z[c] = up * down;
-    }
-    const lanes strain[STRESSES] = {x[0], y[1], z[2], y[2] + z[1], z[0] + x[2], x[1] + y[0]};
-    UNROLLED for (int p = 0; p < STRESSES; p++) UNROLLED for (int q = p; q < STRESSES; q++)
-    {
-        const lanes modulus = moduli(law + (size_t)(p * (2 * STRESSES - 1 - p) / 2 + q) * step);
-        stress[p] += modulus * strain[q];
-        if (p != q) stress[q] += modulus * strain[p];
-    }
-    UNROLLED for (int p = 0; p < STRESSES; p++)
-        put_some(more, count, out + (size_t)p * stride + i, stress[p]);
-    if (hill == NULL) return;
-    put_some(more, count, out + DEPTH_X * stride + i, up * stress[ZX] - one * stress[XX] - two * stress[XY]);
-    put_some(more, count, out + DEPTH_Y * stride + i, up * stress[YZ] - one * stress[XY] - two * stress[YY]);
-    put_some(more, count, out + DEPTH_Z * stride + i, up * stress[ZZ] - one * stress[ZX] - two * stress[YZ]);
-}
-
+/* The same at points that are not isotropic. */
 INLINED void other_stresses(const bool knots, const bool made, const bool more,
                             const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
 {
+    const struct NAME(sweep_hill) *hill = row->hill;
+    const size_t stride = row->stride;
     for (size_t r = 0; r < row->runs; r++)
-        for (size_t m = 0; m < row->run[r].count; m += LANES)
-            other_points(knots, made, more, row, row->run[r].from + m, row->run[r].count - m,
-                         row->stiffness + row->run[r].at + m, row->run[r].count, in, out);
+        for (size_t m = 0; m < row->run[r].count; m++) {
+            const size_t i = row->run[r].from + m;
+            const double *law = row->stiffness + row->run[r].at + m;
+            const REAL up = hill == NULL ? 1 : 1 / (1 + hill->fall * hill->drop[i]),
+                       one = hill == NULL ? 0 : hill->share * hill->slope[0][i] * up,
+                       two = hill == NULL ? 0 : hill->share * hill->slope[1][i] * up;
+            REAL x[3], y[3], z[3], stress[STRESSES] = {0};
+            for (size_t c = 0; c < 3; c++) {
+                const REAL *along = in + 3 * c * stride, *across = along + stride, *deep = across + stride;
+                const REAL down = made ? deep[i] : row->factor[2] * VALUE_AT(deep);
+                x[c] = (made ? along[i] : row->factor[0] * SLOPE_AT(along)) - one * down;
+                y[c] = (made ? across[i] : row->factor[1] * VALUE_AT(across)) - two * down;
+                z[c] = up * down;
+            }
+            const REAL strain[STRESSES] = {x[0], y[1], z[2], y[2] + z[1], z[0] + x[2], x[1] + y[0]};
+            int entry = 0;
+            for (int p = 0; p < STRESSES; p++)
+                for (int q = p; q < STRESSES; q++, entry++) {
+                    const REAL modulus = (REAL)law[(size_t)entry * row->run[r].count];
+                    stress[p] += modulus * strain[q];
+                    if (p != q) stress[q] += modulus * strain[p];
+                }
+            const REAL down[3] = {up * stress[ZX] - one * stress[XX] - two * stress[XY],
+                                  up * stress[YZ] - one * stress[XY] - two * stress[YY],
+                                  up * stress[ZZ] - one * stress[ZX] - two * stress[YZ]};
+            for (size_t p = 0; p < STRESS_ROOM; p++) {
+                REAL *to = out + p * stride + i;
+                const REAL value = p < STRESSES ? stress[p] : down[p - STRESSES];
+                *to = more ? *to + value : value;
+            }
+        }
 }
 
 /* Back along x, then along y: what stresses x, y, z of a component pull at; `apart`: those of y go into rows of their
