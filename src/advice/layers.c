@@ -109,9 +109,12 @@ void look_at_rests(struct adviser *adviser)
     struct rest rest;
     char right[48] = "body%low and body%high farther off";
     if (scene->reference.kind[0] != '\0' || !worst_rest(scene, &rest) || rest.error < REST_SEEN) return;
+    const bool grows = scene->dimension == 2 && scene->load[rest.load].kind != LOAD_MOMENT_TENSOR;
     if (rest.points > 0) snprintf(right, sizeof right, "boundary%%layer_points = %ld", rest.points);
-    advise(adviser,
-           "load %zu stays on, and absorbing layers give way to what stays: by the end displacements may err "
-           "by %.1g of what is left at receiver '%s' (velocities do not); %s would be right",
-           rest.load + 1, rest.error, scene->receiver[rest.receiver].name, right);
+    advise(
+        adviser,
+        "load %zu stays on, and absorbing layers give way to what stays: by the end displacements%s may err "
+        "by %.1g of what is left at receiver '%s'; %s would be right",
+        rest.load + 1, grows ? " and, as these go on growing, velocities" : "", rest.error,
+        scene->receiver[rest.receiver].name, right);
 }

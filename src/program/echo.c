@@ -119,7 +119,7 @@ static double squares(const struct records *records, size_t r, int what)
     return sum;
 }
 
-/* Relative L2 difference of what is recorded there, or over a hundredth of the largest where hardly anything has arrived. */
+/* Relative L2 difference of what is recorded there, over a hundredth of the largest where hardly anything arrives. */
 static double apart(const struct records *large, const struct records *off, size_t r, int what)
 {
     static const double hardly = 0.01;
@@ -144,10 +144,11 @@ static void tell(const struct scene *scene, const double *small, const double *v
     const struct records large = {values, NULL, rows, scene->receivers},
                          off = {small, values, rows, scene->receivers};
     for (size_t r = 0; r < scene->receivers; r++)
-        printf("echo %s: %.2e (of the velocity, L2, spacing %g); of the displacement %.2e, at the end %.2e of "
-               "the largest\n",
-               scene->receiver[r].name, apart(&large, &off, r, 1), scene->body.spacing,
-               apart(&large, &off, r, 0), left(&large, &off, r));
+        printf(
+            "echo %s: %.2e (of the velocity, L2, spacing %g); of the displacement %.2e, at the end %.2e of "
+            "the largest\n",
+            scene->receiver[r].name, apart(&large, &off, r, 1), scene->body.spacing,
+            apart(&large, &off, r, 0), left(&large, &off, r));
 }
 
 /* The deck, its splines not tuned: how far tuned ones reach hangs on the size of the box (consistent-splines.md,
@@ -215,6 +216,20 @@ static selas_status common_step(const struct echo_deck *deck, selas_simulation *
     return status;
 }
 
+static void tell_expected(const struct scene *scene)
+{
+    struct rest rest;
+    if ((scene_needs(scene) & CAN_DAMP) != 0) {
+        printf("echo expected: not known (dampers)\n");
+        return;
+    }
+    printf("echo expected: %.2e (at the worst of them, this spacing%s)\n", expected_at_worst(scene),
+           ground_is_general(scene) ? "; a law of level ground, which this is not" : "");
+    if (worst_rest(scene, &rest))
+        printf("echo expected of what stays: %.2e of the displacement at %s at the end\n", rest.error,
+               scene->receiver[rest.receiver].name);
+}
+
 selas_status check_echo(const struct echo_deck *deck)
 {
     selas_simulation *one = NULL, *other = NULL;
@@ -231,12 +246,7 @@ selas_status check_echo(const struct echo_deck *deck)
     if (status == SELAS_OK) status = run(other, step, &large, &rows);
     if (status == SELAS_OK) {
         tell(one->scene, small, large, rows);
-        if ((scene_needs(one->scene) & CAN_DAMP) != 0)
-            printf("echo expected: not known (dampers)\n");
-        else
-            printf("echo expected: %.2e (at the worst of them, this spacing%s)\n",
-                   expected_at_worst(one->scene),
-                   ground_is_general(one->scene) ? "; a law of level ground, which this is not" : "");
+        tell_expected(one->scene);
     } else {
         fputs(selas_message(other != NULL ? other : one), stderr);
     }

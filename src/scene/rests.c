@@ -1,23 +1,25 @@
 /* What layers make of loads that stay (see the header).
  *
- * A layer of thickness L in stretched coordinates is one of thickness L + c ln(1/R) / (2 (alpha + s)) for what changes as
+ * In stretched coordinates a layer of thickness L is one of L + c ln(1/R) / (2 (alpha + s)) for what changes as
  * exp(s t), (9). At its outer end u = 0, as if an image of the load stood at twice the distance,
  *   X = 2 (d + L) + c ln(1/R) t / (1 + alpha t),                                                          (17)
  * d from the load to the layer, s = 1 / t (E. L. Post's inversion of the Laplace transform, its first member) for what
- * has come t after the load. The field of the image is that of a point, exp(-X / (c t)) / X in space, K_0(X / (c t)) in the plane,
- * of moment tensors its slope; so an error over what the load leaves at the distance r of, the sum over the faces
+ * has come t after the load. The image's field is that of a point, exp(-X / (c t)) / X in space, K_0(X / (c t)) in the
+ * plane, of moment tensors its slope; over what the load leaves at the distance r of, the sum over the faces
  *   force:  2 sum r exp(-x) / X,            K_0(x) / ln(1 + c t / r) in the plane,     x = X / (c t),
  *   moment: 2 sum r^2 exp(-x) (1 + x) / X^2,    r K_1(x) / (c t) in the plane;                            (18)
  * factors by measurement (regress/studies/rests). Near a layer of few points the stretched field of a moment tensor is
  * not resolved besides, m cells from it, n its points:
- *   B (4 / m)^2.7 (8 / n)^1.85, B = .02.                                                              (19) */
+ *   .02 (4 / m)^2.7 (8 / n)^1.85 (1 - exp(-(c t / 200 h)^1.5)).                                           (19)
+ * Where velocities in layers are damped against guided waves (11) the outer part does not move: .6 of the second part
+ * of X. */
 #include "scene/rests.h"
 
 #include "scene/absorbing_layers.h"
 
 #include <math.h>
 
-static const double in_space = 2, in_plane = 1, near_part = .02, near_power = 2.7, near_cells = 4;
+static const double in_space = 2, in_plane = 1, near_part = .02, near_cells = 4, dragged = .6;
 /* (9) */
 static const double relaxing = .1;
 
@@ -32,7 +34,8 @@ struct stay {
 static double to_face(const struct scene *scene, const struct stay *stay, int face)
 {
     const int axis = face / 2;
-    const double away = fabs(face_plane(&scene->body, (enum face)face) - stay->place[axis]) - stay->half[axis];
+    const double away =
+        fabs(face_plane(&scene->body, (enum face)face) - stay->place[axis]) - stay->half[axis];
     return fmax(away, layer_spacing(scene, face));
 }
 
@@ -42,7 +45,7 @@ static double of_face(const struct scene *scene, const struct stay *stay, int fa
     const double h = layer_spacing(scene, face), thick = points * h, away = to_face(scene, stay, face);
     const double speed = scene_fastest(scene), t = stay->since, gone = speed * t;
     const double stretch = log(1 / layer_profile_reflection((size_t)points)) * gone /
-                           (1 + relaxing * gone / thick);
+                           (1 + relaxing * gone / thick) * (layer_drag(scene, face) > 0 ? dragged : 1);
     const double image = 2 * (away + thick) + stretch, x = image / gone, fades = exp(-x);
     const double plane = sqrt(M_PI / (2 * x)) * fades; /* K_0(x), and K_1(x) but for 1 + 3 / (8 x) */
     if (scene->dimension == 3)
@@ -52,8 +55,10 @@ static double of_face(const struct scene *scene, const struct stay *stay, int fa
 
 static double near_face(const struct scene *scene, const struct stay *stay, int face, double points)
 {
-    const double cells = to_face(scene, stay, face) / layer_spacing(scene, face);
-    return stay->dipole ? near_part * pow(near_cells / cells, near_power) * pow(LAYER_POINTS / points, 1.85) : 0;
+    const double h = layer_spacing(scene, face), cells = to_face(scene, stay, face) / h;
+    const double grown = 1 - exp(-pow(scene_fastest(scene) * stay->since / (200 * h), 1.5));
+    return stay->dipole ? near_part * pow(near_cells / cells, 2.7) * pow(LAYER_POINTS / points, 1.85) * grown
+                        : 0;
 }
 
 /* With the layers as they are, or (points > 0) with so many points each. */
@@ -65,7 +70,9 @@ static double of_all(const struct scene *scene, const struct stay *stay, size_t 
         const size_t own = layer_points(scene, face);
         if (own == 0) continue;
         const double n = (double)(points > own ? points : own);
-        sum += factor * of_face(scene, stay, face, n, way) + near_face(scene, stay, face, n);
+        const double faces =
+            boundary_mirrors(&scene->boundary[face ^ 1]) ? 2 : 1; /* that of the mirror image */
+        sum += faces * (factor * of_face(scene, stay, face, n, way) + near_face(scene, stay, face, n));
     }
     return fmin(1, sum);
 }
