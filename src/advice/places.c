@@ -203,7 +203,7 @@ static bool passes(const struct scene *scene, const struct load *load, const dou
  * (regress/studies/passed-receivers). */
 void look_at_passed(struct adviser *adviser, size_t k)
 {
-    static const double jump = 1.4, kink = .27, seen = .03;
+    static const double jump = 1.5, kink = .27, seen = .03;
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
     const bool square = load->shape == LOAD_SQUARE && scene->dimension == 3;
@@ -218,7 +218,7 @@ void look_at_passed(struct adviser *adviser, size_t k)
         if (!passes(scene, load, scene->receiver[r].position)) continue;
         advise(adviser,
                "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, which may err by "
-               "about %.1g there, less only by the root of the spacing (displacements by %.1g); a receiver "
+               "about %.2g there, less only by the root of the spacing (displacements by %.1g); a receiver "
                "beside the path would do",
                k + 1, scene->receiver[r].name, error, kink * part);
         return;

@@ -6,8 +6,8 @@
  * d from the load to the layer, s = 1 / t (E. L. Post's inversion of the Laplace transform, its first member) for what
  * has come t after the load. The image's field is that of a point, exp(-X / (c t)) / X in space, K_0(X / (c t)) in the
  * plane, of moment tensors its slope; over what the load leaves at the distance r of, the sum over the faces
- *   force:  2 sum r exp(-x) / X,            K_0(x) / ln(1 + c t / r) in the plane,     x = X / (c t),
- *   moment: 2 sum r^2 exp(-x) (1 + x) / X^2,    r K_1(x) / (c t) in the plane;                            (18)
+ *   force:  2.5 sum r exp(-x) / X,            K_0(x) / ln(1 + c t / r) in the plane,     x = X / (c t),
+ *   moment: 2.5 sum r^2 exp(-x) (1 + x) / X^2,    r K_1(x) / (c t) in the plane;                            (18)
  * factors by measurement (regress/studies/rests). Near a layer of few points the stretched field of a moment tensor is
  * not resolved besides, m cells from it, n its points:
  *   .02 (4 / m)^2.7 (8 / n)^1.85 (1 - exp(-(c t / 200 h)^1.5)).                                           (19)
@@ -19,7 +19,7 @@
 
 #include <math.h>
 
-static const double in_space = 2, in_plane = 1, near_part = .02, near_cells = 4, dragged = .6;
+static const double in_space = 2.5, in_plane = 1, near_part = .02, near_cells = 4, dragged = .6;
 /* (9) */
 static const double relaxing = .1;
 

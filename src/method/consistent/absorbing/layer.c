@@ -39,7 +39,7 @@ void layers_describe(const struct consistent *c,
     struct rest rest;
     if (worst_rest(scene, &rest)) {
         snprintf(text, sizeof text,
-                 "displacements may err by %.1g of what load %zu leaves at receiver '%s' by the end",
+                 "displacements may err by %.2g of what load %zu leaves at receiver '%s' by the end",
                  rest.error, rest.load + 1, scene->receiver[rest.receiver].name);
         tell(context, "what stays", text);
     }
