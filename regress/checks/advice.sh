@@ -86,7 +86,7 @@ cat >rest.nml <<'END'
 END
 told "what stays, in the plane" "displacements and, as these go on growing, velocities may err by 0.2 of what is left at receiver 'b'"
 "$selas" check --echo rest.nml >said 2>&1
-if awk '/^echo b:/ { v = $3; u = $(NF - 3) } /^echo expected of what stays/ { said = $6 } # measured in a box of 88 x 44: .113 and .105
+if awk '/^echo b:/ { v = $3; u = $(NF - 3) } /^expected of what stays/ { said = $5 } # measured in a box of 88 x 44: .113 and .105
     END { exit !(v > .08 && v < .13 && u > .08 && u < .13 && said > u && said < 3 * u) }' said; then
     echo "ok - check --echo measures what stays: $(grep '^echo b' said)"
 else

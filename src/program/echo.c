@@ -226,7 +226,7 @@ static void tell_expected(const struct scene *scene)
     printf("echo expected: %.2e (at the worst of them, this spacing%s)\n", expected_at_worst(scene),
            ground_is_general(scene) ? "; a law of level ground, which this is not" : "");
     if (worst_rest(scene, &rest))
-        printf("echo expected of what stays: %.2e of the displacement at %s at the end\n", rest.error,
+        printf("expected of what stays: %.2e of the displacement at %s at the end\n", rest.error,
                scene->receiver[rest.receiver].name);
 }
 
