@@ -114,3 +114,27 @@ beside() { # beside DEPTH WORDS...: both operators
 }
 for depth in 0.612 0.652 0.7; do beside $depth; done
 beside 0.652 "layer(1)%material=rock" "layer(2)%material=soil" # slow below fast
+
+# The same below the flank of a hill, where the lattice is tilted: against half the spacing (general-ground.md, section 6).
+cat >"$out/flank.nml" <<'END'
+&scene dimension = 2, end_time = 5.47 /
+&stepping time_step = 0.0096 /
+&material name = 'rock', density = 1.2, p_speed = 1.894, s_speed = 1 /
+&material name = 'soil', density = 1, p_speed = 1.120, s_speed = 0.572 /
+&body material = 'rock', shape = 'half-space', spacing = 0.086 /
+&topography shape = 'gaussian', height = 0.448, width = 0.689, centre = -0.18 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 1.08, dip = 7.1, strike = 90 /
+&load kind = 'moment-tensor', centre = -0.6, depth = 1.6, moment = 0.98, 0.69, 0, -0.45, 0, 0, history = 'gaussian', width = 0.471, delay = 2.357 /
+&receiver name = 'a', position = 0, depth = 0 /
+&receiver name = 'b', position = -0.94, depth = 0 /
+&output plots = .false. /
+END
+"$build/selas" -q "$out/flank.nml" output%directory="$out/flank"
+"$build/selas" -q "$out/flank.nml" output%directory="$out/half" body%spacing=0.043
+for receiver in a b; do
+    for column in 5 6; do
+        off=$(far flank $receiver $column half $receiver $column)
+        check "a moment tensor beside an interface below a hill's flank: $receiver, column $column: $off from half the spacing, less than .02" less "$off" 0.02
+    done
+done

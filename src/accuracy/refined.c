@@ -18,9 +18,10 @@
  * scenes drawn by chance: it tells more than one scene's own trials do), and the least of those trials' own that is
  * let stand; error at so many points per wavelength of the slowest wave for a first guess; the first trial's spacing
  * over that, and of one trial over the next; how far below the last trial's the choice lies as a rule, and at most
- * where the next one would be too much; the most of a trial's error from which one may tell. */
+ * where the next one would be too much (no farther than the trial itself where its own power is below SURE_ORDER);
+ * the most of a trial's error from which one may tell. */
 static const double EVEN_ORDER = 4.8, ORDER = 3.2, LEAST_ORDER = 1.5, GUESS = .012, GUESS_POINTS = 6,
-                    COARSE = 2.83, FINER = 1.41421356, NEAR = 1.5, FAR = 2.5, CARRIED = .5;
+                    COARSE = 2.83, FINER = 1.41421356, SURE_ORDER = 2, NEAR = 1.5, FAR = 2.5, CARRIED = .5;
 enum { MOST_TRIALS = 16, TRIALS = 3 };
 
 static bool looks_like(const struct scene *scene)
@@ -307,7 +308,7 @@ static selas_status narrow(const struct scene *scene, double accuracy, const str
         *h = possible(scene, fmin(next.spacing * part, trials->spacing[0]));
         told =
             *h > 0 && trials->error < CARRIED && next.spacing <= FAR * *h && own_order(trials) >= LEAST_ORDER;
-        if (told && next.spacing <= NEAR * *h) return SELAS_OK;
+        if (told && next.spacing <= (own_order(trials) < SURE_ORDER ? 1 : NEAR) * *h) return SELAS_OK;
     }
     if (told) return SELAS_OK;
     return fail(

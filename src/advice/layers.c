@@ -10,8 +10,10 @@
 #include "scene/extent.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
+#include "scene/rests.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static double layers_error(size_t points, double cells_per_wavelength)
 {
@@ -101,60 +103,18 @@ void look_at_clearance(struct adviser *adviser)
     }
 }
 
-/* Does a load stay on, and are all waves gone from the receivers long before the end? */
-static bool rests(const struct scene *scene, const struct history *history, double way)
-{
-    enum { SAMPLES = 100 };
-    const double end = history_end(history);
-    double most = 0.0;
-    if (!(end + way / slowest_speed(scene) < scene->end_time)) return false;
-    for (int i = 1; i <= SAMPLES; i++)
-        most = fmax(most, fabs(history_value(history, end * i / SAMPLES, 0)));
-    return fabs(history_value(history, scene->end_time, 0)) > .05 * most;
-}
-
-static double nearest_layer(const struct scene *scene, const double place[3])
-{
-    double nearest = INFINITY;
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        if (layer_points(scene, face) > 0)
-            nearest = fmin(
-                nearest, fabs(face_plane(&scene->body, (enum face)face) - place[face_axis((enum face)face)]));
-    return nearest;
-}
-
-/* A layer gives way to what stays: at most .02 (r / d)^2 of it errs, with d from the source to the layer and r to
- * the receiver. Measured: 3-D, a patch on a half-space and a moment tensor below a soil of half the rock's moduli,
- * r / d .3 to 4, against the exact solutions (doc/theory/absorbing-faces.md, section 7). */
 void look_at_rests(struct adviser *adviser)
 {
-    static const double seen = .02, soft = .02;
     const struct scene *scene = adviser->scene;
-    double worst = 0.0, farthest = 0.0;
-    size_t load = 0, receiver = 0;
-    if (scene->dimension < 3 || scene->reference.kind[0] != '\0') return;
-    for (size_t k = 0; k < scene->loads; k++) {
-        const struct load *one = &scene->load[k];
-        const double *from = one->centre;
-        double place[3];
-        if (load_moves(one) || !(has_patch(one) || one->shape == LOAD_POINT)) continue;
-        body_from_deck(&scene->body, from, place);
-        const double away = fmax(nearest_layer(scene, place), scene->body.spacing);
-        for (size_t r = 0; isfinite(away) && r < scene->receivers; r++) {
-            const double *to = scene->receiver[r].position,
-                         way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-            if (way / away <= worst || !rests(scene, &one->history, way + 2.0 * away)) continue;
-            worst = way / away;
-            farthest = 1.5 * way;
-            load = k;
-            receiver = r;
-        }
-    }
-    if (soft * worst * worst < seen) return;
+    struct rest rest;
+    char right[48] = "body%low and body%high farther off";
+    if (scene->reference.kind[0] != '\0' || !worst_rest(scene, &rest) || rest.error < REST_SEEN) return;
+    const bool grows = scene->dimension == 2 && scene->load[rest.load].kind != LOAD_MOMENT_TENSOR;
+    if (rest.points > 0) snprintf(right, sizeof right, "boundary%%layer_points = %ld", rest.points);
     advise(
         adviser,
-        "load %zu stays on, and absorbing layers give way to what stays: when the waves are gone, "
-        "displacements may err by %.1g of what is left at receiver '%s' (velocities do not); body%%low and "
-        "body%%high %.2g from the load would be right",
-        load + 1, fmin(1.0, soft * worst * worst), scene->receiver[receiver].name, farthest);
+        "load %zu stays on, and absorbing layers give way to what stays: by the end displacements%s may err "
+        "by %.1g of what is left at receiver '%s'; %s would be right",
+        rest.load + 1, grows ? " and, as these go on growing, velocities" : "", rest.error,
+        scene->receiver[rest.receiver].name, right);
 }

@@ -199,27 +199,28 @@ static bool passes(const struct scene *scene, const struct load *load, const dou
     return first < last;
 }
 
-/* Measured: a square of four and eight points along an edge, smooth histories, against the exact half-space. */
+/* Errors of a receiver on the path or near it, (7b) of doc/theory/sources.md; factors by measurement
+ * (regress/studies/passed-receivers). */
 void look_at_passed(struct adviser *adviser, size_t k)
 {
-    static const double slow = 0.2;
+    static const double jump = 1.5, kink = .27, seen = .03;
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
+    const bool square = load->shape == LOAD_SQUARE && scene->dimension == 3;
     double speed = 0.0;
     for (int axis = 0; axis < 3; axis++)
         speed = hypot(speed, load->velocity[axis]);
-    if (load->kind != LOAD_TRACTION || !(speed > slow * slowest_speed(scene)) ||
-        scene->reference.kind[0] != '\0')
-        return;
-    for (size_t r = 0; r < scene->receivers; r++) {
+    if (!has_patch(load) || speed == 0.0 || scene->reference.kind[0] != '\0') return;
+    const double edge = square ? fmin(load->size[0], load->size[1]) : load->size[0],
+                 part = fmin(1.0, scene->body.spacing / edge),
+                 error = fmin(1.0, jump * speed / slowest_speed(scene) * sqrt(part));
+    for (size_t r = 0; r < scene->receivers && error >= seen; r++) {
         if (!passes(scene, load, scene->receiver[r].position)) continue;
-        advise(
-            adviser,
-            "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, of which some is "
-            "wrong at any spacing (at a quarter, half and .7 of the S waves' speed .03, .08 and .3 at four "
-            "points along an edge, .015 and .05 at eight); displacements, or a receiver beside the path, "
-            "would do",
-            k + 1, scene->receiver[r].name);
+        advise(adviser,
+               "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, which may err by "
+               "about %.2g there, less only by the root of the spacing (displacements by %.1g); a receiver "
+               "beside the path would do",
+               k + 1, scene->receiver[r].name, error, kink * part);
         return;
     }
 }

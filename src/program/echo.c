@@ -1,6 +1,7 @@
 /* `selas check --echo`: what the faces of the box send back, measured. The scene is run twice with coarse
- * points, in its own box and in one twice as large (doc/theory/absorbing-faces.md, section 7), and the velocities at
- * the receivers are compared. */
+ * points, in its own box and in one twice as large (doc/theory/absorbing-faces.md, section 7), and what the receivers
+ * record is compared: displacements and velocities. Where a load stays the points are the deck's: layers give way to it
+ * by their thickness. */
 #include "program/commands.h"
 
 #include "host/simulation.h"
@@ -10,6 +11,7 @@
 #include "scene/grading.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
+#include "scene/rests.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -20,7 +22,8 @@
 /* Spacing against the deck's, at most; points that a wave keeps, and the width of an initial state; points of
  * the larger box's layers. */
 static const double coarsest = 2, fewest = 4, initial_points = 2;
-enum { SURE_POINTS = 20 };
+enum { SURE_POINTS = 20, COMPONENTS = 3, CHANNELS = 2 * COMPONENTS };
+static const int recorded[] = {SELAS_DISPLACEMENT, SELAS_VELOCITY};
 
 /* Layers as they are with the deck's points, whatever the spacing. */
 static void keep_layers(struct scene *scene)
@@ -60,7 +63,7 @@ static void enlarge(struct scene *scene)
     topography_draw_out(scene);
 }
 
-/* Steps the scene to its end; *rows of velocities of all receivers, free() them. */
+/* Steps the scene to its end; *rows of displacements and velocities of all receivers, free() them. */
 static selas_status run(selas_simulation *simulation, double step, double **values, size_t *rows)
 {
     const size_t receivers = simulation->scene->receivers;
@@ -71,13 +74,13 @@ static selas_status run(selas_simulation *simulation, double step, double **valu
     selas_status status = selas_step(simulation, 0);
     if (status != SELAS_OK) return status;
     *rows = simulation->stepper->steps;
-    *values = calloc(*rows * receivers * 3 + 1, sizeof **values);
+    *values = calloc(*rows * receivers * CHANNELS + 1, sizeof **values);
     if (*values == NULL) return SELAS_NO_MEMORY;
     for (size_t i = 0; i < *rows && status == SELAS_OK; i++) {
         status = selas_step(simulation, 1);
-        for (size_t r = 0; r < receivers && status == SELAS_OK; r++)
-            status = selas_receiver(simulation, simulation->scene->receiver[r].name, SELAS_VELOCITY,
-                                    *values + (i * receivers + r) * 3);
+        for (size_t n = 0; n < 2 * receivers && status == SELAS_OK; n++)
+            status = selas_receiver(simulation, simulation->scene->receiver[n / 2].name, recorded[n % 2],
+                                    *values + (2 * i * receivers + n) * COMPONENTS);
     }
     return status;
 }
@@ -92,32 +95,60 @@ static double expected_at_worst(const struct scene *scene)
     return worst;
 }
 
-/* Sum of squares of a receiver's velocities, or of the differences of two runs (other not NULL). */
-static double squares(const double *values, const double *other, size_t rows, size_t receivers, size_t r)
+/* What one run records, or differences of two (other not NULL). */
+struct records {
+    const double *values, *other;
+    size_t rows, receivers;
+};
+
+/* Square of a receiver's vector `what`, 0 displacement, 1 velocity, in a row. */
+static double square(const struct records *records, size_t row, size_t r, int what)
 {
+    const size_t at = ((row * records->receivers + r) * 2 + (size_t)what) * COMPONENTS;
     double sum = 0;
-    for (size_t i = 0; i < rows; i++)
-        for (size_t c = 0; c < 3; c++) {
-            const size_t at = (i * receivers + r) * 3 + c;
-            sum += pow(values[at] - (other != NULL ? other[at] : 0), 2);
-        }
+    for (size_t c = at; c < at + COMPONENTS; c++)
+        sum += pow(records->values[c] - (records->other != NULL ? records->other[c] : 0), 2);
     return sum;
 }
 
-/* Relative to the velocity there, or to a hundredth of the largest where hardly anything has arrived. */
-static void tell(const struct scene *scene, const double *small, const double *large, size_t rows)
+static double squares(const struct records *records, size_t r, int what)
+{
+    double sum = 0;
+    for (size_t i = 0; i < records->rows; i++)
+        sum += square(records, i, r, what);
+    return sum;
+}
+
+/* Relative L2 difference of what is recorded there, over a hundredth of the largest where hardly anything arrives. */
+static double apart(const struct records *large, const struct records *off, size_t r, int what)
 {
     static const double hardly = 0.01;
-    const size_t receivers = scene->receivers;
     double largest = 0;
-    for (size_t r = 0; r < receivers; r++)
-        largest = fmax(largest, squares(large, NULL, rows, receivers, r));
-    for (size_t r = 0; r < receivers; r++) {
-        const double whole = fmax(squares(large, NULL, rows, receivers, r), hardly * hardly * largest);
-        const double off = squares(small, large, rows, receivers, r);
-        printf("echo %s: %.2e (of the velocity, L2, spacing %g)\n", scene->receiver[r].name,
-               whole > 0 ? sqrt(off / whole) : 0, scene->body.spacing);
-    }
+    for (size_t i = 0; i < large->receivers; i++)
+        largest = fmax(largest, squares(large, i, what));
+    const double whole = fmax(squares(large, r, what), hardly * hardly * largest);
+    return whole > 0 ? sqrt(squares(off, r, what) / whole) : 0;
+}
+
+/* Difference of the last displacements over the largest there. */
+static double left(const struct records *large, const struct records *off, size_t r)
+{
+    double largest = 0;
+    for (size_t i = 0; i < large->rows; i++)
+        largest = fmax(largest, square(large, i, r, 0));
+    return largest > 0 && large->rows > 0 ? sqrt(square(off, large->rows - 1, r, 0) / largest) : 0;
+}
+
+static void tell(const struct scene *scene, const double *small, const double *values, size_t rows)
+{
+    const struct records large = {values, NULL, rows, scene->receivers},
+                         off = {small, values, rows, scene->receivers};
+    for (size_t r = 0; r < scene->receivers; r++)
+        printf(
+            "echo %s: %.2e (of the velocity, L2, spacing %g); of the displacement %.2e, at the end %.2e of "
+            "the largest\n",
+            scene->receiver[r].name, apart(&large, &off, r, 1), scene->body.spacing,
+            apart(&large, &off, r, 0), left(&large, &off, r));
 }
 
 /* The deck, its splines not tuned: how far tuned ones reach hangs on the size of the box (consistent-splines.md,
@@ -145,6 +176,8 @@ static selas_status open_plain(const struct echo_deck *deck, selas_simulation **
 static double coarsening(const struct scene *scene)
 {
     double coarser = coarsest;
+    struct rest rest;
+    if (worst_rest(scene, &rest)) return 1;
     const double resolved = points_per_wavelength(scene) / fewest;
     if (resolved > 0) coarser = fmin(coarser, resolved);
     if (scene->initial.width > 0)
@@ -183,6 +216,20 @@ static selas_status common_step(const struct echo_deck *deck, selas_simulation *
     return status;
 }
 
+static void tell_expected(const struct scene *scene)
+{
+    struct rest rest;
+    if ((scene_needs(scene) & CAN_DAMP) != 0) {
+        printf("echo expected: not known (dampers)\n");
+        return;
+    }
+    printf("echo expected: %.2e (at the worst of them, this spacing%s)\n", expected_at_worst(scene),
+           ground_is_general(scene) ? "; a law of level ground, which this is not" : "");
+    if (worst_rest(scene, &rest))
+        printf("expected of what stays: %.2e of the displacement at %s at the end\n", rest.error,
+               scene->receiver[rest.receiver].name);
+}
+
 selas_status check_echo(const struct echo_deck *deck)
 {
     selas_simulation *one = NULL, *other = NULL;
@@ -199,12 +246,7 @@ selas_status check_echo(const struct echo_deck *deck)
     if (status == SELAS_OK) status = run(other, step, &large, &rows);
     if (status == SELAS_OK) {
         tell(one->scene, small, large, rows);
-        if ((scene_needs(one->scene) & CAN_DAMP) != 0)
-            printf("echo expected: not known (dampers)\n");
-        else
-            printf("echo expected: %.2e (at the worst of them, this spacing%s)\n",
-                   expected_at_worst(one->scene),
-                   ground_is_general(one->scene) ? "; a law of level ground, which this is not" : "");
+        tell_expected(one->scene);
     } else {
         fputs(selas_message(other != NULL ? other : one), stderr);
     }

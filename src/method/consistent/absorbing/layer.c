@@ -4,6 +4,7 @@
 #include "scene/echo.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
+#include "scene/rests.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -34,6 +35,13 @@ void layers_describe(const struct consistent *c,
                  100 * fmin(1, expected), ground_is_general(scene) ? " if the ground were level" : "",
                  layer_drag(scene, face) > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
+    }
+    struct rest rest;
+    if (worst_rest(scene, &rest)) {
+        snprintf(text, sizeof text,
+                 "displacements may err by %.2g of what load %zu leaves at receiver '%s' by the end",
+                 rest.error, rest.load + 1, scene->receiver[rest.receiver].name);
+        tell(context, "what stays", text);
     }
     if (c->pml == NULL || c->part.ranks != NULL) return;
     size_t variables = 0;

@@ -22,12 +22,14 @@ static double spacing_of(const struct spline *spline)
     return (spline->high - spline->low) / (double)spline->cells;
 }
 
-/* The direction in which log M rises about the source. False: in none, or across a symmetry plane nearby. */
+/* The direction in which log M rises about the source, from slopes along the lattice; the axis across is that of the
+ * steepest of these. False: in none, or across a symmetry plane nearby. */
 static bool find_normal(struct glut *g)
 {
     enum { REACH = 6, FINE = 3 }; /* spacings; places in one */
     static const double slight = 1e-9;
     const struct consistent *c = g->c;
+    const struct metric metric = consistent_metric(c, g->centre);
     const int far = REACH * FINE, beside = c->dimension == 2 ? 0 : far;
     double rise[3] = {0};
     for (int k = -far; k <= far; k++)
@@ -46,9 +48,13 @@ static bool find_normal(struct glut *g)
     const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
     for (int axis = 0; axis < c->dimension; axis++)
         if (fabs(rise[c->slot[axis]]) >= fabs(rise[c->slot[g->across]])) g->across = axis;
-    for (int slot = 0; slot < 3; slot++)
-        g->normal[slot] = length > slight ? rise[slot] / length : 0;
     const struct spline *spline = c->spline[g->across];
+    for (int axis = 0; axis < c->dimension; axis++) /* rises a cell */
+        rise[c->slot[axis]] *= spacing_of(spline) / spacing_of(c->spline[axis]);
+    metric_tilt(&metric, rise);
+    const double steepest = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+    for (int slot = 0; slot < 3; slot++)
+        g->normal[slot] = steepest > 0 ? rise[slot] / steepest : 0;
     const double near = 2 * REACH * spacing_of(spline), at = g->centre[g->across];
     return length > slight && !(spline->mirror[0] && at - spline->low < near) &&
            !(spline->mirror[1] && spline->high - at < near);

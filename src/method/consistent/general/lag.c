@@ -157,7 +157,9 @@ void general_find_lag(struct glut *glut)
                                   .knots = (size_t)(to - from) + 1,
                                   .here = centre - from,
                                   .end = {from == 0, to == cells}};
-    const double along_normal = glut->normal[glut->c->slot[glut->across]];
+    const int slot = glut->c->slot[glut->across];
+    const double cell = slot == DEPTH ? 1 / consistent_metric(glut->c, glut->centre).inverse : 1;
+    const double along_normal = cell * glut->normal[slot]; /* of true lengths */
     double soft[MOST_FINE] = {0}, along[ALONGS][MOST_FINE] = {{0}};
     sample(glut, &column, soft, along);
     glut->lag = find_lag(glut, &column, soft) * along_normal;
