@@ -44,7 +44,8 @@ static double cutoff_ahead(const struct scene *scene, double speed)
         const double own =
             sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
         const double cutoff = history_cutoff(&scene->load[k].history, SOURCE_COUNTS);
-        if (own < .92 * speed && scene->load[k].amplitude != 0) omega = fmax(omega, cutoff / (1 - own / speed));
+        if (own < .92 * speed && scene->load[k].amplitude != 0)
+            omega = fmax(omega, cutoff / (1 - own / speed));
     }
     return omega;
 }

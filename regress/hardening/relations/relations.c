@@ -572,7 +572,12 @@ struct relation {
 enum { UNITS };
 static const struct relation relations[] = {
     {"units", {{0, 1, 2}, {1, 1, 1}, 8, 4, 64, 1, "", false, {0, 0, 0}}, 1, false, false, true},
-    {"other units", {{0, 1, 2}, {1, 1, 1}, 1 / .3048, 1 / 47.88, 1 / 515.4, 1, "", false, {0, 0, 0}}, 1, false, false, true},
+    {"other units",
+     {{0, 1, 2}, {1, 1, 1}, 1 / .3048, 1 / 47.88, 1 / 515.4, 1, "", false, {0, 0, 0}},
+     1,
+     false,
+     false,
+     true},
     {"quiet", {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", quiet = 0", false, {0, 0, 0}}, 1, false, false, true},
     {"symmetry",
      {{0, 1, 2}, {1, 1, 1}, 1, 1, 1, 1, ", symmetry = .false.", false, {0, 0, 0}},
