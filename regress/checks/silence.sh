@@ -217,7 +217,7 @@ cat >nothing.nml <<'END'
 &body material = 'rock', low = 0, 0, high = 4, 3, spacing = 0.25 /
 &block material = 'soft', centre = 2, 2, size = 1, 1 /
 &topography shape = 'gaussian', height = 0.1, centre = 1, width = 0.7 /
-&load kind = 'body-force', shape = 'point', centre = 2, 1, direction = 0, 1, history = 'gaussian', width = 0.5, delay = 2 /
+&load kind = 'body-force', shape = 'point', centre = 2, 1, direction = 0, 1, history = 'gaussian', width = 0.6, delay = 3 /
 &receiver name = 'r', position = 3, 1 /
 END
 untold "hill, block and load in their places" check nothing.nml
