@@ -63,7 +63,7 @@ ALONE    = env -u MFLAGS -u MAKELEVEL MAKEFLAGS='$(filter -j%,$(MAKEFLAGS))'
 help-checks: ## this list
 	$(call listed,regress/rules.mk)
 
-unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD)/test/relations fuzz-replay ## run all tests without the set-up
+unit: all $(TESTS) $(BUILD)/examples/selas $(BUILD)/examples/test_kernel $(BUILD)/test/relations $(BUILD)/test/decks fuzz-replay ## run all tests without the set-up
 	@$(ALONE) sh regress/run-tests $(BUILD)
 
 .PHONY: test-mpi cases-mpi

@@ -209,4 +209,28 @@ cat >moment.nml <<'END'
 END
 told "a moment tensor on total-Lagrangian points" "moment tensors on total-Lagrangian points were .* 'consistent', would be right" check moment.nml
 untold "a moment tensor on splines" check moment.nml method%name=smoothed-point method%gradient=
+# --- What does nothing ---
+cat >nothing.nml <<'END'
+&scene dimension = 2, end_time = 2.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&material name = 'soft', density = 1.0, lambda = 0.5, mu = 0.5 /
+&body material = 'rock', low = 0, 0, high = 4, 3, spacing = 0.25 /
+&block material = 'soft', centre = 2, 2, size = 1, 1 /
+&topography shape = 'gaussian', height = 0.1, centre = 1, width = 0.7 /
+&load kind = 'body-force', shape = 'point', centre = 2, 1, direction = 0, 1, history = 'gaussian', width = 0.6, delay = 3 /
+&receiver name = 'r', position = 3, 1 /
+END
+untold "hill, block and load in their places" check nothing.nml
+told "a load of amplitude 0 alone" "nothing acts" check nothing.nml load%amplitude=0
+told "a load that begins behind the end" "begins at t = 3 and the run ends at 2: it does nothing" check nothing.nml load%start=3
+told "a block beside the body" "&block 1 lies outside the body: along x" check nothing.nml block%centre=9,2
+told "a hill between two points" "width = 0.01 is less than the spacing" check nothing.nml topography%width=.01
+grep -v '&load' nothing.nml >outside.nml
+echo "&initial kind = 'gaussian', centre = 9, 1, width = 0.5, amplitude = 1, direction = 1, 0 /" >>outside.nml
+told "a state at t = 0 beside the body" "lies outside the body, 10 widths beyond face x\\+" check outside.nml
+grep -v -e '&topography' -e '&block' -e soft nothing.nml >thick.nml
+echo "&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'pml', layer_points = 1000, always = .true. /" >>thick.nml
+untold "absorbing layers of a thousand points" thick.nml scene%end_time=0.2 output%plots=F
+"$selas" nothing.nml scene%end_time=1e-12 output%plots=F >said 2>&1
+verdict "a run much shorter than a step" $?
 exit $failures

@@ -345,9 +345,40 @@ static void test_refusals(void **state)
     from_deck_free(&sides);
 }
 
+/* The same grading in other units of length, with layers where pieces of the column end but for rounding. */
+static void test_units(void **state)
+{
+    (void)state;
+    static const double units[] = {1, .3048, 3, 1e3, 1. / 7};
+    for (int half = 6; half < 26; half++) {
+        double from = 0, largest = 0;
+        for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
+            const double h = .3 * units[k];
+            char text[900];
+            snprintf(text, sizeof text,
+                     "&scene dimension = 2, end_time = 1 /\n&method operator = 'general' /\n" ROCKS
+                     "&body low = 0, 0, high = %.17g, %.17g, spacing = %.17g, grading = 3 /\n"
+                     "&layer material = 'soil', top = 0 /\n&layer material = 'rock', top = %.17g /\n"
+                     "&load face = 'y-', shape = 'face', direction = 0, 1, history = 'triangle', duration = 1 /\n",
+                     9 * h, 36 * h, h, half * h / 2);
+            struct from_deck made = right_scene(text);
+            const struct grading *grading = made.scene->body.grading;
+            assert_non_null(grading);
+            if (k == 0) {
+                from = grading->from;
+                largest = grading->largest;
+            }
+            assert_near(grading->from, from * units[k], 1e-9 * from * units[k]);
+            assert_near(grading->largest, largest * units[k], 1e-9 * largest * units[k]);
+            from_deck_free(&made);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_units),
         cmocka_unit_test(test_map),
         cmocka_unit_test(test_rigid_motions),
         cmocka_unit_test(test_ground),

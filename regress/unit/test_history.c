@@ -281,6 +281,19 @@ static void tables_are_read_or_refused(void **state)
     messages_free(&messages);
 }
 
+/* A jump at the start has its middle there, for a step of time that is on it but for rounding, too. */
+static void test_start_but_for_rounding(void **state)
+{
+    (void)state;
+    const struct history step = {.kind = HISTORY_STEP, .start = .3};
+    assert_true(3 * .1 > .3);
+    assert_true(history_value(&step, 3 * .1, 0) == .5);
+    assert_true(history_value(&step, .3, 0) == .5);
+    assert_true(history_value(&step, nextafter(.3, 0), 0) == .5);
+    assert_true(history_value(&step, .3 + 1e-9, 0) == 1);
+    assert_true(history_value(&step, .3 - 1e-9, 0) == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -292,6 +305,7 @@ int main(void)
         cmocka_unit_test(both_sides_are_averaged),
         cmocka_unit_test(cutoff_bounds_the_spectrum),
         cmocka_unit_test(complex_error_function),
+        cmocka_unit_test(test_start_but_for_rounding),
         cmocka_unit_test(tables_are_read_or_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -211,6 +211,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_incompressible(&adviser);
     look_at_moments(&adviser);
     look_at_step(&adviser, stepper);
+    look_at_nothing(&adviser);
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
     if (!body_is_box(&scene->body)) return adviser.count;
     look_at_meetings(&adviser);

@@ -24,6 +24,8 @@ bool has_patch(const struct load *load);
 /* Half its extent along an axis; 0 across its face. */
 double half_size(const struct load *load, int axis);
 
+/* What does nothing (nothing.c). */
+void look_at_nothing(struct adviser *adviser);
 /* Short waves in the state at t = 0, faces that cut it, a velocity that jumps at them. */
 void look_at_short_waves(struct adviser *adviser, const struct model *model);
 void look_at_cut_start(struct adviser *adviser);

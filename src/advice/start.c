@@ -203,6 +203,11 @@ void look_at_cut_start(struct adviser *adviser)
     if (scene->initial.kind != INITIAL_GAUSSIAN) return;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const double away = distance(scene, face);
+        if (away < -1e-9 * width) {
+            advise(adviser, "the initial state lies outside the body, %.2g widths beyond face %s",
+                   -away / width, face_name((enum face)face));
+            return;
+        }
         const char *cut = away <= reach * width ? cut_by(scene, face) : NULL;
         if (cut == NULL) continue;
         advise(adviser,

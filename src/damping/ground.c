@@ -27,10 +27,11 @@ static double source_power(const void *data, double angular_frequency)
         const struct history *history = &scene->load[i].history;
         const bool moment = scene->load[i].kind == LOAD_MOMENT_TENSOR;
         const double own = moment && history->rate > 0 ? history->rate : 1;
-        sum += power_of(history, angular_frequency, moment ? 2 : 1) / (own * own);
+        if (scene->load[i].amplitude != 0)
+            sum += power_of(history, angular_frequency, moment ? 2 : 1) / (own * own);
     }
     for (size_t face = 0; face < FACES; face++)
-        if (boundary_moves(&scene->boundary[face]))
+        if (boundary_acts(&scene->boundary[face]))
             sum += power_of(&scene->boundary[face].history, angular_frequency, 1);
     return sum;
 }

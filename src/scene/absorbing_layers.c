@@ -6,6 +6,7 @@
 #include "scene/echo.h"
 #include "scene/grading.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@
 static const double decay_per_point = .78, measured_part = 2;
 double layer_profile_reflection(size_t points)
 {
-    return exp(-decay_per_point * (double)points);
+    return exp(fmax(-decay_per_point * (double)points, log(DBL_MIN)));
 }
 
 double layer_expected_reflection(size_t points)

@@ -65,6 +65,11 @@ static inline bool boundary_moves(const struct boundary *boundary)
 {
     return boundary_meaning(boundary)->motion != NO_MOTION;
 }
+/* The same, but not by nothing: a face of amplitude 0 is a support. */
+static inline bool boundary_acts(const struct boundary *boundary)
+{
+    return boundary_moves(boundary) && boundary->amplitude != 0;
+}
 /* Neither held nor with forces of its own. */
 static inline bool boundary_is_free(const struct boundary *boundary)
 {

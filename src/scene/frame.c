@@ -163,11 +163,18 @@ bool body_holds(const struct body *body, int dimension, const double position[3]
     return inside;
 }
 
+double body_rounding(const struct scene *scene)
+{
+    const int axis = scene->dimension - 1;
+    return 1e-14 * (fabs(scene->body.low[axis]) + fabs(scene->body.high[axis]));
+}
+
 const struct material *scene_material_at(const struct scene *scene, double depth)
 {
     const struct body *body = &scene->body;
+    const double at = depth + body_rounding(scene);
     size_t material = body->material;
-    for (size_t i = 0; i < body->layers && body->layer[i].top <= depth; i++)
+    for (size_t i = 0; i < body->layers && body->layer[i].top <= at; i++)
         material = body->layer[i].material;
     return &scene->material[material];
 }

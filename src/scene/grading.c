@@ -74,18 +74,20 @@ struct slowest {
     double step, *speed; /* [count] the slowest there and below */
 };
 
-/* The slowest in a piece of a column, on either side of where the rock jumps too. */
+/* The slowest in a piece of a column, on either side of where the rock jumps too. Jumps stand where pieces end, and
+ * these are known but for rounding: what lies within `near` of the ends is that of the piece beyond. */
 static double slowest_in(const struct scene *scene, double place[3], double from, double to, double *jump)
 {
     const int axis = scene->dimension - 1;
-    const size_t count = ground_jumps(scene, place, axis, from, to, jump);
+    const double near = small * (to - from);
+    const size_t count = ground_jumps(scene, place, axis, from + near, to - near, jump);
     double slowest = INFINITY, speed[2];
     for (size_t n = 0; n < 2 * count + 3; n++) {
-        const double side = n % 2 == 0 ? -small : small;
-        place[axis] = n < 2 * count    ? jump[n / 2] + side * (to - from)
-                      : n == 2 * count ? from
+        const double side = n % 2 == 0 ? -near : near;
+        place[axis] = n < 2 * count    ? jump[n / 2] + side
+                      : n == 2 * count ? from + near
                       : n % 2 == 1     ? (from + to) / 2
-                                       : to - small * (to - from);
+                                       : to - near;
         ground_speeds_at(scene, place, speed);
         slowest = fmin(slowest, speed[1]);
     }
@@ -118,10 +120,10 @@ static bool find_slowest(const struct scene *scene, struct slowest *found)
     return found->speed != NULL && jump != NULL;
 }
 
-/* How much longer the slowest waves are at and below a depth. */
+/* How much longer the slowest waves are at and below a depth; where a piece begins, but for rounding, from there on. */
 static double longer_at(const struct slowest *slowest, double depth)
 {
-    const double at = depth / slowest->step;
+    const double at = depth / slowest->step + small;
     const size_t k = at > 0 ? (size_t)at : 0;
     return slowest->speed[k < slowest->count ? k : slowest->count - 1] / slowest->speed[0];
 }

@@ -77,7 +77,7 @@ static struct found find(const struct scene *scene, const double place[3])
 {
     const struct body *body = &scene->body;
     const double depth = fmax(0, depth_of(scene, place));
-    const size_t layer = layer_at(body, place, depth);
+    const size_t layer = layer_at(body, place, depth + body_rounding(scene));
     struct found found = {.material = layer < body->layers ? body->layer[layer].material : body->material};
     bool in_block = false;
     for (size_t i = 0; i < body->blocks; i++)

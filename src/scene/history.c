@@ -272,6 +272,8 @@ static double panel(const struct window *window, double from, double to)
 double history_value(const struct history *history, double t, int derivative)
 {
     t -= history->start;
+    if (fabs(t) <= 1e-14 * history->start)
+        t = 0; /* a step of time on the start but for rounding: the jump's middle */
     if (history->smoothing <= 0) return history_plain_value(history, t, derivative);
     if (t <= 0) return 0;
     const double h = .25 * history->smoothing, scale = history_plain_scale(history);

@@ -12,9 +12,10 @@ double source_cutoff_at(const struct scene *scene, double counts)
     double omega = 0.0;
     if (scene_driven(scene)) return INFINITY;
     for (size_t k = 0; k < scene->loads; k++)
-        omega = fmax(omega, history_cutoff(&scene->load[k].history, counts));
+        if (scene->load[k].amplitude != 0)
+            omega = fmax(omega, history_cutoff(&scene->load[k].history, counts));
     for (size_t face = 0; face < FACES; face++)
-        if (boundary_moves(&scene->boundary[face]))
+        if (boundary_acts(&scene->boundary[face]))
             omega = fmax(omega, history_cutoff(&scene->boundary[face].history, counts));
     return omega;
 }
@@ -43,7 +44,8 @@ static double cutoff_ahead(const struct scene *scene, double speed)
         const double own =
             sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
         const double cutoff = history_cutoff(&scene->load[k].history, SOURCE_COUNTS);
-        if (own < .92 * speed) omega = fmax(omega, cutoff / (1 - own / speed));
+        if (own < .92 * speed && scene->load[k].amplitude != 0)
+            omega = fmax(omega, cutoff / (1 - own / speed));
     }
     return omega;
 }

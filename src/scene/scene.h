@@ -345,6 +345,8 @@ double scene_carries(const struct scene *scene, const double place[3]);
 /* materials.c. From density, lambda and mu: Young, Poisson, and what enters the equations of a plane or a thin
  * bar (doc/reference/scene.md, Eqs S4-S10). */
 void material_complete(const struct scene *scene, struct material *material);
+/* What rounding may make of a place of the last axis: a layer begins where its top lies within it. */
+double body_rounding(const struct scene *scene);
 /* Material at a depth below the z- face of the body (the body's own material if it has no layers). */
 const struct material *scene_material_at(const struct scene *scene, double depth);
 /* Material of point `index`: the one a host gave it, else by depth. */

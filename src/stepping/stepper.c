@@ -77,7 +77,7 @@ static selas_status choose_step(struct stepper *stepper, struct messages *messag
     const double limit = stepper->limit;
     if (!(stepper->dt > 0.0) && isfinite(limit) && limit > 0.0) {
         /* whole steps to end_time, so that the last row is end_time itself */
-        stepper->dt = scene->end_time / ceil(scene->end_time / (choice->safety * limit) - 1e-9);
+        stepper->dt = scene->end_time / fmax(1, ceil(scene->end_time / (choice->safety * limit) - 1e-9));
         snprintf(stepper->dt_reason, sizeof stepper->dt_reason,
                  "%g of the limit %.6g (largest frequency %.6g +- %.1g %%, damping rate %.6g)",
                  choice->safety, limit, stepper->spectrum.omega, 100.0 * stepper->frequency_error,

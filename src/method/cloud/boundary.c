@@ -6,6 +6,7 @@
 #include "method/cloud/cloud.h"
 
 #include "base/memory.h"
+#include "points/disc.h"
 
 #include <math.h>
 #include <string.h>
@@ -50,31 +51,22 @@ static double shared(double a, double b, double low, double high)
     return fmax(0, fmin(b, high) - fmax(a, low));
 }
 
-/* Area and first moments of the part of a square or disc that lies on the face, by `cuts` pieces an axis. */
+/* Area and first moments, in spacings, of the part of a square or disc that lies on the face. */
 static void patch_moments(const struct body *body, const struct load *load, const double centre[3],
                           const int *axis, int axes, double spacing, double moment[3])
 {
-    enum { CUTS = 400 };
-    memset(moment, 0, sizeof(double[3]));
-    double from[2] = {0};
-    double length[2] = {1, 1};
+    double low[2] = {0}, high[2] = {1, 1};
     for (int a = 0; a < axes; a++) {
-        const double half = 0.5 * (load->shape == LOAD_DISC ? load->size[0] : load->size[a]);
-        from[a] = fmax(centre[axis[a]] - half, body->low[axis[a]]) - centre[axis[a]];
-        length[a] =
-            shared(centre[axis[a]] - half, centre[axis[a]] + half, body->low[axis[a]], body->high[axis[a]]);
+        const double half = 0.5 * load->size[load->shape == LOAD_DISC ? 0 : a];
+        low[a] = fmax(-half, body->low[axis[a]] - centre[axis[a]]);
+        high[a] = fmax(low[a], fmin(half, body->high[axis[a]] - centre[axis[a]]));
     }
-    const int cuts[2] = {CUTS, axes > 1 ? CUTS : 1};
-    for (int p = 0; p < cuts[0]; p++)
-        for (int q = 0; q < cuts[1]; q++) {
-            const double x = from[0] + length[0] * (p + 0.5) / cuts[0];
-            const double y = axes > 1 ? from[1] + length[1] * (q + 0.5) / cuts[1] : 0;
-            const double area = length[0] * length[1] / cuts[0] / cuts[1];
-            if (load->shape == LOAD_DISC && x * x + y * y > 0.25 * load->size[0] * load->size[0]) continue;
-            moment[0] += area;
-            moment[1] += area * x / spacing;
-            moment[2] += area * y / spacing;
-        }
+    moment[0] = (high[0] - low[0]) * (high[1] - low[1]);
+    moment[1] = moment[0] * (low[0] + high[0]) / 2;
+    moment[2] = axes > 1 ? moment[0] * (low[1] + high[1]) / 2 : 0;
+    if (load->shape == LOAD_DISC && axes > 1) disc_and_rectangle(low, high, 0.5 * load->size[0], moment);
+    moment[1] /= spacing;
+    moment[2] /= spacing;
 }
 
 /* Points of the face with the parts of their cells that the patch covers. A cell is taken as the square of

@@ -7,6 +7,7 @@
  * patch), and the shares are scaled so that the patch carries exactly its area. */
 #include "base/memory.h"
 #include "method/paper/paper.h"
+#include "points/disc.h"
 
 #include <math.h>
 
@@ -53,22 +54,16 @@ static double rectangle_area(const struct rectangle *rectangle)
     return area;
 }
 
-/* Area of a rectangle within a disc: chords integrated over the angle whose sine is the place across them
- * (midpoint rule, exact for the whole disc); on the line that is a face in 2D, the length within. */
+/* Area of a rectangle within a disc; on the line that is a face in 2D, the length within. */
 static double area_in_disc(const struct rectangle *part, const double centre[2], double radius)
 {
-    enum { STRIPS = 400 };
     if (part->axes == 0) return 1;
     if (part->axes == 1) return overlap(part->low[0], part->high[0], centre[0] - radius, centre[0] + radius);
-    const double from = asin(fmax(-1, fmin(1, (part->low[0] - centre[0]) / radius)));
-    const double to = asin(fmax(-1, fmin(1, (part->high[0] - centre[0]) / radius)));
-    double area = 0;
-    for (int k = 0; k < STRIPS; k++) {
-        const double half = radius * cos(from + (to - from) * (k + .5) / STRIPS);
-        area += half * (to - from) / STRIPS *
-                overlap(part->low[1], part->high[1], centre[1] - half, centre[1] + half);
-    }
-    return area;
+    const double low[2] = {part->low[0] - centre[0], part->low[1] - centre[1]};
+    const double high[2] = {part->high[0] - centre[0], part->high[1] - centre[1]};
+    double moment[3];
+    disc_and_rectangle(low, high, radius, moment);
+    return moment[0];
 }
 
 /* Where a load acts at a time: its patch on the face, and the centre for a disc. A point force is a patch of

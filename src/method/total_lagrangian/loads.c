@@ -9,6 +9,7 @@
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include "base/memory.h"
+#include "points/disc.h"
 #include "points/least_squares.h"
 
 #include <math.h>
@@ -72,29 +73,19 @@ static double overlap(double a, double half, double b, double wide)
 static double covered(const struct load *load, int axis, const double place[3], const double width[3],
                       const double centre[3], int dimension)
 {
-    enum { CUTS = 16 };
     if (load->shape == LOAD_FACE || dimension == 1) return 1;
-    if (load->shape == LOAD_SQUARE) {
-        double part = 1;
-        for (int c = 0, edge = 0; c < dimension && edge < 2; c++) {
-            if (c == axis) continue;
-            part *= overlap(place[c], 0.5 * width[c], centre[c], 0.5 * load->size[edge++]) / width[c];
-        }
-        return part;
+    double part = 1, low[2] = {0}, high[2] = {0}, moment[3];
+    for (int c = 0, edge = 0; c < dimension && edge < 2; c++) {
+        if (c == axis) continue;
+        const double size = load->size[load->shape == LOAD_DISC ? 0 : edge];
+        low[edge] = place[c] - centre[c] - width[c] / 2;
+        high[edge] = place[c] - centre[c] + width[c] / 2;
+        part *= overlap(place[c], 0.5 * width[c], centre[c], 0.5 * size) / width[c];
+        edge++;
     }
-    int inside = 0;
-    for (int i = 0; i < CUTS; i++)
-        for (int j = 0; j < CUTS; j++) {
-            const double cut[2] = {(i + 0.5) / CUTS - 0.5, (j + 0.5) / CUTS - 0.5};
-            double square = 0;
-            for (int c = 0, k = 0; c < dimension && k < 2; c++) {
-                if (c == axis) continue;
-                const double away = place[c] + cut[k++] * width[c] - centre[c];
-                square += away * away;
-            }
-            inside += square <= 0.25 * load->size[0] * load->size[0];
-        }
-    return inside / (double)(CUTS * CUTS);
+    if (load->shape == LOAD_SQUARE || dimension == 2 || part <= 0) return part;
+    disc_and_rectangle(low, high, load->size[0] / 2, moment);
+    return moment[0] / ((high[0] - low[0]) * (high[1] - low[1]));
 }
 
 struct gather {

@@ -23,18 +23,20 @@
 #include <math.h>
 #include <string.h>
 
+/* Its rim too, but for rounding. */
 static bool on_patch(const struct load *load, enum face face, const double *place)
 {
     const int normal = face_axis(face);
+    const double rim = 1 + 1e-9;
     double square = 0;
     for (int a = 0, edge = 0; a < 3; a++) {
         if (a == normal) continue;
         const double offset = place[a] - load->centre[a];
-        if (load->shape == LOAD_SQUARE && fabs(offset) > load->size[edge] / 2) return false;
+        if (load->shape == LOAD_SQUARE && fabs(offset) > rim * load->size[edge] / 2) return false;
         square += offset * offset;
         edge++;
     }
-    return load->shape != LOAD_DISC || square <= load->size[0] * load->size[0] / 4;
+    return load->shape != LOAD_DISC || square <= rim * load->size[0] * load->size[0] / 4;
 }
 
 /* Loads that press on `face` at the place of a particle (body frame). */
