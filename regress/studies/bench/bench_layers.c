@@ -1,6 +1,6 @@
 /* What absorbing layers take of a step: boxes with layers of N points behind five faces and, as many control values along
- * each axis, without; even, layered and general ground in both precisions, in turn, all of which moves; CPU time of one
- * thread. Usage: bench_layers [N [ROUNDS [NX NY NZ]]]. The figures are the least of all rounds: a step by control value;
+ * each axis, without; even, layered and general ground in both precisions and the exact mass, in turn, all of which
+ * moves; CPU time of one thread. Usage: bench_layers [N [ROUNDS [NX NY NZ]]]. The figures are the least of all rounds: a step by control value;
  * what a control value in layers costs, and what one of a slab adds (edges lie in two slabs, corners in three), in ns and
  * in times a plain one; the layers' part alone, by control value of the slabs. */
 #include "marched.h"
@@ -33,7 +33,7 @@ static void open_side(struct side *side, int points, const int cells[3])
         const int more = box == 0 ? 0 : points;
         snprintf(text, sizeof text,
                  "&scene dimension = 3, end_time = 1.0 /\n"
-                 "&method degree = 2, mass = 'vc3', quiet = 0, symmetry = F, %s /\n"
+                 "&method quiet = 0, symmetry = F, %s /\n"
                  "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 /\n%s"
                  "&body material = 'rock', shape = 'box', low = 3*0.0, high = %d.0, %d.0, %d.0, spacing = 1.0 "
                  "/\n%s",
@@ -55,7 +55,7 @@ static void time_side(struct side *side)
         side->step[box] = fmin(side->step[box], now() - start);
     }
     const struct consistent *c = of_box(side, 0);
-    if (c->options.general || c->options.single) return;
+    if (c->pml == NULL || c->pml->fast == NULL || c->options.single) return;
     double *u = side->marched[0].state.y, *v = u + c->model.unknowns, start = now();
     pml_fast_remember_double(c, .1, -.05, 0, u, v, v + c->model.unknowns);
     side->memory = fmin(side->memory, now() - start);
@@ -94,15 +94,18 @@ static void print_side(const struct side *side, int points)
 int main(int count, char **word)
 {
 #define SOIL "&material name = 'soil', density = .9, p_speed = 1.2, s_speed = .6 /\n"
+#define SWEEPS "degree = 2, mass = 'vc3', "
 #define LAYERED SOIL "&layer material = 'soil', top = 0.0 /\n&layer material = 'rock', top = 8.0 /\n"
 #define BLOCK SOIL "&block material = 'soil', centre = 3*9.0, size = 3*9.0 /\n"
     static struct side side[] = {
         {.what = "even | double", .ground = "", .method = "precision = 'double'"},
         {.what = "even | single", .ground = "", .method = "precision = 'single'"},
-        {.what = "layered | double", .ground = LAYERED, .method = "precision = 'double'"},
-        {.what = "layered | single", .ground = LAYERED, .method = "precision = 'single'"},
+        {.what = "layered | double", .ground = LAYERED, .method = SWEEPS "precision = 'double'"},
+        {.what = "layered | single", .ground = LAYERED, .method = SWEEPS "precision = 'single'"},
         {.what = "general | double", .ground = BLOCK, .method = "precision = 'double'"},
         {.what = "general | single", .ground = BLOCK, .method = "precision = 'single'"},
+        {.what = "exact mass, degree 2 | double", .ground = "", .method = "mass = 'exact'"},
+        {.what = "exact mass, degree 4 | double", .ground = "", .method = "degree = 4, mass = 'exact'"},
     };
     enum { SIDES = sizeof side / sizeof side[0] };
     const int points = count > 1 ? atoi(word[1]) : 15, rounds = count > 2 ? atoi(word[2]) : 20;
