@@ -1,8 +1,8 @@
-/* What absorbing layers take of a step: boxes with layers of N points behind five faces and, as many control values along
- * each axis, without; even, layered and general ground in both precisions and the exact mass, in turn, all of which
- * moves; CPU time of one thread. Usage: bench_layers [N [ROUNDS [NX NY NZ]]]. The figures are the least of all rounds: a step by control value;
- * what a control value in layers costs, and what one of a slab adds (edges lie in two slabs, corners in three), in ns and
- * in times a plain one; the layers' part alone, by control value of the slabs. */
+/* What absorbing layers take of a step: boxes with layers of N points behind five faces and, as many control values
+ * along each axis, without; even, layered and general ground in both precisions and the exact mass, in turn, all of
+ * which moves; CPU time of one thread. Usage: bench_layers [N [ROUNDS [NX NY NZ]]]. The figures are the least of all
+ * rounds: ns a control value of a step; what one in layers takes, and what a layer adds for each value that lies in it
+ * (edges lie in two, corners in three), in ns and in times one without; the passes of layers alone (pml_fast.h). */
 #include "marched.h"
 #include "method/consistent/absorbing/pml_fast.h"
 
@@ -31,14 +31,15 @@ static void open_side(struct side *side, int points, const int cells[3])
              points);
     for (int box = 0; box < BOXES; box++) {
         const int more = box == 0 ? 0 : points;
-        snprintf(text, sizeof text,
-                 "&scene dimension = 3, end_time = 1.0 /\n"
-                 "&method quiet = 0, symmetry = F, %s /\n"
-                 "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 /\n%s"
-                 "&body material = 'rock', shape = 'box', low = 3*0.0, high = %d.0, %d.0, %d.0, spacing = 1.0 "
-                 "/\n%s",
-                 side->method, side->ground, cells[0] + 2 * more, cells[1] + 2 * more, cells[2] + more,
-                 box == 0 ? layers : "");
+        snprintf(
+            text, sizeof text,
+            "&scene dimension = 3, end_time = 1.0 /\n"
+            "&method quiet = 0, symmetry = F, %s /\n"
+            "&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0 /\n%s"
+            "&body material = 'rock', shape = 'box', low = 3*0.0, high = %d.0, %d.0, %d.0, spacing = 1.0 "
+            "/\n%s",
+            side->method, side->ground, cells[0] + 2 * more, cells[1] + 2 * more, cells[2] + more,
+            box == 0 ? layers : "");
         open_marched(&side->marched[box], text);
         side->step[box] = INFINITY;
     }
@@ -64,7 +65,7 @@ static void time_side(struct side *side)
     side->pull = fmin(side->pull, now() - start);
 }
 
-/* Control values of all slabs that so many points lie in, on a lattice with and without them. */
+/* Control values in each layer of so many points, added up. */
 static double in_slabs(const struct consistent *c, int points)
 {
     double slabs = 0;
@@ -118,8 +119,9 @@ int main(int count, char **word)
     for (int round = 0; round < rounds; round++)
         for (int i = 0; i < SIDES; i++)
             time_side(&side[i]);
-    printf("| ground | precision | control values | in layers | in slabs | ns a step | without layers | in a layer "
-           "| times | of a slab more | times | memory | forces |\n"
+    printf("| ground | precision | control values | in layers | by layers | with layers, ns | without | in "
+           "layers "
+           "| times | a layer adds | times | memory | forces |\n"
            "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < SIDES; i++)
         print_side(&side[i], points);
