@@ -188,10 +188,10 @@ stability: $(BUILD)/selas $(BUILD)/test/stability-energy $(BUILD)/test/stability
 accuracy: $(BUILD)/selas ## speed against error: tables and plots of doc/verification/accuracy.md (some 20 minutes)
 	@sh regress/studies/accuracy/run $(BUILD)
 
-bench: $(BUILD)/selas $(BUILD)/test/bench ## speed beside the machine's own, under a minute: output/bench/
+bench: $(BUILD)/selas $(BUILD)/test/bench $(BUILD)/test/bench_layers ## speed beside the machine's own, under a minute: output/bench/
 	@sh regress/studies/bench/run $(BUILD)
 
-bench-all: $(BUILD)/selas $(BUILD)/test/bench ## the same with large lattices: doc/developers/performance.md (some minutes, 12 GB)
+bench-all: $(BUILD)/selas $(BUILD)/test/bench $(BUILD)/test/bench_layers ## the same with large lattices: doc/developers/performance.md (some minutes, 12 GB)
 	@sh regress/studies/bench/run $(BUILD) all
 
 bench-sph: $(BUILD)/selas $(BUILD)/test/bench ## what an evaluation of the SPH operators costs: table of doc/developers/performance-sph.md

@@ -10,8 +10,8 @@ const char *layers_refusal(const struct scene *scene);
 
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
 
-/* What a layer point costs against one of the body, by the mass that the deck asks for (regress/studies/layer-cost;
- * doc/developers/performance.md, section 5). */
+/* What a point costs besides in each layer that it lies in (edges: two), against one of the body
+ * (doc/developers/performance.md, section 5). */
 double layer_cost(const struct scene *scene);
 /* Work of a step as for so many points of the body, below the scene's mirror planes; layers: those of the faces, as the
  * scene has them. */

@@ -145,10 +145,10 @@ struct wave_law consistent_waves(const struct consistent_options *options)
     return (struct wave_law){options->sweeps > 0 ? sweeps[options->sweeps] : exact[options->degree], 4, 0};
 }
 
-/* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4 and the
- * exact mass where no C-PML stands beside it (that is built on sweeps only): waves in a soft layer are short
- * against the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/theory/layered.md). Then
- * splines are tuned, too. */
+/* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4, the exact mass and
+ * tuned splines where no C-PML stands beside it: waves in a soft layer are short against the spacing, and there this
+ * errs a fifth of what degree 2 with sweeps does (doc/theory/layered.md). Beside C-PML degree 2 with sweeps is the
+ * cheapest at equal error (doc/verification/tables/layered.txt, table 2). */
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;

@@ -42,15 +42,15 @@ static size_t least_of(const struct consistent *c, int slot, int rank, int ranks
     return rounded_up(c->part.along[slot].halo + (layers > 0 ? layers + 1 : 0), unit_of(slot));
 }
 
-/* What a plane or row of the body costs; 1: no layers. */
+/* What a plane or row costs; 1: one without layers. */
 static double cost_of(const struct consistent *c, int slot, size_t k)
 {
     const int across = axis_of(c, slot);
-    double plain = k >= c->layer[2 * across] && k + c->layer[2 * across + 1] < c->n[slot] ? 1 : 0;
+    double slabs = k < c->layer[2 * across] || k + c->layer[2 * across + 1] >= c->n[slot] ? 1 : 0;
     for (int axis = 0; axis < c->dimension; axis++)
         if (axis != across)
-            plain *= 1 - (double)(c->layer[2 * axis] + c->layer[2 * axis + 1]) / (double)c->n[c->slot[axis]];
-    return plain + layer_cost(c->model.scene) * (1 - plain);
+            slabs += (double)(c->layer[2 * axis] + c->layer[2 * axis + 1]) / (double)c->n[c->slot[axis]];
+    return 1 + layer_cost(c->model.scene) * slabs;
 }
 
 /* What those of them from .. end - 1 cost. */
