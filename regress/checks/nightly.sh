@@ -87,7 +87,7 @@ begin() { # begin: starts a night in the background, waits until it is at the sl
     regress/nightly/run -q -b "$build" >night.log 2>&1 &
     night=$!
     tries=0
-    while [ $tries -lt 300 ] && ! { [ -d output/regress/cases/slow ] && grep -q ' 4 of 5 ' $page 2>/dev/null; }; do
+    while [ $tries -lt 1200 ] && ! { [ -d output/regress/cases/slow ] && grep -q ' 4 of 5 ' $page 2>/dev/null; }; do
         sleep .1
         tries=$((tries + 1))
     done
@@ -100,12 +100,12 @@ check 'killed: the page says so' grep -q 'NOT FINISHED: . of 5 done; killed by s
 check 'killed: the page is red, with what was done' sh -c "grep -q '<header class=\"red\">' $page && grep -q 'id=\"bar-rk4\"' $page && tail -1 $page | grep -q '</html>'"
 check 'killed: the summary counts it as failed' sh -c "tail -n 1 $summary | grep -qE ' passed, [1-9][0-9]* failed'"
 tries=0
-while [ $tries -lt 100 ] && ! flock -n output/regress/lock true; do sleep .1; tries=$((tries + 1)); done
+while [ $tries -lt 600 ] && ! flock -n output/regress/lock true; do sleep .1; tries=$((tries + 1)); done
 check 'killed: the next night can begin' flock -n output/regress/lock true
 begin
 kill -KILL $night
 wait $night 2>/dev/null
 check 'killed without a word: the page says so' grep -q 'NOT FINISHED: . of 5 done; running, or killed without a word' $page
 check 'killed without a word: the summary says so' sh -c "grep -q 'NOT FINISHED' $summary && tail -n 1 $summary | grep -qE ' passed, [1-9][0-9]* failed'"
-check 'killed without a word: what it had started ends with it, the next night can begin' flock -w 10 output/regress/lock true
+check 'killed without a word: what it had started ends with it, the next night can begin' flock -w 60 output/regress/lock true
 exit 0
