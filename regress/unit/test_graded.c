@@ -355,12 +355,13 @@ static void test_units(void **state)
         for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
             const double h = .3 * units[k];
             char text[900];
-            snprintf(text, sizeof text,
-                     "&scene dimension = 2, end_time = 1 /\n&method operator = 'general' /\n" ROCKS
-                     "&body low = 0, 0, high = %.17g, %.17g, spacing = %.17g, grading = 3 /\n"
-                     "&layer material = 'soil', top = 0 /\n&layer material = 'rock', top = %.17g /\n"
-                     "&load face = 'y-', shape = 'face', direction = 0, 1, history = 'triangle', duration = 1 /\n",
-                     9 * h, 36 * h, h, half * h / 2);
+            snprintf(
+                text, sizeof text,
+                "&scene dimension = 2, end_time = 1 /\n&method operator = 'general' /\n" ROCKS
+                "&body low = 0, 0, high = %.17g, %.17g, spacing = %.17g, grading = 3 /\n"
+                "&layer material = 'soil', top = 0 /\n&layer material = 'rock', top = %.17g /\n"
+                "&load face = 'y-', shape = 'face', direction = 0, 1, history = 'triangle', duration = 1 /\n",
+                9 * h, 36 * h, h, half * h / 2);
             struct from_deck made = right_scene(text);
             const struct grading *grading = made.scene->body.grading;
             assert_non_null(grading);
@@ -378,16 +379,11 @@ static void test_units(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_map),
-        cmocka_unit_test(test_rigid_motions),
-        cmocka_unit_test(test_ground),
-        cmocka_unit_test(test_symmetric),
-        cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_mass),
-        cmocka_unit_test(test_even_strain),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_layers_are_quiet),
+        cmocka_unit_test(test_units),         cmocka_unit_test(test_map),
+        cmocka_unit_test(test_rigid_motions), cmocka_unit_test(test_ground),
+        cmocka_unit_test(test_symmetric),     cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_mass),          cmocka_unit_test(test_even_strain),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_layers_are_quiet),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

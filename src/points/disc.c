@@ -1,5 +1,5 @@
-/* What a rectangle has of a disc: sums over its corners. Of the part 0 < X < x, 0 < Y < y of the unit disc, with x and y
- * at most 1, area and first moment over X are, where the corner (x, y) lies in the disc, xy and x^2 y/2, else
+/* What a rectangle has of a disc: sums over its corners. Of the part 0 < X < x, 0 < Y < y of the unit disc, x and y at
+ * most 1, area and first moment over X are, where the corner (x, y) lies in the disc, xy and x^2 y/2, else
  *
  *   integral of min(y, (1 - X^2)^(1/2))    =  (x (1 - x^2)^(1/2) + y (1 - y^2)^(1/2) + asin x + asin y - pi/2) / 2,
  *   integral of X min(y, (1 - X^2)^(1/2))  =  y (1 - y^2) / 2 + (y^3 - (1 - x^2)^(3/2)) / 3:

@@ -8,8 +8,8 @@
 #define SOURCE_COUNTS 0.05
 
 /* Angular frequency above which the spectra of all loads and prescribed motions lie below SOURCE_COUNTS of
- * their largest amplitude (history_cutoff) [rad/time], those of amplitude 0 left out; 0 if there is none, INFINITY if it
- * is not known. */
+ * their largest amplitude (history_cutoff) [rad/time], but those of amplitude 0; 0 if there is none, INFINITY if it is
+ * not known. */
 double source_cutoff(const struct scene *scene);
 /* The same for another part. */
 double source_cutoff_at(const struct scene *scene, double counts);

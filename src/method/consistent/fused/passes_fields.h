@@ -84,7 +84,7 @@ INLINED void put_part(REAL *row, size_t count, lanes value)
 INLINED void relaxed(const size_t parts, const size_t fields, size_t n, const struct fused_relax *r,
                      const REAL *w, REAL *const *field, REAL *const *change)
 {
-    REAL rate[FUSED_FIELDS_KEPT], by[FUSED_FIELDS_KEPT][FUSED_FIELDS_KEPT], *to[FUSED_FIELDS_KEPT];
+    REAL rate[FUSED_FIELDS_KEPT] = {0}, by[FUSED_FIELDS_KEPT][FUSED_FIELDS_KEPT], *to[FUSED_FIELDS_KEPT];
     for (size_t f = 0; f < fields; f++) {
         to[f] = field[f];
         rate[f] = (REAL)r->rate[f];
