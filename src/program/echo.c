@@ -23,7 +23,7 @@
  * the larger box's layers. */
 static const double coarsest = 2, fewest = 4, initial_points = 2;
 enum { SURE_POINTS = 20, COMPONENTS = 3, CHANNELS = 2 * COMPONENTS };
-static const int recorded[] = {SELAS_DISPLACEMENT, SELAS_VELOCITY};
+static const selas_field recorded[] = {SELAS_DISPLACEMENT, SELAS_VELOCITY};
 
 /* Layers as they are with the deck's points, whatever the spacing. */
 static void keep_layers(struct scene *scene)
