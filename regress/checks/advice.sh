@@ -267,8 +267,8 @@ cat >edges.nml <<END
 &output plots = .false. /
 END
 deck=edges.nml
-told "a receiver on an edge of free faces" "receiver 'r' is where two free faces meet: .* wrong by 0.014; body%spacing = 0.105 "
-untold "finer" body%spacing=.1
+told "a receiver on an edge of free faces" "receiver 'r' is where two free faces meet: .* wrong by up to 0.042; body%spacing = 0.060[0-9]* "
+untold "finer" body%spacing=.06
 untold "the layered operator, which is exact there" method%operator=layered
 untold "a receiver two spacings off" receiver%position=.25,1.5,.25
 deck=graded.nml

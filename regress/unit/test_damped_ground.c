@@ -130,11 +130,11 @@ static void each_counts(void **unused)
         struct damped_run less = run_of(deck, true);
         struct damped *of = (struct damped *)less.model;
         struct sweep *sweep = consistent_of(of->part[0].model)->general->sweep;
-        struct relaxing *relaxing = sweep->relaxing;
+        struct fused_relaxing *relaxing = sweep->relaxing;
         const size_t p = left_out / 2;
         const struct family *family = &consistent_of(of->part[p % d->parts].model)->general->family[1];
         if (p >= d->parts)
-            relaxing->rate[left_out - 2 * d->parts] = 0;
+            relaxing->of.rate[left_out - 2 * d->parts] = relaxing->factors.dt = 0;
         else if (left_out % 2 == 0)
             forget_moduli(sweep, p, family->n[1] * family->n[2] * sweep->width);
         else

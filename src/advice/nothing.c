@@ -34,7 +34,7 @@ static void look_at_blocks(struct adviser *adviser)
             if (to > body->low[axis] && from < body->high[axis]) continue;
             advise(adviser,
                    "&block %zu lies outside the body: along %c it goes from %g to %g, the body from %g to %g",
-                   k + 1, "xyz"[axis], from, to, body -> low[axis], body -> high[axis]);
+                   k + 1, 'x' + axis, from, to, body->low[axis], body->high[axis]);
             break;
         }
 }
@@ -47,8 +47,7 @@ static void look_at_hill(struct adviser *adviser)
     if (hill == NULL || hill->map != NULL || !(hill->height != 0) || !(hill->width < body->spacing)) return;
     advise(adviser,
            "topography%%width = %g is less than the spacing of %g: the points do not see the shape; a finer "
-           "spacing or a "
-           "wider shape would be right",
+           "spacing or a wider shape would be right",
            hill->width, body->spacing);
 }
 

@@ -135,11 +135,11 @@ void look_at_interfaces(struct adviser *adviser)
            ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 
-/* What the general operator leaves on edges of free faces, for waves of so many points a wavelength
- * (regress/studies/real-ground/figures edges: .0140 at 6.2, .0058 at 9.2; .004 at most in the plane). */
+/* What the general operator leaves on edges of free faces at most, for waves of so many points a wavelength
+ * (regress/studies/real-ground/figures drawn-edges: .5 to 1.5 times their square; .004 at 6 points in the plane). */
 void look_at_free_edges(struct adviser *adviser)
 {
-    static const double at_one = .53, reach = 1.5, seen = .01;
+    static const double at_one = 1.6, reach = 1.5, seen = .01;
     const struct scene *scene = adviser->scene;
     const struct body *body = &scene->body;
     const double points = points_per_wavelength(scene), error = at_one / (points * points);
@@ -157,9 +157,8 @@ void look_at_free_edges(struct adviser *adviser)
         if (free < 2) continue;
         advise(adviser,
                "receiver '%s' is where two free faces meet: within two spacings of such edges velocities by "
-               "the general "
-               "operator may be wrong by %.2g; body%%spacing = %.3g or a receiver farther from the edge "
-               "would do",
+               "the general operator may be wrong by up to %.2g; body%%spacing = %.3g or a receiver farther "
+               "from the edge would do",
                scene->receiver[r].name, error, body->spacing * points * sqrt(seen / at_one) * .99);
         return;
     }

@@ -84,7 +84,7 @@ static bool take_stay(const struct scene *scene, const struct load *load, struct
     static const double slight = .05;
     const double end = fmin(history_end(&load->history), scene->end_time);
     double most = 0;
-    if (load_moves(load) || load->shape == LOAD_FACE) return false;
+    if (load_moves(load) || load->shape == LOAD_FACE || load->amplitude == 0) return false;
     for (int i = 1; i <= SAMPLES; i++)
         most = fmax(most, fabs(history_value(&load->history, end * i / SAMPLES, 0)));
     if (!(fabs(history_value(&load->history, scene->end_time, 0)) > slight * most)) return false;
@@ -106,6 +106,8 @@ static long enough_points(const struct scene *scene, const struct stay *stay, do
 
 bool worst_rest(const struct scene *scene, struct rest *rest)
 {
+    struct stay worst = {0};
+    double far = 0;
     bool found = false;
     *rest = (struct rest){0};
     if (scene->dimension < 2 || !body_is_box(&scene->body) || !layer_anywhere(scene)) return false;
@@ -119,8 +121,11 @@ bool worst_rest(const struct scene *scene, struct rest *rest)
             const double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
             const double error = of_all(scene, &stay, 0, fmax(way, scene->body.spacing));
             if (error <= rest->error) continue;
-            *rest = (struct rest){k, r, error, enough_points(scene, &stay, way)};
+            *rest = (struct rest){k, r, error, 0};
+            worst = stay;
+            far = way;
         }
     }
+    if (rest->error >= REST_SEEN) rest->points = enough_points(scene, &worst, far);
     return found;
 }

@@ -7,9 +7,9 @@
 /* The worst pair of a load that stays and a receiver. */
 struct rest {
     size_t load, receiver;
-    double
-        error; /* of the displacement there at the end of the run, over what the load leaves at that distance */
-    long points; /* of layers that would leave little enough; 0: not even the most do */
+    double error; /* of the displacement at the end of the run, over what the load leaves at that distance */
+    long
+        points; /* of layers that would leave little enough, if that much needs a word; 0: not even the most do */
 };
 
 /* Does any load stay in a scene with absorbing layers? Sets the worst pair by (17) to (19). */

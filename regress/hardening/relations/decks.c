@@ -601,12 +601,10 @@ static void hold_time(const struct task *task, const struct outcome *base, struc
     outcome_free(&plain);
 }
 
-/* Absorbing layers are made for the source's spectrum, which a host does not tell. */
-static bool layers(const struct scene *scene)
+/* What a box sends back that is fitted without the source's spectrum, which a host does not tell. */
+static double fitted(const struct scene *scene)
 {
-    for (int face = 0; face < 2 * scene->dimension; face++)
-        if (boundary_absorbs(&scene->boundary[face])) return true;
-    return false;
+    return scene->body.chosen ? 1e-3 : 1e-9;
 }
 
 static void hold_driven(const struct task *task, struct tally *tally)
@@ -621,7 +619,7 @@ static void hold_driven(const struct task *task, struct tally *tally)
     other.march = drive;
     struct outcome o = one.status == SELAS_OK ? go(&other) : (struct outcome){.status = one.status};
     if (o.status == SELAS_OK)
-        judge(tally, task->path, "driven", apart(&one, &o, 1, 0, 1), layers(task->scene) ? 1e-3 : 1e-9);
+        judge(tally, task->path, "driven", apart(&one, &o, 1, 0, 1), fitted(task->scene));
     else
         printf("# %s driven: %s\n", task->path, o.message);
     outcome_free(&one);

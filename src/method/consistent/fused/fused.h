@@ -141,15 +141,15 @@ struct fused {
     struct window *will_reach; /* ... after this step ... */
     struct window *loaded;     /* ... [n[2]] where loads act */
     bool known;
-    size_t *bound;             /* [threads + 1] planes where those of a thread begin */
-    size_t points, skipped;    /* of all calls so far */
-    size_t number;             /* bytes of a number in tables and rings */
-    struct fused *single;      /* the same in floats, if the scene's steps are */
-    void *kept;                /* what steps in one pass go on from: the velocity half a step ahead, ... */
-    size_t kept_bytes;         /* ... the e_p behind it if they relax; in single precision u or e_0 before it
+    size_t *bound;          /* [threads + 1] planes where those of a thread begin */
+    size_t points, skipped; /* of all calls so far */
+    size_t number;          /* bytes of a number in tables and rings */
+    struct fused *single;   /* the same in floats, if the scene's steps are */
+    void *kept;             /* what steps in one pass go on from: the velocity half a step ahead, ... */
+    size_t kept_bytes;      /* ... the e_p behind it if they relax; in single precision u or e_0 before it
                                  and all memory, then e_1, behind it */
-    struct relaxing *relaxing; /* NULL: steps do not relax */
-    struct ranks *ranks;       /* NULL: alone */
+    struct fused_relaxing *relaxing; /* NULL: steps do not relax */
+    struct ranks *ranks;             /* NULL: alone */
     struct part_axis rows, planes;
     double *loud; /* [4 * blocks of planes of the body] where it is loud, if ranks share rows */
     int threads;

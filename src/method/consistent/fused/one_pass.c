@@ -9,18 +9,16 @@
 
 static const struct model_one_pass one_pass;
 
-/* Factors of a step of dt, if displacements relax. */
-static const struct fused_relax *relax_of(const struct consistent *c, double dt, struct fused_relax *factors)
+/* NULL: steps do not relax. */
+static const struct relaxing *relaxing_of(const struct consistent *c)
 {
-    if (c->fused->relaxing == NULL) return NULL;
-    *factors = fused_relax_of(c->fused->relaxing, dt);
-    return factors;
+    return c->fused->relaxing != NULL ? &c->fused->relaxing->of : NULL;
 }
 
 /* The model of a part, and where in the state's extra part its own begins. */
 static const struct consistent *part_of(const struct consistent *c, size_t p, size_t *extra)
 {
-    const struct relaxing *relaxing = c->fused->relaxing;
+    const struct relaxing *relaxing = relaxing_of(c);
     *extra = relaxing != NULL ? relaxing->part[p].extra : 0;
     return relaxing != NULL ? consistent_of(relaxing->part[p].model) : c;
 }
@@ -32,7 +30,7 @@ static struct step_fields_double fields_double(const struct consistent *c, doubl
     double *w = c->fused->kept, *memory = y + 2 * n;
     struct step_fields_double fields = {.w = w, .work = c->hform->work, .relax = relax, .parts = 1};
     if (relax != NULL) fields.parts = relax->parts;
-    for (size_t l = 0; relax != NULL && l < c->fused->relaxing->mechanisms; l++)
+    for (size_t l = 0; relax != NULL && l + 1 < relax->fields; l++)
         if (relax->of[l] > 0) fields.kept[relax->of[l]] = memory + l * n;
     for (size_t p = 0; p < fields.parts; p++) {
         size_t extra;
@@ -47,7 +45,7 @@ static struct step_fields_double fields_double(const struct consistent *c, doubl
 /* Numbers in the extra part of a state. */
 static size_t extra_of(const struct consistent *c)
 {
-    const struct relaxing *relaxing = c->fused->relaxing;
+    const struct relaxing *relaxing = relaxing_of(c);
     return relaxing != NULL ? relaxing->extra : c->model.state_size - 2 * c->model.unknowns;
 }
 
@@ -58,7 +56,7 @@ static struct step_fields_single fields_single(const struct consistent *c, const
     void *work = c->hform->work;
     struct step_fields_single fields = {.w = kept + n, .work = work, .relax = relax, .parts = 1};
     if (relax != NULL) fields.parts = relax->parts;
-    for (size_t l = 0; relax != NULL && l < c->fused->relaxing->mechanisms; l++)
+    for (size_t l = 0; relax != NULL && l + 1 < relax->fields; l++)
         if (relax->of[l] > 0) fields.kept[relax->of[l]] = memory + l * n;
     for (size_t p = 0; p < fields.parts; p++) {
         size_t extra;
@@ -73,9 +71,8 @@ static struct step_fields_single fields_single(const struct consistent *c, const
 static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    const struct relaxing *relaxing = c->fused->relaxing;
-    struct fused_relax factors;
-    const struct fused_relax *relax = relax_of(c, dt, &factors);
+    const struct relaxing *relaxing = relaxing_of(c);
+    const struct fused_relax *relax = fused_factors(c->fused->relaxing, dt);
     const size_t n = model->unknowns;
     watch_sort(&c->watch);
     model->evaluations++;
@@ -101,8 +98,7 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    struct fused_relax factors;
-    const struct fused_relax *relax = relax_of(c, dt, &factors);
+    const struct fused_relax *relax = fused_factors(c->fused->relaxing, dt);
     model->evaluations++;
     if (model->single) {
         const struct step_fields_single fields = fields_single(c, relax);
@@ -116,8 +112,7 @@ static void advance(struct model *model, const struct drive *drive, double dt, d
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    struct fused_relax factors;
-    const struct fused_relax *relax = relax_of(c, dt, &factors);
+    const struct fused_relax *relax = fused_factors(c->fused->relaxing, dt);
     const size_t n = model->unknowns;
     if (model->single) {
         const struct step_fields_single fields = fields_single(c, relax);
@@ -155,7 +150,7 @@ static void share_times(struct model *model, size_t times, struct spread *shares
  * the extra part of the state, and the u of parts but the first. */
 static void share(struct model *model, struct spread *shares)
 {
-    const struct relaxing *relaxing = consistent_of(model)->fused->relaxing;
+    const struct relaxing *relaxing = relaxing_of(consistent_of(model));
     if (!model->single) {
         share_times(model, relaxing != NULL ? 1 + relaxing->parts : 1, shares);
         return;
@@ -188,12 +183,10 @@ static selas_status relax(struct model *model, const struct relaxing *relaxing)
         return SELAS_NO_MEMORY;
     fused->kept_bytes = model->single ? ((1 + relaxing->parts) * n + relaxing->extra) * sizeof(float)
                                       : (1 + relaxing->parts) * n * sizeof(double);
-    model->bytes += fused->kept_bytes + sizeof *relaxing;
+    model->bytes += fused->kept_bytes + sizeof *fused->relaxing;
     fused->kept = array_new(1, fused->kept_bytes);
-    fused->relaxing = array_new(1, sizeof *relaxing);
-    if (fused->kept == NULL || fused->relaxing == NULL) return SELAS_NO_MEMORY;
-    *fused->relaxing = *relaxing;
-    return SELAS_OK;
+    fused->relaxing = fused_relaxing_new(relaxing);
+    return fused->kept != NULL && fused->relaxing != NULL ? SELAS_OK : SELAS_NO_MEMORY;
 }
 
 static const struct model_one_pass one_pass = {begin, advance, settle, kept, share, relax};

@@ -1,6 +1,8 @@
 /* Factors of displacements that relax in steps in one pass (see the header). */
 #include "method/consistent/fused/relax.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -66,7 +68,7 @@ static void invert(size_t n, double a[MOST][MOST], double inverse[MOST][MOST])
 }
 
 /* With x = (u, D_1, D_2, ...), z = T x, and x += b w + B x in a step: rate = T b, by = T B T^-1. */
-struct fused_relax fused_relax_of(const struct relaxing *relaxing, double dt)
+static struct fused_relax factors_of(const struct relaxing *relaxing, double dt)
 {
     const size_t mechanisms = relaxing->mechanisms, n = 1 + mechanisms;
     struct fused_relax relax = {.parts = relaxing->parts, .fields = n, .dt = dt};
@@ -97,6 +99,20 @@ struct fused_relax fused_relax_of(const struct relaxing *relaxing, double dt)
         }
     }
     return relax;
+}
+
+struct fused_relaxing *fused_relaxing_new(const struct relaxing *relaxing)
+{
+    struct fused_relaxing *made = array_new(1, sizeof *made);
+    if (made != NULL) made->of = *relaxing;
+    return made;
+}
+
+const struct fused_relax *fused_factors(struct fused_relaxing *relaxing, double dt)
+{
+    if (relaxing == NULL) return NULL;
+    if (relaxing->factors.dt != dt) relaxing->factors = factors_of(&relaxing->of, dt);
+    return &relaxing->factors;
 }
 
 double fused_effective(const struct relaxing *relaxing, size_t p, size_t n, const double *y, size_t at)

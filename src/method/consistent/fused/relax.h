@@ -20,7 +20,16 @@ struct fused_relax {
     double told[MODEL_MECHANISMS][FUSED_FIELDS_KEPT];
 };
 
-struct fused_relax fused_relax_of(const struct relaxing *relaxing, double dt);
+/* With the factors of the step that they were asked for last. */
+struct fused_relaxing {
+    struct relaxing of;
+    struct fused_relax factors;
+};
+
+/* NULL: no memory. */
+struct fused_relaxing *fused_relaxing_new(const struct relaxing *relaxing);
+/* Factors of steps of dt; NULL if `relaxing` is. */
+const struct fused_relax *fused_factors(struct fused_relaxing *relaxing, double dt);
 
 /* e_p of a state y at entry `at` of n. */
 double fused_effective(const struct relaxing *relaxing, size_t p, size_t n, const double *y, size_t at);

@@ -6,19 +6,16 @@
 
 static const struct model_one_pass one_pass;
 
-/* Factors of a step of dt, if displacements relax. */
-static const struct fused_relax *relax_of(const struct consistent *c, double dt, struct fused_relax *factors)
+/* NULL: steps do not relax. */
+static const struct relaxing *relaxing_of(const struct consistent *c)
 {
-    const struct relaxing *relaxing = c->general->sweep->relaxing;
-    if (relaxing == NULL) return NULL;
-    *factors = fused_relax_of(relaxing, dt);
-    return factors;
+    return c->general->sweep->relaxing != NULL ? &c->general->sweep->relaxing->of : NULL;
 }
 
 /* The ground of a part, and where in the state's extra part the memory of its layers begins. */
 static struct general *ground_of(struct consistent *c, size_t p, size_t *extra)
 {
-    const struct relaxing *relaxing = c->general->sweep->relaxing;
+    const struct relaxing *relaxing = relaxing_of(c);
     *extra = relaxing != NULL ? relaxing->part[p].extra : 0;
     return relaxing != NULL ? consistent_of(relaxing->part[p].model)->general : c->general;
 }
@@ -71,7 +68,7 @@ static struct sweep_fields_single fields_single(struct consistent *c, double *y,
 /* Memory of the layers' forces at the start, of all parts: in that of the first one, for it is linear in them. */
 static void begin_layers(struct consistent *c, size_t p, const double *u, double *y)
 {
-    const struct relaxing *relaxing = c->general->sweep->relaxing;
+    const struct relaxing *relaxing = relaxing_of(c);
     const size_t moments = 2 * c->general->moments, phi = 2 * c->model.unknowns + c->pml->slab[0].phi;
     size_t first, own;
     ground_of(c, 0, &first);
@@ -87,7 +84,7 @@ static void begin_layers(struct consistent *c, size_t p, const double *u, double
 /* u or e_p at the start, in `room` if they relax. */
 static const double *begin_part(struct consistent *c, size_t p, double *y, double *room)
 {
-    const struct relaxing *relaxing = c->general->sweep->relaxing;
+    const struct relaxing *relaxing = relaxing_of(c);
     const size_t n = c->model.unknowns;
     for (size_t i = 0; i < n && relaxing != NULL; i++)
         room[i] = fused_effective(relaxing, p, n, y, i);
@@ -116,8 +113,7 @@ static void begin_single(struct consistent *c, const struct sweep_fields_single 
 static void begin(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    struct fused_relax factors;
-    const struct fused_relax *relax = relax_of(c, dt, &factors);
+    const struct fused_relax *relax = fused_factors(c->general->sweep->relaxing, dt);
     const struct watch *watch = &c->watch;
     void *work = c->hform->work;
     watch_sort(&c->watch);
@@ -141,8 +137,7 @@ static void begin(struct model *model, const struct drive *drive, double dt, dou
 static void advance(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    struct fused_relax factors;
-    const struct fused_relax *relax = relax_of(c, dt, &factors);
+    const struct fused_relax *relax = fused_factors(c->general->sweep->relaxing, dt);
     model->evaluations++;
     if (model->single) {
         const struct sweep_fields_single fields = fields_single(c, y, relax);
@@ -156,8 +151,7 @@ static void advance(struct model *model, const struct drive *drive, double dt, d
 static void settle(struct model *model, const struct drive *drive, double dt, double *y, double *a)
 {
     struct consistent *c = consistent_of(model);
-    struct fused_relax factors;
-    const struct fused_relax *relax = relax_of(c, dt, &factors);
+    const struct fused_relax *relax = fused_factors(c->general->sweep->relaxing, dt);
     if (model->single) {
         const struct sweep_fields_single fields = fields_single(c, y, relax);
         sweep_settle_single(c, drive, dt, &fields, y, a);

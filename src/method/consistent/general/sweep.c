@@ -246,9 +246,8 @@ bool sweep_relax(struct consistent *c, const struct relaxing *relaxing)
     s->bytes += s->kept_bytes;
     array_free(s->kept);
     s->kept = array_new(1, s->kept_bytes);
-    s->relaxing = array_new(1, sizeof *s->relaxing);
+    s->relaxing = fused_relaxing_new(relaxing);
     if (s->kept == NULL || s->relaxing == NULL) return false;
-    *s->relaxing = *relaxing;
     for (size_t p = 1; p < relaxing->parts; p++)
         if (!lay_moduli(consistent_of(relaxing->part[p].model)->general, s, p)) return false;
     if (relaxing->parts > 1 && !lay_buffers(c, s)) return false;

@@ -72,8 +72,8 @@ struct sweep {
     bool known;           /* `reached` and `largest` are right */
     void *kept; /* w, in single precision behind u; the fields that relax behind it, but in double memory */
     size_t kept_bytes;
-    struct relaxing *relaxing; /* NULL: steps do not relax */
-    size_t parts;              /* of damped ground, else 1 */
+    struct fused_relaxing *relaxing; /* NULL: steps do not relax */
+    size_t parts;                    /* of damped ground, else 1 */
     int threads;
     size_t *bound; /* [threads + 1] planes where those of a thread begin */
     void **buffer; /* [threads] */
