@@ -194,6 +194,13 @@ static void cutoff_bounds_the_spectrum(void **state)
         for (int j = 0; j < 2; j++) {
             const struct history history = sample(kind, smoothings[j]);
             const double cutoff = history_cutoff(&history, fraction);
+            struct history later = history;
+            history_set_peak(&later);
+            later.start += 3.7;
+            assert_true(history_cutoff(&later, fraction) == cutoff);
+            assert_true(history_alike(&history, &later) && !history_same(&history, &later));
+            later.smoothing += 1;
+            assert_false(history_alike(&history, &later));
             if ((kind == 1 || kind == 7 || kind == 10) && j == 0) { /* a jump and no way back */
                 assert_true(isinf(cutoff));
                 continue;

@@ -20,11 +20,15 @@ static double layers_error(size_t points, double cells_per_wavelength)
     return 0.0011 * layer_profile_reflection(points) * pow(cells_per_wavelength, 1.7);
 }
 
+/* Of layers whose size the deck gives: what the program chooses is proved by echoes (scene/absorbing_layers.c). */
 static size_t fewest_layer_points(const struct scene *scene)
 {
     size_t fewest = 0;
     for (int face = 0; face < 2 * scene->dimension; face++) {
-        const size_t points = layer_points(scene, face);
+        const struct boundary *boundary = &scene->boundary[face];
+        const bool given =
+            boundary->layer_points > 0 || boundary->layer_thickness > 0 || boundary->layer_reflection > 0;
+        const size_t points = given ? layer_points(scene, face) : 0;
         if (points > 0 && (fewest == 0 || points < fewest)) fewest = points;
     }
     return fewest;

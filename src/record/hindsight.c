@@ -29,9 +29,8 @@ static bool linear_reference(const struct scene *scene)
 
 /* Strains and rotations grow without bound towards a force or a moment at a point, which stand for what acts on
  * a volume: within a wavelength of one nobody looks. */
-static bool beside_point(const struct scene *scene, const double position[3])
+static bool beside_point(const struct scene *scene, double wavelength, const double position[3])
 {
-    const double wavelength = points_per_wavelength(scene) * scene->body.spacing;
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
         double away = 0.0;
@@ -48,6 +47,7 @@ selas_status hindsight_create(struct recorder *recorder, struct messages *messag
     struct model *model = recorder->model;
     if (recorder->scene->dimension < 2 || (!model->small_strain && !linear_reference(recorder->scene)))
         return SELAS_OK;
+    const double wavelength = points_per_wavelength(recorder->scene) * recorder->scene->body.spacing;
     recorder->place = array_new(PLACES, sizeof *recorder->place);
     if (recorder->place == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the watch over rotations");
@@ -56,7 +56,7 @@ selas_status hindsight_create(struct recorder *recorder, struct messages *messag
         double position[3];
         struct messages unsaid = {0};
         model_position(model, (size_t)(part * (double)model->points), position);
-        if (beside_point(recorder->scene, position)) continue;
+        if (beside_point(recorder->scene, wavelength, position)) continue;
         const selas_status status =
             model->core->probe(model, position, &recorder->place[recorder->places], &unsaid);
         messages_free(&unsaid);

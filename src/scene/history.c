@@ -321,15 +321,20 @@ size_t history_kinks(const struct history *history, double *times, size_t room)
     }
 }
 
-bool history_same(const struct history *a, const struct history *b)
+bool history_alike(const struct history *a, const struct history *b)
 {
     if (a->kind != b->kind || a->duration != b->duration || a->frequency != b->frequency ||
         a->delay != b->delay || a->width != b->width || a->cycles != b->cycles ||
-        a->smoothing != b->smoothing || a->start != b->start || a->rows != b->rows)
+        a->smoothing != b->smoothing || a->rows != b->rows)
         return false;
     const size_t bytes = a->rows * sizeof(double);
     return a->rows == 0 || (memcmp(a->table_time, b->table_time, bytes) == 0 &&
                             memcmp(a->table_value, b->table_value, bytes) == 0);
+}
+
+bool history_same(const struct history *a, const struct history *b)
+{
+    return a->start == b->start && history_alike(a, b);
 }
 
 void history_set_rate(struct history *history, double end_time)

@@ -21,6 +21,7 @@ struct history {
     double *table_time, *table_value;
     double
         rate; /* root mean square angular frequency of f' while it acts, 0 without one: history_set_rate() */
+    double peak; /* largest amplitude of the spectrum (history_cutoff); 0: not known, history_set_peak() */
 };
 
 /* Derivative of order `derivative` = -1 (integral from 0), 0, 1 or 2 at time t; kinks and jumps without
@@ -39,8 +40,9 @@ double complex history_laplace_uncut(const struct history *history, double compl
  * `room` are written, ascending; returns how many there are. */
 size_t history_kinks(const struct history *history, double *times, size_t room);
 
-/* The same function of time, number by number. */
+/* The same function of time, number by number; but for where it begins. */
 bool history_same(const struct history *a, const struct history *b);
+bool history_alike(const struct history *a, const struct history *b);
 
 /* Time after which f stays constant; INFINITY if never (not for kinds of
  * today). */
@@ -53,7 +55,10 @@ void history_set_rate(struct history *history, double end_time);
 /* L2 norm of f' over all time, impulses left out. */
 double history_rate_norm(const struct history *history);
 
-/* Angular frequency above which the amplitude spectrum of f stays below `fraction` of its largest value. */
+/* Keeps what history_cutoff() searches for, as long as nothing but the start changes. */
+void history_set_peak(struct history *history);
+/* Angular frequency above which the amplitude spectrum of f, wherever it begins, stays below `fraction` of its largest
+ * value. */
 double history_cutoff(const struct history *history, double fraction);
 
 /* Reads a table: text, two columns, '#' or '!' comments; times must ascend from t >= 0. */

@@ -211,18 +211,32 @@ static double envelope(const struct history *history, double w)
     return plain * fmin(1, pow(8 / (w * history->smoothing), 4)); /* |2 sin(x/2) / x|^4, x = w S/4 */
 }
 
-double history_cutoff(const struct history *history, double fraction)
+/* Largest |F(i w)|, or |w F| if f does not come back, for w <= highest_peak(). */
+static double spectrum_peak(const struct history *history)
 {
     enum { SAMPLES = 512 };
-    if (history->kind == HISTORY_TABLE && history->rows == 0) return 0;
-    const double top = highest_peak(history), span = fmax(history_end(history), 1 / top);
-    const double back = comes_back(history) ? 0 : 1;
+    struct history still = *history;
+    still.start = 0;
+    const double top = highest_peak(&still), span = fmax(history_end(&still), 1 / top);
+    const bool back = comes_back(&still);
     double largest = 0;
     for (int i = 0; i < SAMPLES; i++) {
-        const double w = top * i / SAMPLES;
-        const double complex s = 1e-6 / span + I * w;
-        largest = fmax(largest, cabs(history_laplace(history, s)) * (back > 0 ? cabs(s) : 1));
+        const double complex s = 1e-6 / span + I * (top * i / SAMPLES);
+        largest = fmax(largest, cabs(history_laplace(&still, s)) * (back ? 1 : cabs(s)));
     }
+    return largest;
+}
+
+void history_set_peak(struct history *history)
+{
+    history->peak = spectrum_peak(history);
+}
+
+double history_cutoff(const struct history *history, double fraction)
+{
+    if (history->kind == HISTORY_TABLE && history->rows == 0) return 0;
+    const double top = highest_peak(history),
+                 largest = history->peak > 0 ? history->peak : spectrum_peak(history);
     double low = top * (1 + 1e-9), high = low;
     if (!(largest > 0)) return 0;
     while (envelope(history, high) > fraction * largest) {

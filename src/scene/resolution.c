@@ -7,12 +7,19 @@ double source_cutoff(const struct scene *scene)
     return source_cutoff_at(scene, SOURCE_COUNTS);
 }
 
+/* As many sources of a list have one history. */
+static bool as_before(const struct scene *scene, size_t k)
+{
+    return k > 0 && scene->load[k - 1].amplitude != 0 &&
+           history_alike(&scene->load[k - 1].history, &scene->load[k].history);
+}
+
 double source_cutoff_at(const struct scene *scene, double counts)
 {
     double omega = 0.0;
     if (scene_driven(scene)) return INFINITY;
     for (size_t k = 0; k < scene->loads; k++)
-        if (scene->load[k].amplitude != 0)
+        if (scene->load[k].amplitude != 0 && !as_before(scene, k))
             omega = fmax(omega, history_cutoff(&scene->load[k].history, counts));
     for (size_t face = 0; face < FACES; face++)
         if (boundary_acts(&scene->boundary[face]))
@@ -43,9 +50,8 @@ static double cutoff_ahead(const struct scene *scene, double speed)
         const double *velocity = scene->load[k].velocity;
         const double own =
             sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
-        const double cutoff = history_cutoff(&scene->load[k].history, SOURCE_COUNTS);
-        if (own < .92 * speed && scene->load[k].amplitude != 0)
-            omega = fmax(omega, cutoff / (1 - own / speed));
+        if (own > 0 && own < .92 * speed && scene->load[k].amplitude != 0)
+            omega = fmax(omega, history_cutoff(&scene->load[k].history, SOURCE_COUNTS) / (1 - own / speed));
     }
     return omega;
 }

@@ -126,5 +126,6 @@ bool take_history(struct builder *builder, const struct deck_group *group, const
     }
     warn_of_jumps(builder, group, history);
     history_set_rate(history, builder->scene->end_time);
+    history_set_peak(history);
     return true;
 }

@@ -84,5 +84,5 @@ DECK
         "$build/selas" -q "$out/cube.nml" $(setting $s)
         printf ' %s' "$(awk "BEGIN { printf \"%.2f\", 1.7320508 * $(step) / .125 }")"
     done
-    awk -F': ' '/^unknowns/ { u = $2 } /^operator calls/ { calls = $2 } /^steps done/ { n = $2 } /^CPU seconds/ { c = $2 } END { printf ", %.0f ns\n", 3e9 * c / u / n }' "$out/run/report.txt"
+    awk -F': ' '/^unknowns/ { u = $2 } /^operator calls/ { calls = $2 } /^steps done/ { n = $2 } /^stepping CPU seconds/ { c = $2 } END { printf ", %.0f ns\n", 3e9 * c / u / n }' "$out/run/report.txt"
 done

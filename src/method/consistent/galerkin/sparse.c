@@ -3,26 +3,33 @@
 
 #include "base/memory.h"
 
+static size_t count_of(size_t n, const double *field)
+{
+    size_t count = 0;
+#pragma omp simd reduction(+ : count)
+    for (size_t i = 0; i < n; i++)
+        count += field[i] != 0;
+    return count;
+}
+
 bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse)
 {
     const size_t planes = (size_t)c->dimension * c->n[DEPTH];
-    size_t count = 0;
-    for (size_t i = 0; i < (size_t)c->dimension * c->volume; i++)
-        count += field[i] != 0;
     sparse->start = array_new(planes + 1, sizeof *sparse->start);
-    sparse->index = array_new(count, sizeof *sparse->index);
-    sparse->value = array_new(count, sizeof *sparse->value);
-    if (sparse->start == NULL || sparse->index == NULL || sparse->value == NULL) return false;
-    count = 0;
+    if (sparse->start == NULL) return false;
+    for (size_t plane = 0; plane < planes; plane++)
+        sparse->start[plane + 1] = sparse->start[plane] + count_of(c->plane, field + plane * c->plane);
+    sparse->index = array_new(sparse->start[planes], sizeof *sparse->index);
+    sparse->value = array_new(sparse->start[planes], sizeof *sparse->value);
+    if (sparse->index == NULL || sparse->value == NULL) return false;
     for (size_t plane = 0; plane < planes; plane++) {
-        sparse->start[plane] = count;
-        for (size_t i = 0; i < c->plane; i++) {
+        size_t at = sparse->start[plane];
+        for (size_t i = 0; at < sparse->start[plane + 1]; i++) {
             if (field[plane * c->plane + i] == 0) continue;
-            sparse->index[count] = i;
-            sparse->value[count++] = field[plane * c->plane + i];
+            sparse->index[at] = i;
+            sparse->value[at++] = field[plane * c->plane + i];
         }
     }
-    sparse->start[planes] = count;
     return true;
 }
 
