@@ -101,7 +101,7 @@ static void rest_of_plane(const struct consistent *c, const struct drive *drive,
     hform_edges_double(c, k, 1, u, out);
     if (h->dissipation != NULL && v != NULL) tensor_plane(h->dissipation, thread, k, 1, v, out);
     for (int component = 0; component < c->dimension; component++) {
-        add_forces(c, drive, h->load, h->pulled, component, k, out[component]);
+        add_forces(c, drive, &h->load, h->pulled, component, k, out[component]);
         moving_loads_add(c, drive, component, k, out[component]);
         consistent_clear_held(c, component, k, out[component]);
     }

@@ -67,7 +67,7 @@ static void residual_planes(const struct consistent *c, const struct drive *driv
     for (size_t k = from; k < end; k++) {
         if (v != NULL && c->model.damped) dampers_subtract(c, thread, k, v, out);
         for (int component = 0; component < c->dimension; component++) {
-            add_forces(c, drive, c->load, c->inertia, component, k, out[component]);
+            add_forces(c, drive, &c->load, c->inertia, component, k, out[component]);
             moving_loads_add(c, drive, component, k, out[component]);
             consistent_clear_held(c, component, k, out[component]);
             out[component] += c->plane;
@@ -179,7 +179,7 @@ static void power(struct model *model, const struct drive *drive, const double *
     *load = 0;
     for (size_t l = 0; drive->load != NULL && l < model->scene->loads; l++)
         if (drive->load[l] != 0)
-            *load += drive->load[l] * model->scene->load[l].amplitude * sparse_dot(c, &c->load[l], v);
+            *load += drive->load[l] * model->scene->load[l].amplitude * sparse_dot(c, &c->load.of[l], v);
     if (c->moving_loads > 0) {
         moving_loads_place(c, drive->time, false);
         *load += moving_loads_power(c, drive, v);

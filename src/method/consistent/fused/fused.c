@@ -48,13 +48,14 @@ bool fused_lay_rings(struct fused *f, int displacements)
 /* Where loads act. */
 static void lay_loaded(const struct consistent *c, struct fused *f)
 {
-    for (size_t l = 0; l < c->model.scene->loads; l++) {
-        const struct sparse *load = &c->hform->load[l];
-        for (size_t at = 0; at < 3 * f->n[2]; at++)
-            for (size_t e = load->start[at]; e < load->start[at + 1]; e++) {
+    for (size_t l = 0; l < c->hform->load.count; l++) {
+        const struct sparse *load = &c->hform->load.of[l];
+        for (size_t p = 0; p < load->planes; p++)
+            for (size_t e = load->start[p]; e < load->start[p + 1]; e++) {
                 const size_t x = load->index[e] % f->n[0], y = load->index[e] / f->n[0];
                 const struct window one = {{x, y}, {x + 1, y + 1}};
-                f->loaded[at % f->n[2]] = window_join(&f->loaded[at % f->n[2]], &one);
+                struct window *loaded = &f->loaded[load->plane[p] % f->n[2]];
+                *loaded = window_join(loaded, &one);
             }
     }
 }

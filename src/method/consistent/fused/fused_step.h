@@ -33,12 +33,14 @@ static void add_rest(const struct consistent *c, const struct drive *drive, size
     for (size_t component = 0; component < 3; component++)
         out[component] = field + component * c->volume + k * c->plane;
     NAME(hform_edges)(c, k, factor, u, out);
-    for (size_t l = 0; drive->load != NULL && l < c->model.scene->loads; l++) {
-        const struct sparse *load = &c->hform->load[l];
-        const double amplitude = factor * drive->load[l] * c->model.scene->load[l].amplitude;
-        for (size_t component = 0; amplitude != 0 && component < 3; component++) {
-            const size_t at = component * c->n[DEPTH] + k;
-            for (size_t e = load->start[at]; e < load->start[at + 1]; e++)
+    const struct sparse_list *loads = &c->hform->load;
+    for (size_t component = 0; drive->load != NULL && component < 3; component++) {
+        const size_t at = component * c->n[DEPTH] + k;
+        for (size_t i = loads->start[at]; i < loads->start[at + 1]; i++) {
+            const size_t l = loads->number[i], part = loads->part[i];
+            const struct sparse *load = &loads->of[l];
+            const double amplitude = factor * drive->load[l] * c->model.scene->load[l].amplitude;
+            for (size_t e = load->start[part]; amplitude != 0 && e < load->start[part + 1]; e++)
                 out[component][load->index[e]] += (REAL)(amplitude * load->value[e]);
         }
     }

@@ -38,10 +38,19 @@ struct axis_matrix {
     struct band *band;
 };
 
-/* A vector with few entries: those of component c in plane k are start[c * n[2] + k] and on. */
+/* A vector with few entries. Plane p of component c is number c * n[2] + p; index is that within the plane. */
 struct sparse {
-    size_t *start, *index; /* index within the plane */
+    size_t planes, *plane, *start; /* that have any, ascending; their entries are start[p] to start[p + 1] */
+    size_t *index;
     double *value;
+};
+
+/* Vectors, and of each plane which have entries there: number[i] in their planes part[i], start[plane] <= i <
+ * start[plane + 1], ascending. */
+struct sparse_list {
+    size_t count;
+    struct sparse *of;
+    size_t *start, *number, *part;
 };
 
 /* Factors of M + half_step C, product form (section 5 of the manual); NULL for slots that are not used. */
@@ -84,7 +93,7 @@ struct consistent {
     size_t classes;                    /* kinds of planes by material; 1 without layers */
     size_t *plane_class, *class_plane; /* of the whole body; [classes]: the first plane of a class */
     struct band *side[BOX_FACES][3];   /* layers: matrix over depth of a damped face across x or y */
-    struct sparse *load;               /* [scene->loads]; 0 for those that move */
+    struct sparse_list load;           /* of the scene; 0 for those that move */
     size_t moving_loads;
     struct moving_load *moving_load;                      /* moving_load.c */
     struct sparse pattern[BOX_FACES], inertia[BOX_FACES]; /* of moving faces: where; M times it */
@@ -167,9 +176,14 @@ void consistent_add_product(const struct consistent *c, double *const line[3], i
 /* sparse.c: keeps the entries of a dense field that are not zero. False: no memory. */
 bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
 void sparse_free(struct sparse *sparse);
-size_t sparse_bytes(const struct consistent *c, const struct sparse *sparse);
+size_t sparse_bytes(const struct sparse *sparse);
+/* `count` vectors, all 0; then, once they are made, which planes they have entries in. False: no memory. */
+bool sparse_list_new(struct sparse_list *list, size_t count);
+bool sparse_list_sort(const struct consistent *c, struct sparse_list *list);
+void sparse_list_free(struct sparse_list *list);
+size_t sparse_list_bytes(const struct consistent *c, const struct sparse_list *list);
 /* Adds loads and the pull of moving faces, as vectors given, in plane k. */
-void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse *load,
+void add_forces(const struct consistent *c, const struct drive *drive, const struct sparse_list *load,
                 const struct sparse *pull, int component, size_t k, double *plane);
 void sparse_add(const struct consistent *c, const struct sparse *sparse, int component, size_t k,
                 double factor, double *plane);

@@ -363,7 +363,7 @@ size_t hform_bytes(const struct consistent *c)
 {
     const struct hform *h = c->hform;
     if (h == NULL) return 0;
-    return sizeof *h + c->model.unknowns * sizeof *h->work +
+    return sizeof *h + c->model.unknowns * sizeof *h->work + sparse_list_bytes(c, &h->load) +
            (h->acceleration != NULL ? tensor_plan_bytes(h->acceleration) : 0) +
            (h->dissipation != NULL ? tensor_plan_bytes(h->dissipation) : 0);
 }
@@ -385,9 +385,7 @@ void hform_free(struct consistent *c)
         band_free(h->product[i]);
     tensor_plan_free(h->acceleration);
     hform_dissipation_free(c);
-    for (size_t l = 0; h->load != NULL && l < c->model.scene->loads; l++)
-        sparse_free(&h->load[l]);
-    array_free(h->load);
+    sparse_list_free(&h->load);
     for (int face = 0; face < BOX_FACES; face++)
         sparse_free(&h->pulled[face]);
     array_free(h->factors.side);

@@ -30,7 +30,8 @@ struct hform {
     struct tensor_plan *acceleration; /* -M^-1 K but for the edges */
     size_t edges;
     struct edge edge[MAX_EDGES];
-    struct sparse *load, pulled[BOX_FACES]; /* M^-1 F; M^-1 M_IB a_B of moving faces */
+    struct sparse_list load;         /* M^-1 F */
+    struct sparse pulled[BOX_FACES]; /* M^-1 M_IB a_B of moving faces */
     double
         *loudest; /* where the fused operator does not serve: of plane k, strip s, the largest displacement */
     double *face[2];                 /* face values */

@@ -14,9 +14,10 @@ struct extent {
 static struct extent extent_of(const struct consistent *c, const struct sparse *sparse, int component)
 {
     struct extent extent = {.from = {c->n[0], c->n[1], c->n[2]}};
-    for (size_t k = 0; k < c->n[DEPTH]; k++) {
-        const size_t row = (size_t)component * c->n[DEPTH] + k;
-        for (size_t e = sparse->start[row]; e < sparse->start[row + 1]; e++) {
+    for (size_t p = 0; p < sparse->planes; p++) {
+        const size_t k = sparse->plane[p] % c->n[DEPTH];
+        if (sparse->plane[p] / c->n[DEPTH] != (size_t)component) continue;
+        for (size_t e = sparse->start[p]; e < sparse->start[p + 1]; e++) {
             const size_t at[3] = {sparse->index[e] % c->n[0], sparse->index[e] / c->n[0], k};
             for (int slot = 0; slot < 3; slot++) {
                 if (at[slot] < extent.from[slot]) extent.from[slot] = at[slot];
@@ -72,10 +73,10 @@ bool hform_forces(struct consistent *c)
     struct hform *h = c->hform;
     const size_t loads = c->model.scene->loads;
     double *line = array_new(c->n[0] + c->n[1] + c->n[2], sizeof *line);
-    h->load = array_new(loads, sizeof *h->load);
-    bool good = line != NULL && h->load != NULL;
+    bool good = line != NULL && sparse_list_new(&h->load, loads);
     for (size_t l = 0; good && l < loads; l++)
-        good = widen(c, &c->load[l], h->work, line, &h->load[l]);
+        good = widen(c, &c->load.of[l], h->work, line, &h->load.of[l]);
+    if (good) good = sparse_list_sort(c, &h->load);
     for (int face = 0; good && face < 2 * c->dimension; face++)
         if (c->moving[face]) good = widen(c, &c->inertia[face], h->work, line, &h->pulled[face]);
     array_free(line);

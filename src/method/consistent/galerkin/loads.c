@@ -279,11 +279,12 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
     const struct scene *scene = c->model.scene;
     struct workspace w;
     selas_status status = SELAS_OK;
-    c->load = array_new(scene->loads, sizeof *c->load);
-    if (!workspace_new(c, &w) || c->load == NULL)
+    if (!workspace_new(c, &w) || !sparse_list_new(&c->load, scene->loads))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++)
-        status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+        status = load_create(c, &scene->load[k], &c->load.of[k], &w, messages);
+    if (status == SELAS_OK && !sparse_list_sort(c, &c->load))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
     if (status == SELAS_OK) status = moving_loads_create(c, messages);
     for (int face = 0; status == SELAS_OK && face < 2 * c->dimension; face++)
         if (c->moving[face] && !motion_create(c, face, &w))
@@ -302,29 +303,28 @@ selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struc
     w.beside = beside;
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
-        sparse_free(&c->load[k]);
-        status = load_create(c, &scene->load[k], &c->load[k], &w, messages);
+        sparse_free(&c->load.of[k]);
+        status = load_create(c, &scene->load[k], &c->load.of[k], &w, messages);
         status = ranks_agree(c->part.ranks, status, messages);
     }
+    if (status == SELAS_OK && !sparse_list_sort(c, &c->load))
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
+    status = ranks_agree(c->part.ranks, status, messages);
     workspace_free(&w);
     return status;
 }
 
 size_t forces_bytes(const struct consistent *c)
 {
-    size_t bytes = 0;
-    for (size_t k = 0; k < c->model.scene->loads; k++)
-        bytes += sparse_bytes(c, &c->load[k]);
+    size_t bytes = sparse_list_bytes(c, &c->load);
     for (int face = 0; face < BOX_FACES; face++)
-        bytes += sparse_bytes(c, &c->pattern[face]) + sparse_bytes(c, &c->inertia[face]);
+        bytes += sparse_bytes(&c->pattern[face]) + sparse_bytes(&c->inertia[face]);
     return bytes;
 }
 
 void forces_free(struct consistent *c)
 {
-    for (size_t k = 0; c->load != NULL && k < c->model.scene->loads; k++)
-        sparse_free(&c->load[k]);
-    array_free(c->load);
+    sparse_list_free(&c->load);
     moving_loads_free(c);
     for (int face = 0; face < BOX_FACES; face++) {
         sparse_free(&c->pattern[face]);

@@ -50,10 +50,10 @@ bool watch_places(struct consistent *c, size_t count, const size_t *place)
 bool watch_loads(struct consistent *c)
 {
     for (size_t l = 0; l < c->model.scene->loads; l++) {
-        const struct sparse *load = &c->load[l];
-        for (size_t at = 0; at < 3 * c->n[DEPTH]; at++)
-            for (size_t e = load->start[at]; e < load->start[at + 1]; e++) {
-                const size_t place = at % c->n[DEPTH] * c->plane + load->index[e];
+        const struct sparse *load = &c->load.of[l];
+        for (size_t p = 0; p < load->planes; p++)
+            for (size_t e = load->start[p]; e < load->start[p + 1]; e++) {
+                const size_t place = load->plane[p] % c->n[DEPTH] * c->plane + load->index[e];
                 if (!watch_places(c, 1, &place)) return false;
             }
     }

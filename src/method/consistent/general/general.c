@@ -231,7 +231,7 @@ void general_accelerate(struct consistent *c, const struct drive *drive, double 
     for (int component = 0; component < c->dimension; component++)
         for (size_t k = 0; k < c->n[DEPTH]; k++) {
             double *plane = g->force + (size_t)component * c->volume + k * c->plane;
-            add_forces(c, drive, c->load, NULL, component, k, plane);
+            add_forces(c, drive, &c->load, NULL, component, k, plane);
             moving_loads_add(c, drive, component, k, plane);
         }
     divide(c, g->force, a);

@@ -195,15 +195,17 @@ static bool lay_fields(const struct consistent *c, struct sweep *s)
 /* Rows where loads act. */
 static void lay_loaded(const struct consistent *c, struct sweep *s)
 {
-    for (size_t l = 0; l < c->model.scene->loads; l++)
-        for (size_t at = 0; at < 3 * s->n[2]; at++)
-            for (size_t e = c->load[l].start[at]; e < c->load[l].start[at + 1]; e++) {
-                struct rows *rows = &s->loaded[at % s->n[2]];
-                const size_t j = c->load[l].index[e] / s->n[0];
+    for (size_t l = 0; l < c->load.count; l++) {
+        const struct sparse *load = &c->load.of[l];
+        for (size_t p = 0; p < load->planes; p++)
+            for (size_t e = load->start[p]; e < load->start[p + 1]; e++) {
+                struct rows *rows = &s->loaded[load->plane[p] % s->n[2]];
+                const size_t j = load->index[e] / s->n[0];
                 if (rows->from >= rows->end) *rows = (struct rows){j, j + 1};
                 if (j < rows->from) rows->from = j;
                 if (j >= rows->end) rows->end = j + 1;
             }
+    }
 }
 
 bool sweep_create(struct consistent *c)

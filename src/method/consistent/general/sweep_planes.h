@@ -71,11 +71,13 @@ static void add_loads(const struct pass *pass, const struct rings *r, size_t k, 
     const struct sweep *s = pass->s;
     const struct drive *drive = pass->drive;
     const REAL *root = (const REAL *)s->root + k * s->plane;
-    for (size_t l = 0; drive->load != NULL && l < pass->c->model.scene->loads; l++) {
-        const struct sparse *load = &pass->c->load[l];
+    const struct sparse_list *loads = &pass->c->load;
+    const size_t at = component * s->n[2] + k;
+    for (size_t i = loads->start[at]; drive->load != NULL && i < loads->start[at + 1]; i++) {
+        const size_t l = loads->number[i], part = loads->part[i];
+        const struct sparse *load = &loads->of[l];
         const double amplitude = drive->load[l] * pass->c->model.scene->load[l].amplitude;
-        const size_t at = component * s->n[2] + k;
-        for (size_t e = load->start[at]; amplitude != 0 && e < load->start[at + 1]; e++) {
+        for (size_t e = load->start[part]; amplitude != 0 && e < load->start[part + 1]; e++) {
             const size_t index = load->index[e];
             r->scaled[index / s->n[0] * s->stride + index % s->n[0]] +=
                 root[index] * (REAL)(amplitude * load->value[e]);
