@@ -304,7 +304,7 @@ static double total_force(const struct plain_scene *plain, int component, struct
     double *ones = calloc(model->unknowns, sizeof *ones);
     for (size_t i = 0; i < c->volume; i++)
         ones[(size_t)component * c->volume + i] = 1;
-    const double force = sparse_dot(c, &c->load[0], ones);
+    const double force = sparse_dot(c, &c->load.of[0], ones);
     free(ones);
     model_free(&model);
     return force;
@@ -361,7 +361,7 @@ static void test_moment_tensor(void **state)
                 const size_t q = p % c->volume, at[3] = {q % c->n[0], q / c->n[0] % c->n[1], q / c->plane};
                 field[p] = p / c->volume == (size_t)i ? c->spline[j]->greville[at[j]] : 0;
             }
-            assert_near(sparse_dot(c, &c->load[0], field), full[i][j], 1e-12);
+            assert_near(sparse_dot(c, &c->load.of[0], field), full[i][j], 1e-12);
         }
     free(field);
     model_free(&model);

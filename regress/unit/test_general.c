@@ -80,6 +80,32 @@ static void test_rigid_motions(void **state)
     run_free(&run);
 }
 
+/* u_x = x^2 / 2: free edges and corners are pulled at by (lambda + 2 mu) times the exact integrals of x N'(x) and N, h / 3
+ * each, and h along an edge. */
+static void test_edges_are_exact(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct plain_scene plain;
+        plain_box(&plain, dimension, (double[]){2.5, 2.25, 2.5}, .25);
+        struct run run = run_new(&plain, general());
+        struct consistent *c = consistent_of(run.model);
+        const struct material *m = &run.model->scene->material[0];
+        const double h = run.model->scene->body.spacing, third = h / 3;
+        for (size_t i = 0; i < c->volume; i++) {
+            const double x = c->layout[0]->greville[i % c->n[0]];
+            const bool inside = i % c->n[0] > 0 && i % c->n[0] + 1 < c->n[0];
+            run.y[i] = (x * x - (inside ? h * h / 4 : 0)) / 2;
+        }
+        general_forces(c, run.y, NULL, run.a);
+        const size_t middle = dimension == 3 ? c->n[1] / 2 * c->n[0] : 0;
+        const double edge = (m->plane_lambda + 2 * m->mu) * third * third * (dimension == 3 ? h : 1);
+        assert_true(fabs(run.a[middle] - edge) < 1e-12 * edge);
+        if (dimension == 3) assert_true(fabs(run.a[0] - edge / 3) < 1e-12 * edge);
+        run_free(&run);
+    }
+}
+
 /* Worst relative error of P and S over three directions, from the operator itself: cosines inside a box. */
 static double dispersion(struct run *run, double points)
 {
@@ -362,6 +388,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_symmetric_and_positive),
         cmocka_unit_test(test_rigid_motions),
+        cmocka_unit_test(test_edges_are_exact),
         cmocka_unit_test(test_plane_waves),
         cmocka_unit_test(test_largest_step),
         cmocka_unit_test(test_energy),

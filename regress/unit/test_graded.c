@@ -273,7 +273,7 @@ static void test_even_strain(void **state)
         const int i = pair[m][0], j = pair[m][1];
         work += load->moment[m] * (i == j ? strain_of[i][j] : strain_of[i][j] + strain_of[j][i]);
     }
-    assert_near(sparse_dot(c, &c->load[1], run->y), work, 3e-3);
+    assert_near(sparse_dot(c, &c->load.of[1], run->y), work, 3e-3);
     made_free(&made);
 }
 

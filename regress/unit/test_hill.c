@@ -277,7 +277,7 @@ static double moment_error(double spacing)
         const int i = place[m][0], j = place[m][1];
         work += load->moment[m] * (i == j ? strain_of[i][j] : strain_of[i][j] + strain_of[j][i]);
     }
-    const double error = fabs(sparse_dot(c, &c->load[0], run.y) - work);
+    const double error = fabs(sparse_dot(c, &c->load.of[0], run.y) - work);
     run_free(&run);
     return error;
 }

@@ -163,8 +163,8 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
 {
     if (figures != NULL) {
         const double work = (double)recorder->model->points * (double)recorder->last_step;
-        fprintf(out, "point-steps per second: %.4e\nstepping CPU seconds: %.4g\n", per(work, figures->wall_seconds),
-                figures->cpu_seconds);
+        fprintf(out, "point-steps per second: %.4e\nstepping CPU seconds: %.4g\n",
+                per(work, figures->wall_seconds), figures->cpu_seconds);
     }
     if (recorder->exact == NULL) return;
     if (recorder->rows > 0 && !brief)

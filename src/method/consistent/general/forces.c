@@ -221,6 +221,7 @@ static void make_planes(const struct consistent *c, int thread, size_t from, siz
                 if (g->family[f].at[DEPTH] == (enum at)at) rows_of(c, &g->family[f], m, extra, buffer);
             write_pulls(c, (enum at)at, m, from, end, extra != NULL, buffer, force);
         }
+    general_edges(c, u, from, end, force);
 }
 
 void general_look(struct consistent *c, const double *u)
@@ -255,5 +256,4 @@ void general_forces(struct consistent *c, const double *u, const double *extra, 
         const size_t end = next < c->n[DEPTH] ? next : c->n[DEPTH];
         if (from < end) make_planes(c, omp_get_thread_num(), from, end, u, extra, force);
     }
-    general_corners(c, u, force);
 }

@@ -143,12 +143,11 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     for (int slot = 0; good && slot < 3; slot++)
         good = lay_axis(c, slot);
     double *mass = array_new(c->volume, sizeof *mass);
-    good = good && mass != NULL && lay_families(c) && general_lay_hill(c) && lay_inverse(c) &&
-           general_material(c, mass) && lay_buffers(c);
+    good = good && mass != NULL && lay_families(c) && general_lay_hill(c) && general_lay_edges(c) &&
+           lay_inverse(c) && general_material(c, mass) && general_lay_edge_points(c) && lay_buffers(c);
     selas_status status =
         good ? SELAS_OK
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
-    if (status == SELAS_OK) general_lay_corners(c);
     status = ranks_agree(c->part.ranks, status, messages);
     if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, messages);
     if (status == SELAS_OK && !general_scale(c, mass))
@@ -174,6 +173,7 @@ void general_free(struct consistent *c)
     general_layers_free(c);
     sweep_free(g->sweep);
     general_free_hill(c);
+    general_free_edges(c);
     for (int slot = 0; slot < 3; slot++)
         for (int odd = 0; odd < 2; odd++)
             for (int at = 0; at < 2; at++)

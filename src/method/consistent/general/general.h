@@ -21,12 +21,35 @@ struct family {
     double *stiffness; /* of all runs */
 };
 
-/* A point on a corner where three free faces meet (corners.c), by slot. */
-struct corner {
-    bool high[3];
-    double slope[3]; /* of the control value next to the corner's */
-    struct metric metric;
+/* Shares of d at the points of an axis, and their plain weights, in cells (edges.c). */
+struct edge_line {
+    size_t n;
+    double *share, *plain;
+};
+
+/* What a point sees of a component: control values of `planes` planes, `each` in each of them. */
+struct edge_taps {
+    size_t plane, planes, each, at; /* of the first in edges.tap */
+};
+
+/* A point near an edge that is of no family; moduli times its weight; planes and rows that it sees; by slot of the
+ * component. */
+struct edge_point {
     double lambda, mu;
+    size_t plane, plane_end, row, row_end;
+    struct edge_taps of[3];
+};
+
+struct edges {
+    struct edge_line line[3][2]; /* [slot][at] */
+    size_t count, most;          /* points; at most so many begin in a plane */
+    size_t *start; /* [n[DEPTH] + 1]: those that see plane k first are start[k] to start[k + 1] */
+    struct edge_point *point;
+    size_t taps;
+    struct edge_tap {
+        unsigned row, column; /* within a plane */
+        double slope[3];      /* of the control value's function along the axes, by slot */
+    } * tap;
 };
 
 /* The map of a surface that is not level, by the splines of the displacements (hill.c). */
@@ -41,8 +64,7 @@ struct general {
     size_t first;               /* over depth: the first of them in the body */
     struct taps *taps[3][2][2]; /* [slot][odd][at] */
     struct family family[3];
-    size_t corners;
-    struct corner corner[8];
+    struct edges *edges;         /* NULL: no two faces meet */
     struct hill *hill;           /* NULL: the surface is level */
     struct sweep *sweep;         /* NULL: steps are made with the operator */
     struct general_layer *layer; /* [layers] */
@@ -117,13 +139,16 @@ void general_layers_start(struct consistent *c, const double *u, double *extra);
 void general_layers_remember(struct consistent *c, double dt, double to_middle, const double *u,
                              const double *v, double *extra);
 
-/* corners.c: lays the corners; adds -K u of their points. */
-void general_lay_corners(struct consistent *c);
-void general_corners(const struct consistent *c, const double *u, double *force);
-/* Control values that the point of a corner sees: on the corner, and the next one along each axis. */
-size_t general_corner_seen(const struct consistent *c, const struct corner *corner, int slot, int next);
-/* What the stresses of a component pull at along each slot, from the slopes along the lattice; these are spoiled. */
-void general_corner_pull(const struct corner *corner, double slope[3][3], int component, double pull[3]);
+/* edges.c: what is added at edges, the weights and, once the families have moduli, the points. False: no memory. */
+bool general_lay_edges(struct consistent *c);
+bool general_lay_edge_points(struct consistent *c);
+void general_free_edges(struct consistent *c);
+/* Added weight of a point, without the map's Jacobian. */
+double general_added(const struct consistent *c, const enum at at[3], const size_t place[3]);
+/* stress += that of slopes [component][slot] along the axes, times the weight of the point. */
+void general_edge_stress(const struct edge_point *point, double slope[3][3], double stress[3][3]);
+/* Adds -K u of these points in planes from .. end - 1. */
+void general_edges(const struct consistent *c, const double *u, size_t from, size_t end, double *force);
 
 /* material.c: lays moduli at the points, those of a part of damped ground too, and the mass of each control value.
  * False: no memory. */
@@ -135,7 +160,8 @@ double general_weight(const struct consistent *c, const struct family *family, c
 /* hill.c: false: no memory. */
 bool general_lay_hill(struct consistent *c);
 void general_free_hill(struct consistent *c);
-/* Metric at points of a family. */
+/* Metric at any point; at points of a family. */
+struct metric general_metric_of(const struct consistent *c, const enum at at[3], const size_t place[3]);
 struct metric general_metric_at(const struct consistent *c, const struct family *family, size_t i, size_t j,
                                 size_t k);
 /* Row j of points in plane k as the kernels take it; false: it is level. */

@@ -49,7 +49,22 @@ static bool lay_depth(struct consistent *c, struct hill *hill)
     return good;
 }
 
-/* s and its slopes at the points of a family. */
+/* s and its slopes at a point. */
+static double drop_at(const struct consistent *c, const enum at at[3], size_t i, size_t j, double slope[2])
+{
+    const struct taps *x = &c->general->taps[0][0][at[0]][i], *y = &c->general->taps[1][0][at[1]][j];
+    double drop = slope[0] = slope[1] = 0;
+    for (size_t b = 0; b < y->count; b++)
+        for (size_t a = 0; a < x->count; a++) {
+            const double control = c->surface[(y->first + b) * c->n[0] + x->first + a];
+            drop += x->value[a] * y->value[b] * control;
+            slope[0] += x->slope[a] * y->value[b] * control;
+            slope[1] += x->value[a] * y->slope[b] * control;
+        }
+    return drop;
+}
+
+/* The same at the points of a family. */
 static bool lay_points(struct consistent *c, int f, struct hill *hill)
 {
     const struct family *family = &c->general->family[f];
@@ -60,15 +75,10 @@ static bool lay_points(struct consistent *c, int f, struct hill *hill)
     if (hill->drop[f] == NULL || hill->slope[f][0] == NULL || hill->slope[f][1] == NULL) return false;
     c->general->bytes += 3 * count * sizeof(double);
     for (size_t p = 0; p < count; p++) {
-        const struct taps *x = &c->general->taps[0][0][family->at[0]][p % family->n[0]];
-        const struct taps *y = &c->general->taps[1][0][family->at[1]][p / family->n[0]];
-        for (size_t j = 0; j < y->count; j++)
-            for (size_t i = 0; i < x->count; i++) {
-                const double control = c->surface[(y->first + j) * c->n[0] + x->first + i];
-                hill->drop[f][p] += x->value[i] * y->value[j] * control;
-                hill->slope[f][0][p] += x->slope[i] * y->value[j] * control;
-                hill->slope[f][1][p] += x->value[i] * y->slope[j] * control;
-            }
+        double slope[2];
+        hill->drop[f][p] = drop_at(c, family->at, p % family->n[0], p / family->n[0], slope);
+        hill->slope[f][0][p] = slope[0];
+        hill->slope[f][1][p] = slope[1];
     }
     return true;
 }
@@ -98,6 +108,19 @@ void general_free_hill(struct consistent *c)
             array_free(hill->slope[f][s]);
     }
     array_free(hill);
+}
+
+struct metric general_metric_of(const struct consistent *c, const enum at at[3], const size_t place[3])
+{
+    const struct hill *hill = c->general->hill;
+    const double stretch =
+        grading_stretch(c->model.scene->body.grading, general_place(c, DEPTH, at[DEPTH], place[DEPTH]));
+    if (hill == NULL || place[DEPTH] >= hill->level[at[DEPTH]])
+        return (struct metric){.inverse = 1 / stretch, .jacobian = stretch};
+    double slope[2];
+    const double drop = drop_at(c, at, place[0], place[1], slope);
+    return metric_of(stretch, drop, slope, hill->share[at[DEPTH]][place[DEPTH]],
+                     hill->fall[at[DEPTH]][place[DEPTH]]);
 }
 
 struct metric general_metric_at(const struct consistent *c, const struct family *family, size_t i, size_t j,

@@ -17,10 +17,11 @@ static double weight_of(const struct consistent *c, int slot, enum at at, size_t
 
 double general_weight(const struct consistent *c, const struct family *family, const size_t at[3])
 {
-    double weight = general_metric_at(c, family, at[0], at[1], at[2]).jacobian / 3;
+    double weight = 1. / 3;
     for (int slot = 0; slot < 3; slot++)
         weight *= weight_of(c, slot, family->at[slot], at[slot]);
-    return weight;
+    weight += general_added(c, family->at, at);
+    return weight * general_metric_at(c, family, at[0], at[1], at[2]).jacobian;
 }
 
 /* Sums over the points about each control value: weight times density, and weight. */
@@ -118,7 +119,7 @@ static bool lay_row(struct consistent *c, struct family *family, const struct me
             even *= weight_of(c, slot, family->at[slot], place[slot]);
         }
         const struct metric metric = general_metric_at(c, family, i, j, k);
-        const double weight = even * metric.jacobian;
+        const double weight = (even + general_added(c, family->at, place)) * metric.jacobian;
         medium_point(medium, i, j, &metric, &averaged);
         const bool turned = medium_stiffness(&averaged, stiffness, &lambda, &mu);
         if (sums->sharing != NULL)

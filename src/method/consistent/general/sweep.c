@@ -155,7 +155,9 @@ static void lay_parts(const struct consistent *c, struct sweep *s)
 /* Rooms of the threads, for all parts. */
 static bool lay_buffers(const struct consistent *c, struct sweep *s)
 {
-    const size_t taken = s->stride * sizeof(double) / s->number; /* a row of doubles */
+    const struct edges *edges = c->general->edges;
+    const size_t at_edges = edges != NULL ? SPAN * edges->most * 9 : 0,
+                 taken = (s->stride + at_edges) * sizeof(double) / s->number; /* of doubles */
     const size_t room = (SPAN * 3 * (s->parts * DEPTH_FIELDS + PULL_FIELDS) + 9 + STRESS_ROOM +
                          3 * SPAN * (s->cells[1] + 2) + s->n[1] + 2 * FUSED_ROWS + 2) *
                             s->stride +

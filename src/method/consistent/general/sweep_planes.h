@@ -1,5 +1,5 @@
 /* What a sweep does with the forces of a plane that is complete (sweep.h), for numbers of type REAL; included by
- * sweep_double.c and sweep_single.c: ends, corners, loads, N and the update. */
+ * sweep_double.c and sweep_single.c: ends, edges, loads, N and the update. */
 
 /* Forces of unclamped splines to those of the open ends, along y. */
 static void clamp_rows(const struct sweep *s, const struct rings *r, size_t k, size_t component)
@@ -23,47 +23,73 @@ static void scale_row(const struct sweep *s, size_t component, const REAL *root,
     NAME(taken_sweep_kernels)()->scale(s->n[0], root, row + s->low[0], out);
 }
 
-/* What a corner pulls at, of all parts. */
-static void pull_corner(const struct pass *pass, size_t n, size_t component, double pull[3])
+/* Does a point at an edge see anything that moves? If so pairs touch all rows that it sees. */
+static bool edge_is_loud(const struct pass *pass, const struct edge_point *point)
 {
-    memset(pull, 0, 3 * sizeof *pull);
+    for (size_t k = point->plane; k < point->plane_end; k++)
+        for (size_t j = point->row; j < point->row_end; j++)
+            if (!(pass->s->size[k * pass->s->n[1] + j] <= pass->level)) return true;
+    return false;
+}
+
+/* Stresses of all parts at it, by slot. */
+static void edge_stress(const struct pass *pass, size_t n, double stress[3][3])
+{
+    const struct sweep *s = pass->s;
+    memset(stress, 0, 9 * sizeof(double));
+    if (!edge_is_loud(pass, &pass->c->general->edges->point[n])) return;
     for (size_t p = 0; p < pass->fields->parts; p++) {
-        const struct corner *corner = &pass->fields->part[p].ground->corner[n];
-        double slope[3][3], own[3];
-        for (size_t of = 0; of < 3; of++)
-            for (int slot = 0; slot < 3; slot++) {
-                const REAL *u = pass->fields->part[p].u + of * pass->s->volume;
-                slope[of][slot] =
-                    corner->slope[slot] * ((double)u[general_corner_seen(pass->c, corner, slot, 1)] -
-                                           (double)u[general_corner_seen(pass->c, corner, slot, 0)]);
-            }
-        general_corner_pull(corner, slope, (int)component, own);
-        for (int slot = 0; slot < 3; slot++)
-            pull[slot] += own[slot];
+        const struct edges *edges = pass->fields->part[p].ground->edges;
+        const struct edge_point *point = &edges->point[n];
+        double slope[3][3] = {{0}};
+        for (size_t component = 0; component < 3; component++) {
+            const struct edge_taps *of = &point->of[component];
+            const struct edge_tap *tap = edges->tap + of->at;
+            const REAL *u = pass->fields->part[p].u + component * s->volume + of->plane * s->plane;
+            for (size_t k = 0; k < of->planes; k++, u += s->plane)
+                for (size_t t = 0; t < of->each; t++, tap++)
+                    for (int slot = 0; slot < 3; slot++)
+                        slope[component][slot] +=
+                            tap->slope[slot] * (double)u[tap->row * s->n[0] + tap->column];
+        }
+        general_edge_stress(point, slope, stress);
     }
 }
 
-/* Corners (corners.c) that act on plane k. */
-static void add_corners(const struct pass *pass, const struct rings *r, size_t k, size_t component,
-                        const struct rows *rows)
+static double (*edge_ring(const struct pass *pass, const struct rings *r, size_t k))[3][3]
+{
+    return (double(*)[3][3])r->edge + k % SPAN * pass->c->general->edges->most;
+}
+
+/* Stresses of the edges' points that plane k sees, if they are not made yet. */
+static void make_edges(const struct pass *pass, struct rings *r, size_t k)
+{
+    const struct edges *edges = pass->c->general->edges;
+    for (size_t p = less(k, SPAN - 1); edges != NULL && p <= k; p++) {
+        if (r->edged[p % SPAN] == p + 1) continue;
+        r->edged[p % SPAN] = p + 1;
+        for (size_t n = edges->start[p]; n < edges->start[p + 1]; n++)
+            edge_stress(pass, n, edge_ring(pass, r, p)[n - edges->start[p]]);
+    }
+}
+
+/* What they pull at in plane k. */
+static void add_edges(const struct pass *pass, const struct rings *r, size_t k, size_t component)
 {
     const struct sweep *s = pass->s;
-    const struct general *g = pass->c->general;
-    for (size_t n = 0; n < g->corners; n++) {
-        const struct corner *corner = &g->corner[n];
-        const size_t end = corner->high[2] ? s->n[2] - 1 : 0, beside = corner->high[2] ? end - 1 : 1;
-        if (k != end && k != beside) continue;
-        double pull[3];
-        pull_corner(pass, n, component, pull);
-        for (int slot = 0; slot < 3; slot++)
-            for (int next = 0; next < 2; next++) {
-                const size_t at = general_corner_seen(pass->c, corner, slot, next);
-                const size_t j = at % s->plane / s->n[0], i = at % s->n[0];
-                if (at / s->plane != k || j < rows->from || j >= rows->end) continue;
-                r->scaled[j * s->stride + i] +=
-                    ((const REAL *)s->root)[at] * (REAL)(next == 1 ? -pull[slot] : pull[slot]);
-            }
-    }
+    const struct edges *edges = pass->c->general->edges;
+    const REAL *root = (const REAL *)s->root + k * s->plane;
+    for (size_t p = less(k, SPAN - 1); edges != NULL && p <= k; p++)
+        for (size_t n = edges->start[p]; n < edges->start[p + 1]; n++) {
+            const struct edge_taps *of = &edges->point[n].of[component];
+            const double *pull = edge_ring(pass, r, p)[n - edges->start[p]][component];
+            if (k < of->plane || k >= of->plane + of->planes) continue;
+            const struct edge_tap *tap = edges->tap + of->at + (k - of->plane) * of->each;
+            for (size_t t = 0; t < of->each; t++, tap++)
+                r->scaled[tap->row * s->stride + tap->column] -=
+                    root[tap->row * s->n[0] + tap->column] *
+                    (REAL)(tap->slope[0] * pull[0] + tap->slope[1] * pull[1] + tap->slope[2] * pull[2]);
+        }
 }
 
 static void add_loads(const struct pass *pass, const struct rings *r, size_t k, size_t component)
@@ -135,6 +161,7 @@ static void plane_done(const struct pass *pass, struct rings *r, size_t k)
     s->waiting[k] = rows;
     if (rows.from >= rows.end) return;
     layers_done(pass, r, k, &rows);
+    make_edges(pass, r, k);
     filled->from = less(rows.from, SWEEP_REACH) / FUSED_ROWS * FUSED_ROWS;
     filled->end = rows.end + SWEEP_REACH < s->n[1] ? rows.end + SWEEP_REACH : s->n[1];
     for (size_t component = 0; component < 3; component++) {
@@ -142,7 +169,7 @@ static void plane_done(const struct pass *pass, struct rings *r, size_t k)
         for (size_t j = rows.from; j < rows.end; j++)
             scale_row(s, component, (const REAL *)s->root + k * s->plane + j * s->n[0],
                       force_row(s, r, k, component, j + s->low[1]), r->scaled + j * s->stride);
-        add_corners(pass, r, k, component, &rows);
+        add_edges(pass, r, k, component);
         add_loads(pass, r, k, component);
         add_moments(pass, r, false, component, k, &rows);
         if (!later) add_moments(pass, r, true, component, k, &rows);

@@ -17,6 +17,8 @@ struct rings {
     REAL *part;  /* of each layer (struct sweep_part) */
     REAL *scaled, *passed, *zero;
     double *taken;             /* a row of a layer */
+    double *edge;              /* [SPAN planes][most of the edges' points in a plane][3][3] */
+    size_t edged[SPAN];        /* 1 more than the plane whose are there */
     struct rows touched[SPAN]; /* of `force` */
 };
 
@@ -56,6 +58,7 @@ static struct rings rings_of(const struct sweep *s, REAL *buffer)
     r.zero = r.passed + FUSED_ROWS * s->stride;
     void *taken = r.zero + FUSED_ROWS * s->stride;
     r.taken = taken;
+    r.edge = r.taken + s->stride;
     return r;
 }
 

@@ -49,8 +49,10 @@ static void sweep_points(const struct pass *pass, struct rings *r, size_t from, 
 {
     const struct sweep *s = pass->s;
     size_t next = from + 2, done = from, finished = from;
-    for (size_t slot = 0; slot < SPAN; slot++)
+    for (size_t slot = 0; slot < SPAN; slot++) {
         r->touched[slot] = (struct rows){0, 0};
+        r->edged[slot] = 0;
+    }
     memset(r->force, 0, (3 * SPAN * unclamped(s, 1) * s->stride + s->part_size) * sizeof(REAL));
     for (size_t m = first_pair(s, from); done < end; m++) {
         if (m <= s->cells[2]) {
