@@ -5,6 +5,7 @@
 #include "method/consistent/general/general.h"
 
 #include "base/memory.h"
+#include "scene/grading.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -189,6 +190,8 @@ static void mean_moduli(const struct consistent *c, const enum at at[3], const s
 static void lay_taps(const struct consistent *c, const enum at at[3], const size_t place[3], int component,
                      const struct metric *metric, struct edges *edges, struct edge_taps *of)
 {
+    const double stretch =
+        grading_stretch(c->model.scene->body.grading, general_place(c, DEPTH, at[DEPTH], place[DEPTH]));
     const struct taps *taps[3];
     for (int slot = 0; slot < 3; slot++)
         taps[slot] = &c->general->taps[slot][slot == component][at[slot]][place[slot]];
@@ -199,7 +202,7 @@ static void lay_taps(const struct consistent *c, const enum at at[3], const size
             for (size_t i = 0; i < x->count; i++) {
                 double slope[3] = {x->slope[i] * y->value[j] * z->value[k],
                                    x->value[i] * y->slope[j] * z->value[k],
-                                   x->value[i] * y->value[j] * z->slope[k]};
+                                   x->value[i] * y->value[j] * z->slope[k] * stretch};
                 metric_tilt(metric, slope);
                 edges->tap[edges->taps++] = (struct edge_tap){
                     (unsigned)(y->first + j), (unsigned)(x->first + i), {slope[0], slope[1], slope[2]}};
