@@ -259,18 +259,6 @@ untold "one beside a level interface" body%grading=1 load%centre=2,2,1.4 receive
 told "one beside a level interface of strong contrast" "1.[67] spacings .* a twentieth .* 'layered'" body%grading=1 load%centre=2,2,1.4 receiver%position=2,2,3.5
 untold "a moment tensor farther off" $tilted load%centre=2,2,1.9
 untold "a force beside an interface" $tilted load%centre=2,2,1.4 load%kind=body-force load%shape=point load%direction=0,0,1 load%moment=
-cat >edges.nml <<END
-&scene dimension = 3, end_time = 1 / &material name = 'rock', density = 1, p_speed = 1.732, s_speed = 1 /
-&body material = 'rock', low = 0, 0, 0, high = 3, 3, 3, spacing = .125 / &method operator = 'general' /
-&load face = 'z-', shape = 'square', centre = 1, 1.5, 0, size = 1, 1, direction = 0, 0, 1, history = 'gaussian', width = .3, delay = 1.8 /
-&receiver name = 'r', position = 0, 1.5, 0 /
-&output plots = .false. /
-END
-deck=edges.nml
-told "a receiver on an edge of free faces" "receiver 'r' is where two free faces meet: .* wrong by up to 0.042; body%spacing = 0.060[0-9]* "
-untold "finer" body%spacing=.06
-untold "the layered operator, which is exact there" method%operator=layered
-untold "a receiver two spacings off" receiver%position=.25,1.5,.25
 deck=graded.nml
 sed -i '/^&method/d' graded.nml
 told "a grading of level layers" "body%grading brings the general operator" receiver%position=2,2,2.5

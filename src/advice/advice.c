@@ -218,7 +218,6 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_receivers(&adviser);
     look_at_nearness(&adviser);
     look_at_interfaces(&adviser);
-    look_at_free_edges(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
     look_at_rests(&adviser);

@@ -48,8 +48,6 @@ void look_at_nearness(struct adviser *adviser);
 void look_at_passed(struct adviser *adviser, size_t load);
 /* Moment tensors beside interfaces of general ground. */
 void look_at_interfaces(struct adviser *adviser);
-/* Receivers on edges of general ground. */
-void look_at_free_edges(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */

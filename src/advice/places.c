@@ -135,35 +135,6 @@ void look_at_interfaces(struct adviser *adviser)
            ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 
-/* What the general operator leaves on edges of free faces at most, for waves of so many points a wavelength
- * (regress/studies/real-ground/figures drawn-edges: .5 to 1.5 times their square; .004 at 6 points in the plane). */
-void look_at_free_edges(struct adviser *adviser)
-{
-    static const double at_one = 1.6, reach = 1.5, seen = .01;
-    const struct scene *scene = adviser->scene;
-    const struct body *body = &scene->body;
-    const double points = points_per_wavelength(scene), error = at_one / (points * points);
-    if (strcmp(scene->method.variant, "consistent") != 0 || scene->dimension != 3) return;
-    if (!by_general_operator(scene) || points == 0.0 || error < seen) return;
-    for (size_t r = 0; r < scene->receivers; r++) {
-        double place[3] = {0.0, 0.0, 0.0};
-        int free = 0;
-        lattice_from_deck(body, scene->receiver[r].position, place);
-        for (int face = 0; face < 6; face++) {
-            const double to = face % 2 == 0 ? place[face / 2] - body->low[face / 2]
-                                            : body->high[face / 2] - place[face / 2];
-            free += boundary_is_free(&scene->boundary[face]) && to < reach * body->spacing;
-        }
-        if (free < 2) continue;
-        advise(adviser,
-               "receiver '%s' is where two free faces meet: within two spacings of such edges velocities by "
-               "the general operator may be wrong by up to %.2g; body%%spacing = %.3g or a receiver farther "
-               "from the edge would do",
-               scene->receiver[r].name, error, body->spacing * points * sqrt(seen / at_one) * .99);
-        return;
-    }
-}
-
 /* Rays up a dip come back down it, also from the sides (a soil of half the speed, 1.5 thick, box of 3.6 x 2.4:
  * regress/checks/fitted.sh): what is beyond the box is not there. */
 void look_at_tilted(struct adviser *adviser)
