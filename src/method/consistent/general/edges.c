@@ -1,7 +1,7 @@
-/* Edges where two free faces meet: S3 lacks the products of (G3) there. They are added in the cells next to an edge, with
- * shares that fall from the faces inwards (doc/theory/general-ground.md, G3a): points of the families take another
- * weight, and where they have none there are points more. At any other corner of the body one point sees what no other
- * does. */
+/* Edges where two free faces meet: S3 lacks the products of (G3) there. They are added in the cells next to an
+ * edge, with shares that fall from the faces inwards (doc/theory/general-ground.md, G3a): points of the families
+ * take another weight, and where they have none there are points more. At any other corner of the body one point
+ * sees what no other does. */
 #include "method/consistent/general/general.h"
 
 #include "base/memory.h"
