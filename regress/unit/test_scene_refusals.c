@@ -245,6 +245,10 @@ static void loads(void **unused)
         {LOAD(PATCH "centre=1,1,.25, size=1,1" PUSH),
          "t.nml:4:34: error:",
          {"lies 0.25 off the face 'z-'", "1, 1, 0"}},
+        {LOAD(PATCH "centre=1,1,.25, size=1,1" PUSH
+                    " /\n&topography shape='gaussian', height=.5, centre=1,1, width=2, depth=3"),
+         "t.nml:4:34: error:",
+         {"lies 0.75", "1, 1, -0.5"}},
         {LOAD(PATCH "centre=7.5,1,0, size=1,1" PUSH), "t.nml:4:34: error:", {"beyond the face 'z-'"}},
         {LOAD("face='z-', shape='disc', centre=7.4,7.4,0, size=1" PUSH),
          "t.nml:4:32: error:",

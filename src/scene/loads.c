@@ -69,14 +69,17 @@ static void place_patch(struct builder *builder, const struct deck_group *group,
     double place[3], beyond[2] = {0, 0};
     char text[VECTOR_TEXT_SIZE];
     int axes[2];
+    const double asked[3] = {load->centre[0], load->centre[1], load->centre[2]};
     body_from_deck(body, load->centre, place);
-    const double off = fabs(place[axis] - plane);
+    const bool off = fabs(place[axis] - plane) > body_tolerance(body);
     place[axis] = plane;
     body_to_deck(body, place, load->centre);
-    if (off > body_tolerance(body)) {
-        complain(builder, group, "centre",
-                 "the centre lies %.6g off the face '%s'; the nearest place on its plane is %s", off,
-                 face_name(load->face), vector_text(text, load->centre, dimension));
+    if (off) {
+        complain(
+            builder, group, "centre",
+            "the centre lies %.6g off the face '%s'; the nearest place on its plane is %s",
+            hypot(hypot(load->centre[0] - asked[0], load->centre[1] - asked[1]), load->centre[2] - asked[2]),
+            face_name(load->face), vector_text(text, load->centre, dimension));
         return;
     }
     const int count = axes_of_face(load->face, dimension, axes);
