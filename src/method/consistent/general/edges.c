@@ -9,8 +9,13 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 enum { WIDE = 2, CLEAR = 3 }; /* cells with a share, and between an edge's points and a layer */
+enum {
+    MOST_TAPS = 27,
+    LOOKED_AT = 64
+}; /* of a component; points before one among which others like it are sought */
 static const double shares[WIDE] = {1, .5};
 
 static int axis_of(const struct consistent *c, int slot)
@@ -186,8 +191,36 @@ static void mean_moduli(const struct consistent *c, const enum at at[3], const s
         mean[i] = sum[2] > 0 ? sum[i] / sum[2] : 0;
 }
 
+/* Room for one point's taps of a component behind those that are there. */
+static bool make_room(struct edges *edges)
+{
+    if (edges->taps + MOST_TAPS <= edges->room) return true;
+    const size_t room = 2 * edges->room + MOST_TAPS;
+    struct edge_tap *tap = array_new(room, sizeof *tap);
+    if (tap == NULL) return false;
+    if (edges->taps > 0) memcpy(tap, edges->tap, edges->taps * sizeof *tap);
+    array_free(edges->tap);
+    edges->tap = tap;
+    edges->room = room;
+    return true;
+}
+
+/* Where the taps behind those in use stand already, as those of one of the last points; else they are in use now. */
+static size_t share_taps(struct edges *edges, int component, size_t count)
+{
+    const struct edge_tap *tap = edges->tap + edges->taps;
+    const size_t last = edges->count - 1;
+    for (size_t n = 1; n <= LOOKED_AT && n <= last; n++) {
+        const struct edge_taps *of = &edges->point[last - n].of[component];
+        if (of->planes * of->each == count && memcmp(edges->tap + of->at, tap, count * sizeof *tap) == 0)
+            return of->at;
+    }
+    edges->taps += count;
+    return edges->taps - count;
+}
+
 /* What a component's control values are at a point, by slot of the component: slopes along the axes. */
-static void lay_taps(const struct consistent *c, const enum at at[3], const size_t place[3], int component,
+static bool lay_taps(const struct consistent *c, const enum at at[3], const size_t place[3], int component,
                      const struct metric *metric, struct edges *edges, struct edge_taps *of)
 {
     const double stretch =
@@ -196,7 +229,8 @@ static void lay_taps(const struct consistent *c, const enum at at[3], const size
     for (int slot = 0; slot < 3; slot++)
         taps[slot] = &c->general->taps[slot][slot == component][at[slot]][place[slot]];
     const struct taps *x = taps[0], *y = taps[1], *z = taps[2];
-    *of = (struct edge_taps){z->first, z->count, x->count * y->count, edges->taps};
+    if (!make_room(edges)) return false;
+    struct edge_tap *tap = edges->tap + edges->taps;
     for (size_t k = 0; k < z->count; k++)
         for (size_t j = 0; j < y->count; j++)
             for (size_t i = 0; i < x->count; i++) {
@@ -204,12 +238,15 @@ static void lay_taps(const struct consistent *c, const enum at at[3], const size
                                    x->value[i] * y->slope[j] * z->value[k],
                                    x->value[i] * y->value[j] * z->slope[k] * stretch};
                 metric_tilt(metric, slope);
-                edges->tap[edges->taps++] = (struct edge_tap){
-                    (unsigned)(y->first + j), (unsigned)(x->first + i), {slope[0], slope[1], slope[2]}};
+                *tap++ = (struct edge_tap){(unsigned)j, (unsigned)i, {slope[0], slope[1], slope[2]}};
             }
+    const size_t each = x->count * y->count;
+    *of = (struct edge_taps){z->first, z->count, y->first,
+                             x->first, each,     share_taps(edges, component, z->count * each)};
+    return true;
 }
 
-static void lay_point(const struct consistent *c, const enum at at[3], const size_t place[3], double added,
+static bool lay_point(const struct consistent *c, const enum at at[3], const size_t place[3], double added,
                       struct edges *edges, struct edge_point *point)
 {
     const struct metric metric = general_metric_of(c, at, place);
@@ -220,16 +257,17 @@ static void lay_point(const struct consistent *c, const enum at at[3], const siz
     point->plane = point->row = SIZE_MAX;
     for (int axis = 0; axis < c->dimension; axis++) {
         struct edge_taps *of = &point->of[c->slot[axis]];
-        lay_taps(c, at, place, c->slot[axis], &metric, edges, of);
-        const size_t first = edges->tap[of->at].row, last = edges->tap[of->at + of->each - 1].row;
+        if (!lay_taps(c, at, place, c->slot[axis], &metric, edges, of)) return false;
+        const size_t last = of->row + edges->tap[of->at + of->each - 1].row;
         if (of->plane < point->plane) point->plane = of->plane;
         if (of->plane + of->planes > point->plane_end) point->plane_end = of->plane + of->planes;
-        if (first < point->row) point->row = first;
+        if (of->row < point->row) point->row = of->row;
         if (last >= point->row_end) point->row_end = last + 1;
     }
+    return true;
 }
 
-/* Points of one kind over depth at m that are of no family and count: how many, or laid. */
+/* Points of one kind over depth at m that are of no family and count: how many, or laid. SIZE_MAX: no memory. */
 static size_t points_at(const struct consistent *c, enum at depth, size_t m, struct edges *edges, bool lay)
 {
     size_t count = 0;
@@ -244,8 +282,9 @@ static size_t points_at(const struct consistent *c, enum at depth, size_t m, str
                 const size_t place[3] = {i, j, m};
                 const double added = general_added(c, at, place);
                 if (added == 0) continue;
-                if (lay) lay_point(c, at, place, added, edges, &edges->point[edges->count++]);
                 count++;
+                if (lay && !lay_point(c, at, place, added, edges, &edges->point[edges->count++]))
+                    return SIZE_MAX;
             }
     }
     return count;
@@ -267,21 +306,20 @@ bool general_lay_edge_points(struct consistent *c)
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
         for (size_t m = 0; m < edges->line[DEPTH][at].n; m++)
             points += points_at(c, (enum at)at, m, edges, false);
-    const size_t taps = points * (size_t)c->dimension * 27;
     edges->start = array_new(c->n[DEPTH] + 1, sizeof *edges->start);
     edges->point = array_new(points, sizeof *edges->point);
-    edges->tap = array_new(taps, sizeof *edges->tap);
-    if (edges->start == NULL || edges->point == NULL || edges->tap == NULL) return false;
+    if (edges->start == NULL || edges->point == NULL) return false;
     for (size_t k = 0; k < c->n[DEPTH]; k++) {
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
             for (size_t m = k < 1 ? 0 : k - 1; m < edges->line[DEPTH][at].n && m <= k + 2; m++)
-                if (begins_at(c, (enum at)at, m, k)) points_at(c, (enum at)at, m, edges, true);
+                if (begins_at(c, (enum at)at, m, k) && points_at(c, (enum at)at, m, edges, true) == SIZE_MAX)
+                    return false;
         edges->start[k + 1] = edges->count;
         const size_t here = edges->count - edges->start[k];
         if (here > edges->most) edges->most = here;
     }
-    c->general->bytes +=
-        (c->n[DEPTH] + 1) * sizeof *edges->start + points * sizeof *edges->point + taps * sizeof *edges->tap;
+    c->general->bytes += (c->n[DEPTH] + 1) * sizeof *edges->start + points * sizeof *edges->point +
+                         edges->room * sizeof *edges->tap;
     return edges->count == points;
 }
 
@@ -316,9 +354,11 @@ static bool is_loud(const struct consistent *c, const struct edge_point *point)
     return false;
 }
 
-static size_t place_of(const struct consistent *c, int axis, size_t k, const struct edge_tap *tap)
+static size_t place_of(const struct consistent *c, int axis, size_t k, const struct edge_taps *of,
+                       const struct edge_tap *tap)
 {
-    return (size_t)axis * c->volume + k * c->plane + tap->row * c->n[0] + tap->column;
+    return (size_t)axis * c->volume + k * c->plane + (of->row + tap->row) * c->n[0] + of->column +
+           tap->column;
 }
 
 void general_edges(const struct consistent *c, const double *u, size_t from, size_t end, double *force)
@@ -335,7 +375,7 @@ void general_edges(const struct consistent *c, const double *u, size_t from, siz
             for (size_t k = of->plane; k < of->plane + of->planes; k++)
                 for (size_t t = 0; t < of->each; t++, tap++)
                     for (int slot = 0; slot < 3; slot++)
-                        slope[c->slot[axis]][slot] += tap->slope[slot] * u[place_of(c, axis, k, tap)];
+                        slope[c->slot[axis]][slot] += tap->slope[slot] * u[place_of(c, axis, k, of, tap)];
         }
         general_edge_stress(point, slope, stress);
         for (int axis = 0; axis < c->dimension; axis++) {
@@ -345,7 +385,7 @@ void general_edges(const struct consistent *c, const double *u, size_t from, siz
             for (size_t k = of->plane; k < of->plane + of->planes; k++)
                 for (size_t t = 0; t < of->each; t++, tap++)
                     if (k >= from && k < end)
-                        force[place_of(c, axis, k, tap)] -=
+                        force[place_of(c, axis, k, of, tap)] -=
                             tap->slope[0] * pull[0] + tap->slope[1] * pull[1] + tap->slope[2] * pull[2];
         }
     }

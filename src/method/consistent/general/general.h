@@ -27,9 +27,10 @@ struct edge_line {
     double *share, *plain;
 };
 
-/* What a point sees of a component: control values of `planes` planes, `each` in each of them. */
+/* What a point sees of a component: control values of `planes` planes, `each` in each of them, from a row and column
+ * on; points that see alike share the numbers. */
 struct edge_taps {
-    size_t plane, planes, each, at; /* of the first in edges.tap */
+    size_t plane, planes, row, column, each, at; /* of the first in edges.tap */
 };
 
 /* A point near an edge that is of no family; moduli times its weight; planes and rows that it sees; by slot of the
@@ -45,9 +46,9 @@ struct edges {
     size_t count, most;          /* points; at most so many begin in a plane */
     size_t *start; /* [n[DEPTH] + 1]: those that see plane k first are start[k] to start[k + 1] */
     struct edge_point *point;
-    size_t taps;
+    size_t taps, room; /* of tap: in use, and in all */
     struct edge_tap {
-        unsigned row, column; /* within a plane */
+        unsigned row, column; /* from those of the point on */
         double slope[3];      /* of the control value's function along the axes, by slot */
     } * tap;
 };

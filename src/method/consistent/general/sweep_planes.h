@@ -45,7 +45,8 @@ static void edge_stress(const struct pass *pass, size_t n, double stress[3][3])
         for (size_t component = 0; component < 3; component++) {
             const struct edge_taps *of = &point->of[component];
             const struct edge_tap *tap = edges->tap + of->at;
-            const REAL *u = pass->fields->part[p].u + component * s->volume + of->plane * s->plane;
+            const REAL *u = pass->fields->part[p].u + component * s->volume + of->plane * s->plane +
+                            of->row * s->n[0] + of->column;
             for (size_t k = 0; k < of->planes; k++, u += s->plane)
                 for (size_t t = 0; t < of->each; t++, tap++)
                     for (int slot = 0; slot < 3; slot++)
@@ -85,9 +86,11 @@ static void add_edges(const struct pass *pass, const struct rings *r, size_t k, 
             const double *pull = edge_ring(pass, r, p)[n - edges->start[p]][component];
             if (k < of->plane || k >= of->plane + of->planes) continue;
             const struct edge_tap *tap = edges->tap + of->at + (k - of->plane) * of->each;
+            REAL *scaled = r->scaled + of->row * s->stride + of->column;
+            const REAL *near = root + of->row * s->n[0] + of->column;
             for (size_t t = 0; t < of->each; t++, tap++)
-                r->scaled[tap->row * s->stride + tap->column] -=
-                    root[tap->row * s->n[0] + tap->column] *
+                scaled[tap->row * s->stride + tap->column] -=
+                    near[tap->row * s->n[0] + tap->column] *
                     (REAL)(tap->slope[0] * pull[0] + tap->slope[1] * pull[1] + tap->slope[2] * pull[2]);
         }
 }
