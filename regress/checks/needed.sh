@@ -72,11 +72,15 @@ part low_pass low-pass 0 "&output low_pass = 20 /"
 part profile profiles 0 "&profile name = 'p', from = 0, 0, 0, to = 1, 0, 0, points = 5, times = 1.0 /"
 # Loads: a point force in the body takes its entries alone, no field; a second one the same again.
 force="&load kind = 'body-force', shape = 'point', centre = 1.1, 1.2, 1.3, direction = 0, 0, 1, history = 'gaussian', width = 0.3, delay = 1 /"
-field=$(awk -v u="$(value bare unknowns)" 'BEGIN { print 8 * u }')
+fine='body%spacing=0.0625 stepping%time_step=0.01 scene%end_time=0.02'
+# shellcheck disable=SC2086 # words
+run fine bare $fine
+field=$(awk -v u="$(value fine unknowns)" 'BEGIN { print 8 * u }')
 for count in 1 2; do
     { cat "$out/bare.nml"; echo "$force"; test $count = 1 || echo "$force"; } >"$out/force$count.nml"
-    run force$count force$count
-    eval "more$count=$(awk -v a="$(value force$count 'model memory bytes')" -v b="$(value bare 'model memory bytes')" 'BEGIN { printf "%d", a - b }')"
+    # shellcheck disable=SC2086
+    run force$count force$count $fine
+    eval "more$count=$(awk -v a="$(value force$count 'model memory bytes')" -v b="$(value fine 'model memory bytes')" 'BEGIN { printf "%d", a - b }')"
 done
 # shellcheck disable=SC2154 # more1 and more2 are set by eval
 check "a body force takes $more1 bytes of a model, less than a twentieth of a field ($field)" \
