@@ -12,10 +12,8 @@
 #include <string.h>
 
 enum { WIDE = 2, CLEAR = 3 }; /* cells with a share, and between an edge's points and a layer */
-enum {
-    MOST_TAPS = 27,
-    LOOKED_AT = 64
-}; /* of a component; points before one among which others like it are sought */
+enum { MOST_TAPS = 27 };      /* of a component */
+enum { LOOKED_AT = 64 };      /* points before one among which another that sees alike is sought */
 static const double shares[WIDE] = {1, .5};
 
 static int axis_of(const struct consistent *c, int slot)

@@ -126,12 +126,7 @@ struct metric general_metric_of(const struct consistent *c, const enum at at[3],
 struct metric general_metric_at(const struct consistent *c, const struct family *family, size_t i, size_t j,
                                 size_t k)
 {
-    const double stretch =
-        grading_stretch(c->model.scene->body.grading, general_place(c, DEPTH, family->at[DEPTH], k));
-    struct hill_row row;
-    if (!general_hill_row(c, family, j, k, &row))
-        return (struct metric){.inverse = 1 / stretch, .jacobian = stretch};
-    return metric_of(stretch, row.drop[i], (double[]){row.slope[0][i], row.slope[1][i]}, row.share, row.fall);
+    return general_metric_of(c, family->at, (const size_t[]){i, j, k});
 }
 
 bool general_hill_row(const struct consistent *c, const struct family *family, size_t j, size_t k,
