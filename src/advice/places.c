@@ -100,7 +100,7 @@ static double contrast(const struct scene *scene, const double place[3], double 
     return fmax(modulus[0], modulus[1]) / fmin(modulus[0], modulus[1]);
 }
 
-/* What (G21) to (G25) leave beside interfaces that slope or end, or of strong contrast (doc/theory/general-ground.md,
+/* What (G21) to (G29) leave beside interfaces that slope or end, or of strong contrast (doc/theory/general-ground.md,
  * section 7). */
 void look_at_interfaces(struct adviser *adviser)
 {
@@ -124,15 +124,17 @@ void look_at_interfaces(struct adviser *adviser)
             }
     }
     if (least == reach) return;
-    advise(adviser,
-           "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
-           "velocities by the general operator may be wrong by %s; body%%spacing = %.3g or a source farther "
-           "off would do%s",
-           load + 1, least, reach,
-           ground_is_general(scene) ? "a tenth where that is not level"
-                                    : "a twentieth where moduli are 1 : 10",
-           scene->body.spacing * least / reach,
-           ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
+    advise(
+        adviser,
+        "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
+        "velocities by the general operator may be wrong by a twentieth%s; body%%spacing = %.3g or a source "
+        "farther off would do%s",
+        load + 1, least, reach,
+        ground_is_general(scene)
+            ? ", a tenth within 7 spacings of a face, several tenths beside corners of the rock"
+            : " where moduli are 1 : 10",
+        scene->body.spacing * least / reach,
+        ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 
 /* Rays up a dip come back down it, also from the sides (a soil of half the speed, 1.5 thick, box of 3.6 x 2.4:

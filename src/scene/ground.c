@@ -2,6 +2,7 @@
  * blocks in the deck's order. */
 #include "scene/ground.h"
 
+#include "scene/ground_line.h"
 #include "scene/height_map.h"
 
 #include <math.h>
@@ -102,6 +103,7 @@ static double bulk_of(const struct material *material)
 
 struct rock ground_at(const struct scene *scene, const double place[3])
 {
+    if (scene->body.line != NULL) return *ground_line_at(scene->body.line, place);
     const struct found found = find(scene, place);
     const struct material *list = scene->whole != NULL ? scene->whole : scene->material;
     const struct material *material = &list[found.material];
@@ -201,6 +203,7 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
 {
     const struct body *body = &scene->body;
     size_t count = 0;
+    if (body->line != NULL) return ground_line_jumps(body->line, place, axis, from, to, at);
     for (size_t i = 0; i < body->layers && axis == scene->dimension - 1; i++) {
         const double x = body->low[axis] + top_at(&body->layer[i], place);
         if (x > fmax(from, body->low[axis]) && x < to) at[count++] = x;
@@ -222,12 +225,14 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
 
 size_t ground_jumps_at_most(const struct scene *scene)
 {
+    if (scene->body.line != NULL) return ground_line_jumps_at_most(scene->body.line);
     return scene->body.layers + 2 * scene->body.blocks +
            (scene->body.model != NULL ? MODEL_PARTS << HALVINGS : 0);
 }
 
 bool ground_grades(const struct scene *scene)
 {
+    if (scene->body.line != NULL) return false;
     if (scene->body.model != NULL) return true;
     for (size_t i = 0; i < scene->body.layers; i++)
         if (scene->body.layer[i].graded) return true;
@@ -237,13 +242,13 @@ bool ground_grades(const struct scene *scene)
 double ground_detail(const struct scene *scene, int axis)
 {
     const struct body *body = &scene->body;
-    return body->model == NULL || body->blocks > 0 ? 0 : body->model->detail[axis];
+    return body->line != NULL || body->model == NULL || body->blocks > 0 ? 0 : body->model->detail[axis];
 }
 
 bool ground_varies(const struct scene *scene, int axis)
 {
     const struct body *body = &scene->body;
-    if (body->blocks > 0 || body->model != NULL) return true;
+    if (body->line != NULL || body->blocks > 0 || body->model != NULL) return true;
     for (size_t i = 0; i < body->layers && axis < scene->dimension - 1; i++)
         if (body->layer[i].slope[axis] != 0 || body->layer[i].map != NULL) return true;
     return axis == scene->dimension - 1 && body_is_layered(body);

@@ -87,8 +87,9 @@ struct ground_model {
     char text[400];                    /* for the plan */
 };
 
-struct topography; /* topography.h */
-struct grading;    /* grading.h */
+struct topography;  /* topography.h */
+struct grading;     /* grading.h */
+struct ground_line; /* ground_line.h */
 
 struct body {
     char name[NAME_SIZE];
@@ -108,10 +109,11 @@ struct body {
     const struct given_points *given; /* points from the host: borrowed; NULL */
     size_t layers;
     struct layer *layer;
-    struct topography *topography; /* the surface, where it is not level; NULL: it is */
-    double most_stretch;           /* largest spacing over depth in that of the surface */
-    struct grading *grading;       /* by that and the ground; NULL: even */
-    struct ground_model *model;    /* in the place of material and layers; NULL: none */
+    struct topography *topography;  /* the surface, where it is not level; NULL: it is */
+    double most_stretch;            /* largest spacing over depth in that of the surface */
+    struct grading *grading;        /* by that and the ground; NULL: even */
+    struct ground_model *model;     /* in the place of material and layers; NULL: none */
+    const struct ground_line *line; /* borrowed: in the place of all of these; NULL: none */
     size_t blocks;
     struct ground_block *block; /* later ones lie in earlier ones */
     bool chosen;    /* half-space: low and high were chosen by the program (scene/fitted_box.c) ... */

@@ -24,6 +24,7 @@ struct consistent_options {
     bool single;     /* layers: tables for steps in single precision, too */
     bool general;    /* the general operator (general/general.h) in place of the H-form */
     bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
+    bool window;     /* general: a piece of a body, to settle a moment tensor of that (general/settle.c) */
 };
 
 enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LINES = 8 };
@@ -157,8 +158,8 @@ void mass_solve(struct consistent *c, const struct mass_factors *factors, double
 selas_status forces_create(struct consistent *c, struct messages *messages);
 /* Adds to `field` [dimension * volume] forces of a moment tensor, by slot, at `centre` of the lattice; `moment` then
  * holds what is left to act on the splines' strain. False: no memory. */
-typedef bool moment_beside(const struct consistent *c, const double centre[3], double moment[3][3],
-                           double *field);
+typedef bool moment_beside(const struct consistent *c, const struct load *load, const double centre[3],
+                           double moment[3][3], double *field);
 /* Together: makes the moment tensors again. */
 selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages);
 void forces_free(struct consistent *c);

@@ -17,49 +17,6 @@ struct rock general_rock_at(const struct consistent *c, const double place[3])
     return ground_at(c->model.scene, real);
 }
 
-static double spacing_of(const struct spline *spline)
-{
-    return (spline->high - spline->low) / (double)spline->cells;
-}
-
-/* The direction in which log M rises about the source, from slopes along the lattice; the axis across is that of the
- * steepest of these. False: in none, or across a symmetry plane nearby. */
-static bool find_normal(struct glut *g)
-{
-    enum { REACH = 6, FINE = 3 }; /* spacings; places in one */
-    static const double slight = 1e-9;
-    const struct consistent *c = g->c;
-    const struct metric metric = consistent_metric(c, g->centre);
-    const int far = REACH * FINE, beside = c->dimension == 2 ? 0 : far;
-    double rise[3] = {0};
-    for (int k = -far; k <= far; k++)
-        for (int j = -beside; j <= beside; j++)
-            for (int i = -far; i <= far; i++) {
-                const double step[3] = {(double)i / FINE, (double)j / FINE, (double)k / FINE};
-                double place[3] = {0};
-                for (int axis = 0; axis < c->dimension; axis++)
-                    place[axis] = g->centre[axis] + step[c->slot[axis]] * spacing_of(c->spline[axis]);
-                const struct rock rock = general_rock_at(c, place);
-                const double away = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
-                const double level = log(rock.lambda + 2 * rock.mu) * exp(-away / 8);
-                for (int slot = 0; slot < 3; slot++)
-                    rise[slot] += step[slot] * level;
-            }
-    const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
-    for (int axis = 0; axis < c->dimension; axis++)
-        if (fabs(rise[c->slot[axis]]) >= fabs(rise[c->slot[g->across]])) g->across = axis;
-    const struct spline *spline = c->spline[g->across];
-    for (int axis = 0; axis < c->dimension; axis++) /* rises a cell */
-        rise[c->slot[axis]] *= spacing_of(spline) / spacing_of(c->spline[axis]);
-    metric_tilt(&metric, rise);
-    const double steepest = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
-    for (int slot = 0; slot < 3; slot++)
-        g->normal[slot] = steepest > 0 ? rise[slot] / steepest : 0;
-    const double near = 2 * REACH * spacing_of(spline), at = g->centre[g->across];
-    return length > slight && !(spline->mirror[0] && at - spline->low < near) &&
-           !(spline->mirror[1] && spline->high - at < near);
-}
-
 /* (G21) */
 static void part_moment(struct glut *g, double moment[3][3])
 {
@@ -138,7 +95,7 @@ static void find_stiffness(const struct glut *g, const struct family *family, si
         from[slot] = number;
         if (axis != g->across) {
             const bool knots = family->at[slot] == AT_KNOTS;
-            const double t = (g->centre[axis] - spline->low) / spacing_of(spline) - (knots ? 0 : .5);
+            const double t = (g->centre[axis] - spline->low) / glut_spacing(spline) - (knots ? 0 : .5);
             from[slot] = (size_t)fmin(fmax(floor(t), 0), (double)spline->cells - (knots ? 1 : 2));
             rest[slot] = fmin(fmax(t - (double)from[slot], 0), 1);
             count[slot] = 2;
@@ -249,7 +206,7 @@ static void add_points(struct glut *g, const struct family *family, double (*sti
 static void curvature_line(struct glut *g, int axis, bool odd, double *line)
 {
     const struct spline *spline = g->c->spline[axis];
-    const double h = spacing_of(spline), x = g->centre[axis];
+    const double h = glut_spacing(spline), x = g->centre[axis];
     double half = 1;
     memset(line, 0, spline->count * sizeof *line);
     for (int side = -1; side <= 1; side += 2) {
@@ -289,16 +246,17 @@ static void add_lines(struct glut *g, int set, double *const work[3], double *fi
         }
 }
 
-bool general_add_glut(const struct consistent *c, const double centre[3], double moment[3][3], double *field)
+bool general_add_glut(const struct consistent *c, const struct load *load, const double centre[3],
+                      double moment[3][3], double *field)
 {
     enum { SETS = 4 * 3 * 3, ALL = SETS + 6 + STRESSES * STRESSES };
     struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
     size_t most = 0;
-    if (general_is_part(c->model.scene) || !find_normal(&g)) return true;
+    if (general_is_part(c->model.scene) || !general_find_normal(&g)) return true;
     const struct rock rock = general_rock_at(c, centre);
     g.lambda = rock.lambda;
     g.mu = rock.mu;
-    g.spacing = spacing_of(c->spline[g.across]);
+    g.spacing = glut_spacing(c->spline[g.across]);
     for (int axis = 0; axis < c->dimension; axis++)
         most = c->spline[axis]->count > most ? c->spline[axis]->count : most;
     double *room = array_new(ALL * most, sizeof *room), failed = room == NULL;
@@ -320,7 +278,8 @@ bool general_add_glut(const struct consistent *c, const double centre[3], double
         add_points(&g, &c->general->family[f], (double(*)[STRESSES][STRESSES])(work[2] + most));
     for (int set = 0; set <= c->dimension; set++)
         if (set != 1 + g.across) add_lines(&g, set, work, field);
-    memcpy(moment, g.tangent, sizeof g.tangent);
     array_free(room);
-    return true;
+    const bool good = general_settle(&g, load, moment, field);
+    memcpy(moment, g.tangent, sizeof g.tangent);
+    return good;
 }

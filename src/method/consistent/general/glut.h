@@ -13,6 +13,8 @@ struct glut {
     double centre[3];         /* by axis, of the lattice */
     int across;               /* the axis nearest to the interface's normal */
     double spacing;           /* along it */
+    bool surface;             /* normal is that of a surface on which the rock is the same ... */
+    double away;              /* ... so many spacings from the source */
     double normal[3];         /* by slot, as all that follows */
     double lambda, mu;        /* at the source */
     double strain[3][3];      /* Gamma_n M (G21) */
@@ -27,6 +29,15 @@ struct glut {
 /* Together. What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
 moment_beside general_add_glut;
 
+static inline double glut_spacing(const struct spline *spline)
+{
+    return (spline->high - spline->low) / (double)spline->cells;
+}
+/* rise.c: sets normal and across. False: the rock is the same all about the source, or a symmetry plane is near. */
+bool general_find_normal(struct glut *glut);
+/* settle.c: adds what makes the forces of the moment (by slot) right in ground that varies along the normal alone
+ * (G28). False: no memory. */
+bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3], double *field);
 /* lag.c: sets lag and stay. */
 void general_find_lag(struct glut *glut);
 /* Rock at a place of the lattice, by axis. */

@@ -1,0 +1,250 @@
+/* Moment tensors beside interfaces aslant (doc/theory/general-ground.md, Eqs G26 to G29): the fields that they are held
+ * against, and the work of a load on fields of two rocks that are known in closed form. */
+#include "consistent_run.h"
+#include "from_deck.h"
+
+#include "method/consistent/general/general.h"
+#include "method/consistent/general/steady.h"
+#include "method/methods.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char aslant[] =
+    "&scene dimension = %d, end_time = 4 /\n"
+    "&material name = 'soil', density = .9, p_speed = 2, s_speed = 1 /\n"
+    "&material name = 'rock', density = 1.3, p_speed = 4, s_speed = 2 /\n"
+    "&body low = %s, high = %s, spacing = .1 /\n"
+    "&method operator = 'general' /\n"
+    "&layer material = 'soil', top = 0 /\n"
+    "&layer material = 'rock', top = 1, dip = %g, strike = -90 /\n"
+    "&load kind = 'moment-tensor', centre = %s, amplitude = 1, moment = %s, history = 'gaussian',"
+    " width = .4, delay = 2 /\n";
+
+static struct from_deck scene_of(int dimension, double dip, double x, double z)
+{
+    char text[2000], place[100];
+    snprintf(place, sizeof place, dimension == 2 ? "%g, %g" : "%g, .02, %g", x, z);
+    snprintf(text, sizeof text, aslant, dimension, dimension == 2 ? "-1.2, 0" : "-1, -1, 0",
+             dimension == 2 ? "1.2, 2" : "1, 1, 2", dip, place,
+             dimension == 2 ? "1, .3, 0, -.6, 0, 0" : "1, -.5, .3, .7, .4, -.6");
+    return right_scene(text);
+}
+
+/* --- The fields of the line ------------------------------------------------------------------------------ */
+
+/* Stress at a place from differences over d to either side. */
+static void stress_at(const struct ground_line *line, const struct steady *steady, const double place[3],
+                      double d, double stress[3][3])
+{
+    const struct rock *rock = ground_line_at(line, place);
+    double slope[3][3] = {{0}}, spread = 0;
+    for (int axis = 0; axis < line->dimension; axis++) {
+        double side[2][3];
+        for (int s = 0; s < 2; s++) {
+            double there[3] = {place[0], place[1], place[2]};
+            there[axis] += (2 * s - 1) * d;
+            steady_at(line, steady, there, side[s]);
+        }
+        for (int i = 0; i < line->dimension; i++)
+            slope[i][axis] = (side[1][i] - side[0][i]) / (2 * d);
+    }
+    for (int i = 0; i < 3; i++)
+        spread += slope[i][i];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            stress[i][j] = rock->mu * (slope[i][j] + slope[j][i]) + (i == j ? rock->lambda * spread : 0);
+}
+
+/* div stress - density * acceleration, the largest, times the length. */
+static double lack_of_balance(const struct ground_line *line, const struct steady *steady,
+                              const double place[3], double d)
+{
+    double pull[3] = {0}, acceleration[3], most = 0;
+    steady_acceleration(line, steady, acceleration);
+    for (int axis = 0; axis < line->dimension; axis++)
+        for (int s = 0; s < 2; s++) {
+            double there[3] = {place[0], place[1], place[2]}, stress[3][3];
+            there[axis] += (2 * s - 1) * d;
+            stress_at(line, steady, there, d, stress);
+            for (int i = 0; i < 3; i++)
+                pull[i] += (2 * s - 1) * stress[i][axis] / (2 * d);
+        }
+    for (int i = 0; i < line->dimension; i++)
+        most = fmax(most, fabs(pull[i] - ground_line_at(line, place)->density * acceleration[i]));
+    return most;
+}
+
+static void test_steady_fields_balance(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        struct from_deck deck = scene_of(dimension, 25, .03, .9);
+        const double angle = 25 * M_PI / 180,
+                     normal[3] = {-sin(angle), dimension == 2 ? cos(angle) : 0, cos(angle)};
+        const double origin[3] = {.03, dimension == 2 ? .9 : .02, .9};
+        struct ground_line line;
+        struct steady list[STEADY_MOST];
+        assert_true(ground_line_new(deck.scene, origin, normal, .1 / 512, 1, &line));
+        const size_t count = steady_all(&line, .1, list);
+        assert_int_equal(count, dimension == 2 ? 12 : 30);
+        for (size_t n = 0; n < count; n++)
+            for (int side = -1; side <= 1;
+                 side += 2) { /* .3 to either side of the source: in soil and in rock */
+                double place[3] = {.13, .07, .11}, jump[2][3] = {{0}};
+                for (int axis = 0; axis < dimension; axis++)
+                    place[axis] =
+                        origin[axis] + side * .3 * normal[axis] + (axis < dimension - 1 ? .06 : .02);
+                const double lack = lack_of_balance(&line, &list[n], place, .05) / (line.here.mu / .1);
+                assert_true(lack < 1e-4); /* straight lines between the steps */
+                if (side < 0) continue;
+                for (int s = 0; s < 4; s++) { /* traction .01 and .02 to either side of the interface */
+                    const double along =
+                        (.1 + .03 * tan(angle)) * cos(angle) + (s < 2 ? -.01 : .01) * (1 + s % 2);
+                    double stress[3][3], there[3] = {0};
+                    for (int axis = 0; axis < dimension; axis++)
+                        there[axis] = origin[axis] + along * normal[axis];
+                    stress_at(&line, &list[n], there, .004, stress);
+                    for (int i = 0; i < dimension; i++)
+                        for (int j = 0; j < dimension; j++)
+                            jump[s / 2][i] += (s % 2 == 0 ? 2 : -1) * stress[i][j] * normal[j];
+                }
+                for (int i = 0; i < dimension; i++) /* the line's rock changes up to half a step off */
+                    assert_true(fabs(jump[1][i] - jump[0][i]) < .02 * line.here.mu);
+            }
+        steady_free(list);
+        ground_line_free(&line);
+        from_deck_free(&deck);
+    }
+}
+
+/* --- The work of a load ----------------------------------------------------------------------------------- */
+
+enum { FIELDS = 3 };
+
+/* Under an even traction across the interface, one along it, or an even strain along it: displacement and its slopes
+ * by x and z. */
+static void two_rocks(const struct scene *scene, int field, double dip, const double place[2],
+                      double shift[2], double slope[2][2])
+{
+    const double normal[2] = {-sin(dip), cos(dip)}, along[2] = {cos(dip), sin(dip)};
+    const double depth = place[0] * normal[0] + (place[1] - 1) * normal[1];
+    const double far = place[0] * along[0] + (place[1] - 1) * along[1];
+    const struct material *rock = &scene->material[depth > 0];
+    const double strain = field == 2,
+                 across = ((field == 0) - rock->lambda * strain) / (rock->lambda + 2 * rock->mu);
+    const double shear = (field == 1) / rock->mu;
+    for (int i = 0; i < 2; i++) {
+        shift[i] = across * depth * normal[i] + (strain * far + shear * depth) * along[i];
+        for (int j = 0; j < 2; j++)
+            slope[i][j] = across * normal[i] * normal[j] + (strain * along[j] + shear * normal[j]) * along[i];
+    }
+}
+
+/* Control values between others that are kept, at rest. */
+static void relax(struct consistent *c, double *u)
+{
+    const size_t n = c->model.unknowns;
+    double *rest = calloc(n, sizeof *rest), *way = calloc(n, sizeof *way), *pull = calloc(n, sizeof *pull);
+    bool *loose = calloc(n, sizeof *loose);
+    double size = 0, first = 0;
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = i % c->volume, at[3] = {k % c->n[0], k / c->n[0] % c->n[1], k / c->plane};
+        loose[i] = true;
+        for (int axis = 0; axis < c->dimension; axis++)
+            loose[i] = loose[i] && at[c->slot[axis]] > 2 && at[c->slot[axis]] + 3 < c->n[c->slot[axis]];
+    }
+    general_forces(c, u, NULL, rest);
+    for (size_t i = 0; i < n; i++) {
+        way[i] = rest[i] = loose[i] ? rest[i] : 0;
+        size += rest[i] * rest[i];
+    }
+    first = size;
+    for (int step = 0; step < 2000 && size > 1e-16 * first; step++) {
+        general_forces(c, way, NULL, pull);
+        for (size_t i = 0; i < n; i++)
+            pull[i] = loose[i] ? -pull[i] : 0;
+        const double far = size / dot(n, way, pull);
+        for (size_t i = 0; i < n; i++) {
+            u[i] += far * way[i];
+            rest[i] -= far * pull[i];
+        }
+        const double next = dot(n, rest, rest);
+        for (size_t i = 0; i < n; i++)
+            way[i] = rest[i] + next / size * way[i];
+        size = next;
+    }
+    free(rest);
+    free(way);
+    free(pull);
+    free(loose);
+}
+
+/* Of a moment tensor in the plane x, z: the largest error of its work, in parts of what a moment as large does at
+ * most. */
+static double worst_work(int dimension, double dip, double x, double z)
+{
+    struct from_deck deck = scene_of(dimension, dip, x, z);
+    struct messages messages = {0};
+    struct model *model = NULL;
+    assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
+    struct consistent *c = consistent_of(model);
+    const int last = dimension - 1;
+    double worst = 0;
+    for (int field = 0; field < FIELDS; field++) {
+        double *u = calloc(model->unknowns, sizeof *u), slope[2][2], shift[2], done = 0, wanted = 0, most = 0;
+        for (size_t i = 0; i < c->volume; i++) {
+            const double place[2] = {c->spline[0]->greville[i % c->n[0]],
+                                     c->spline[last]->greville[i / c->plane]};
+            two_rocks(deck.scene, field, dip * M_PI / 180, place, shift, slope);
+            u[i] = shift[0];
+            u[(size_t)last * c->volume + i] = shift[1];
+        }
+        relax(c, u);
+        two_rocks(deck.scene, field, dip * M_PI / 180, (double[]){x, z}, shift, slope);
+        const double *m = deck.scene->load[0].moment,
+                     tensor[2][2] = {{m[0], m[dimension == 2 ? 3 : 5]}, {m[dimension == 2 ? 3 : 5], m[last]}};
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) {
+                wanted += tensor[i][j] * slope[i][j];
+                most += fabs(tensor[i][j] * slope[i][j]);
+            }
+        for (int component = 0; component < dimension; component++)
+            for (size_t k = 0; k < c->n[2]; k++) {
+                double *plane = calloc(c->plane, sizeof *plane);
+                sparse_add(c, &c->load.of[0], component, k, 1, plane);
+                done += dot(c->plane, plane, u + (size_t)component * c->volume + k * c->plane);
+                free(plane);
+            }
+        worst = fmax(worst, fabs(done - wanted) / most);
+        free(u);
+    }
+    model_free(&model);
+    from_deck_free(&deck);
+    return worst;
+}
+
+static void test_work_beside_interfaces_aslant(void **state)
+{
+    (void)state;
+    static const double dip[] = {5, 20, 40}, away[] = {-.12, -.03, .03, .08};
+    double worst = 0;
+    for (size_t i = 0; i < sizeof dip / sizeof *dip; i++)
+        for (size_t j = 0; j < sizeof away / sizeof *away; j++) {
+            const double x = .013 + .027 * (double)j, z = 1 + x * tan(dip[i] * M_PI / 180) + away[j];
+            const double off = worst_work(2, dip[i], x, z);
+            if (off > .01) print_error("dip %g, %g from the interface: %g\n", dip[i], away[j], off);
+            worst = fmax(worst, off);
+        }
+    assert_true(worst < .01); /* without (G29) up to .5 */
+    assert_true(worst_work(3, 20, .013, 1.05) < .01);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_steady_fields_balance),
+        cmocka_unit_test(test_work_beside_interfaces_aslant),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

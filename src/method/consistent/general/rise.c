@@ -1,0 +1,135 @@
+/* Across which direction the rock changes about a moment tensor (doc/theory/general-ground.md, section 6). */
+#include "method/consistent/general/glut.h"
+#include "method/consistent/general/piece.h"
+
+#include <math.h>
+
+static double level_of(const struct rock *rock)
+{
+    return log(rock->lambda + 2 * rock->mu);
+}
+
+/* The direction in which log M rises about the source, from slopes along the lattice; the axis across is that of the
+ * steepest of these. False: in none, or across a symmetry plane nearby. */
+static bool find_rise(struct glut *g)
+{
+    enum { REACH = 6, FINE = 3 }; /* spacings; places in one */
+    static const double slight = 1e-9;
+    const struct consistent *c = g->c;
+    const struct metric metric = consistent_metric(c, g->centre);
+    const int far = REACH * FINE, beside = c->dimension == 2 ? 0 : far;
+    double rise[3] = {0};
+    for (int k = -far; k <= far; k++)
+        for (int j = -beside; j <= beside; j++)
+            for (int i = -far; i <= far; i++) {
+                const double step[3] = {(double)i / FINE, (double)j / FINE, (double)k / FINE};
+                double place[3] = {0};
+                for (int axis = 0; axis < c->dimension; axis++)
+                    place[axis] = g->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
+                const struct rock rock = general_rock_at(c, place);
+                const double away = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+                const double level = level_of(&rock) * exp(-away / 8);
+                for (int slot = 0; slot < 3; slot++)
+                    rise[slot] += step[slot] * level;
+            }
+    const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+    for (int axis = 0; axis < c->dimension; axis++)
+        if (fabs(rise[c->slot[axis]]) >= fabs(rise[c->slot[g->across]])) g->across = axis;
+    const struct spline *spline = c->spline[g->across];
+    for (int axis = 0; axis < c->dimension; axis++) /* rises a cell */
+        rise[c->slot[axis]] *= glut_spacing(spline) / glut_spacing(c->spline[axis]);
+    metric_tilt(&metric, rise);
+    const double steepest = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+    for (int slot = 0; slot < 3; slot++)
+        g->normal[slot] = steepest > 0 ? rise[slot] / steepest : 0;
+    const double near = 2 * REACH * glut_spacing(spline), at = g->centre[g->across];
+    return length > slight && !(spline->mirror[0] && at - spline->low < near) &&
+           !(spline->mirror[1] && spline->high - at < near);
+}
+
+/* log M on the line through the source along the axis across, shifted along another one, all in true lengths. */
+struct column {
+    const struct glut *glut;
+    double origin[3], spacing; /* the source; of the lattice along the axis there */
+    int shifted;
+    double shift;
+};
+enum { REACH_UP = 6, FINE_UP = 16, ROUNDS = 40 }; /* spacings; places in one; halvings of one of these */
+
+static double level_at(const struct column *column, double along)
+{
+    double place[3] = {column->origin[0], column->origin[1], column->origin[2]};
+    place[column->shifted] += column->shift;
+    place[column->glut->across] += along;
+    const struct rock rock = ground_at(column->glut->c->model.scene, place);
+    return level_of(&rock);
+}
+
+/* Where the column passes the level on the way up or down, nearest to `near`; false: nowhere. */
+static bool passes(const struct column *column, double level, double sign, double near, double *at)
+{
+    const double step = column->spacing / FINE_UP;
+    bool found = false;
+    for (int n = -REACH_UP * FINE_UP; n < REACH_UP * FINE_UP; n++) {
+        double from = near + n * step, to = from + step;
+        if (sign * (level_at(column, from) - level) > 0 || sign * (level_at(column, to) - level) <= 0)
+            continue;
+        for (int round = 0; round < ROUNDS; round++) {
+            const double middle = (from + to) / 2;
+            *(sign * (level_at(column, middle) - level) > 0 ? &to : &from) = middle;
+        }
+        if (!found || fabs(from - near) < fabs(*at - near)) *at = from;
+        found = true;
+    }
+    return found;
+}
+
+/* The normal of the surface on which log M has the value of its steepest rise beside the source, from where columns
+ * two spacings to either side pass it: what slopes along the lattice make of it is a mean over some spacings. False:
+ * some of them do not. */
+static bool refine(struct glut *g)
+{
+    static const double aside = 2;
+    const struct consistent *c = g->c;
+    const double stretch = c->slot[g->across] == DEPTH ? consistent_metric(c, g->centre).jacobian : 1;
+    struct column column = {
+        g, {g->centre[0], g->centre[1], g->centre[2]}, g->spacing * stretch, g->across, 0};
+    const double step = column.spacing / FINE_UP;
+    double most = 0, near = 0, rise[3] = {0};
+    consistent_to_ground(c, column.origin);
+    for (int n = -REACH_UP * FINE_UP; n < REACH_UP * FINE_UP; n++) {
+        const double middle = (n + .5) * step, away = middle / column.spacing;
+        const double jump = level_at(&column, middle + step / 2) - level_at(&column, middle - step / 2);
+        const double weighed = jump * exp(-away * away / 8);
+        if (fabs(weighed) <= fabs(most)) continue;
+        most = weighed;
+        near = middle;
+    }
+    const double level = (level_at(&column, near + step / 2) + level_at(&column, near - step / 2)) / 2;
+    double length = 1;
+    rise[c->slot[g->across]] = most > 0 ? 1 : -1;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        double side[2];
+        if (axis == g->across) continue;
+        column.shifted = axis;
+        for (int s = 0; s < 2; s++) {
+            column.shift = (2 * s - 1) * aside * glut_spacing(c->spline[axis]);
+            if (most == 0 || !passes(&column, level, most, near, &side[s])) return false;
+        }
+        const double slope = (side[1] - side[0]) / (2 * column.shift);
+        rise[c->slot[axis]] = -slope * rise[c->slot[g->across]];
+        length = hypot(length, slope);
+    }
+    for (int slot = 0; slot < 3; slot++)
+        g->normal[slot] = rise[slot] / length;
+    g->away = fabs(near) / column.spacing / length;
+    return true;
+}
+
+bool general_find_normal(struct glut *g)
+{
+    if (!find_rise(g)) return false;
+    g->spacing = glut_spacing(g->c->spline[g->across]);
+    g->surface = refine(g);
+    return true;
+}
