@@ -77,6 +77,16 @@ deck several 3 "$box" "&load face = 'z-', centre = 1.0, 2.25, 0.0, direction = 1
   frequency = 1.0, delay = 1.0 /
 &boundary face = 'x-', 'x+', 'z+', kind = 'transmitting', layer = 'lysmer' / $receivers"
 judge "several loads, dampers" several .25
+deck pairs 3 "$box" "&load kind = 'body-force', shape = 'point', centre = 0.8, 2.25, 1.1, direction = 0.5, 0.0, 2.0, history = 'ricker',
+  frequency = 1.0, delay = 1.0 /
+&load kind = 'body-force', shape = 'point', centre = 3.2, 2.25, 1.1, direction = -0.5, 0.0, 2.0, history = 'ricker',
+  frequency = 1.0, delay = 1.0 /
+&load face = 'z-', shape = 'point', centre = 2.0, 1.1, 0.0, direction = 0.0, 0.0, 1.0, history = 'triangle', duration = 1.0 /
+&load face = 'z-', shape = 'point', centre = 2.0, 3.4, 0.0, direction = 0.0, 0.0, 1.0, history = 'triangle', duration = 1.0 /
+&load kind = 'moment-tensor', centre = 1.7, 2.25, 1.4, moment = 1.0, 2.0, 3.0, 0.0, 0.0, 0.5, history = 'triangle', duration = 1.0 /
+&load kind = 'moment-tensor', centre = 2.3, 2.25, 1.4, moment = 1.0, 2.0, 3.0, 0.0, 0.0, -0.5, history = 'triangle', duration = 1.0 /
+$receivers"
+judge "pairs of point sources" pairs .25
 deck half 3 "$box" "&load face = 'z-', centre = 1.0, 2.25, 0.0, direction = 1.0, 0.0, 1.0, $square /
 &load face = 'z-', centre = 3.0, 2.25, 0.0, direction = 1.0, 0.0, 1.0, $square / $receivers"
 judge "two loads that push the same way: half" half .5

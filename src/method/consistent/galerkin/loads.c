@@ -199,6 +199,19 @@ static bool moment_tensor(struct consistent *c, const struct load *load, const d
     return true;
 }
 
+/* The image of another source in a symmetry plane that cuts the body. */
+static bool is_image(const struct consistent *c, const double centre[3])
+{
+    bool beyond = false;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const struct spline *spline = c->spline[axis];
+        const double small = 1e-9 * (spline->high - spline->low);
+        beyond = beyond || (spline->mirror[0] && centre[axis] < spline->low - small) ||
+                 (spline->mirror[1] && centre[axis] > spline->high + small);
+    }
+    return beyond;
+}
+
 static selas_status load_create(struct consistent *c, const struct load *load, struct sparse *sparse,
                                 struct workspace *w, struct messages *messages)
 {
@@ -211,7 +224,8 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
     if (load->kind == LOAD_TRACTION && face_axis(load->face) >= c->dimension)
         return fail(messages, SELAS_BAD_SCENE, "a load acts on face %s, which this body has not",
                     face_name(load->face));
-    if (load_moves(load)) /* moving_load.c; nothing here */
+    const bool at_place = load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_POINT;
+    if (load_moves(load) || (at_place && is_image(c, centre))) /* moving_load.c; nothing here */
         return sparse_from(c, w->field, sparse) ? SELAS_OK
                                                 : fail(messages, SELAS_NO_MEMORY, "no memory for a load");
     bool good = true;
