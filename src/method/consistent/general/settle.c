@@ -29,7 +29,8 @@ struct window {
     size_t states;
     struct model *model;
     struct consistent *c; /* the model's */
-    size_t n, from[3];    /* unknowns; by slot: the whole's cell that is its first */
+    size_t n;             /* unknowns */
+    ptrdiff_t from[3];    /* by slot: the whole's cell that is its first */
     double *field,
         *rest; /* [states][n] control values of the exact field; what these lack in balance, where free */
     double *forces, *answer, *change, *weight; /* [n] of the moment; what they do; what was added; (G28) */
@@ -39,20 +40,39 @@ struct window {
 
 /* --- The window ------------------------------------------------------------------------------------------- */
 
-/* Cells of an axis; false: the source is too near to an end of the body. */
-static bool take_cells(const struct glut *g, int axis, size_t *from, size_t *end)
+/* Does the ground go on beyond a symmetry plane across the axis as the plane's image of it? */
+static bool goes_on(const struct glut *g, int axis, double plane)
+{
+    const struct scene *scene = g->c->model.scene;
+    const struct topography *surface = scene->body.topography;
+    const double spacing = glut_spacing(g->c->spline[axis]);
+    bool even = !ground_varies(scene, axis);
+    for (int n = 1; surface != NULL && n <= 2 * (NEAR + SHELL); n++) {
+        double place[2][2] = {{g->centre[0], g->centre[1]}, {g->centre[0], g->centre[1]}};
+        place[0][axis] = plane - n * spacing;
+        place[1][axis] = plane + n * spacing;
+        even = even &&
+               fabs(topography_drop(surface, place[0]) - topography_drop(surface, place[1])) < 1e-9 * spacing;
+    }
+    return even;
+}
+
+/* Cells of an axis, beyond symmetry planes too; false: the source is too near to an end of the body. */
+static bool take_cells(const struct glut *g, int axis, ptrdiff_t *from, ptrdiff_t *end)
 {
     const struct spline *spline = g->c->spline[axis];
     const double at = (g->centre[axis] - spline->low) / glut_spacing(spline);
-    const double first = (double)g->c->layer[2 * axis],
-                 last = (double)spline->cells - (double)g->c->layer[2 * axis + 1];
+    double first = (double)g->c->layer[2 * axis],
+           last = (double)spline->cells - (double)g->c->layer[2 * axis + 1];
+    if (spline->mirror[0] && goes_on(g, axis, spline->low)) first = -INFINITY;
+    if (spline->mirror[1] && goes_on(g, axis, spline->high)) last = INFINITY;
     if (at < first + NEAR || at > last - NEAR) return false;
-    *from = (size_t)fmax(first, floor(at) - NEAR - SHELL);
-    *end = (size_t)fmin(last, ceil(at) + NEAR + SHELL);
+    *from = (ptrdiff_t)fmax(first, floor(at) - NEAR - SHELL);
+    *end = (ptrdiff_t)fmin(last, ceil(at) + NEAR + SHELL);
     return true;
 }
 
-static selas_status cut(struct window *w, const struct load *load, const size_t end[3],
+static selas_status cut(struct window *w, const struct load *load, const ptrdiff_t end[3],
                         struct messages *messages)
 {
     const struct consistent *whole = w->glut->c;
@@ -293,23 +313,47 @@ static bool find_change(struct window *w, double moment[3][3], gsl_matrix *produ
     return left < wrong;
 }
 
-/* The change, to the control values that the whole's part has. */
+/* Number of the whole's control value that one of the window's is or is the image of, and what that turns round. */
+static ptrdiff_t number_in_whole(const struct window *w, int axis, ptrdiff_t number, bool odd, double *factor)
+{
+    const struct consistent *whole = w->glut->c;
+    const struct spline *spline = whole->spline[axis];
+    const ptrdiff_t cells = (ptrdiff_t)spline->cells;
+    number += w->from[whole->slot[axis]];
+    const bool low = spline->mirror[0] && number < 1, high = spline->mirror[1] && number > cells;
+    if ((low || high) && odd) *factor = -*factor;
+    if (low) number = 1 - number;
+    if (high) number = 2 * cells + 1 - number;
+    return number - (spline->mirror[0] ? 1 : 0) - (ptrdiff_t)whole->part.along[whole->slot[axis]].first;
+}
+
+/* The change, to the control values that the whole's part has; of a source on a symmetry plane half. */
 static void add_change(const struct window *w, double *field)
 {
     const struct consistent *c = w->c, *whole = w->glut->c;
+    double all = 1;
+    for (int axis = 0; axis < whole->dimension; axis++) {
+        const struct spline *spline = whole->spline[axis];
+        const double small = 1e-9 * (spline->high - spline->low), at = w->glut->centre[axis];
+        if ((spline->mirror[0] && fabs(at - spline->low) < small) ||
+            (spline->mirror[1] && fabs(at - spline->high) < small))
+            all /= 2;
+    }
     for (size_t i = 0; i < w->n; i++) {
-        const size_t here = i % c->volume;
+        const size_t here = i % c->volume, component = i / c->volume;
         size_t at[3] = {here % c->n[0], here / c->n[0] % c->n[1], here / c->plane};
+        double factor = all;
         bool has = w->change[i] != 0;
-        for (int axis = 0; axis < whole->dimension; axis++) {
+        for (int axis = 0; axis < whole->dimension && has; axis++) {
             const int slot = whole->slot[axis];
-            at[slot] +=
-                w->from[slot] - (whole->spline[axis]->mirror[0] ? 1 : 0) - whole->part.along[slot].first;
-            has = has && at[slot] < whole->n[slot];
+            const ptrdiff_t number =
+                number_in_whole(w, axis, (ptrdiff_t)at[slot], (int)component == axis, &factor);
+            has = number >= 0 && (size_t)number < whole->n[slot];
+            at[slot] = (size_t)number;
         }
         if (has)
-            field[i / c->volume * whole->volume + at[2] * whole->plane + at[1] * whole->n[0] + at[0]] +=
-                w->change[i];
+            field[component * whole->volume + at[2] * whole->plane + at[1] * whole->n[0] + at[0]] +=
+                factor * w->change[i];
     }
 }
 
@@ -323,7 +367,7 @@ static void window_free(struct window *w)
     array_free(w->loose);
 }
 
-static bool settle(struct window *w, const struct load *load, const size_t end[3], double moment[3][3],
+static bool settle(struct window *w, const struct load *load, const ptrdiff_t end[3], double moment[3][3],
                    double *field)
 {
     struct messages messages = {0};
@@ -346,7 +390,7 @@ bool general_settle(const struct glut *glut, const struct load *load, double mom
     const struct scene *scene = c->model.scene;
     const int last = c->dimension - 1;
     struct window w = {.glut = glut};
-    size_t end[3] = {1, 1, 1};
+    ptrdiff_t end[3] = {1, 1, 1};
     bool aslant = scene->body.topography != NULL, room = true;
     double origin[3] = {glut->centre[0], glut->centre[1], glut->centre[2]}, normal[3] = {0}, widest = 0;
     for (int axis = 0; axis < c->dimension; axis++) {
