@@ -233,4 +233,99 @@ echo "&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'pml', l
 untold "absorbing layers of a thousand points" thick.nml scene%end_time=0.2 output%plots=F
 "$selas" nothing.nml scene%end_time=1e-12 output%plots=F >said 2>&1
 verdict "a run much shorter than a step" $?
+# --- Ground ---
+alike() { # alike WHAT MOST RECEIVERS ONE OTHER: velocities of two runs
+    worst=$(for receiver in $3; do
+        grep -v '^#' "$4/$receiver.dat" >one
+        grep -v '^#' "$5/$receiver.dat" | paste -d ' ' - one | awk '
+            { for (i = 5; i <= 7; i++) { d += ($i - $(i + 7)) ^ 2; s += $(i + 7) ^ 2 } }
+            END { print (NR > 20 && s > 0 ? sqrt(d / s) : 9) }'
+    done | sort -g | tail -1)
+    awk -v a="$worst" -v b="$2" 'BEGIN { exit !(a != "" && a + 0 < b + 0) }'
+    verdict "$1: $worst apart, less than $2" $?
+}
+cat >ground.nml <<'END'
+&scene dimension = 2, end_time = 4 /
+&stepping time_step = 0.0125 /
+&material name = 'soil', density = 1.0, p_speed = 1.0, s_speed = 0.5 /
+&material name = 'rock', density = 1.0, p_speed = 2.0, s_speed = 1.0 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'lysmer' /
+&output plots = F /
+END
+loads="&load face = 'y-', shape = 'square', centre = 1.5, 0, size = .5, direction = 0, 1, history = 'gaussian', width = .3, delay = 1.2 /
+&receiver name = 'a', position = 2, 0 / &receiver name = 'b', position = -1, 0 /"
+{
+    cat ground.nml
+    echo "&body material = 'soil', low = -3, 0, high = 3, 3, spacing = 0.1 / &layer material = 'rock', top = 0, dip = 20 / $loads"
+} >top.nml
+"$selas" -q top.nml output%directory=top0 >said 2>&1
+"$selas" -q top.nml output%directory=top1 layer%top=1e-9 >said 2>&1
+alike "a tilted layer that begins at the surface at x = 0 and just below" 1e-6 "a b" top0 top1
+awk 'BEGIN { for (x = -5; x <= 5.001; x += .1) printf "%.4f %.15g\n", x, .3 - 1.1 * exp(-x * x / .98) }' >basin.txt
+for body in rock soil; do
+    {
+        cat ground.nml
+        echo "&body material = '$body', low = -3, 0, high = 3, 3, spacing = 0.1 / &layer material = 'rock', top = 0, file = 'basin.txt' / $loads"
+        [ $body = soil ] || echo "&layer material = 'soil', top = 0 /"
+    } >$body.nml
+    "$selas" -q $body.nml output%directory=basin-$body >said 2>&1
+done
+alike "a basin whose mean depth is above the surface, under a layer from there and in a body of it" 1e-12 "a b" basin-rock basin-soil
+awk 'BEGIN { for (x = -4.5; x <= 4.501; x += .05) printf "%.4f %.15g\n", x, exp(-x * x / 2.88) }' >ridge.txt
+loads="&load kind = 'body-force', shape = 'point', centre = 2.5, depth = 1.0, direction = 0, 1, history = 'gaussian', width = .4, delay = 1.8 /
+&receiver name = 'a', position = 0.8, depth = 0 / &receiver name = 'b', position = 1.6, depth = 0 /"
+{
+    cat ground.nml
+    echo "&body material = 'soil', low = -4, 0, high = 4, 4, spacing = 0.1 / &layer material = 'rock', top = 0.2, dip = 20, strike = 90 /
+&topography shape = 'ridge', height = 1.0, centre = 0, width = 1.2 / $loads"
+} >hill.nml
+sed -e 's/low = -4, 0/low = -4, -1.2/; s/top = 0.2/top = 1.4/' \
+    -e "s/&topography .* \/ &load/\&topography file = 'ridge.txt', datum = -1.2 \/ \&load/" hill.nml >plane.nml
+sed -i 's/datum = -1.2/datum = 0/' plane.nml
+for name in hill plane; do
+    "$selas" -q $name.nml output%directory=$name >said 2>&1 || cat said
+done
+alike "an interface that rises into a hill, from the plane of its foot and from one above it" .06 "a b" hill plane
+cat >held.nml <<'END'
+&scene dimension = 2, end_time = 8 /
+&material name = 'rock', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
+&material name = 'soft', density = 0.8, p_speed = 0.9, s_speed = 0.5 /
+&body material = 'rock', shape = 'half-space', spacing = 0.1 /
+&block material = 'soft', shape = 'ellipsoid', centre = 0, 0.4, size = 1.6, 0.8 /
+&load face = 'y-', shape = 'face', direction = 0, 1, history = 'gaussian', width = 0.4, delay = 1.8 /
+&receiver name = 'a', position = 0, 0 /
+END
+told "a load all over a half-space with a block" "all over the surface of ground that varies along it" check held.nml
+grep -v -e soft held.nml >even.nml
+untold "the same on even ground" check even.nml
+# --- Tractions on faces that slide ---
+cat >slides.nml <<'END'
+&scene dimension = 2, end_time = 3 /
+&material name = 'm', density = 1.2, p_speed = 2, s_speed = 1 /
+&body material = 'm', low = 0, 0, high = 2, 1.6, spacing = .1 /
+&boundary face = 'y-', kind = 'fixed' /
+&boundary face = 'y+', kind = 'roller' /
+&load face = 'y+', shape = 'square', centre = 1, 1.6, size = .9, direction = 1, 0, history = 'gaussian', width = .45, delay = 2.2 /
+&receiver name = 'a', position = .35, 1.2 /
+&output plots = F /
+END
+sph="method%name=sph method%law=linear method%variant=total-lagrangian"
+# shellcheck disable=SC2086
+"$selas" -q slides.nml output%directory=along $sph >said 2>&1
+# shellcheck disable=SC2086
+"$selas" -q slides.nml output%directory=askew $sph load%direction=1,1 load%amplitude=1.4142135623730951 >said 2>&1
+alike "total-Lagrangian, a traction askew on a roller, and its part along it" 1e-9 a askew along
+told "an updated-Lagrangian wall that slides under a traction along it" "carry no traction along it" check slides.nml \
+    method%name=sph method%variant=updated-lagrangian
+# --- Points and the exact mass ---
+cat >exact.nml <<'END'
+&scene dimension = 3, end_time = 5 /
+&material name = 'rock', density = 1.0, p_speed = 1.5, s_speed = 0.8 /
+&body material = 'rock', low = -2, -2, 0, high = 2, 2, 2, spacing = 0.25 /
+&load kind = 'body-force', shape = 'point', centre = 0, 0, 1, direction = 0, 0, 1, history = 'gaussian', width = 0.6, delay = 2.76 /
+&receiver name = 'r', position = 1.25, 0, 1 /
+END
+told "a receiver on an axis through a force, exact mass" "a tenth and more wrong.*mass = 'vc3'" check exact.nml method%mass=exact
+untold "the same with sweeps" check exact.nml
+untold "one beside the axis" check exact.nml method%mass=exact receiver%position=1.25,.75,1
 exit $failures

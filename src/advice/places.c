@@ -26,11 +26,33 @@ static bool shallow(const struct scene *scene, const double position[3])
            place[axis] - scene->body.low[axis] < 3.0 * scene->body.spacing;
 }
 
+/* The exact mass sends short waves of points along the axes of the lattice: velocities there were .03 to .6 wrong
+ * (doc/theory/sources.md, "The method"). */
+static bool by_exact_mass(const struct scene *scene)
+{
+    const struct deck_group *group = scene->method.group;
+    if (group != NULL && deck_given(group, "mass")) return deck_chosen(group, "mass", "exact");
+    return scene->method.degree > 0 && scene->method.sweeps == 0;
+}
+
+static bool along_an_axis(const struct scene *scene, const double from[3], const double to[3])
+{
+    double one[3] = {0.0, 0.0, 0.0}, other[3] = {0.0, 0.0, 0.0};
+    int apart = 0;
+    lattice_from_deck(&scene->body, from, one);
+    lattice_from_deck(&scene->body, to, other);
+    for (int axis = 0; axis < scene->dimension; axis++)
+        apart += fabs(one[axis] - other[axis]) > scene->body.spacing;
+    return apart <= 1;
+}
+
 /* Spacings from a force and a moment tensor within which velocities were .01 to .09 and .02 to .3 wrong; where both
  * lie near a free surface of the general operator .01 to .24 (doc/theory/sources.md, table 1). */
 static double near(const struct scene *scene, const struct load *load, const double receiver[3])
 {
-    if (load->kind != LOAD_MOMENT_TENSOR) return load->shape == LOAD_POINT ? 2.0 : 0.0;
+    if (load->kind != LOAD_MOMENT_TENSOR && load->shape != LOAD_POINT) return 0.0;
+    if (by_exact_mass(scene) && along_an_axis(scene, load->centre, receiver)) return 24.0;
+    if (load->kind != LOAD_MOMENT_TENSOR) return 2.0;
     return by_general_operator(scene) && shallow(scene, load->centre) && shallow(scene, receiver) ? 10.0
                                                                                                   : 6.0;
 }
@@ -62,12 +84,15 @@ void look_at_nearness(struct adviser *adviser)
         }
     if (wanted == 0.0) return;
     char finer[64] = "";
-    if (least > 0.01)
+    if (by_exact_mass(scene) && spacings > 10.0)
+        snprintf(finer, sizeof finer, ", or method%%mass = 'vc3' with degree 2,");
+    else if (least > 0.01)
         snprintf(finer, sizeof finer, ", or body%%spacing = %.3g,", least * scene->body.spacing);
     advise(adviser,
            "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
-           "%.0f spacings (%.3g) velocities may be some per cent wrong; a receiver farther off%s would do",
-           scene->receiver[receiver].name, least * wanted, load + 1, spacings, wanted, finer);
+           "%.0f spacings (%.3g) velocities may be %s wrong; a receiver farther off%s would do",
+           scene->receiver[receiver].name, least * wanted, load + 1, spacings, wanted,
+           spacings > 10.0 ? "a tenth and more" : "some per cent", finer);
 }
 
 /* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes

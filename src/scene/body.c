@@ -1,6 +1,7 @@
 /* The body: its box, its shape, the spacing of its points and its frame; layers of ground. */
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/ground.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -267,10 +268,35 @@ void build_body(struct builder *builder)
         check_division(builder, group);
 }
 
-static int by_depth(const void *one, const void *other)
+/* Depth of a layer's upper face in the middle of the body (where it is known; of a file its mean). What begins at the
+ * surface, wherever that is, comes first. */
+static double middle_depth(const struct builder *builder, const struct layer *layer)
 {
-    const double a = ((const struct layer *)one)->top, b = ((const struct layer *)other)->top;
-    return (a > b) - (a < b);
+    const struct scene *scene = builder->scene;
+    const struct body *body = &scene->body;
+    double depth = layer->top;
+    if (layer_covers(layer)) return -INFINITY;
+    for (int axis = 0; builder->body_known && axis < scene->dimension - 1; axis++)
+        depth += layer->slope[axis] * (body->low[axis] + body->high[axis]) / 2;
+    return depth;
+}
+
+static void sort_layers(const struct builder *builder)
+{
+    struct body *body = &builder->scene->body;
+    for (size_t i = 1; i < body->layers; i++) {
+        const struct layer layer = body->layer[i];
+        size_t k = i;
+        for (; k > 0 && middle_depth(builder, &body->layer[k - 1]) > middle_depth(builder, &layer); k--)
+            body->layer[k] = body->layer[k - 1];
+        body->layer[k] = layer;
+    }
+}
+
+static bool same_face(const struct layer *one, const struct layer *other)
+{
+    return one->top == other->top && one->slope[0] == other->slope[0] && one->slope[1] == other->slope[1] &&
+           one->map == NULL && other->map == NULL;
 }
 
 /* Each layer by itself: its body, material and depth. */
@@ -328,18 +354,17 @@ void build_layers(struct builder *builder)
         for (size_t i = 0; i < count; i++) {
             read_layer(builder, deck_get(builder->deck, "layer", i), &body->layer[i]);
             for (size_t k = 0; k < i; k++)
-                if (body->layer[k].top == body->layer[i].top && body->layer[i].map == NULL)
+                if (same_face(&body->layer[k], &body->layer[i]))
                     complain(builder, deck_get(builder->deck, "layer", i), "top",
                              "&layer %zu begins at depth %g already", k + 1, body->layer[i].top);
         }
-        qsort(body->layer, count, sizeof *body->layer, by_depth);
+        sort_layers(builder);
     }
     if (count > 0 && deck_count(builder->deck, "model") > 0)
         complain(builder, deck_get(builder->deck, "layer", 0), NULL,
                  "the ground is that of &model; leave &layer out");
     build_model(builder);
-    const bool covered =
-        body->model != NULL || (count > 0 && body->layer[0].top == 0 && body->layer[0].map == NULL);
+    const bool covered = body->model != NULL || (count > 0 && layer_covers(&body->layer[0]));
     if (deck_values(group, "material") == 0 && !covered)
         complain(builder, group, NULL,
                  "the body needs material: the name of a &material (or layers from depth 0 on)");

@@ -94,6 +94,13 @@ static bool sources_fit(struct builder *builder, const struct scene *sketch, con
     struct extent extent;
     for (size_t i = 0; scene_extent(sketch, i, &extent); i++) {
         if (extent.role != EXTENT_ACTS) continue;
+        for (int axis = 0; held->plane && axis < sketch->dimension - 1; axis++)
+            if (ground_varies(sketch, axis))
+                return refuse_box(
+                    builder, extent.group, extent.index, NULL,
+                    "this one acts all over the surface of ground that varies along it: no sides are right "
+                    "for "
+                    "that; a box (shape = 'box') with rollers at its sides, far enough off, would do");
         if (held->plane && !extent.plane)
             return refuse_box(
                 builder, extent.group, extent.index, NULL,

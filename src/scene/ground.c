@@ -4,6 +4,7 @@
 
 #include "scene/ground_line.h"
 #include "scene/height_map.h"
+#include "scene/topography.h"
 
 #include <math.h>
 
@@ -11,6 +12,13 @@ static double depth_of(const struct scene *scene, const double place[3])
 {
     const int last = scene->dimension - 1;
     return place[last] - scene->body.low[last];
+}
+
+/* The least depth that is in the ground below or above a place: that of the surface of a hill, else 0. */
+static double least_depth(const struct scene *scene, const double place[3])
+{
+    const struct topography *topography = scene->body.topography;
+    return topography == NULL ? 0 : fmin(0, topography_drop(topography, place));
 }
 
 /* Depth of a layer's upper face above or below a place. */
@@ -53,9 +61,9 @@ static struct rock between(const struct material *one, const struct material *ot
 }
 
 /* From the surface on, wherever that is. */
-static bool layer_covers(const struct layer *layer)
+bool layer_covers(const struct layer *layer)
 {
-    return layer->top == 0 && layer->map == NULL;
+    return layer->top == 0 && layer->map == NULL && layer->slope[0] == 0 && layer->slope[1] == 0;
 }
 
 /* Index of the layer at a place, or the number of layers: the body's own material. */
@@ -77,7 +85,7 @@ struct found {
 static struct found find(const struct scene *scene, const double place[3])
 {
     const struct body *body = &scene->body;
-    const double depth = fmax(0, depth_of(scene, place));
+    const double own = depth_of(scene, place), depth = own > 0 ? own : fmax(least_depth(scene, place), own);
     const size_t layer = layer_at(body, place, depth + body_rounding(scene));
     struct found found = {.material = layer < body->layers ? body->layer[layer].material : body->material};
     bool in_block = false;
@@ -205,8 +213,8 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
     size_t count = 0;
     if (body->line != NULL) return ground_line_jumps(body->line, place, axis, from, to, at);
     for (size_t i = 0; i < body->layers && axis == scene->dimension - 1; i++) {
-        const double x = body->low[axis] + top_at(&body->layer[i], place);
-        if (x > fmax(from, body->low[axis]) && x < to) at[count++] = x;
+        const double top = top_at(&body->layer[i], place), x = body->low[axis] + top;
+        if (x > from && x < to && (top > 0 || top > least_depth(scene, place))) at[count++] = x;
     }
     for (size_t i = 0; i < body->blocks; i++) {
         const struct ground_block *block = &body->block[i];

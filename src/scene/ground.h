@@ -41,6 +41,8 @@ size_t ground_jumps_at_most(const struct scene *scene);
 bool ground_grades(const struct scene *scene);
 /* Length over which the rock changes along an axis of the surface; 0: it may jump. */
 double ground_detail(const struct scene *scene, int axis);
+/* Does the layer begin at the surface, wherever that is? */
+bool layer_covers(const struct layer *layer);
 /* Can the rock be another one further along this axis? */
 bool ground_varies(const struct scene *scene, int axis);
 

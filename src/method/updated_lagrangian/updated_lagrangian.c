@@ -33,9 +33,16 @@ static selas_status choose_wall(struct updated *updated, enum face face, struct 
 {
     const struct scene *scene = updated->model.scene;
     const struct boundary *boundary = &scene->boundary[face];
-    bool loaded = false;
-    for (size_t k = 0; k < scene->loads; k++)
-        loaded = loaded || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].face == face);
+    bool loaded = false, along = false;
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        double direction[3];
+        if (load->kind != LOAD_TRACTION || load->face != face) continue;
+        loaded = true;
+        body_direction_from_deck(&scene->body, load->direction, direction);
+        for (int axis = 0; axis < scene->dimension; axis++)
+            along = along || (axis != face_axis(face) && fabs(direction[axis]) > 1e-12);
+    }
     body_direction_from_deck(&scene->body, boundary->direction, updated->direction[face]);
     const bool slips = boundary_slides(boundary) || (boundary_moves(boundary) && boundary->slip);
     const bool held = boundary_meaning(boundary)->holds != HOLDS_NOTHING;
@@ -48,6 +55,11 @@ static selas_status choose_wall(struct updated *updated, enum face face, struct 
         return fail(messages, SELAS_UNSUPPORTED,
                     "%s: a wall that moves with slip moves along its own normal (face '%s')", NAME,
                     face_name(face));
+    if (wall == WALL_SLIP && along)
+        return fail(messages, SELAS_UNSUPPORTED,
+                    "%s: face '%s' slides, and its ghosts carry no traction along it; leave the load out, or "
+                    "take method%%variant = 'total-lagrangian'",
+                    NAME, face_name(face));
     if (wall != WALL_NONE && face == FACE_HOLE)
         return fail(messages, SELAS_UNSUPPORTED, "%s leaves the hole free", NAME);
     updated->wall[face] = wall;
