@@ -280,8 +280,7 @@ loads="&load kind = 'body-force', shape = 'point', centre = 2.5, depth = 1.0, di
 &topography shape = 'ridge', height = 1.0, centre = 0, width = 1.2 / $loads"
 } >hill.nml
 sed -e 's/low = -4, 0/low = -4, -1.2/; s/top = 0.2/top = 1.4/' \
-    -e "s/&topography .* \/ &load/\&topography file = 'ridge.txt', datum = -1.2 \/ \&load/" hill.nml >plane.nml
-sed -i 's/datum = -1.2/datum = 0/' plane.nml
+    -e "s/shape = 'ridge', height = 1.0, centre = 0, width = 1.2/file = 'ridge.txt', datum = 1.2/" hill.nml >plane.nml
 for name in hill plane; do
     "$selas" -q $name.nml output%directory=$name >said 2>&1 || cat said
 done
@@ -325,7 +324,7 @@ cat >exact.nml <<'END'
 &load kind = 'body-force', shape = 'point', centre = 0, 0, 1, direction = 0, 0, 1, history = 'gaussian', width = 0.6, delay = 2.76 /
 &receiver name = 'r', position = 1.25, 0, 1 /
 END
-told "a receiver on an axis through a force, exact mass" "a tenth and more wrong.*mass = 'vc3'" check exact.nml method%mass=exact
+told "a receiver on an axis through a force, exact mass" "some per cent or tenths wrong.*mass = 'vc3'" check exact.nml method%mass=exact
 untold "the same with sweeps" check exact.nml
 untold "one beside the axis" check exact.nml method%mass=exact receiver%position=1.25,.75,1
 exit $failures

@@ -92,7 +92,7 @@ void look_at_nearness(struct adviser *adviser)
            "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
            "%.0f spacings (%.3g) velocities may be %s wrong; a receiver farther off%s would do",
            scene->receiver[receiver].name, least * wanted, load + 1, spacings, wanted,
-           spacings > 10.0 ? "a tenth and more" : "some per cent", finer);
+           spacings > 10.0 ? "some per cent or tenths" : "some per cent", finer);
 }
 
 /* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes

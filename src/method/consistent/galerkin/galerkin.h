@@ -72,6 +72,9 @@ struct watch {
 struct consistent {
     struct model model;
     struct consistent_options options;
+    /* consistent_create_with(): a model like this one of another scene. */
+    selas_status (*create)(const struct scene *scene, const struct consistent_options *options,
+                           struct model **model, struct messages *messages);
     int dimension, slot[3];         /* slot of each axis */
     struct spline *spline[3];       /* by axis */
     const struct spline *layout[3]; /* by slot; NULL where there is no axis */

@@ -1,0 +1,225 @@
+/* A piece of the lattice about a moment tensor (see the header). */
+#include "method/consistent/general/window.h"
+
+#include "base/memory.h"
+#include "model/short_body.h"
+#include "scene/topography.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    NEAR = 7,  /* cells about the source whose control values are free */
+    SHELL = 4, /* control values around these that have the exact field's */
+    FINE = 32  /* steps of the line in a spacing */
+};
+
+/* Does the ground go on beyond a symmetry plane across the axis as the plane's image of it? */
+static bool goes_on(const struct glut *g, int axis, double plane)
+{
+    const struct scene *scene = g->c->model.scene;
+    const struct topography *surface = scene->body.topography;
+    const double spacing = glut_spacing(g->c->spline[axis]);
+    bool even = !ground_varies(scene, axis);
+    for (int n = 1; surface != NULL && n <= 2 * (NEAR + SHELL); n++) {
+        double place[2][2] = {{g->centre[0], g->centre[1]}, {g->centre[0], g->centre[1]}};
+        place[0][axis] = plane - n * spacing;
+        place[1][axis] = plane + n * spacing;
+        even = even &&
+               fabs(topography_drop(surface, place[0]) - topography_drop(surface, place[1])) < 1e-9 * spacing;
+    }
+    return even;
+}
+
+/* Cells of an axis, beyond symmetry planes too; false: the source is too near to an end of the body. */
+static bool take_cells(const struct glut *g, int axis, ptrdiff_t *from, ptrdiff_t *end)
+{
+    const struct spline *spline = g->c->spline[axis];
+    const double at = (g->centre[axis] - spline->low) / glut_spacing(spline);
+    double first = (double)g->c->layer[2 * axis],
+           last = (double)spline->cells - (double)g->c->layer[2 * axis + 1];
+    if (spline->mirror[0] && goes_on(g, axis, spline->low)) first = -INFINITY;
+    if (spline->mirror[1] && goes_on(g, axis, spline->high)) last = INFINITY;
+    if (at < first + NEAR || at > last - NEAR) return false;
+    *from = (ptrdiff_t)fmax(first, floor(at) - NEAR - SHELL);
+    *end = (ptrdiff_t)fmin(last, ceil(at) + NEAR + SHELL);
+    return true;
+}
+
+static selas_status cut(struct glut_window *w, const struct load *load, const ptrdiff_t end[3],
+                        struct messages *messages)
+{
+    const struct consistent *whole = w->glut->c;
+    struct consistent_options options = whole->options;
+    struct scene *scene = NULL;
+    selas_status status = short_body_scene(whole->model.scene, &scene, messages);
+    if (status != SELAS_OK) return status;
+    struct body *body = &scene->body;
+    for (int axis = 0; axis < whole->dimension; axis++) {
+        const struct spline *spline = whole->spline[axis];
+        const double low = spline->low + (double)w->from[whole->slot[axis]] * glut_spacing(spline);
+        body->low[axis] = low;
+        body->high[axis] = spline->low + (double)end[whole->slot[axis]] * glut_spacing(spline);
+        scene->boundary[2 * axis].kind = scene->boundary[2 * axis + 1].kind = BOUNDARY_FREE;
+    }
+    body->line = &w->line;
+    scene->loads = 1;
+    scene->load = (struct load *)load; /* borrowed, and not changed */
+    options.single = false;
+    options.quiet = 0;
+    options.unfused = options.window = true;
+    status = whole->create(scene, &options, &w->model, messages);
+    if (status != SELAS_OK) {
+        array_free(scene);
+        return status;
+    }
+    w->c = consistent_of(w->model);
+    w->c->own_scene = scene;
+    return SELAS_OK;
+}
+
+/* Is the ground about the source as the line says, but for a twentieth of it? */
+static bool varies_across_alone(const struct glut_window *w)
+{
+    enum { WIDE = 3, PARTS = 2 }; /* spacings; places in one */
+    static const double alike = .05, most = .05;
+    const struct consistent *c = w->glut->c;
+    const int far = WIDE * PARTS, beside = c->dimension == 2 ? 0 : far;
+    size_t other = 0, all = 0;
+    for (int k = -far; k <= far; k++)
+        for (int j = -beside; j <= beside; j++)
+            for (int i = -far; i <= far; i++, all++) {
+                const double step[3] = {(double)i / PARTS, (double)j / PARTS, (double)k / PARTS};
+                double place[3] = {0};
+                for (int axis = 0; axis < c->dimension; axis++)
+                    place[axis] = w->glut->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
+                consistent_to_ground(c, place);
+                const struct rock is = ground_at(c->model.scene, place),
+                                  *said = ground_line_at(&w->line, place);
+                other += fabs(log((is.lambda + 2 * is.mu) / (said->lambda + 2 * said->mu))) > alike ||
+                         fabs(log(is.mu / said->mu)) > alike;
+            }
+    return (double)other <= most * (double)all;
+}
+
+static void place_of(const struct consistent *c, size_t i, double place[3], bool *within)
+{
+    const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
+    *within = true;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const size_t k = at[c->slot[axis]];
+        place[axis] = c->spline[axis]->greville[k];
+        *within = *within && k >= SHELL && k + SHELL < c->n[c->slot[axis]];
+    }
+}
+
+/* Control values of a field of second order and more: u - 1/8 of its second differences. */
+static void control_value(const struct glut_window *w, const struct steady *steady, const double place[3],
+                          double value[3])
+{
+    const struct consistent *c = w->c;
+    double there[3] = {place[0], place[1], place[2]}, here[3], beside[3];
+    consistent_to_ground(c, there);
+    steady_at(&w->line, steady, there, here);
+    memcpy(value, here, sizeof here);
+    for (int axis = 0; axis < c->dimension; axis++)
+        for (int side = -1; side <= 1; side += 2) {
+            memcpy(there, place, sizeof there);
+            there[axis] += side * glut_spacing(c->spline[axis]);
+            consistent_to_ground(c, there);
+            steady_at(&w->line, steady, there, beside);
+            for (int i = 0; i < c->dimension; i++)
+                value[i] -= (beside[i] - here[i]) / 8;
+        }
+}
+
+static void lay_field(struct glut_window *w, size_t state)
+{
+    struct consistent *c = w->c;
+    const struct steady *steady = &w->steady[state];
+    double *field = w->field + state * w->n, *rest = w->rest + state * w->n, pull[3];
+    steady_acceleration(&w->line, steady, pull);
+    for (size_t i = 0; i < c->volume; i++) {
+        double place[3] = {0}, value[3] = {0};
+        bool within;
+        place_of(c, i, place, &within);
+        control_value(w, steady, place, value);
+        for (int component = 0; component < c->dimension; component++) {
+            field[(size_t)component * c->volume + i] = value[component];
+            w->work[0][(size_t)component * c->volume + i] = pull[component];
+        }
+    }
+    general_weigh(c, w->work[0], w->work[1]);
+    general_forces(c, field, NULL, rest);
+    for (size_t i = 0; i < w->n; i++)
+        rest[i] = w->loose[i] ? rest[i] - w->work[1][i] : 0;
+}
+
+static bool lay_fields(struct glut_window *w)
+{
+    struct consistent *c = w->c;
+    const struct spline *depth = c->spline[c->dimension - 1];
+    const double spacing = glut_spacing(depth) * consistent_metric(w->glut->c, w->glut->centre).jacobian;
+    w->n = c->model.unknowns;
+    w->states = steady_all(&w->line, spacing, w->steady);
+    w->field = array_new(2 * STEADY_MOST * w->n, sizeof *w->field);
+    w->forces = array_new(7 * w->n, sizeof *w->forces);
+    w->loose = array_new(w->n, sizeof *w->loose);
+    if (w->states == 0 || w->field == NULL || w->forces == NULL || w->loose == NULL) return false;
+    w->rest = w->field + STEADY_MOST * w->n;
+    w->answer = w->forces + w->n;
+    w->change = w->answer + w->n;
+    w->weight = w->change + w->n;
+    for (int i = 0; i < 3; i++)
+        w->work[i] = w->weight + (size_t)(1 + i) * w->n;
+    for (size_t i = 0; i < w->n; i++) {
+        double place[3] = {0}, square = 0;
+        place_of(c, i % c->volume, place, &w->loose[i]);
+        for (int axis = 0; axis < c->dimension; axis++)
+            square += pow((place[axis] - w->glut->centre[axis]) / glut_spacing(c->spline[axis]), 2);
+        consistent_to_ground(c, place);
+        if (w->loose[i] && square < GLUT_REACH * GLUT_REACH)
+            w->weight[i] =
+                ground_line_at(&w->line, place)->mu * pow(1 - square / (GLUT_REACH * GLUT_REACH), 2);
+    }
+    for (size_t state = 0; state < w->states; state++)
+        lay_field(w, state);
+    return true;
+}
+
+bool glut_window_fits(struct glut_window *w, ptrdiff_t end[3], bool *good)
+{
+    const struct glut *glut = w->glut;
+    const struct consistent *c = glut->c;
+    double origin[3] = {glut->centre[0], glut->centre[1], glut->centre[2]}, normal[3] = {0}, widest = 0;
+    *good = true;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const int slot = c->slot[axis];
+        if (!take_cells(glut, axis, &w->from[slot], &end[slot])) return false;
+        normal[axis] = glut->normal[slot];
+        widest = fmax(widest, glut_spacing(c->spline[axis]));
+    }
+    const double stretch = fmax(1, consistent_metric(c, glut->centre).jacobian);
+    const double far = (NEAR + SHELL + 3) * sqrt(c->dimension) * widest * stretch;
+    consistent_to_ground(c, origin);
+    *good = ground_line_new(c->model.scene, origin, normal, glut->spacing / FINE, far, &w->line);
+    return *good && varies_across_alone(w);
+}
+
+bool glut_window_lay(struct glut_window *w, const struct load *load, const ptrdiff_t end[3])
+{
+    struct messages messages = {0};
+    const bool good = cut(w, load, end, &messages) == SELAS_OK && lay_fields(w);
+    messages_free(&messages);
+    return good;
+}
+
+void glut_window_free(struct glut_window *w)
+{
+    ground_line_free(&w->line);
+    steady_free(w->steady);
+    if (w->model != NULL) model_free(&w->model);
+    array_free(w->field);
+    array_free(w->forces);
+    array_free(w->loose);
+}
