@@ -316,6 +316,17 @@ sph="method%name=sph method%law=linear method%variant=total-lagrangian"
 alike "total-Lagrangian, a traction askew on a roller, and its part along it" 1e-9 a askew along
 told "an updated-Lagrangian wall that slides under a traction along it" "carry no traction along it" check slides.nml \
     method%name=sph method%variant=updated-lagrangian
+# --- Absorbing layers of a given size ---
+cat >thin.nml <<'END'
+&scene dimension = 2, end_time = 8 /
+&material name = 'rock', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
+&body material = 'rock', low = -3, 0, high = 3, 3, spacing = 0.1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'pml', layer_points = 3 /
+&load face = 'y-', shape = 'square', centre = 0, 0, size = 1, direction = 0, 1, history = 'gaussian', width = 0.6, delay = 3.4 /
+&receiver name = 'a', position = 2.5, 0 /
+END
+told "layers of three points" "may send back up to .*left to the program" check thin.nml
+untold "layers whose thickness is left open" check thin.nml boundary%layer_points=
 # --- Points and the exact mass ---
 cat >exact.nml <<'END'
 &scene dimension = 3, end_time = 5 /

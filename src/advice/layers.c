@@ -7,6 +7,7 @@
 #include "accuracy/outlook.h"
 #include "advice/parts.h"
 #include "scene/absorbing_layers.h"
+#include "scene/echo.h"
 #include "scene/extent.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
@@ -20,15 +21,40 @@ static double layers_error(size_t points, double cells_per_wavelength)
     return 0.0011 * layer_profile_reflection(points) * pow(cells_per_wavelength, 1.7);
 }
 
+static bool layer_size_given(const struct boundary *boundary)
+{
+    return boundary->layer_points > 0 || boundary->layer_thickness > 0 || boundary->layer_reflection > 0;
+}
+
+/* Those that (15) of doc/theory/absorbing-faces.md, a bound, lets send back more than this. */
+static void look_at_echoes(struct adviser *adviser)
+{
+    static const double much = .05;
+    const struct scene *scene = adviser->scene;
+    double most = much;
+    int worst = -1;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const size_t points = layer_size_given(&scene->boundary[face]) ? layer_points(scene, face) : 0;
+        const double echo = points > 0 ? echo_of_layer(scene, face, points) : 0;
+        if (echo <= most) continue;
+        most = echo;
+        worst = face;
+    }
+    if (worst < 0) return;
+    advise(adviser,
+           "the absorbing layer of face '%s' may send back up to %.2g of the velocity at the worst place "
+           "looked at: "
+           "more points, or a thickness that is left to the program, would be right",
+           face_name((enum face)worst), fmin(most, 1));
+}
+
 /* Of layers whose size the deck gives: what the program chooses is proved by echoes (scene/absorbing_layers.c). */
 static size_t fewest_layer_points(const struct scene *scene)
 {
     size_t fewest = 0;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const struct boundary *boundary = &scene->boundary[face];
-        const bool given =
-            boundary->layer_points > 0 || boundary->layer_thickness > 0 || boundary->layer_reflection > 0;
-        const size_t points = given ? layer_points(scene, face) : 0;
+        const size_t points = layer_size_given(boundary) ? layer_points(scene, face) : 0;
         if (points > 0 && (fewest == 0 || points < fewest)) fewest = points;
     }
     return fewest;
@@ -40,6 +66,7 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper)
     const size_t points = fewest_layer_points(scene);
     struct ground_outlook outlook;
     const bool late = !stepper->unwarp && stepper->scheme->order < 4; /* errors in time, of no law */
+    look_at_echoes(adviser);
     if (points == 0 || scene->body.accuracy[0] != '\0' || late) return;
     /* Too thin, the P wavelength at the mean frequency would be 13 S wavelengths at the cutoff: this saves
      * the exact solution. */

@@ -1,6 +1,7 @@
 /* Places that the lattice or the absorbing layers do not do justice: receivers in the midst of a source, and a
  * surface that layers make level. */
 #include "advice/parts.h"
+#include "scene/absorbing_layers.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
@@ -170,7 +171,7 @@ void look_at_tilted(struct adviser *adviser)
     double slope = 0.0;
     for (size_t i = 0; i < body->layers; i++)
         slope = fmax(slope, hypot(body->layer[i].slope[0], body->layer[i].slope[1]));
-    if (slope == 0.0 || !body->chosen || !body->absorbing) return;
+    if (slope == 0.0 || (body->chosen ? !body->absorbing : !layer_anywhere(adviser->scene))) return;
     advise(
         adviser,
         "tilted layers send waves back from beyond the box, which are lost in its absorbing layers: "
