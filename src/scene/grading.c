@@ -17,7 +17,7 @@ double grading_real(const struct grading *grading, double lattice)
 {
     if (grading == NULL) return lattice;
     const double t = (lattice - grading->low) / grading->step;
-    if (t <= 0) return grading->low + t * grading->step * grading->stretch[0];
+    if (t <= 0) return grading->place[0] + t * grading->step * grading->stretch[0];
     const size_t cells = grading->cells, i = t < (double)cells ? (size_t)t : cells;
     const double part = t - (double)i, rise = i < cells ? grading->stretch[i + 1] - grading->stretch[i] : 0;
     return grading->place[i] + grading->step * part * (grading->stretch[i] + rise * part / 2);
@@ -40,7 +40,7 @@ static size_t knot_above(const struct grading *grading, double real)
 double grading_lattice(const struct grading *grading, double real)
 {
     if (grading == NULL) return real;
-    if (real <= grading->low) return grading->low + (real - grading->low) / grading->stretch[0];
+    if (real <= grading->place[0]) return grading->low + (real - grading->place[0]) / grading->stretch[0];
     const size_t i = knot_above(grading, real);
     const double from = grading->stretch[i], rise = i < grading->cells ? grading->stretch[i + 1] - from : 0;
     const double way = (real - grading->place[i]) / grading->step;

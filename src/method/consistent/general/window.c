@@ -38,12 +38,24 @@ static bool take_cells(const struct glut *g, int axis, ptrdiff_t *from, ptrdiff_
     const double at = (g->centre[axis] - spline->low) / glut_spacing(spline);
     double first = (double)g->c->layer[2 * axis],
            last = (double)spline->cells - (double)g->c->layer[2 * axis + 1];
-    if (spline->mirror[0] && goes_on(g, axis, spline->low)) first = -INFINITY;
-    if (spline->mirror[1] && goes_on(g, axis, spline->high)) last = INFINITY;
+    const bool graded = g->c->model.scene->body.grading != NULL && g->c->slot[axis] == DEPTH;
+    if (!graded && spline->mirror[0] && goes_on(g, axis, spline->low)) first = -INFINITY;
+    if (!graded && spline->mirror[1] && goes_on(g, axis, spline->high)) last = INFINITY;
     if (at < first + NEAR || at > last - NEAR) return false;
     *from = (ptrdiff_t)fmax(first, floor(at) - NEAR - SHELL);
     *end = (ptrdiff_t)fmin(last, ceil(at) + NEAR + SHELL);
     return true;
+}
+
+/* Part of the map over depth, which no symmetry plane is across. */
+static void cut_grading(struct glut_window *w, const ptrdiff_t end[3], struct body *body)
+{
+    w->grading = *body->grading;
+    w->grading.cells = (size_t)(end[DEPTH] - w->from[DEPTH]);
+    w->grading.low += (double)w->from[DEPTH] * w->grading.step;
+    w->grading.place += w->from[DEPTH];
+    w->grading.stretch += w->from[DEPTH];
+    body->grading = &w->grading;
 }
 
 static selas_status cut(struct glut_window *w, const struct load *load, const ptrdiff_t end[3],
@@ -62,6 +74,7 @@ static selas_status cut(struct glut_window *w, const struct load *load, const pt
         body->high[axis] = spline->low + (double)end[whole->slot[axis]] * glut_spacing(spline);
         scene->boundary[2 * axis].kind = scene->boundary[2 * axis + 1].kind = BOUNDARY_FREE;
     }
+    if (body->grading != NULL) cut_grading(w, end, body);
     body->line = &w->line;
     scene->loads = 1;
     scene->load = (struct load *)load; /* borrowed, and not changed */

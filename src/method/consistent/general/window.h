@@ -5,6 +5,7 @@
 
 #include "method/consistent/general/glut.h"
 #include "method/consistent/general/steady.h"
+#include "scene/grading.h"
 
 #include <stddef.h>
 
@@ -13,6 +14,7 @@
 struct glut_window {
     const struct glut *glut;
     struct ground_line line;
+    struct grading grading; /* of a lattice that is graded over depth */
     struct steady steady[STEADY_MOST];
     size_t states;
     struct model *model;
