@@ -223,6 +223,7 @@ END
 untold "hill, block and load in their places" check nothing.nml
 told "a load of amplitude 0 alone" "nothing acts" check nothing.nml load%amplitude=0
 told "a load that begins behind the end" "begins at t = 3 and the run ends at 2: it does nothing" check nothing.nml load%start=3
+told "rows farther apart than the run is long" "have the row t = 0 alone" check nothing.nml output%history_step=9
 told "a block beside the body" "&block 1 lies outside the body: along x" check nothing.nml block%centre=9,2
 told "a hill between two points" "width = 0.01 is less than the spacing" check nothing.nml topography%width=.01
 grep -v '&load' nothing.nml >outside.nml

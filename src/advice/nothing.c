@@ -51,8 +51,18 @@ static void look_at_hill(struct adviser *adviser)
            hill->width, body->spacing);
 }
 
+static void look_at_rows(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    if (scene->receivers == 0 || scene->output.history_step <= scene->end_time) return;
+    advise(adviser,
+           "output%%history_step = %g is longer than the run, %g: histories have the row t = 0 alone",
+           scene->output.history_step, scene->end_time);
+}
+
 void look_at_nothing(struct adviser *adviser)
 {
+    look_at_rows(adviser);
     look_at_rest(adviser);
     look_at_blocks(adviser);
     look_at_hill(adviser);
