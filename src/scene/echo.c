@@ -25,7 +25,7 @@ static double distance(const struct scene *scene, int face, const struct extent 
 
 bool echo_seen(const struct scene *scene, int face, double less)
 {
-    const double speed = 1.02 * scene_fastest(scene);
+    const double speed = 1.02 * scene_first(scene);
     struct extent seen, acts;
     bool looked = false;
     for (size_t k = 0; scene_extent(scene, k, &acts); k++)

@@ -176,7 +176,7 @@ static void put(const struct scene *scene, const struct held *held, const struct
 /* So large that nothing comes back: (X - load) + (X - seen) >= c_p (until - from) for all pairs. */
 static void fit_large(const struct builder *builder, const struct held *held, struct scene *sketch)
 {
-    const double dx = sketch->body.spacing, speed = scene_fastest(sketch);
+    const double dx = sketch->body.spacing, speed = scene_first(sketch);
     const int down = sketch->dimension - 1;
     struct span want[3] = {{0, 0}};
     struct extent seen, acts;

@@ -1,6 +1,8 @@
 /* What many ask of a scene. */
 #include "scene/scene.h"
 
+#include "scene/resolution.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -90,6 +92,22 @@ double scene_fastest(const struct scene *scene)
     double speed = 0;
     for (size_t i = 0; i < scene->materials; i++)
         speed = fmax(speed, scene->material[i].p_speed);
+    return speed;
+}
+
+double scene_first(const struct scene *scene)
+{
+    double speed = 0, cutoff = -1;
+    for (size_t i = 0; i < scene->materials; i++) {
+        const struct material *material = &scene->material[i];
+        double faster = 1;
+        if (material->q_p > 0 && material->q_frequency > 0) {
+            if (cutoff < 0) cutoff = source_cutoff(scene);
+            const double above = cutoff / (2 * M_PI * material->q_frequency);
+            if (isfinite(above) && above > 1) faster += log(above) / (M_PI * material->q_p);
+        }
+        speed = fmax(speed, material->p_speed * faster);
+    }
     return speed;
 }
 

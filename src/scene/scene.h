@@ -340,6 +340,9 @@ selas_status scene_check_faces(const struct scene *scene, unsigned can, const ch
 bool scene_loads_move(const struct scene *scene); /* any of them */
 bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
 double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
+/* The same of their front: where they are damped those of the source's highest frequencies are faster than those at
+ * q_frequency (constant Q: by ln(f / q_frequency) / (pi Q) of themselves; doc/theory/damping.md). */
+double scene_first(const struct scene *scene);
 /* Part of a point source at a place (body's frame) that the body carries: a half for each symmetry plane in
  * which it lies. */
 double scene_carries(const struct scene *scene, const double place[3]);

@@ -331,7 +331,6 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     struct consistent *c = array_new(1, sizeof *c);
     if (c == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for a model");
     c->options = *options;
-    c->create = consistent_create_with;
     c->dimension = scene->dimension;
     c->model.method = &method_consistent;
     c->model.core = &core;

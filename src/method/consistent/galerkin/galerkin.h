@@ -24,7 +24,6 @@ struct consistent_options {
     bool single;     /* layers: tables for steps in single precision, too */
     bool general;    /* the general operator (general/general.h) in place of the H-form */
     bool unfused;    /* H-form: passes one by one even where the fused operator (fused.h) would do */
-    bool window;     /* general: a piece of a body, to settle a moment tensor of that (general/settle.c) */
 };
 
 enum { MAX_MATRICES = 96, DEPTH = 2, FACTOR_SETS = 3, LINES = 8 };
@@ -72,9 +71,6 @@ struct watch {
 struct consistent {
     struct model model;
     struct consistent_options options;
-    /* consistent_create_with(): a model like this one of another scene. */
-    selas_status (*create)(const struct scene *scene, const struct consistent_options *options,
-                           struct model **model, struct messages *messages);
     int dimension, slot[3];         /* slot of each axis */
     struct spline *spline[3];       /* by axis */
     const struct spline *layout[3]; /* by slot; NULL where there is no axis */

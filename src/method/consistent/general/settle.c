@@ -176,7 +176,8 @@ bool general_settle(const struct glut *glut, const struct load *load, double mom
     bool aslant = c->model.scene->body.topography != NULL, good;
     for (int axis = 0; axis < c->dimension; axis++)
         aslant = aslant || (axis != glut->across && glut->normal[c->slot[axis]] != 0);
-    if (c->options.window || !glut->surface || glut->away > GLUT_REACH || !aslant) return true;
+    if (c->model.scene->body.line != NULL || !glut->surface || glut->away > GLUT_REACH || !aslant)
+        return true;
     if (glut_window_fits(&w, end, &good)) good = settle(&w, load, end, moment, field);
     glut_window_free(&w);
     return good;

@@ -62,7 +62,6 @@ static selas_status cut(struct glut_window *w, const struct load *load, const pt
                         struct messages *messages)
 {
     const struct consistent *whole = w->glut->c;
-    struct consistent_options options = whole->options;
     struct scene *scene = NULL;
     selas_status status = short_body_scene(whole->model.scene, &scene, messages);
     if (status != SELAS_OK) return status;
@@ -78,10 +77,7 @@ static selas_status cut(struct glut_window *w, const struct load *load, const pt
     body->line = &w->line;
     scene->loads = 1;
     scene->load = (struct load *)load; /* borrowed, and not changed */
-    options.single = false;
-    options.quiet = 0;
-    options.unfused = options.window = true;
-    status = whole->create(scene, &options, &w->model, messages);
+    status = whole->model.method->create(scene, &w->model, messages);
     if (status != SELAS_OK) {
         array_free(scene);
         return status;
