@@ -33,7 +33,11 @@ static bool by_exact_mass(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
     if (group != NULL && deck_given(group, "mass")) return deck_chosen(group, "mass", "exact");
-    return scene->method.degree > 0 && scene->method.sweeps == 0;
+    if (scene->method.degree > 0) return scene->method.sweeps == 0;
+    const bool sweeps =
+        group != NULL && (deck_given(group, "depth_mass") || deck_given(group, "dissipation"));
+    return body_is_layered(&scene->body) && !by_general_operator(scene) && !layer_anywhere(scene) &&
+           !sweeps; /* the default there */
 }
 
 static bool along_an_axis(const struct scene *scene, const double from[3], const double to[3])
@@ -84,9 +88,11 @@ void look_at_nearness(struct adviser *adviser)
             receiver = r;
         }
     if (wanted == 0.0) return;
-    char finer[64] = "";
+    char finer[160] = "";
     if (by_exact_mass(scene) && spacings > 10.0)
-        snprintf(finer, sizeof finer, ", or method%%mass = 'vc3' with degree 2,");
+        snprintf(finer, sizeof finer,
+                 ", two spacings beside the axis of the lattice through it, or method%%mass = 'vc3' with "
+                 "degree 2,");
     else if (least > 0.01)
         snprintf(finer, sizeof finer, ", or body%%spacing = %.3g,", least * scene->body.spacing);
     advise(adviser,

@@ -30,16 +30,15 @@ static const struct word method_words[] = {
     {"variant", WORD_CHOICE, 1, NULL, &(METHODS(NOTHING, VARIANT_WORD))[1], OPTIONAL,
      "form of the method" METHODS(FAMILY_GLOSS, VARIANT_GLOSS)},
     {"degree", WORD_INTEGER, 1, NULL, "[1, 4]", OPTIONAL,
-     "degree of the B-splines (consistent); else 2, on layered ground without point sources 4"},
+     "degree of the B-splines (consistent); else 2, on layered ground 4"},
     {"ends", WORD_CHOICE, 1, NULL, "open|mapped", EXPERT, "knots at the faces (consistent)"},
     {"mass", WORD_CHOICE, 1, NULL, "exact|vc1|vc2|vc3", OPTIONAL,
-     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent); else vc3, with degree 4 "
+     "inverse of the mass: exact, or by 1 to 3 van Cittert sweeps (consistent); else vc3, on layered ground "
      "exact"},
     {"operator", WORD_CHOICE, 1, NULL, "layered|general", OPTIONAL,
      "for level layers, or for ground that varies in all directions; else as the ground needs (consistent)"},
     {"tuned", WORD_LOGICAL, 1, NULL, NULL, EXPERT,
-     "tune the splines for short waves (consistent, degree 4, exact mass; the default there on layered "
-     "ground)"},
+     "tune the splines for short waves (consistent, degree 4, exact mass; the default on layered ground)"},
     {"depth_mass", WORD_CHOICE, 1, NULL, "exact|same", EXPERT,
      "mass in the stiffness over depth beside sweeps: exact, or the same as elsewhere (consistent)"},
     {"dissipation", WORD_REAL, 1, NULL, NOT_NEGATIVE, EXPERT,

@@ -145,29 +145,16 @@ struct wave_law consistent_waves(const struct consistent_options *options)
     return (struct wave_law){options->sweeps > 0 ? sweeps[options->sweeps] : exact[options->degree], 4, 0};
 }
 
-/* A force or moment at one place, whose short waves the exact mass sends along the axes of the lattice. */
-static bool has_point_source(const struct scene *scene)
-{
-    bool has = false;
-    for (size_t k = 0; k < scene->loads; k++) {
-        const struct load *load = &scene->load[k];
-        has =
-            has || (load->amplitude != 0 && (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_POINT));
-    }
-    return has;
-}
-
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4, the exact mass and
- * tuned splines where no C-PML stands beside it and nothing acts at a point: waves in a soft layer are short against
- * the spacing, and there this errs a fifth of what degree 2 with sweeps does (doc/theory/layered.md). Beside C-PML
- * degree 2 with sweeps is the cheapest at equal error (doc/verification/tables/layered.txt, table 2). */
+ * tuned splines where no C-PML stands beside it: waves in a soft layer are short against the spacing, and there this
+ * errs a fifth of what degree 2 with sweeps does (doc/theory/layered.md). Beside C-PML degree 2 with sweeps is the
+ * cheapest at equal error (doc/verification/tables/layered.txt, table 2). */
 struct consistent_options consistent_options_of(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
     struct consistent_options options = {.degree = 2, .sweeps = 3, .general = wants_general(scene)};
     if (!options.general && body_is_layered(&scene->body) && !layer_anywhere(scene) &&
-        !has_point_source(scene) && !given(group, "mass") && !given(group, "depth_mass") &&
-        !given(group, "dissipation")) {
+        !given(group, "mass") && !given(group, "depth_mass") && !given(group, "dissipation")) {
         options.degree = 4;
         options.sweeps = 0;
     }
