@@ -336,12 +336,12 @@ cat >exact.nml <<'END'
 &load kind = 'body-force', shape = 'point', centre = 0, 0, 1, direction = 0, 0, 1, history = 'gaussian', width = 0.6, delay = 2.76 /
 &receiver name = 'r', position = 1.25, 0, 1 /
 END
-told "a receiver on an axis through a force, exact mass" "some per cent or tenths wrong.*mass = 'vc3'" check exact.nml method%mass=exact
+told "a receiver on an axis through a force, exact mass" "nearer than 10 spacings.*some per cent or tenths wrong" check exact.nml method%mass=exact
 {
     cat exact.nml
     echo "&material name = 'soil', density = 1, p_speed = 1.4, s_speed = .8 / &layer material = 'soil', top = 0 / &layer material = 'rock', top = 1.5 /"
 } >layered.nml
-told "and where layered ground brings it" "mass = 'vc3'" check layered.nml
+told "and where layered ground brings it" "nearer than 10 spacings" check layered.nml
 untold "the same with sweeps" check exact.nml
 untold "layered ground with sweeps" check layered.nml method%degree=2 method%mass=vc3
 untold "one beside the axis" check exact.nml method%mass=exact receiver%position=1.25,.75,1

@@ -14,11 +14,11 @@ static double depth_of(const struct scene *scene, const double place[3])
     return place[last] - scene->body.low[last];
 }
 
-/* The least depth that is in the ground below or above a place: that of the surface of a hill, else 0. */
-static double least_depth(const struct scene *scene, const double place[3])
+/* Depth of the surface above or below a place: 0 where there is no hill. */
+static double surface_at(const struct scene *scene, const double place[3])
 {
     const struct topography *topography = scene->body.topography;
-    return topography == NULL ? 0 : fmin(0, topography_drop(topography, place));
+    return topography == NULL ? 0 : topography_drop(topography, place);
 }
 
 /* Depth of a layer's upper face above or below a place. */
@@ -28,11 +28,19 @@ static double top_at(const struct layer *layer, const double place[3])
     return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1] - rise;
 }
 
+/* Beyond a face, and within this many spacings of it, the ground is what lies there below it: averages and absorbing
+ * layers reach beyond, and blocks often end on the face. */
+static const double film = .02;
+
 static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3])
 {
+    const struct body *body = &scene->body;
     double square = 0, most = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
-        const double part = fabs(place[axis] - block->centre[axis]) / block->half[axis];
+        const double surface = axis == scene->dimension - 1 ? surface_at(scene, place) : 0;
+        const double low = body->low[axis] + surface + film * body->spacing;
+        const double held = fmax(low, fmin(place[axis], body->high[axis] - film * body->spacing));
+        const double part = fabs(held - block->centre[axis]) / block->half[axis];
         square += part * part;
         most = fmax(most, part);
     }
@@ -85,7 +93,7 @@ struct found {
 static struct found find(const struct scene *scene, const double place[3])
 {
     const struct body *body = &scene->body;
-    const double own = depth_of(scene, place), depth = own > 0 ? own : fmax(least_depth(scene, place), own);
+    const double depth = fmax(depth_of(scene, place), surface_at(scene, place));
     const size_t layer = layer_at(body, place, depth + body_rounding(scene));
     struct found found = {.material = layer < body->layers ? body->layer[layer].material : body->material};
     bool in_block = false;
@@ -214,7 +222,7 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
     if (body->line != NULL) return ground_line_jumps(body->line, place, axis, from, to, at);
     for (size_t i = 0; i < body->layers && axis == scene->dimension - 1; i++) {
         const double top = top_at(&body->layer[i], place), x = body->low[axis] + top;
-        if (x > from && x < to && (top > 0 || top > least_depth(scene, place))) at[count++] = x;
+        if (x > from && x < to && (top > 0 || top > fmin(0, surface_at(scene, place)))) at[count++] = x;
     }
     for (size_t i = 0; i < body->blocks; i++) {
         const struct ground_block *block = &body->block[i];

@@ -9,10 +9,11 @@
  *   m_0 = 1, m_2 = s, m_4 = 3 s^2 - (p + 1) h^4 / 120, s = (p + 1) h^2 / 12, m_1 = m_3 = 0,
  *
  * and are the smallest such: least sum of w_b^2 / r_b, r a bell over seven cells, so that they change smoothly with
- * x and stand alike on both sides of it. */
+ * x and stand alike on both sides of it. Degrees 3 and 4 take the functions themselves, filtered (quiet.c). */
 #include "method/spline/source.h"
 
 #include "method/spline/images.h"
+#include "method/spline/quiet.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -85,11 +86,11 @@ bool source_at(const struct spline *spline, bool odd, bool slope, double x, stru
 {
     struct images images;
     double away[WIDE], moment[MOMENTS], weight[WIDE];
-    if (spline->degree == TUNED_DEGREE) return false;
     const double rounding =
         1e-9 * (spline->high - spline->low); /* of a place on an end, in a body that is turned */
     if (x < spline->low && x > spline->low - rounding) x = spline->low;
     if (x > spline->high && x < spline->high + rounding) x = spline->high;
+    if (spline->degree > 2) return quiet_at(spline, odd, slope, x, point);
     const bool inside = spline_images(spline, odd, x, WIDE, &images);
     if (!inside && !end_images(spline, x, 0, &images) && !end_images(spline, x, 1, &images)) return false;
     double farthest = 0;

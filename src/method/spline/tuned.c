@@ -148,29 +148,41 @@ bool spline_tune(struct spline *spline)
     return true;
 }
 
-void tuned_at(const struct spline *spline, bool odd, double x, struct tuned_point *point)
+void tuned_filter(const struct spline *spline, bool odd, const struct tuned_point *plain,
+                  struct tuned_point *point)
 {
-    struct spline_point plain;
-    spline_at(spline, odd, x, &plain);
-    const size_t local = (size_t)spline->degree + 1, reach = spline->filter[odd] != NULL ? FILTER_REACH : 0;
-    size_t first = plain.index[0], last = first;
-    for (size_t j = 1; j < local; j++) {
-        first = plain.index[j] < first ? plain.index[j] : first;
-        last = plain.index[j] > last ? plain.index[j] : last;
+    const struct band *filter = spline->filter[odd];
+    size_t first = plain->index[0], last = first;
+    for (size_t j = 1; j < plain->count; j++) {
+        first = plain->index[j] < first ? plain->index[j] : first;
+        last = plain->index[j] > last ? plain->index[j] : last;
     }
+    const size_t reach = filter != NULL ? FILTER_REACH : 0;
     first = first < reach ? 0 : first - reach;
     last = last + reach < spline->count ? last + reach : spline->count - 1;
     *point = (struct tuned_point){.count = last - first + 1};
     for (size_t i = 0; i < point->count; i++)
         point->index[i] = first + i;
-    for (size_t j = 0; j < local; j++)
+    for (size_t j = 0; j < plain->count; j++)
         for (size_t i = 0; i < point->count; i++) {
-            const double factor = spline->filter[odd] != NULL
-                                      ? band_get(spline->filter[odd], plain.index[j], first + i)
-                                      : first + i == plain.index[j];
-            point->value[i] += factor * plain.value[j];
-            point->slope[i] += factor * plain.slope[j];
+            const double factor =
+                filter != NULL ? band_get(filter, plain->index[j], first + i) : first + i == plain->index[j];
+            point->value[i] += factor * plain->value[j];
+            point->slope[i] += factor * plain->slope[j];
         }
+}
+
+void tuned_at(const struct spline *spline, bool odd, double x, struct tuned_point *point)
+{
+    struct spline_point at;
+    struct tuned_point plain = {.count = (size_t)spline->degree + 1};
+    spline_at(spline, odd, x, &at);
+    for (size_t j = 0; j < plain.count; j++) {
+        plain.index[j] = at.index[j];
+        plain.value[j] = at.value[j];
+        plain.slope[j] = at.slope[j];
+    }
+    tuned_filter(spline, odd, &plain, point);
 }
 
 void tuned_moments(const struct spline *spline, bool odd, double from, double to, double *work,

@@ -12,7 +12,7 @@ enum {
     TUNED_DEGREE = 4, /* the only one there are numbers for */
     TUNED_REACH = 5,  /* half-width of the matrices */
     FILTER_REACH = 8,
-    TUNED_MOST_LOCAL = SPLINE_MAX_DEGREE + 1 + 2 * FILTER_REACH
+    TUNED_MOST_LOCAL = 21 + 2 * FILTER_REACH /* of a filtered source (quiet.c) */
 };
 
 /* Builds the filters of a spline of TUNED_DEGREE, plain knots and no interfaces: from here on it is tuned.
@@ -25,6 +25,9 @@ struct tuned_point {
     size_t index[TUNED_MOST_LOCAL];
     double value[TUNED_MOST_LOCAL], slope[TUNED_MOST_LOCAL];
 };
+/* The values and slopes of control values with a filter, what it is of those without: sum over b of F_ab. */
+void tuned_filter(const struct spline *spline, bool odd, const struct tuned_point *plain,
+                  struct tuned_point *point);
 void tuned_at(const struct spline *spline, bool odd, double x, struct tuned_point *point);
 
 struct band *tuned_matrix(const struct spline *spline, bool test_odd, int test_slope, bool trial_odd,

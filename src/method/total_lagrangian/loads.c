@@ -192,6 +192,13 @@ static void uniform_stress(struct tl_model *tl, const double direction[3], enum 
     tl_divergence(tl);
 }
 
+/* The hole's rim is nearer than a face `away`: its forces of the uniform stress are not that face's. */
+static bool of_hole(const struct body *body, const double x[3], double away)
+{
+    return body->shape == BODY_PLATE_WITH_HOLE &&
+           hypot(x[0] - body->hole_centre[0], x[1] - body->hole_centre[1]) - body->hole_radius < away;
+}
+
 /* Forces of the uniform stress on the points under the patch, and their sum. */
 static void add_covered(struct tl_model *tl, const void *context, double *sum)
 {
@@ -204,7 +211,7 @@ static void add_covered(struct tl_model *tl, const void *context, double *sum)
     const struct tl_range range = tl_summed(tl);
     for (size_t i = range.from; i < range.end; i++) {
         const double *x = tl->cloud->position + 3 * i;
-        if (fabs(x[axis] - plane) > reach) continue;
+        if (fabs(x[axis] - plane) > reach || of_hole(body, x, fabs(x[axis] - plane))) continue;
         const double wide = pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
         const double width[3] = {wide, wide, wide};
         const double part = covered(patch->load, axis, x, width, patch->centre, tl->cloud->dimension);

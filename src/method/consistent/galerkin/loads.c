@@ -93,6 +93,12 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
     point_line(c, axis, odd, slope, half, false, x, line);
 }
 
+/* A force at a point: the functions up to degree 2, the wide weights beyond (source.h). */
+static void force_line(const struct consistent *c, int axis, bool odd, double x, double *line)
+{
+    point_line(c, axis, odd, false, true, c->spline[axis]->degree > 2, x, line);
+}
+
 void consistent_source_line(const struct consistent *c, int axis, bool odd, bool slope, double x,
                             double *line)
 {
@@ -118,7 +124,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
             const double half = load->size[load->shape == LOAD_DISC ? 0 : count] / 2;
             along[count++] = axis;
             if (load->shape == LOAD_POINT)
-                consistent_point_line(c, axis, odd, false, true, centre[axis], line);
+                force_line(c, axis, odd, centre[axis], line);
             else if (load->shape == LOAD_FACE)
                 tuned_moments(spline, odd, body->low[axis], body->high[axis], w->work, line);
             else
@@ -152,7 +158,7 @@ static void body_force(struct consistent *c, const struct load *load, const doub
         for (int axis = 0; axis < c->dimension; axis++) {
             const struct spline *spline = c->spline[axis];
             if (load->shape == LOAD_POINT)
-                consistent_point_line(c, axis, axis == component, false, true, centre[axis], w->line[axis]);
+                force_line(c, axis, axis == component, centre[axis], w->line[axis]);
             else
                 tuned_moments(spline, axis == component, body->low[axis], body->high[axis], w->work,
                               w->line[axis]);

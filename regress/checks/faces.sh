@@ -1,0 +1,61 @@
+#!/bin/sh
+# What acts and what the ground is made of end on faces: blocks drawn to a face are those drawn past it, rock that a valley
+# takes away is none, a traction on the edge of a plate leaves the rim of its hole alone. Argument: the build folder. TAP.
+build=${1:-build}
+selas=$PWD/$build/selas
+work=$(mktemp -d "${TMPDIR:-/tmp}/selas-faces-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export OMP_NUM_THREADS=1
+failures=0
+cat >flush.nml <<'END'
+&scene dimension = 2, end_time = 3 /
+&material name = 'rock', density = 1.3, p_speed = 1.8, s_speed = 1.0 /
+&material name = 'soft', density = 1.0, p_speed = 1.2, s_speed = 0.6 /
+&body material = 'rock', low = -3, 0, high = 3, 3, spacing = 0.2 /
+&block material = 'soft', shape = 'box', centre = 0, 0.5, size = 3, 1 /
+&load face = 'y-', shape = 'square', centre = 0.2, 0, size = 0.6, direction = 0, 1, history = 'gaussian', width = 0.5, delay = 2 /
+&receiver name = 'a', position = 1.2, 0 /
+&receiver name = 'b', position = -0.8, 0.6 /
+&output history_step = 0.2, plots = F /
+END
+differ() { # differ WHAT LEAST MOST ONE OTHER: velocities at a and b of two runs
+    for r in a b; do paste "$4/$r.dat" "$5/$r.dat"; done | awk -v low="$2" -v high="$3" '!/^#/ { n = NF / 2
+        for (i = 4; i <= 5; i++) { d += ($i - $(i + n)) ^ 2; a += $i ^ 2 } }
+        END { printf "# %.2e\n", a > 0 ? sqrt(d / a) : -1; exit !(a > 0 && sqrt(d / a) >= low && sqrt(d / a) <= high) }' &&
+        echo "ok - $1" && return
+    echo "not ok - $1"
+    failures=$((failures + 1))
+}
+run() { # run DIRECTORY DECK WORDS...
+    out=$1 deck=$2
+    shift 2
+    "$selas" -q "$deck" output%directory="$out" "$@" >/dev/null 2>&1
+}
+for side in "" boundary%face=y+ "boundary%face=y+ boundary%kind=fixed" "boundary%face=y+ boundary%kind=transmitting boundary%layer=lysmer"; do
+    at="0,.5 2.5"
+    [ -n "$side" ] && at="0,2.5 .5"
+    # shellcheck disable=SC2086 # words
+    run flush flush.nml block%centre="${at% *}" $side && run beyond flush.nml block%centre="$(echo "${at% *}" | sed 's/,.5/,0/; s/,2.5/,3/')" block%size=3,2 $side
+    differ "a block that ends on a face as one drawn past it (${side:-surface})" 0 1e-9 flush beyond
+done
+printf '%s\n' '-9 -.3' '9 -.3' >flat.txt
+sed "s/^&block.*/\&topography file = 'flat.txt' \/ \&layer material = 'soft', top = 0 \/ \&layer material = 'rock', top = .3 \//
+    s/centre = 0.2, 0,/centre = 0.2, .3,/; s/position = 1.2, 0 /position = 1.2, .3 /" flush.nml >valley.nml
+run valley valley.nml && sed "s/.soft., top/'rock', top/; /name = .soft/d" valley.nml >even.nml && run even even.nml
+differ "rock that a valley takes away acts on nothing" 0 1e-9 valley even
+# --- The rim of a hole ---
+cat >hole.nml <<'END'
+&scene dimension = 2, end_time = 8 /
+&method name = 'sph', law = 'linear' /
+&material name = 'm', density = 1, lambda = 1, mu = 1 /
+&body material = 'm', shape = 'plate-with-hole', low = -1, -1, high = 1, 1, hole_centre = 0, 0, hole_radius = 0.5, spacing = 0.05 /
+&load face = 'y+', shape = 'face', direction = 0, 1, amplitude = 1e-3, history = 'gaussian', width = 1.2, delay = 5 /
+&load face = 'y-', shape = 'face', direction = 0, -1, amplitude = 1e-3, history = 'gaussian', width = 1.2, delay = 5 /
+&receiver name = 'a', position = 0.7, 0.0 /
+&receiver name = 'b', position = 0.0, 0.7 /
+&output history_step = 0.1, plots = F /
+END
+run hole hole.nml body%arrangement=conformal && run fine hole.nml body%arrangement=conformal body%spacing=.025
+differ "a traction beside a hole converges" 0 .1 hole fine
+exit $failures
