@@ -21,7 +21,7 @@ cat >flush.nml <<'END'
 END
 differ() { # differ WHAT LEAST MOST ONE OTHER: velocities at a and b of two runs
     for r in a b; do paste "$4/$r.dat" "$5/$r.dat"; done | awk -v low="$2" -v high="$3" '!/^#/ { n = NF / 2
-        for (i = 4; i <= 5; i++) { d += ($i - $(i + n)) ^ 2; a += $i ^ 2 } }
+        for (i = 5; i <= 6; i++) { d += ($i - $(i + n)) ^ 2; a += $i ^ 2 } }
         END { printf "# %.2e\n", a > 0 ? sqrt(d / a) : -1; exit !(a > 0 && sqrt(d / a) >= low && sqrt(d / a) <= high) }' &&
         echo "ok - $1" && return
     echo "not ok - $1"
@@ -58,4 +58,10 @@ cat >hole.nml <<'END'
 END
 run hole hole.nml body%arrangement=conformal && run fine hole.nml body%arrangement=conformal body%spacing=.025
 differ "a traction beside a hole converges" 0 .1 hole fine
+if "$selas" check hole.nml body%spacing=.1 2>&1 | grep -q "5.0 points lie between the hole's rim and the edge"; then
+    echo "ok - few points beside a hole are told of"
+else
+    echo "not ok - few points beside a hole are told of"
+    failures=$((failures + 1))
+fi
 exit $failures
