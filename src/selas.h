@@ -165,8 +165,8 @@ SELAS_API selas_status selas_build(selas_simulation *simulation);
 /* --- Loads that the host drives ---
  *
  * A host that drives anything switches the time-dispersion transform off (stepping%unwarp), because that
- * needs histories known beforehand. A load is named by its word `name`, or by its number ("1", "2") if it has
- * none. */
+ * needs histories known beforehand. A load is named by its word `name`, or by its number ("1", "2", that of its
+ * &load) if it has none; one whose `sources` names several cannot be driven (SELAS_UNSUPPORTED). */
 
 /* A vector at a time and a place (deck coordinates). Returns 0 to go on, > 0 to stop after this step with the
  * state kept (the advancing call returns SELAS_STOPPED; the next one goes on), < 0 to fail

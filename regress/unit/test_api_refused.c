@@ -91,11 +91,51 @@ static void test_one_failure_is_told_once(void **state)
     assert_string_equal(selas_last_message(NULL), selas_message(NULL));
 }
 
+/* A load with a file of sources is several in the scene: the next one keeps its number. */
+static void test_loads_behind_sources(void **state)
+{
+    (void)state;
+    static const char *const path = "build/test-api-sources.txt";
+    char text[2048], fit[sizeof scene];
+    double own = 0, value[6];
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("1 1 1  0 0 1\n3 1 1  0 0 1\n", file);
+    fclose(file);
+    memcpy(fit, scene, sizeof scene);
+    char *name = strstr(fit, "name = 'hammer',"); /* it has its number alone */
+    memset(name, ' ', strlen("name = 'hammer',"));
+    snprintf(
+        text, sizeof text,
+        "%s&load kind = 'body-force', sources = '%s', amplitude = 0, history = 'triangle', duration = 1 /\n"
+        "&load face = 'z-', shape = 'square', centre = 2, 2, 0, size = 2, 2, direction = 0, 0, 1, "
+        "history = 'triangle', duration = 1 /\n",
+        fit, path);
+    for (int number = 1; number <= 3; number += 2) {
+        selas_simulation *s = NULL;
+        if (selas_open_text("sources.nml", text, &s) != SELAS_OK) fail_msg("%s", selas_message(s));
+        assert_int_equal(selas_set_real(s, "load(1)%amplitude", 1, &(double){0}), SELAS_OK);
+        assert_int_equal(selas_set_real(s, "load(3)%amplitude", 1, &(double){0}), SELAS_OK);
+        wrong(s, selas_set_load(s, "2", 1));
+        assert_non_null(strstr(selas_last_message(s), "is several sources"));
+        wrong(s, selas_set_load(s, "4", 1));
+        if (selas_set_load(s, number == 1 ? "1" : "3", 1) != SELAS_OK) fail_msg("%s", selas_message(s));
+        assert_int_equal(selas_step(s, 3), SELAS_OK);
+        assert_int_equal(selas_receiver(s, "r", SELAS_VELOCITY, value), SELAS_OK);
+        assert_true(fabs(value[2]) > 1e-3);
+        if (number == 1) own = value[2];
+        if (number == 3) assert_true(value[2] == own);
+        selas_close(&s);
+    }
+    remove(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused_calls_change_nothing),
         cmocka_unit_test(test_one_failure_is_told_once),
+        cmocka_unit_test(test_loads_behind_sources),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

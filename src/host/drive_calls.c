@@ -10,14 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Index of a load by its name, or its number from 1 where it has none. */
+/* Index of a load by its name, or its number from 1, that of its &load, where it has none. */
 static selas_status find_load(selas_simulation *simulation, const char *name, size_t *index)
 {
     const struct scene *scene = simulation->scene;
-    const size_t own = deck_count(simulation->deck, "load");
-    for (size_t i = 0; name != NULL && i < own; i++) {
+    for (size_t i = 0; name != NULL && i < scene->loads && scene->load[i].driven != BY_HOST; i++) {
+        const struct load *load = &scene->load[i], *next = i + 1 < scene->loads ? load + 1 : NULL;
         char number[LOAD_NUMBER_SIZE];
         if (strcmp(load_name(scene, i, number), name) != 0) continue;
+        if (next != NULL && next->driven != BY_HOST && next->group == load->group)
+            return fail(&simulation->messages, SELAS_UNSUPPORTED,
+                        "load '%s' is several sources, which no host drives as one; a &load for each of them "
+                        "would do",
+                        name);
         *index = i;
         return SELAS_OK;
     }

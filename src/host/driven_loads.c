@@ -141,7 +141,7 @@ selas_status host_prepare_scene(selas_simulation *simulation)
 
 const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE])
 {
-    snprintf(number, LOAD_NUMBER_SIZE, "%zu", load + 1);
+    snprintf(number, LOAD_NUMBER_SIZE, "%zu", scene->load[load].group + 1);
     return scene->load[load].name[0] != '\0' ? scene->load[load].name : number;
 }
 

@@ -135,7 +135,7 @@ void host_prepare_stepper(selas_simulation *simulation);
 selas_status host_answer(selas_simulation *simulation);
 /* Makes the state's acceleration that of the loads as they are now. */
 selas_status host_refresh(selas_simulation *simulation);
-/* Name of a load, or its number from 1 if it has none. */
+/* Name of a load, or the number of its &load if it has none. */
 enum { LOAD_NUMBER_SIZE = 32 };
 const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE]);
 /* SELAS_OK if a function can give this load, or the reason why not. */
