@@ -345,4 +345,24 @@ told "and where layered ground brings it" "nearer than 10 spacings" check layere
 untold "the same with sweeps" check exact.nml
 untold "layered ground with sweeps" check layered.nml method%degree=2 method%mass=vc3
 untold "one beside the axis" check exact.nml method%mass=exact receiver%position=1.25,.75,1
+# --- The spectrum that damping is fitted to ---
+cat >source.nml <<'END'
+&scene dimension = 1, end_time = 8 /
+&stepping time_step = 0.01 /
+&material name = 'm', density = 1.0, p_speed = 1.0, s_speed = 0.5, q_p = 20, q_s = 20 /
+&body material = 'm', low = 0, high = 10, spacing = 0.05 /
+&load face = 'x-', direction = 1, history = 'gaussian', width = 0.3, delay = 1.7 /
+&load face = 'x-', direction = 1, history = 'gaussian', width = 0.05, delay = 1.7, amplitude = 1e-9 /
+&receiver name = 'a', position = 4 /
+&output plots = F /
+END
+"$selas" -q source.nml output%directory=faint >said 2>&1
+"$selas" -q source.nml output%directory=sole 'load(2)%amplitude=0' >said 2>&1
+alike "damped, with a load of 1e-9 beside the other, and without" 1e-8 a faint sole
+grep -v '^&load' source.nml >moved.nml
+echo "&boundary face = 'x-', kind = 'velocity', direction = 1, history = 'gaussian', width = 0.4, delay = 2.5 /" >>moved.nml
+"$selas" -q moved.nml output%directory=rate >said 2>&1
+"$selas" -q moved.nml output%directory=way boundary%kind=displacement boundary%history=error-function \
+    boundary%amplitude=1.002651309852400201 >said 2>&1
+alike "damped, moved by velocities and by their integral" 1e-5 a rate way
 exit $failures

@@ -1,6 +1,7 @@
 /* Rates are common to all materials and suit the middle one of all Q; weights are fitted material by material
  * (relaxation.c). */
 #include "damping/directions.h"
+#include "damping/source.h"
 
 #include "base/memory.h"
 #include "scene/resolution.h"
@@ -8,33 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- The source's spectrum ---------------------------------------------------------------------------- */
-
-static double power_of(const struct history *history, double angular_frequency, int derivatives)
-{
-    const double part =
-        pow(angular_frequency, derivatives) * cabs(history_laplace_uncut(history, I * angular_frequency));
-    return part * part;
-}
-
-/* Squared spectrum of the velocities that loads and moved faces make: their rates, and of moment tensors, far
- * away, the rates of those, over their own frequency: whatever the unit of time, they count beside the others. */
-static double source_power(const void *data, double angular_frequency)
-{
-    const struct scene *scene = data;
-    double sum = 0;
-    for (size_t i = 0; i < scene->loads; i++) {
-        const struct history *history = &scene->load[i].history;
-        const bool moment = scene->load[i].kind == LOAD_MOMENT_TENSOR;
-        const double own = moment && history->rate > 0 ? history->rate : 1;
-        if (scene->load[i].amplitude != 0)
-            sum += power_of(history, angular_frequency, moment ? 2 : 1) / (own * own);
-    }
-    for (size_t face = 0; face < FACES; face++)
-        if (boundary_acts(&scene->boundary[face]))
-            sum += power_of(&scene->boundary[face].history, angular_frequency, 1);
-    return sum;
-}
+/* --- The band ------------------------------------------------------------------------------------------ */
 
 /* Where the source is not known: a decade on each side of the reference. */
 static double flat_power(const void *reference, double angular_frequency)
@@ -53,7 +28,7 @@ static double reference_given(const struct scene *scene)
 static selas_status set_band(const struct scene *scene, struct ground_damping *damping,
                              struct messages *messages)
 {
-    const double top = source_cutoff_at(scene, 1e-3), given = reference_given(scene);
+    const double top = source_top(scene, 1e-3), given = reference_given(scene);
     const struct stepping_choice *stepping = &scene->stepping;
     if (top > 0 && isfinite(top))
         relaxation_band_set(&damping->band, top, source_power, scene);
