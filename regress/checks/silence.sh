@@ -365,4 +365,41 @@ echo "&boundary face = 'x-', kind = 'velocity', direction = 1, history = 'gaussi
 "$selas" -q moved.nml output%directory=way boundary%kind=displacement boundary%history=error-function \
     boundary%amplitude=1.002651309852400201 >said 2>&1
 alike "damped, moved by velocities and by their integral" 1e-5 a rate way
+# --- Fields and states where the rock jumps ---
+cat >jump.nml <<'END'
+&scene dimension = 2, end_time = 1 /
+&material name = 'rock', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
+&material name = 'soft', density = 0.8, p_speed = 1.2, s_speed = 0.6 /
+&body material = 'rock', low = -4, 0, high = 4, 4, spacing = 0.1 /
+&layer material = 'soft', top = 0 /
+&layer material = 'rock', top = 1, dip = 10 /
+&load face = 'y-', shape = 'square', centre = 0, 0, size = 1, direction = 0, 1, history = 'gaussian', width = 0.6, delay = 3.4 /
+&receiver name = 'r', position = 1, 0 /
+&profile name = 'p', from = 0, 0.5, to = 0, 1.5, points = 5, times = 1, fields = 'stress' /
+END
+smooth="within a spacing of where the rock jumps"
+told "stress beside a dipping interface" "'p' has stress.*$smooth.*two spacings off would do" check jump.nml
+untold "velocity there" check jump.nml profile%fields=velocity
+untold "stress two spacings above" check jump.nml profile%to=0,0.8
+untold "stress beside a level interface" check jump.nml 'layer(2)%dip='
+told "the same by the general operator" "$smooth.*operator = 'layered'" check jump.nml 'layer(2)%dip=' method%operator=general
+told "and by particles" "$smooth.*two spacings off would do" check jump.nml 'layer(2)%dip=' method%name=sph
+sed "s/^&profile.*/\&snapshot times = 1, fields = 'energy' \//" jump.nml >energy.nml
+told "energy all over the body" "&snapshot 1 has stress.*$smooth" check energy.nml
+untold "energy of a part without an interface" check energy.nml snapshot%region=-4,2.4,4,4
+cat >lies.nml <<'END'
+&scene dimension = 2, end_time = 1 /
+&material name = 'rock', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
+&material name = 'soft', density = 0.8, p_speed = 1.2, s_speed = 0.8 /
+&body material = 'rock', low = -4, -4, high = 4, 4, spacing = 0.1 /
+&block material = 'soft', shape = 'box', centre = 2, 0, size = 2, 2 /
+&initial kind = 'gaussian', centre = -1.2, 0, width = 0.6, amplitude = 1, direction = 1, 0 /
+&receiver name = 'r', position = 1, 0 /
+END
+across="initial state lies across an interface"
+told "a state that reaches a block" "$across" check lies.nml initial%centre=-0.8,0
+untold "one that does not" check lies.nml
+untold "one that reaches a block of nearly the same rock" check lies.nml initial%centre=-0.8,0 'material(2)%density=1' \
+    'material(2)%p_speed=1.81' 'material(2)%s_speed=1'
+told "a pulse through a block" "$across" check lies.nml initial%kind=plane-wave initial%centre=1,0
 exit $failures

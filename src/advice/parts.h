@@ -1,5 +1,6 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
- * points.c (patches on points), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
+ * points.c (patches on points), jumps.c (fields and states where the rock
+ * jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
  * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
@@ -19,6 +20,11 @@ void advise(struct adviser *adviser, const char *format, ...) __attribute__((for
 /* Waves of fewer points are not waves but noise, whatever the method. */
 #define FEWEST_POINTS 4.0
 
+/* At so many widths a pulse or Gaussian is 2e-3 of its peak. */
+#define STATE_REACH 3.5
+
+/* Is the ground, level layers too, carried by the general operator? */
+bool by_general_operator(const struct scene *scene);
 /* A traction on a square or a disc. */
 bool has_patch(const struct load *load);
 /* Half its extent along an axis; 0 across its face. */
@@ -30,6 +36,8 @@ void look_at_nothing(struct adviser *adviser);
 void look_at_short_waves(struct adviser *adviser, const struct model *model);
 void look_at_cut_start(struct adviser *adviser);
 void look_at_impact(struct adviser *adviser);
+/* A state that lies where the rock jumps (jumps.c). */
+void look_at_crossed_rock(struct adviser *adviser);
 /* Leapfrog's time error where it stays. */
 void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
 /* Waves that a method's points carry badly. */
@@ -50,6 +58,8 @@ void look_at_nearness(struct adviser *adviser);
 void look_at_passed(struct adviser *adviser, size_t load);
 /* Moment tensors beside interfaces of general ground. */
 void look_at_interfaces(struct adviser *adviser);
+/* Stresses that are asked for where the rock jumps (jumps.c). */
+void look_at_fields(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool by_general_operator(const struct scene *scene)
+bool by_general_operator(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
     return (group != NULL && deck_given(group, "operator") && deck_chosen(group, "operator", "general")) ||

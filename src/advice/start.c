@@ -18,14 +18,14 @@ static double distance(const struct scene *scene, int face)
 /* Does a P wave of the state leave this face as an S wave, too? */
 static bool converts(const struct scene *scene, int face)
 {
-    static const double along = 1 - 1e-9, widths = 3.5;
+    static const double along = 1 - 1e-9;
     const struct initial *initial = &scene->initial;
     const struct boundary *boundary = &scene->boundary[face];
     double direction[3];
     if (scene->dimension == 1 || initial->shear || boundary_slides(boundary) || boundary_absorbs(boundary))
         return false;
     if (initial->kind == INITIAL_GAUSSIAN)
-        return distance(scene, face) < scene_fastest(scene) * scene->end_time + widths * initial->width;
+        return distance(scene, face) < scene_fastest(scene) * scene->end_time + STATE_REACH * initial->width;
     body_direction_from_deck(&scene->body, initial->direction, direction);
     return fabs(direction[face / 2]) < along;
 }
@@ -142,9 +142,6 @@ static const char *cut_by(const struct scene *scene, int face)
                      : "sliding, in which it is not its own image: short waves that the points do not carry";
 }
 
-/* At so many widths a pulse or Gaussian is 2e-3 of its peak. */
-static const double reach = 3.5;
-
 /* Does a plane wave go by a face, or not reach it at t = 0? */
 static bool suits(const struct scene *scene, int face)
 {
@@ -169,7 +166,7 @@ static bool suits(const struct scene *scene, int face)
         least = fmin(least, s);
         most = fmax(most, s);
     }
-    return least > reach * initial->width || most < -reach * initial->width;
+    return least > STATE_REACH * initial->width || most < -STATE_REACH * initial->width;
 }
 
 static void look_at_cut_wave(struct adviser *adviser)
@@ -188,7 +185,7 @@ static void look_at_cut_wave(struct adviser *adviser)
             : boundary_is_free(boundary) ? "free"
             : boundary_slides(boundary)  ? "sliding"
                                          : "held",
-            reach);
+            STATE_REACH);
         return;
     }
 }
@@ -208,11 +205,11 @@ void look_at_cut_start(struct adviser *adviser)
                    -away / width, face_name((enum face)face));
             return;
         }
-        const char *cut = away <= reach * width ? cut_by(scene, face) : NULL;
+        const char *cut = away <= STATE_REACH * width ? cut_by(scene, face) : NULL;
         if (cut == NULL) continue;
         advise(adviser,
                "the initial state reaches face %s, %.2g widths away and %s; %g widths from it would do",
-               face_name((enum face)face), away / width, cut, reach);
+               face_name((enum face)face), away / width, cut, STATE_REACH);
         return;
     }
 }

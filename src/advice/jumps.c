@@ -1,0 +1,171 @@
+/* Where the rock jumps, what the splines or particles carry smoothly does not: fields that are asked for there, and
+ * states at t = 0 that lie across it. */
+#include "advice/parts.h"
+
+#include "base/memory.h"
+#include "scene/ground.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- Jumps -------------------------------------------------------------------------------------------- */
+
+/* Do moduli differ on either side of a place, by more than a twentieth? */
+static bool differs(const struct scene *scene, const double place[3], int axis, double aside)
+{
+    static const double slight = .05;
+    double axial[2], shear[2];
+    for (int side = 0; side < 2; side++) {
+        double there[3] = {place[0], place[1], place[2]};
+        there[axis] += side == 0 ? -aside : aside;
+        const struct rock rock = ground_at(scene, there);
+        axial[side] = rock.lambda + 2 * rock.mu;
+        shear[side] = rock.mu;
+    }
+    return fabs(axial[1] - axial[0]) > slight * fmin(axial[0], axial[1]) ||
+           fabs(shear[1] - shear[0]) > slight * fmin(shear[0], shear[1]);
+}
+
+/* Does the rock jump on a line through `place` at a place that counts (NULL: all do)? */
+static bool jumps_on(const struct scene *scene, const double place[3], int axis, double from, double to,
+                     bool (*counts)(const struct scene *scene, const double place[3]))
+{
+    double *at = array_new(ground_jumps_at_most(scene) + 1, sizeof *at);
+    bool found = false;
+    if (at == NULL) return false; /* advice can be done without */
+    const size_t count = ground_jumps(scene, place, axis, from, to, at);
+    for (size_t i = 0; i < count && !found; i++) {
+        double there[3] = {place[0], place[1], place[2]};
+        there[axis] = at[i];
+        found = differs(scene, there, axis, 1e-6 * scene->body.spacing) &&
+                (counts == NULL || counts(scene, there));
+    }
+    array_free(at);
+    return found;
+}
+
+/* The same of lines through a box of the body's frame. */
+static bool jumps_in(const struct scene *scene, const double low[3], const double high[3],
+                     bool (*counts)(const struct scene *scene, const double place[3]))
+{
+    enum { LINES = 9 };
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const int one = (axis + 1) % 3, other = (axis + 2) % 3;
+        for (int line = 0; line < LINES * LINES; line++) {
+            const int i = line % LINES, j = line / LINES;
+            if ((one >= scene->dimension && i > 0) || (other >= scene->dimension && j > 0)) continue;
+            double place[3] = {low[0], low[1], low[2]};
+            place[one] += (high[one] - low[one]) * (i + .5) / LINES;
+            place[other] += (high[other] - low[other]) * (j + .5) / LINES;
+            if (jumps_on(scene, place, axis, low[axis], high[axis], counts)) return true;
+        }
+    }
+    return false;
+}
+
+/* --- Fields that Hooke's law makes of strains ----------------------------------------------------------- */
+
+static bool by_law(unsigned fields)
+{
+    return (fields & (1U << SELAS_STRESS | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY)) != 0;
+}
+
+/* Within a spacing of a jump. */
+static bool at_jump(const struct scene *scene, const double position[3])
+{
+    double place[3] = {0, 0, 0};
+    body_from_deck(&scene->body, position, place);
+    const double spacing = body_spacing_at(&scene->body, place);
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL)) return true;
+    return false;
+}
+
+static bool profile_at_jump(const struct scene *scene, const struct profile *profile)
+{
+    for (size_t i = 0; i < profile->points; i++) {
+        double position[3];
+        profile_position(profile, i, position);
+        if (at_jump(scene, position)) return true;
+    }
+    return false;
+}
+
+static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *snapshot)
+{
+    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        low[axis] = scene->body.low[axis];
+        high[axis] = scene->body.high[axis];
+    }
+    if (!snapshot->whole) {
+        double one[3], other[3];
+        body_from_deck(&scene->body, snapshot->region_low, one);
+        body_from_deck(&scene->body, snapshot->region_high, other);
+        for (int axis = 0; axis < scene->dimension; axis++) {
+            low[axis] = fmax(low[axis], fmin(one[axis], other[axis]) - scene->body.spacing);
+            high[axis] = fmin(high[axis], fmax(one[axis], other[axis]) + scene->body.spacing);
+        }
+    }
+    return jumps_in(scene, low, high, NULL);
+}
+
+/* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
+ * of them stresses that are not there (doc/theory/general-ground.md). */
+void look_at_fields(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
+    char what[NAME_SIZE + 16] = "";
+    if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
+        return;
+    for (size_t i = 0; i < scene->profiles && what[0] == '\0'; i++)
+        if (by_law(scene->profile[i].fields) && profile_at_jump(scene, &scene->profile[i]))
+            snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
+    for (size_t i = 0; i < scene->snapshots && what[0] == '\0'; i++)
+        if (by_law(scene->snapshot[i].fields) && snapshot_at_jump(scene, &scene->snapshot[i]))
+            snprintf(what, sizeof what, "&snapshot %zu", i + 1);
+    if (what[0] == '\0') return;
+    advise(adviser,
+           "%s has stress, pressure or energy within a spacing of where the rock jumps: they are those of a "
+           "strain that is smooth there, and wrong by up to the ratio of the moduli, whatever the spacing; "
+           "places two spacings off%s would do",
+           what, consistent && !ground_needs_general(scene) ? ", or method%operator = 'layered'," : "");
+}
+
+/* --- States at t = 0 ------------------------------------------------------------------------------------ */
+
+/* Is there anything of the state? */
+static bool state_reaches(const struct scene *scene, const double place[3])
+{
+    const struct initial *initial = &scene->initial;
+    double centre[3] = {0, 0, 0}, direction[3] = {0, 0, 0}, along = 0, square = 0;
+    if (initial->kind == INITIAL_PLANE_WAVE && initial->wavelength > 0) return true;
+    body_from_deck(&scene->body, initial->centre, centre);
+    body_direction_from_deck(&scene->body, initial->direction, direction);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        along += direction[axis] * (place[axis] - centre[axis]);
+        square += pow(place[axis] - centre[axis], 2);
+    }
+    const double away = initial->kind == INITIAL_PLANE_WAVE ? fabs(along) : sqrt(square);
+    return away <= STATE_REACH * initial->width;
+}
+
+void look_at_crossed_rock(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    const struct initial *initial = &scene->initial;
+    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, centre[3] = {0, 0, 0};
+    if (initial->kind != INITIAL_PLANE_WAVE && initial->kind != INITIAL_GAUSSIAN) return;
+    body_from_deck(&scene->body, initial->centre, centre);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double reach = initial->kind == INITIAL_GAUSSIAN ? STATE_REACH * initial->width : INFINITY;
+        low[axis] = fmax(scene->body.low[axis], centre[axis] - reach);
+        high[axis] = fmin(scene->body.high[axis], centre[axis] + reach);
+    }
+    if (!jumps_in(scene, low, high, state_reaches)) return;
+    advise(adviser,
+           "the initial state lies across an interface of rocks of other moduli, where it begins with a "
+           "traction that jumps: velocities were .05 to .2 wrong there; %s would do",
+           initial->wavelength > 0 ? "even ground" : "a state that begins 3.5 widths from it");
+}
