@@ -55,6 +55,10 @@ echo "&material name = 'rock', density = 2500, p_speed = 3000, s_speed = 1700, q
 "$build/selas" -q "$out/dq.nml" output%directory="$out/modelq" output%plots=F && "$build/selas" -q "$out/evenq.nml" body%material=rock output%directory="$out/evenq" output%plots=F
 "$build/selas" diff "$out/modelq/r.dat" "$out/evenq/r.dat" --rtol=1e-9 >"$out/log" 2>&1
 ok "an even damped model: the histories of an even damped body" test $? = 0
+sed -i 's/q_frequency = 3/q_frequency = 200/' "$out/evenq.nml"
+"$build/selas" -q "$out/dq.nml" model%q_frequency=200 output%directory="$out/modelf" output%plots=F && "$build/selas" -q "$out/evenq.nml" body%material=rock output%directory="$out/evenf" output%plots=F
+"$build/selas" diff "$out/modelf/r.dat" "$out/evenf/r.dat" --rtol=1e-9 >"$out/log" 2>&1
+ok "the same with a q_frequency beyond the source's band" test $? = 0
 "$build/selas" diff "$out/model/r.dat" "$out/evenq/r.dat" --rtol=1e-2 >"$out/log" 2>&1
 ok "which are not those without Q" test $? = 1
 "$build/selas" -q "$out/dq.nml" model%damped=F model%q_frequency= method%mechanisms= output%directory="$out/withoutq" output%plots=F

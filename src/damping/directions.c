@@ -174,7 +174,8 @@ selas_status damping_directions(struct ground_damping *damping, struct messages 
             for (size_t l = 0; l < n; l++)
                 space.column[2 * i + c].weight[l] = fmax(space.column[2 * i + c].weight[l] - off[l], 0);
         }
-        set_moduli(n, &space.column[2 * i], damping->wanted[i].shear.angular_frequency, &damping->fitted[i]);
+        const double reference = damping->wanted[i].shear.angular_frequency;
+        set_moduli(n, &space.column[2 * i], relaxation_held(&damping->band, reference), &damping->fitted[i]);
     }
     array_free(space.column);
     return SELAS_OK;

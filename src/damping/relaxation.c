@@ -160,6 +160,12 @@ double relaxation_quantile(const struct relaxation_band *band, double share)
     return band->angular_frequency[RELAXATION_SAMPLES - 1];
 }
 
+double relaxation_held(const struct relaxation_band *band, double angular_frequency)
+{
+    static const double from = .01, to = .99;
+    return fmin(fmax(angular_frequency, relaxation_quantile(band, from)), relaxation_quantile(band, to));
+}
+
 /* --- Rates -------------------------------------------------------------------------------------------- */
 
 struct search {
@@ -245,14 +251,23 @@ static double reference_size(const struct modulus *modulus)
     return modulus->size / (cosine * cosine);
 }
 
+/* rho c^2 of what is wanted, at an angular frequency. */
+static double size_at(const struct modulus *wanted, double angular_frequency)
+{
+    if (angular_frequency == wanted->angular_frequency) return reference_size(wanted);
+    const double speed = modulus_speed(wanted, 1, angular_frequency);
+    return speed * speed;
+}
+
 /* The same for lambda + 2 mu, whose weights grow where the bulk modulus, what is left of it without shear,
  * would otherwise have negative ones. False: what is left when all is relaxed is negative. */
-static bool keep_passive(const struct modulus *wanted, const struct modulus *shear, struct modulus *axial)
+static bool keep_passive(const struct modulus *wanted, double held, const struct modulus *shear,
+                         struct modulus *axial)
 {
     enum { TURNS = 60 }; /* each leaves about a tenth of what the last one changed */
     double relaxed = 0;
     for (int turn = 0; turn < TURNS; turn++) {
-        keep_speed(reference_size(wanted), wanted->angular_frequency, axial);
+        keep_speed(size_at(wanted, held), held, axial);
         for (size_t l = 0; l < axial->mechanisms; l++)
             axial->weight[l] = fmax(axial->weight[l], 4. / 3 * shear->size * shear->weight[l] / axial->size);
     }
@@ -320,9 +335,10 @@ selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanism
         sum[0] += fitted[0].weight[l];
         sum[1] += fitted[1].weight[l];
     }
-    keep_speed(reference_size(shear), shear->angular_frequency, &fitted[1]);
+    const double held = relaxation_held(band, shear->angular_frequency);
+    keep_speed(size_at(shear, held), held, &fitted[1]);
     if (!(s[0] > 0 && bulk[0] > 0 && sum[0] < 1 && sum[1] < 1) ||
-        !keep_passive(axial, &fitted[1], &fitted[0]))
+        !keep_passive(axial, held, &fitted[1], &fitted[0]))
         return too_low(mechanisms, axial, messages);
     *axial = fitted[0];
     *shear = fitted[1];

@@ -26,6 +26,10 @@ void relaxation_band_set(struct relaxation_band *band, double top, relaxation_po
 double relaxation_centroid(const struct relaxation_band *band);
 double relaxation_quantile(const struct relaxation_band *band, double share);
 
+/* Where a fit keeps the speed of what is wanted: at its reference or, where the source has nothing there and the fit
+ * is free, at the next end of the band. */
+double relaxation_held(const struct relaxation_band *band, double angular_frequency);
+
 /* Rates of `mechanisms` (1 to MOST_MECHANISMS) mechanisms that fit the wanted modulus best, whatever its size;
  * *misfit: weighed root mean square of Q |M/M_Q - 1|, Q at the reference. SELAS_NO_MEMORY. */
 selas_status relaxation_rates(const struct relaxation_band *band, const struct modulus *wanted,
@@ -39,7 +43,7 @@ selas_status relaxation_weights(const struct relaxation_band *band, size_t mecha
                                 double weight[MOST_MECHANISMS], struct messages *messages);
 
 /* Moduli with mechanisms of these rates in place of the wanted lambda + 2 mu and mu; the phase speeds are
- * kept at the angular frequency where those have their size. All weights, those of the bulk modulus too, are
+ * kept at relaxation_held() of the angular frequency where those have their size. All weights, those of the bulk modulus too, are
  * >= 0. SELAS_BAD_SCENE where that is not possible. */
 selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanisms,
                             const double rate[MOST_MECHANISMS], struct modulus *axial, struct modulus *shear,

@@ -18,7 +18,7 @@ struct fitting {
     struct damping_curve curve;
     double inside[MOST_MECHANISMS]; /* a column of the space whose weights are all positive or 0 */
     struct modulus modulus;         /* of size 1, for its rates */
-    double angular_frequency;
+    double reference, held; /* angular frequencies: of the values' speeds; where these are kept (Eq 8) */
 };
 
 static double dot(size_t n, const double *a, const double *b)
@@ -57,13 +57,22 @@ static void hold(const struct fitting *fitting, double weight[MOST_MECHANISMS])
         weight[l] = fmax(0, weight[l] + part * (fitting->inside[l] - weight[l]));
 }
 
-/* Of size 1 unrelaxed: what its size is over density times the square of the phase speed at the reference (Eq 8). */
+/* Of size 1 unrelaxed: what its size is over density times the square of the phase speed where that is kept (Eq 8). */
 static double size_of(const struct fitting *fitting, const double weight[MOST_MECHANISMS])
 {
     struct modulus modulus = fitting->modulus;
     memcpy(modulus.weight, weight, sizeof modulus.weight);
-    const double slowness = creal(1 / csqrt(modulus_at(&modulus, I * fitting->angular_frequency)));
+    const double slowness = creal(1 / csqrt(modulus_at(&modulus, I * fitting->held)));
     return slowness * slowness;
+}
+
+/* rho c^2 where the speed is kept, of one at the reference. */
+static double wanted_size(const struct fitting *fitting, double size, double q, double power)
+{
+    if (!(q > 0) || fitting->held == fitting->reference) return size;
+    const struct modulus wanted = modulus_power_q(size, q, power, fitting->reference);
+    const double speed = modulus_speed(&wanted, 1, fitting->held);
+    return speed * speed;
 }
 
 /* Sizes and weights of the moduli of a value; false: there is no such passive solid. */
@@ -72,7 +81,9 @@ static bool fit_value(const struct fitting *fitting, const struct material *valu
 {
     enum { TURNS = 40 };
     const size_t n = fitting->d->damping->mechanisms;
-    const double wanted[2] = {value->density * value->p_speed * value->p_speed, value->mu};
+    const double wanted[2] = {
+        wanted_size(fitting, value->density * value->p_speed * value->p_speed, value->q_p, value->q_power),
+        wanted_size(fitting, value->mu, value->q_s, value->q_power)};
     double sum[3] = {0};
     memset(weight, 0, 3 * sizeof *weight);
     if (value->q_p > 0) {
@@ -206,8 +217,8 @@ static struct fitting *fitting_new(const struct damped *d, const struct ground_m
     fitting->modulus =
         (struct modulus){.size = 1, .mechanisms = d->damping->mechanisms, .by = d->damping->band.by};
     memcpy(fitting->modulus.rate, d->damping->rate, sizeof fitting->modulus.rate);
-    fitting->angular_frequency =
-        given->q_frequency > 0 ? 2 * M_PI * given->q_frequency : d->damping->centroid;
+    fitting->reference = given->q_frequency > 0 ? 2 * M_PI * given->q_frequency : d->damping->centroid;
+    fitting->held = relaxation_held(&d->damping->band, fitting->reference);
     set_inside(fitting);
     return fitting;
 }
