@@ -402,4 +402,20 @@ untold "one that does not" check lies.nml
 untold "one that reaches a block of nearly the same rock" check lies.nml initial%centre=-0.8,0 'material(2)%density=1' \
     'material(2)%p_speed=1.81' 'material(2)%s_speed=1'
 told "a pulse through a block" "$across" check lies.nml initial%kind=plane-wave initial%centre=1,0
+# --- Damped bodies that ring ---
+cat >rings.nml <<'END'
+&scene dimension = 1, end_time = 60 /
+&method mechanisms = 3 /
+&material name = 'm', density = 1.0, p_speed = 1.0, s_speed = 0.5, q_p = 20, q_s = 20 /
+&body material = 'm', low = 0, high = 6, spacing = 0.1 /
+&boundary face = 'x+', kind = 'fixed' /
+&load face = 'x-', direction = 1, history = 'gaussian', width = 0.2, delay = 1.2 /
+&receiver name = 'a', position = 1 /
+&output plots = F, history_step = 0.05 /
+END
+told "a damped bar that rings below the source's band" "rings at frequencies below the source's.*mechanisms = 6 would do" check rings.nml
+untold "six mechanisms" check rings.nml method%mechanisms=6
+untold "a wider pulse" check rings.nml load%width=1 load%delay=5
+untold "an earlier end" check rings.nml scene%end_time=15
+untold "a face that takes the waves up" check rings.nml boundary%kind=transmitting
 exit $failures

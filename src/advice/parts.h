@@ -1,5 +1,5 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
- * points.c (patches on points), jumps.c (fields and states where the rock
+ * points.c (patches on points), ringing.c (damped bodies), jumps.c (fields and states where the rock
  * jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
  * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others). */
 #ifndef SELAS_ADVICE_PARTS_H
@@ -38,6 +38,8 @@ void look_at_cut_start(struct adviser *adviser);
 void look_at_impact(struct adviser *adviser);
 /* A state that lies where the rock jumps (jumps.c). */
 void look_at_crossed_rock(struct adviser *adviser);
+/* Damped bodies that ring below the source's band (ringing.c). */
+void look_at_ringing_body(struct adviser *adviser);
 /* Leapfrog's time error where it stays. */
 void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
 /* Waves that a method's points carry badly. */

@@ -156,6 +156,29 @@ double ground_damping_off(const struct ground_damping *damping)
     return most;
 }
 
+static double rings_off(const struct modulus *fitted, const struct modulus *wanted, double frequency,
+                        double end_time)
+{
+    const double w = 2 * M_PI * frequency, fades = 1 / modulus_loss(wanted, w);
+    return fmin(M_PI * frequency * end_time, fades) *
+           cabs(modulus_at(fitted, I * w) / modulus_at(wanted, I * w) - 1);
+}
+
+double ground_damping_rings(const struct ground_damping *damping, double lowest, double end_time)
+{
+    static const double next = 1.2;
+    const double band = relaxation_held(&damping->band, 0) / (2 * M_PI);
+    double most = 0;
+    for (double f = fmax(lowest, 1 / end_time); f < band && f > 0; f *= next)
+        for (size_t i = 0; i < damping->materials; i++) {
+            const struct damped_moduli *fitted = &damping->fitted[i], *wanted = &damping->wanted[i];
+            if (!(wanted->shear.power > 0)) continue;
+            most = fmax(most, rings_off(&fitted->axial, &wanted->axial, f, end_time));
+            most = fmax(most, rings_off(&fitted->shear, &wanted->shear, f, end_time));
+        }
+    return most;
+}
+
 void ground_damping_free(struct ground_damping *damping)
 {
     if (damping == NULL) return;

@@ -31,6 +31,10 @@ void ground_damping_free(struct ground_damping *damping);
 /* Largest root mean square, weighed by the band, of |M/M_wanted - 1| of all moduli as fitted. */
 double ground_damping_off(const struct ground_damping *damping);
 
+/* Largest error of waves that ring, below the source's band, at frequencies (in cycles) from `lowest` on until end_time
+ * or until they have faded: what the moduli are off there times pi times the cycles; 0 where none comes round once. */
+double ground_damping_rings(const struct ground_damping *damping, double lowest, double end_time);
+
 /* samples.c: values of a model's ground that have, of all, the least and the largest loss in compression at some Q_s:
  * at most MOST_SAMPLES; how many. Those without Q as one of them, undamped. */
 enum { SAMPLE_CLASSES = 8, MOST_SAMPLES = 2 * SAMPLE_CLASSES + 1 };
