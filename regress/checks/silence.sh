@@ -195,6 +195,11 @@ table="load%history=table load%width= load%delay= body%spacing=.125"
 untold "a table that ends with 0" check pulse.nml $table load%file=table.txt
 grep -q "^table of &load 1: 0 before t = 0, straight lines between 3 rows, 0 held from t = 2 on" said
 verdict "the plan says what it means before and after" $?
+tr '\n' '\r' <table.txt >returns.txt
+# shellcheck disable=SC2086
+untold "a table whose lines end with a bare CR" check pulse.nml $table load%file=returns.txt
+grep -q "straight lines between 3 rows" said
+verdict "all its rows are read" $?
 # shellcheck disable=SC2086
 told "a table that ends with a rest" "ends at t = 2 with 0.05, which holds" check pulse.nml $table load%file=rest.txt
 # shellcheck disable=SC2086

@@ -259,6 +259,12 @@ static void tables_are_read_or_refused(void **state)
         const char *says;
     } cases[] = {
         {"# time value\n0 1\n\n .5  2.5 ! peak\r\n1,\t-3e-1\n", 3, NULL},
+        {"# bare CR ends lines\r0 1\r.5 2.5\r1 -.3\r", 3, NULL},
+        {"\xEF\xBB\xBF"
+         "0.0D0 1d0\n5.D-1 2.5D+0\n1 -3d-1\n",
+         3, NULL},
+        {"0 1\r1 x\r", 0, ":2: expected two numbers"},
+        {"0 1\n1 2D\n", 0, ":2: expected two numbers"},
         {"", 0, "no rows"},
         {"0 1\n0 2\n", 0, ":2: times must ascend"},
         {"-1 1\n", 0, ":1: times must ascend"},

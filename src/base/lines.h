@@ -14,11 +14,14 @@ enum line_found {
     LINE_NO_TEXT   /* a byte 0 */
 };
 
-/* The next line of the file; its end may be "\n", "\r\n" or the end of the file. */
+/* The next line of the file; its end may be "\n", "\r\n", "\r" or the end of the file. A mark of UTF-8 (BOM) at its
+ * beginning is left out. */
 enum line_found line_next(FILE *file, char line[LINE_SIZE]);
 /* What is wrong after LINE_TOO_LONG or LINE_NO_TEXT, for a message. */
 const char *line_fault(enum line_found found);
 
+/* The number at a place of a line and where it ends, as strtod(); its exponent may follow d or D as Fortran writes it. */
+double line_number(const char *at, char **end);
 /* Numbers of a line, parted by blanks or commas, up to its end or a comment (# or !). Returns how many; -1 if there
  * is something else in it, or more than `most`. */
 int line_numbers(const char *line, int most, double *value);

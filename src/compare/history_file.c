@@ -6,7 +6,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { COLUMNS = 7 };
@@ -27,7 +26,7 @@ static int read_numbers(const char *line, double number[COLUMNS])
     int count = 0;
     for (const char *at = line + strspn(line, " \t\r\n"); *at != '\0'; at += strspn(at, " \t\r\n")) {
         char *end = NULL;
-        const double value = strtod(at, &end);
+        const double value = line_number(at, &end);
         if (end == at || count == COLUMNS) return -1;
         number[count++] = value;
         at = end;

@@ -5,11 +5,9 @@
 #include "scene/history.h"
 #include "scene/history_kinds.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Number of rows with table_time <= t (right) or < t (left). */
@@ -84,27 +82,6 @@ double complex history_table_laplace(const struct history *history, double compl
     return sum + value[last] * cexp(-s * time[last]) / s;
 }
 
-/* One line of the table; 1: a row was read, 0: nothing on the line, -1: not two numbers. */
-static int read_row(char *line, double *time, double *value)
-{
-    line[strcspn(line, "#!\r\n")] = '\0';
-    char *at = line;
-    while (isspace((unsigned char)*at))
-        at++;
-    if (*at == '\0') return 0;
-    char *end = NULL;
-    *time = strtod(at, &end);
-    if (end == at) return -1;
-    at = end;
-    while (isspace((unsigned char)*at) || *at == ',')
-        at++;
-    *value = strtod(at, &end);
-    if (end == at) return -1;
-    while (isspace((unsigned char)*end))
-        end++;
-    return *end == '\0' && isfinite(*time) && isfinite(*value) ? 1 : -1;
-}
-
 static selas_status keep_row(struct history *history, size_t *room, double time, double value)
 {
     if (history->rows == *room) {
@@ -136,12 +113,13 @@ static selas_status read_rows(struct history *history, FILE *file, const char *p
     size_t room = 0;
     enum line_found next = LINE_END;
     for (size_t number = 1; (next = line_next(file, line)) != LINE_END; number++) {
-        double time = 0, value = 0;
+        double row[2] = {0};
         if (next != LINE_READ)
             return fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
-        const int found = read_row(line, &time, &value);
-        if (found == 0) continue;
-        if (found < 0)
+        const int count = line_numbers(line, 2, row);
+        if (count == 0) continue;
+        const double time = row[0], value = row[1];
+        if (count != 2 || !isfinite(time) || !isfinite(value))
             return fail(messages, SELAS_FILE_ERROR, "%s:%zu: expected two numbers, 'time value'", path,
                         number);
         if (time < 0 || (history->rows > 0 && time <= history->table_time[history->rows - 1]))

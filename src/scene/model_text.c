@@ -8,7 +8,6 @@
 #include "scene/model_file.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { COLUMNS = 8 };
@@ -38,7 +37,7 @@ static int next_numbers(struct text *text, double value[COLUMNS])
         line[strcspn(line, "#")] = '\0';
         for (char *at = line; *(at += strspn(at, " \t,\r")) != '\0';) {
             char *end = at;
-            const double x = count < COLUMNS ? strtod(at, &end) : 0;
+            const double x = count < COLUMNS ? line_number(at, &end) : 0;
             if (end == at || !isfinite(x)) {
                 model_fault(text->source, "line %zu: '%.20s' is not one of at most %d numbers", text->line,
                             at, COLUMNS);
