@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+enum { MOST_GRIDS = 100 };
 static const char *const names[MODEL_SETS] = {"Rho", "Cp", "Cs", "Qp", "Qs"};
 
 static bool not_sfile(const struct model_source *source, const char *name, size_t i, const char *why)
@@ -22,9 +23,28 @@ static hid_t open_group(hid_t place, const char *name)
     return stored_here(place, name) ? H5Gopen2(place, name, H5P_DEFAULT) : -1;
 }
 
-/* A data set of the model's ground, `length` along x, with values at even distances. */
+/* How the values of a grid lie along x and y. */
+struct lay {
+    size_t n[2];
+    double step;
+};
+
+static double length_of(const struct lay *lay, int axis)
+{
+    return lay->step * (double)(lay->n[axis] - 1);
+}
+
+/* Step of `count` values along an axis: of the one of two grids that has as many, or even parts of the model. */
+static double step_along(const struct lay *lay, const size_t grid[2], int axis, size_t count)
+{
+    for (int i = 0; i < 2; i++)
+        if (lay[grid[i]].n[axis] == count) return lay[grid[i]].step;
+    return length_of(&lay[0], axis) / (double)(count - 1);
+}
+
+/* A data set that lies as one of two grids does, with values at even distances. */
 static bool read_values(struct model_source *source, hid_t group, const char *name, struct model_grid *grid,
-                        const double length[2], int set)
+                        const struct lay *lay, const size_t alike[2], int set)
 {
     size_t extent[4], first[3] = {0};
     const struct ground_model *model = source->model;
@@ -34,7 +54,7 @@ static bool read_values(struct model_source *source, hid_t group, const char *na
     bool good = rank == 3 || surface;
     for (int axis = 0; axis < rank && good; axis++) {
         const double step =
-            axis < 2 ? length[axis] / (double)(extent[axis] - 1) : 1. / (double)(extent[2] - 1);
+            axis < 2 ? step_along(lay, alike, axis, extent[axis]) : 1. / (double)(extent[2] - 1);
         good = extent[axis] > 1;
         if (!good) continue;
         if (set == 0)
@@ -50,7 +70,7 @@ static bool read_values(struct model_source *source, hid_t group, const char *na
     return good;
 }
 
-static bool read_surfaces(struct model_source *source, hid_t file, const double length[2])
+static bool read_surfaces(struct model_source *source, hid_t file, const struct lay *lay)
 {
     struct ground_model *model = source->model;
     const hid_t group = open_group(file, "Z_interfaces");
@@ -58,8 +78,9 @@ static bool read_surfaces(struct model_source *source, hid_t file, const double 
     bool good = true;
     for (size_t i = 0; i < model->surfaces && good; i++) {
         char name[32];
+        const size_t alike[2] = {i > 0 ? i - 1 : 0, i < model->grids ? i : i - 1};
         snprintf(name, sizeof name, "z_values_%zu", i);
-        good = read_values(source, group, name, &model->surface[i], length, 0) ||
+        good = read_values(source, group, name, &model->surface[i], lay, alike, 0) ||
                not_sfile(source, "Z_interfaces/z_values_", i, "missing, cut short or not [nx][ny]");
         for (size_t k = 0; good && k < model->surface[i].n[0] * model->surface[i].n[1]; k++)
             if (!(fabs(model->surface[i].value[0][k]) < 1e6))
@@ -90,7 +111,7 @@ static bool check_order(const struct model_source *source)
     return true;
 }
 
-static bool read_grids(struct model_source *source, hid_t file, const double length[2])
+static bool read_grids(struct model_source *source, hid_t file, const struct lay *lay)
 {
     struct ground_model *model = source->model;
     const hid_t all = open_group(file, "Material_model");
@@ -100,7 +121,8 @@ static bool read_grids(struct model_source *source, hid_t file, const double len
         snprintf(name, sizeof name, "grid_%zu", i);
         const hid_t group = open_group(all, name);
         for (int set = 0; set < (model->damped ? MODEL_SETS : MODEL_VALUES) && good; set++)
-            good = group >= 0 && read_values(source, group, names[set], &model->grid[i], length, set);
+            good = group >= 0 &&
+                   read_values(source, group, names[set], &model->grid[i], lay, (const size_t[2]){i, i}, set);
         if (!good)
             not_sfile(source, "Material_model/grid_", i,
                       model->damped ? "missing, cut short or not Rho, Cp, Cs, Qp, Qs [nx][ny][nz]"
@@ -111,43 +133,58 @@ static bool read_grids(struct model_source *source, hid_t file, const double len
     return good;
 }
 
-/* Lengths of the model along x and y, from its first grid. */
-static bool find_length(const struct model_source *source, hid_t file, double length[2])
+/* How each grid lies; all cover the same ground, but for a step. */
+static bool find_lays(const struct model_source *source, hid_t file, size_t grids, struct lay *lay)
 {
-    const hid_t all = open_group(file, "Material_model"), group = all >= 0 ? open_group(all, "grid_0") : -1;
-    const hid_t data = group >= 0 ? stored_set(group, "Cp") : -1;
-    double step = 0;
-    size_t extent[4] = {0};
-    const bool good = data >= 0 && model_extent(data, extent) == 3 &&
-                      model_numbers(group, "Horizontal grid size", 1, &step) && step > 0 && extent[0] > 1 &&
-                      extent[1] > 1;
-    for (int axis = 0; axis < 2; axis++)
-        length[axis] = step * ((double)extent[axis] - 1);
-    if (data >= 0) H5Dclose(data);
-    if (group >= 0) H5Gclose(group);
+    const hid_t all = open_group(file, "Material_model");
+    bool good = all >= 0;
+    for (size_t i = 0; i < grids && good; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "grid_%zu", i);
+        const hid_t group = open_group(all, name), data = group >= 0 ? stored_set(group, "Cp") : -1;
+        size_t extent[4] = {0};
+        good = data >= 0 && model_extent(data, extent) == 3 && extent[0] > 1 && extent[1] > 1 &&
+               model_numbers(group, "Horizontal grid size", 1, &lay[i].step) && lay[i].step > 0;
+        if (!good)
+            not_sfile(
+                source, "Material_model/grid_", i,
+                "missing, cut short or not [nx][ny][nz], or its attribute Horizontal grid size is missing");
+        for (int axis = 0; axis < 2 && good; axis++) {
+            lay[i].n[axis] = extent[axis];
+            const double own = length_of(&lay[i], axis), first = length_of(&lay[0], axis);
+            if (!(fabs(own - first) < 1.001 * lay[i].step))
+                good = model_fault(
+                    source,
+                    "grid_%zu reaches to %.9g along %c (Horizontal grid size %.9g), grid_0 to %.9g; "
+                    "expected the same but for a step",
+                    i, own, "xy"[axis], lay[i].step, first);
+        }
+        if (data >= 0) H5Dclose(data);
+        if (group >= 0) H5Gclose(group);
+    }
     if (all >= 0) H5Gclose(all);
-    return good ||
-           not_sfile(source, "Material_model/grid_", 0, "missing, or its attribute Horizontal grid size is");
+    return good;
 }
 
 bool model_read_sfile(struct model_source *source, hid_t file)
 {
     struct ground_model *model = source->model;
-    double place[3], grids = 0, damped = 0, length[2], top, least, end, deepest;
+    double place[3], grids = 0, damped = 0, top, least, end, deepest;
     source->si = true;
     source->model->sea = source->model->sea || source->below_sea;
     if (!model_numbers(file, "Origin longitude, latitude, azimuth", 3, place) ||
-        !model_numbers(file, "ngrids", 1, &grids) || !(grids >= 1) || grids > 100)
+        !model_numbers(file, "ngrids", 1, &grids) || !(grids >= 1) || grids > MOST_GRIDS)
         return model_fault(source,
                            "its group Material_model makes it SW4's sfile, but its attributes 'Origin "
                            "longitude, latitude, azimuth' or 'ngrids' (1 to 100) are missing");
     const struct model_axes axes = {.bearing = place[2], .coordinates = 2};
     model_sets(source, model_numbers(file, "Attenuation", 1, &damped) && damped == 1);
     model->depth = MODEL_BETWEEN;
-    if (!find_length(source, file, length) || !model_grids(source, (size_t)grids, (size_t)grids + 1) ||
-        !model_place(source, &axes) || !model_covers(source, 0, 0, length[0]) ||
-        !model_covers(source, 1, 0, length[1]) || !read_surfaces(source, file, length) ||
-        !check_order(source))
+    struct lay lay[MOST_GRIDS] = {0};
+    if (!find_lays(source, file, (size_t)grids, lay) ||
+        !model_grids(source, (size_t)grids, (size_t)grids + 1) || !model_place(source, &axes) ||
+        !model_covers(source, 0, 0, length_of(lay, 0)) || !model_covers(source, 1, 0, length_of(lay, 1)) ||
+        !read_surfaces(source, file, lay) || !check_order(source))
         return false;
     model_extremes(&model->surface[0], &least, &top);
     model_extremes(&model->surface[model->surfaces - 1], &end, &deepest);
@@ -160,7 +197,7 @@ bool model_read_sfile(struct model_source *source, hid_t file)
              "below it; depth 0 is ",
              model->grids, place[2], -top, -least, end);
     model_tell_depth(model, "its ground, depths are stretched above its bottom");
-    if (!read_grids(source, file, length)) return false;
+    if (!read_grids(source, file, lay)) return false;
     model_fill(source, -999);
     return true;
 }
