@@ -19,7 +19,8 @@ static const char *const wanted[MODEL_SETS] = {"density", "Vp", "Vs", "Qp", "Qs"
 
 struct blocks {
     struct model_source *source;
-    hid_t group[2]; /* blocks, surfaces (or -1) */
+    hid_t group[2];  /* blocks, surfaces (or -1) */
+    bool top, floor; /* surfaces that there are */
     int sets;
     size_t component[MODEL_SETS];
     double factor[MODEL_SETS]; /* to m/s and kg/m^3; of Q 1 */
@@ -180,7 +181,8 @@ static bool read_block(const struct blocks *blocks, size_t i)
     const hid_t set = stored_set(blocks->group[0], name);
     bool good = lay_grid(blocks, set, name, 3, blocks->block[i].top, grid, first) &&
                 model_meets(blocks->source, i) &&
-                (i > 0 || model_covers(blocks->source, 2, blocks->source->whole[2][0], blocks->bottom));
+                (i + 1 < blocks->count ||
+                 model_covers(blocks->source, 2, 0 - blocks->block[0].top, blocks->source->whole[2][1]));
     for (int which = 0; good && which < blocks->sets; which++) {
         good = model_read_part(set, grid, first, blocks->component[which], grid->value[which]) ||
                model_fault(blocks->source, "cannot read block '%s'", name);
@@ -210,15 +212,48 @@ static bool read_surface(const struct blocks *blocks, const char *name, struct m
     return good;
 }
 
+/* A level surface at the sea, in place of a top that the file leaves out. */
+static bool lay_level(const struct blocks *blocks, struct model_grid *surface)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        surface->n[axis] = 1;
+        surface->at[axis] = scene_array(blocks->source->builder, 1, sizeof *surface->at[axis]);
+        if (surface->at[axis] == NULL) return false;
+    }
+    return model_room(blocks->source, surface, 1);
+}
+
+/* The solid ground nowhere above the top, but for what surfaces of different steps make of one another. */
+static bool check_floor(const struct blocks *blocks)
+{
+    const struct ground_model *model = blocks->source->model;
+    const struct model_grid *floor = &model->surface[1];
+    for (size_t k = 0; k < floor->n[0] * floor->n[1]; k++) {
+        const double place[3] = {floor->at[0][k / floor->n[1]], floor->at[1][k % floor->n[1]], 0};
+        double top = 0;
+        model_grid_at(&model->surface[0], place, 1, &top);
+        if (floor->value[0][k] < top - 1e-3 * blocks->bottom)
+            return model_fault(blocks->source,
+                               "its topography_bathymetry has elevation %g at (%g, %g), above its top, %g%s; "
+                               "expected none above it",
+                               -floor->value[0][k], place[0], place[1], 0 - top,
+                               blocks->top ? "" : " without a top_surface");
+    }
+    return true;
+}
+
 /* The top, and the sea floor if there is one; how deep into the blocks the body reaches. */
 static bool read_surfaces(const struct blocks *blocks)
 {
-    static const char *const name[] = {"top_surface", "topography_bathymetry"};
     struct model_source *source = blocks->source;
     struct ground_model *model = source->model;
     if (model->surfaces == 0) return true;
-    for (size_t i = 0; i < model->surfaces && i < 2; i++)
-        if (!read_surface(blocks, name[i], &model->surface[i])) return false;
+    if (!(blocks->top ? read_surface(blocks, "top_surface", &model->surface[0])
+                      : lay_level(blocks, &model->surface[0])))
+        return false;
+    if (blocks->floor &&
+        (!read_surface(blocks, "topography_bathymetry", &model->surface[1]) || !check_floor(blocks)))
+        return false;
     double least = 0, ground = 0, top = 0, greatest = 0;
     model_extremes(&model->surface[0], &top, &greatest);
     model_extremes(&model->surface[model->surfaces - 1], &least, &ground);
@@ -241,12 +276,13 @@ static bool read_all(struct blocks *blocks, hid_t file)
         return model_fault(source, "origin_x, origin_y, y_azimuth or dim_z (above 0) is missing");
     const struct model_axes axes = {
         .north = 1, .bearing = azimuth, .from = {from[0], from[1]}, .turned = true, .coordinates = 2};
-    const bool top = blocks->group[1] >= 0 && stored_here(blocks->group[1], "top_surface");
-    const bool floor = top && stored_here(blocks->group[1], "topography_bathymetry");
+    blocks->top = blocks->group[1] >= 0 && stored_here(blocks->group[1], "top_surface");
+    blocks->floor = blocks->group[1] >= 0 && stored_here(blocks->group[1], "topography_bathymetry");
     if (!model_place(source, &axes)) return false;
     source->range[2][1] += source->model->shift;
     if (!model_covers(source, 2, 0, blocks->bottom) ||
-        !model_grids(source, blocks->count, (size_t)top + (size_t)floor) || !read_surfaces(blocks))
+        !model_grids(source, blocks->count, blocks->floor ? 2 : (size_t)blocks->top) ||
+        !read_surfaces(blocks))
         return false;
     for (size_t i = 0; i < blocks->count; i++)
         if (!read_block(blocks, i)) return false;
@@ -255,8 +291,8 @@ static bool read_all(struct blocks *blocks, hid_t file)
              "depth 0 "
              "is ",
              blocks->count, azimuth, blocks->bottom);
-    model_tell_depth(source->model, floor ? "its solid ground, depths are stretched above its bottom"
-                                          : "its top, depths are stretched above its bottom");
+    model_tell_depth(source->model, blocks->floor ? "its solid ground, depths are stretched above its bottom"
+                                                  : "its top, depths are stretched above its bottom");
     model_fill(source, -1e19);
     return true;
 }
