@@ -111,6 +111,16 @@ static inline void put_one(hid_t place, const char *name, double value)
 {
     put_numbers(place, name, 1, &value);
 }
+/* Another number in the attribute of a file or, if not NULL, a group of it. */
+static inline void put_other(const char *path, const char *group, const char *name, double value)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT),
+                place = H5Gopen2(file, group != NULL ? group : "/", H5P_DEFAULT);
+    H5Adelete(place, name);
+    put_one(place, name, value);
+    H5Gclose(place);
+    H5Fclose(file);
+}
 /* Texts of varying length, as h5py writes them, or all of one length. */
 static inline void put_words(hid_t place, const char *name, int count, const char *const *word, int varying)
 {
@@ -187,7 +197,8 @@ static inline void write_sfile(const char *path, double lift)
 }
 
 /* GeoModelGrids: 1000 x 2000 x 1500, y towards 60 degrees; two blocks, the upper one with places along x and z
- * one by one. The values are linear in the blocks' own depth. */
+ * one by one. The values are linear in the blocks' own depth. `floor`: 1 the ground below the top, 2 no top and the
+ * ground 400 lower, 3 no top. */
 static inline void write_blocks(const char *path, int floor, const char *unit, double no_data)
 {
     enum { VALUES = 5 };
@@ -205,9 +216,10 @@ static inline void write_blocks(const char *path, int floor, const char *unit, d
     put_one(file, "origin_y", 4000000);
     put_one(file, "y_azimuth", 60);
     put_one(file, "dim_z", 1500);
-    for (int s = 0; s < (floor ? 2 : 1); s++) {
+    for (int s = floor < 2 ? 0 : 1; s < (floor ? 2 : 1); s++) {
         for (int i = 0; i < 4; i++)
-            value[i] = s == 0 ? water_of(i / 2 * 1000, i % 2 * 2000) : ground_of(i / 2 * 1000, i % 2 * 2000);
+            value[i] = s == 0 ? water_of(i / 2 * 1000, i % 2 * 2000)
+                              : ground_of(i / 2 * 1000, i % 2 * 2000) - (floor == 2 ? 400 : 0);
         const hid_t set = put_set(surfaces, s == 0 ? "top_surface" : "topography_bathymetry", 3, flat, value);
         put_one(set, "x_resolution", 1000);
         put_one(set, "y_resolution", 2000);

@@ -6,6 +6,7 @@
 
 #include "scene/ground.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char stored[] = "build/test/model";
@@ -87,6 +88,19 @@ static void test_sfile(void **state)
     made = right_scene(DECK("200, 200, 100", "origin = 510, 10"));
     assert_true(made.scene->body.model->grid[0].n[0] == 2 && made.scene->body.model->grid[0].n[1] == 2);
     from_deck_free(&made);
+    write_sfile(stored, 0); /* grid_1 reaches farther: its values lie at its own step */
+    put_other(stored, "Material_model/grid_1", "Horizontal grid size", 600);
+    made = right_scene(DECK("800, 700, 900", "origin = 100, 200, depth = 'sea'"));
+    for (int i = 0; i < 3; i++) {
+        const double x = 100 + place[i][0], y = 200 + place[i][1], z = 800, top = sfile_surface(1, x, y);
+        const double part = (z - top) / (1200 - top), from = sfile_surface(1, x / 1.2, 0);
+        assert_field(made.scene, (double[]){place[i][0], place[i][1], z}, x / 1.2, y / 1.2,
+                     (1 - part) * from + part * 1200, 1e-12);
+    }
+    from_deck_free(&made);
+    put_other(stored, "Material_model/grid_1", "Horizontal grid size", 250);
+    assert_refused(DECK("800, 700, 900", ""),
+                   "t.nml:4:", (const char *[]){"grid_1 reaches to 500 along x", "grid_0 to 1000", NULL});
     write_sfile(stored, 800);
     assert_refused(DECK("800, 700, 900", ""),
                    "t.nml:4:", (const char *[]){"surface 1, at depth", "lies above surface 0", NULL});
@@ -123,9 +137,34 @@ static void test_blocks(void **state)
     write_blocks(stored, 0, "ft/s", 0);
     assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"Vp is in 'ft/s'", NULL});
     write_blocks(stored, 0, "km/s", 0);
-    made = right_scene(DECK("800, 300, 900", ""));
-    assert_near(scene_fastest(made.scene), 1000 * (4000 + 300 + 120 + 200), 3e5);
+    assert_refused(DECK("800, 300, 900", ""),
+                   "t.nml:4:", (const char *[]){"p_speed 4e+06", "is no rock in m/s; are its units", NULL});
+    write_blocks(stored, 0, "m/s", 1e20);
+    assert_refused(DECK("800, 300, 900", "damped = .false."),
+                   "t.nml:4:", (const char *[]){"s_speed 1e+20, is air, water or no data", NULL});
+}
+
+/* A sea floor without a top, which is then at the sea; one above the top; blocks that end before the bottom. */
+static void test_blocks_alone(void **state)
+{
+    (void)state;
+    static const double place[][3] = {{0, 0, 0}, {800, 300, 900}, {523, 56, 78}};
+    write_blocks(stored, 2, "m/s", 0);
+    struct from_deck made = right_scene(DECK("800, 300, 900", ""));
+    for (int i = 0; i < 3; i++) {
+        const double x = place[i][1], y = place[i][0], ground = 400 - ground_of(x, y);
+        assert_field(made.scene, place[i], x, y, ground + place[i][2] * (1500 - ground) / 1500, 1e-12);
+    }
+    assert_text(&made, "solid ground", NULL);
     from_deck_free(&made);
+    write_blocks(stored, 3, "m/s", 0);
+    assert_refused(
+        DECK("800, 300, 900", ""), "t.nml:4:",
+        (const char *[]){"topography_bathymetry has elevation 100 at (0, 0), above its top, 0 without a",
+                         NULL});
+    write_blocks(stored, 0, "m/s", 0);
+    put_other(stored, NULL, "dim_z", 1600);
+    assert_refused(DECK("800, 300, 1550", ""), "t.nml:4:", (const char *[]){"from 0 to 1500 along z", NULL});
 }
 
 /* Depths below an elevation of 20, whatever the ground. */
@@ -158,6 +197,9 @@ static void test_sea(void **state)
     assert_field(hill.scene, (double[]){300, 150, -25}, 300, 150, -45, 1e-12);
     from_deck_free(&hill);
     write_text(stored, 0, 0, "", 60);
+    hill = right_scene(DECK("700, 800, 300", HILL));
+    assert_field(hill.scene, (double[]){300, 150, -25}, 150, 300, -25, 1e-12);
+    from_deck_free(&hill);
     struct from_deck made = right_scene(DECK("700, 800, 300", "depth = 'sea', origin = 1000, 2000, -100"));
     assert_field(made.scene, (double[]){100, 50, 30}, 50, 100, 130, 1e-12);
     from_deck_free(&made);
@@ -276,8 +318,13 @@ static void test_cut_short(void **state)
     write_blocks(stored, 0, "m/s", NAN);
     assert_refused(DECK("800, 300, 900", ""),
                    "t.nml:4:", (const char *[]){"(0, 0, 0)", "is not finite", NULL});
+    assert_int_equal(truncate(stored, 0), 0);
+    assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"it is empty", NULL});
     unlink(stored);
     assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"No such file", NULL});
+    assert_int_equal(mkdir(stored, 0700), 0);
+    assert_refused(DECK("800, 300, 900", ""), "t.nml:4:", (const char *[]){"Is a directory", NULL});
+    rmdir(stored);
 }
 
 /* Q of the formats that the others leave out; Q that says there is none; the deck's words. */
@@ -325,7 +372,7 @@ int main(void)
         cmocka_unit_test(test_blocks),     cmocka_unit_test(test_sea),
         cmocka_unit_test(test_text),       cmocka_unit_test(test_own_surface),
         cmocka_unit_test(test_wrong_text), cmocka_unit_test(test_cut_short),
-        cmocka_unit_test(test_quality),
+        cmocka_unit_test(test_quality),    cmocka_unit_test(test_blocks_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

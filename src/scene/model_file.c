@@ -106,14 +106,19 @@ bool model_meets(struct model_source *source, size_t i)
 static const char *fault_of(const struct model_source *source, double density, double p, double s)
 {
     if (!isfinite(density) || !isfinite(p) || !isfinite(s)) return "is not finite";
-    if (s == -999 || fmin(fmin(density, p), s) < -1e19) return "is air, water or no data";
+    if (s == -999 || fmin(fmin(density, p), s) < -1e19 || fmax(fmax(density, p), s) > 1e19)
+        return "is air, water or no data";
     if (!(density > 0) || !(p > 0)) return "has a density or p_speed that is not above 0";
     if (!(s > 0)) return "has no s_speed: water and air are not offered";
     if (!(p * p > s * s * 4 / 3))
         return "has an s_speed of sqrt(3)/2 p_speed or more: its bulk modulus is negative";
     if (source->si && p < 30) return "is no rock in m/s; files of this format hold m/s, not km/s";
+    if (source->si && p > 3e4)
+        return "is no rock in m/s; are its units those that the file or its format names?";
     if (source->si && density < 30)
         return "is no rock in kg/m^3; files of this format hold kg/m^3, not g/cm^3";
+    if (source->si && density > 5e4)
+        return "is no rock in kg/m^3; are its units those that the file or its format names?";
     return NULL;
 }
 
@@ -191,6 +196,12 @@ static bool read_other(struct model_source *source)
     if (file == NULL) return model_fault(source, "cannot read it: %s", strerror(errno));
     unsigned char start[4] = {0};
     const size_t count = fread(start, 1, sizeof start, file);
+    if (count == 0) {
+        const bool good = ferror(file) ? model_fault(source, "cannot read it: %s", strerror(errno))
+                                       : model_fault(source, "it is empty");
+        fclose(file);
+        return good;
+    }
     const bool binary = count == sizeof start && start[1] == 0 && start[2] == 0 && start[0] + start[3] == 1;
     rewind(file);
     const bool good = binary ? model_read_rfile(source, file) : model_read_text(source, file);
