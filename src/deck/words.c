@@ -212,12 +212,14 @@ static const struct word model_words[] = {
      "plain grid or GeoModelGrids (HDF5), SW4's rfile or sfile, SPECFEM's tomography_model.xyz"},
     {"origin", WORD_REAL, 3, NULL, NULL, OPTIONAL,
      "where x = y = 0 of the body lies, in the file's coordinates [length]; else its corner (plain grids: 0, "
-     "0, 0); third value: where z = 0 lies (plain grids, tomography_model.xyz)"},
+     "0, 0); third value: z of the file at z = 0 (plain grids), or the elevation of face z- (else)"},
     {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
      "depths are below the file's ground, or below elevation 0 or the third value of origin; 'sea' always "
      "beside &topography"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
-     "direction of the body's x, clockwise from north [degrees]; else the file's axis nearest to north"},
+     "direction of the body's x, clockwise from north [degrees]; else that of the file's x (plain grids, "
+     "rfile, "
+     "sfile) or y (GeoModelGrids, tomography_model.xyz)"},
     {"damped", WORD_LOGICAL, 1, ".true.", NULL, OPTIONAL, "use the file's q_p and q_s, if it has them"},
     {"q_frequency", WORD_REAL, 1, NULL, POSITIVE, OPTIONAL, "as of &material"},
     {"q_power", WORD_REAL, 1, NULL, "(-1, 1)", OPTIONAL, "as of &material"},
