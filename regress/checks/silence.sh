@@ -135,6 +135,13 @@ END
 untold "points without areas that fill their box have its faces" -q points.nml
 awk -F': ' '$1 == "work of loads" {w = $2} $1 == "energy absorbed" {a = $2} END {exit !(a > .9 * w && a < 1.02 * w)}' out/report.txt
 verdict "and a transmitting face takes up the wave" $?
+awk '{ print $1 + .6, $2, $3 }' whole.txt >shifted.txt
+awk '{ print $1, $2, 1.5 * $3, 0, $2 < .2 ? -1 : 0, $2 < .2 ? .2 : 0 }' whole.txt >heavy.txt
+told "points outside the box" "shifted.txt:18: point 18 lies outside the box low .. high of the body: x = 4.1; expected 0 to 4" check points.nml body%file=shifted.txt
+told "volumes that do not fit in it, with normals" "heavy.txt: the volumes of the points add up to 1.5 times that of the box" check points.nml body%file=heavy.txt
+awk '{ print $1, $2, $3, 0, $2 < .2 ? -1 : 0, $2 < .2 ? .2 : 0 }' whole.txt >normals.txt
+sed '/^&boundary/d' points.nml >free.nml
+untold "volumes that fill it, with normals" -q free.nml body%file=normals.txt
 told "points without areas that do not" "the points come without areas and fill 0.975 of the box" check points.nml body%file=gap.txt
 cloud="method%name=smoothed-point method%variant=cloud"
 paper="method%name=smoothed-point method%variant=paper"

@@ -205,6 +205,19 @@ selas_status cloud_create_planes(const struct scene *scene, size_t from, size_t 
     return status;
 }
 
+/* Points of which none lies outside the box fill no more than it; those of a body with cavities fill less. */
+static selas_status check_filling(const struct cloud *cloud, const struct body *body,
+                                  struct messages *messages)
+{
+    const double filling = cloud_filling(cloud, body);
+    if (filling < 1.02) return SELAS_OK;
+    return fail(
+        messages, SELAS_BAD_SCENE,
+        "%s: the volumes of the points add up to %.4g times that of the box low .. high; expected at most "
+        "1.02, as masses are density times volume",
+        body->file != NULL ? body->file : "points of the host", filling);
+}
+
 selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struct messages *messages)
 {
     const struct body *body = &scene->body;
@@ -213,6 +226,7 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
     if (status != SELAS_OK) return status;
     if (body->shape == BODY_POINTS) {
         status = cloud_read(scene, cloud, messages);
+        if (status == SELAS_OK && *cloud != NULL) status = check_filling(*cloud, body, messages);
         if (status == SELAS_OK && *cloud != NULL && (*cloud)->elements == 0 &&
             fabs(cloud_filling(*cloud, body) - 1) < 0.02)
             status = cloud_surface(*cloud, body, messages);

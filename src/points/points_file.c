@@ -161,6 +161,34 @@ static int face_of(const struct body *body, int dimension, const struct face_ele
     return FACES;
 }
 
+/* Where a point is from, for a message. */
+static const char *origin_of(const struct scene *scene, const struct table *table, size_t i, char place[300])
+{
+    if (scene->body.file == NULL)
+        snprintf(place, 300, "points of the host");
+    else if (table->line != NULL)
+        snprintf(place, 300, "%s:%zu", scene->body.file, table->line[i]);
+    else
+        snprintf(place, 300, "%s", scene->body.file);
+    return place;
+}
+
+/* The box holds all points, its faces too. */
+static selas_status check_inside(const struct scene *scene, const struct table *table, size_t i,
+                                 struct messages *messages)
+{
+    const struct body *body = &scene->body;
+    const double near = 1e-6 * body->spacing, *x = table->row[i];
+    char place[300];
+    for (int c = 0; c < scene->dimension; c++)
+        if (!(x[c] > body->low[c] - near && x[c] < body->high[c] + near))
+            return fail(
+                messages, SELAS_BAD_SCENE,
+                "%s: point %zu lies outside the box low .. high of the body: %c = %g; expected %g to %g",
+                origin_of(scene, table, i, place), i + 1, "xyz"[c], x[c], body -> low[c], body -> high[c]);
+    return SELAS_OK;
+}
+
 static selas_status take(const struct scene *scene, const struct table *table, struct cloud *cloud,
                          struct messages *messages)
 {
@@ -177,6 +205,8 @@ static selas_status take(const struct scene *scene, const struct table *table, s
             return fail(messages, SELAS_BAD_SCENE,
                         "'%s': point %zu needs a finite normal and a finite area, 0 or above",
                         scene->body.file, i + 1);
+        status = check_inside(scene, table, i, messages);
+        if (status != SELAS_OK) break;
         const double length = sqrt(row[4] * row[4] + row[5] * row[5] + row[6] * row[6]);
         if (!(length > 0)) continue;
         const double spacing = pow(row[3], 1.0 / scene->dimension);
