@@ -109,6 +109,52 @@ static void store_heights(const char *path, bool z, bool fault)
     H5Fclose(file);
 }
 
+/* An attribute of a data set: a number, or a text if that is not NULL. */
+static void mark_set(const char *path, const char *name, const char *word, const char *text, double number)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), set = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t type = text != NULL ? H5Tcopy(H5T_C_S1) : H5Tcopy(H5T_NATIVE_DOUBLE),
+                one = H5Screate(H5S_SCALAR);
+    if (text != NULL) H5Tset_size(type, strlen(text) + 1);
+    const hid_t attribute = H5Acreate2(set, word, type, one, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(attribute, type, text != NULL ? (const void *)text : (const void *)&number) >= 0);
+    H5Aclose(attribute);
+    H5Sclose(one);
+    H5Tclose(type);
+    H5Dclose(set);
+    H5Fclose(file);
+}
+
+/* Packed heights, those of no data, of another unit than the places. */
+static void test_attributes_of_heights(void **state)
+{
+    (void)state;
+    const char deck[] = HEAD BOX "&topography file = 'build/test/heights.h5', datum = 50.0 /\n";
+    const char path[] = "build/test/heights.h5";
+    store_heights(path, true, false);
+    mark_set(path, "z", "scale_factor", NULL, .25);
+    mark_set(path, "z", "add_offset", NULL, 25);
+    mark_set(path, "z", "units", "meters", 0);
+    mark_set(path, "x", "units", "m", 0);
+    struct from_deck made = right_scene(deck);
+    const double drop = topography_drop(made.scene->body.topography, (double[]){1.3, 2.2});
+    assert_near(drop, -(1.3 / 8 + 2.2 * 2.2 / 32) / 4, 1e-6);
+    from_deck_free(&made);
+    static const char *const none[] = {"_FillValue", "missing_value"};
+    for (int i = 0; i < 2; i++) {
+        store_heights(path, true, false);
+        mark_set(path, "z", none[i], NULL, 100 + 1. / 8 + 1. / 32); /* the one at (1, 1) */
+        assert_refused(deck,
+                       "t.nml:5:", (const char *[]){"'z', at (1, 1), is not a number, or no data", NULL});
+    }
+    store_heights(path, true, false);
+    mark_set(path, "z", "units", "km", 0);
+    assert_refused(deck, "t.nml:5:", (const char *[]){"'z' is in 'km', x in ''; expected both", NULL});
+    mark_set(path, "x", "units", "km", 0);
+    assert_refused(deck, "t.nml:5:", (const char *[]){"pressed to", NULL}); /* by the datum: the units pass */
+    unlink(path);
+}
+
 /* A grid of HDF5, rows along x or, as netCDF-4 has them, along y. */
 static void test_stored_heights(void **state)
 {
@@ -222,9 +268,10 @@ static void test_who_takes_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stored_heights), cmocka_unit_test(test_shapes),
-        cmocka_unit_test(test_heights),        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_fitted),         cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_stored_heights), cmocka_unit_test(test_attributes_of_heights),
+        cmocka_unit_test(test_shapes),         cmocka_unit_test(test_heights),
+        cmocka_unit_test(test_refused),        cmocka_unit_test(test_fitted),
+        cmocka_unit_test(test_who_takes_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,11 +6,15 @@
 #include "base/lines.h"
 #include "base/memory.h"
 #include "base/stored.h"
+#include "scene/model_file.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
+
+enum { UNIT = 32 };
 
 bool height_rows_keep(struct height_rows *rows, const double *value, int axes)
 {
@@ -56,6 +60,24 @@ static selas_status read_text(const char *path, int axes, struct height_rows *ro
     return status;
 }
 
+/* What stands for no value becomes NaN, packed numbers those they stand for (NetCDF Users Guide, "Attribute
+ * Conventions"). */
+static void unpack(hid_t set, size_t count, double *value)
+{
+    static const char *const none[] = {"_FillValue", "missing_value"};
+    double scale = 1, offset = 0, fill[2];
+    for (int i = 0; i < 2; i++)
+        if (!model_numbers(set, none[i], 1, &fill[i])) fill[i] = NAN;
+    if (!model_numbers(set, "scale_factor", 1, &scale)) scale = 1;
+    if (!model_numbers(set, "add_offset", 1, &offset)) offset = 0;
+    for (size_t k = 0; k < count; k++) {
+        bool stored = fabs(value[k]) < 1e19;
+        for (int i = 0; i < 2; i++)
+            if (fabs(value[k] - fill[i]) <= 1e-6 * fabs(fill[i])) stored = false;
+        value[k] = stored ? scale * value[k] + offset : NAN;
+    }
+}
+
 /* Numbers of a data set of so many axes, with their extents; NULL: there is none such. Free with array_free(). */
 static double *read_set(hid_t file, const char *name, int axes, size_t extent[2])
 {
@@ -70,6 +92,7 @@ static double *read_set(hid_t file, const char *name, int axes, size_t extent[2]
         array_free(value);
         value = NULL;
     }
+    if (value != NULL) unpack(set, (size_t)(own[0] * own[1]), value);
     for (int axis = 0; axis < 2; axis++)
         extent[axis] = (size_t)own[axis];
     H5Sclose(space);
@@ -77,7 +100,32 @@ static double *read_set(hid_t file, const char *name, int axes, size_t extent[2]
     return value;
 }
 
+/* The unit that a data set names, or "". */
+static void read_unit(hid_t file, const char *name, char unit[UNIT])
+{
+    const hid_t set = stored_set(file, name);
+    unit[0] = '\0';
+    if (set < 0) return;
+    if (!model_word(set, "units", 0, unit, UNIT)) unit[0] = '\0';
+    H5Dclose(set);
+}
+
+/* A unit in metres; `other` of one that is not known. */
+static double metres(const char *unit, double other)
+{
+    static const struct {
+        const char *name;
+        double size;
+    } known[] = {
+        {"m", 1},     {"meter", 1},        {"meters", 1},        {"metre", 1},        {"metres", 1},
+        {"km", 1000}, {"kilometer", 1000}, {"kilometers", 1000}, {"kilometre", 1000}, {"kilometres", 1000}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcasecmp(unit, known[i].name) == 0) return known[i].size;
+    return other;
+}
+
 struct grid {
+    char unit[2][UNIT]; /* of the places, of the heights */
     double *place[2], *height;
     size_t n[2], extent[2]; /* of the places along x and y; of the data set */
     bool turned;            /* rows along y */
@@ -99,12 +147,20 @@ static bool read_grid(hid_t file, int axes, struct grid *grid)
     if (grid->turned) grid->height = read_set(file, "z", axes, grid->extent);
     if (grid->height == NULL) return false;
     const bool across = grid->turned && axes == 2;
+    read_unit(file, "x", grid->unit[0]);
+    read_unit(file, grid->turned ? "z" : "height", grid->unit[1]);
     return grid->extent[0] == grid->n[across ? 1 : 0] && grid->extent[1] == grid->n[across ? 0 : 1];
 }
 
 static selas_status keep_grid(const char *path, int axes, const struct grid *grid, struct height_rows *rows,
                               struct messages *messages)
 {
+    const char *name = grid->turned ? "z" : "height";
+    const double size = metres(grid->unit[0], 1);
+    if (metres(grid->unit[1], size) != size)
+        return fail(messages, SELAS_FILE_ERROR,
+                    "%s: '%s' is in '%s', x in '%s'; expected both in the deck's unit of length", path, name,
+                    grid->unit[1], grid->unit[0]);
     for (size_t i = 0; i < grid->extent[0] * grid->extent[1]; i++) {
         const size_t row = i / grid->extent[1], column = i % grid->extent[1];
         const bool across = grid->turned && axes == 2;
@@ -113,8 +169,10 @@ static selas_status keep_grid(const char *path, int axes, const struct grid *gri
         value[axes] = grid->height[i];
         for (int n = 0; n <= axes; n++)
             if (!isfinite(value[n]))
-                return fail(messages, SELAS_FILE_ERROR, "%s: value %zu of '%s', at (%g, %g), is not a number",
-                            path, i + 1, grid->turned ? "z" : "height", value[0], axes == 2 ? value[1] : 0.0);
+                return fail(messages, SELAS_FILE_ERROR,
+                            "%s: value %zu of '%s', at (%g, %g), is not a number, or no data (_FillValue, "
+                            "missing_value); expected a height at each place",
+                            path, i + 1, name, value[0], axes == 2 ? value[1] : 0.0);
         if (!height_rows_keep(rows, value, axes))
             return fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
     }

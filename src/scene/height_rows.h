@@ -15,7 +15,8 @@ struct height_rows {
 /* Adds x height or x y height; false: no memory. */
 bool height_rows_keep(struct height_rows *rows, const double *value, int axes);
 /* Text: lines x height or x y height. HDF5: data sets x [nx], y [ny] and height [nx, ny], or z [ny, nx] as in grids
- * of netCDF-4; without y in two dimensions. SELAS_FILE_ERROR, SELAS_NO_MEMORY. */
+ * of netCDF-4, packed by scale_factor and add_offset or not; without y in two dimensions. SELAS_FILE_ERROR,
+ * SELAS_NO_MEMORY. */
 selas_status height_rows_read(const char *path, int axes, struct height_rows *rows,
                               struct messages *messages);
 
