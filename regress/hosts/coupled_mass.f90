@@ -36,7 +36,7 @@ program coupled_mass
    spacing = 0.25_r
    if (word /= '') read (word, *) spacing
    call get_command_argument(2, word)
-   tolerance = [0.01_r, 0.05_r]
+   tolerance = [0.018_r, 0.065_r]
    do i = 1, 2
       call get_command_argument(1 + i, word)
       if (word /= '') read (word, *) tolerance(i)
