@@ -199,7 +199,18 @@ static void test_sea(void **state)
     write_text(stored, 0, 0, "", 60);
     hill = right_scene(DECK("700, 800, 300", HILL));
     assert_field(hill.scene, (double[]){300, 150, -25}, 150, 300, -25, 1e-12);
+    assert_text(&hill, NULL, NULL);
     from_deck_free(&hill);
+    write_plain(stored, 0);
+    hill = right_scene(DECK("600, 300, 300", "origin = 0, 0, 100" HILL));
+    assert_field(hill.scene, (double[]){300, 150, -25}, 300, 150, 75, 1e-12);
+    assert_text(&hill, NULL, NULL);
+    from_deck_free(&hill);
+    hill = right_scene(DECK("600, 300, 300", "origin = 0, 0, 0" HILL));
+    assert_text(&hill, NULL,
+                "begins 0 below face z-; above that, up to 30 above the face, its topmost rock goes on");
+    from_deck_free(&hill);
+    write_text(stored, 0, 0, "", 60);
     struct from_deck made = right_scene(DECK("700, 800, 300", "depth = 'sea', origin = 1000, 2000, -100"));
     assert_field(made.scene, (double[]){100, 50, 30}, 50, 100, 130, 1e-12);
     from_deck_free(&made);

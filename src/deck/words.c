@@ -215,7 +215,7 @@ static const struct word model_words[] = {
      "0, 0); third value: z of the file at z = 0 (plain grids), or the elevation of face z- (else)"},
     {"depth", WORD_CHOICE, 1, "'ground'", "ground|sea", OPTIONAL,
      "depths are below the file's ground, or below elevation 0 or the third value of origin; 'sea' always "
-     "beside &topography"},
+     "beside &topography (plain grids: by their own z)"},
     {"azimuth", WORD_REAL, 1, NULL, NULL, OPTIONAL,
      "direction of the body's x, clockwise from north [degrees]; else that of the file's x (plain grids, "
      "rfile, "

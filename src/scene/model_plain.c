@@ -50,6 +50,7 @@ bool model_read_plain(struct model_source *source, hid_t file)
     if (model->sea) return model_fault(source, "a plain grid knows no sea; leave model%%depth out");
     model->shift = model->low[2]; /* its depths are the body's own z */
     if (!model_grids(source, 1, 0) || !model_place(source, &axes)) return false;
+    model->sea = source->below_sea; /* at its own z, also above face z- */
     source->range[2][0] = model->shift;
     source->range[2][1] += model->shift;
     const int sets = model_sets(source, stored_here(file, "q_p") || stored_here(file, "q_s"));

@@ -262,6 +262,21 @@ static bool check_body(struct builder *builder, const struct deck_group *group)
     return false;
 }
 
+/* A model without a ground of its own that begins below the top of the hill. */
+static void warn_of_low_model(struct builder *builder, const struct deck_group *group,
+                              const struct range *range)
+{
+    const struct ground_model *model = builder->scene->body.model;
+    if (model == NULL || model->surfaces > 0 || model->grids == 0 || model->grid[0].at[2] == NULL) return;
+    const double top = model->grid[0].at[2][0] - model->shift;
+    if (top <= range->low + 1e-6 * builder->scene->body.spacing) return;
+    deck_warning(
+        builder->deck, group, NULL, builder->messages,
+        "the model of the ground begins %.4g below face z-; above that, up to %.4g above the face, its "
+        "topmost rock goes on",
+        top, -range->low);
+}
+
 void build_topography(struct builder *builder)
 {
     struct scene *scene = builder->scene;
@@ -295,12 +310,7 @@ void build_topography(struct builder *builder)
     const struct range range = range_of(body);
     tell(builder, topography, &range);
     check_range(builder, group, topography, &range);
-    if (scene->body.model != NULL && !scene->body.model->sea && range.low < -1e-9 * topography->depth)
-        deck_warning(builder->deck, group, NULL, builder->messages,
-                     "the model of the ground is read from face %s down; above it, up to the height %.4g, "
-                     "its rock there "
-                     "goes on",
-                     topography->axis == 2 ? "z-" : "y-", -range.low);
+    warn_of_low_model(builder, group, &range);
 }
 
 bool need_place(struct builder *builder, const struct deck_group *group, const char *name,
