@@ -43,8 +43,8 @@ selas_status relaxation_weights(const struct relaxation_band *band, size_t mecha
                                 double weight[MOST_MECHANISMS], struct messages *messages);
 
 /* Moduli with mechanisms of these rates in place of the wanted lambda + 2 mu and mu; the phase speeds are
- * kept at relaxation_held() of the angular frequency where those have their size. All weights, those of the bulk modulus too, are
- * >= 0. SELAS_BAD_SCENE where that is not possible. */
+ * kept at relaxation_held() of the reference. All weights, those of the bulk modulus too, are >= 0.
+ * SELAS_BAD_SCENE where that is not possible. */
 selas_status relaxation_fit(const struct relaxation_band *band, size_t mechanisms,
                             const double rate[MOST_MECHANISMS], struct modulus *axial, struct modulus *shear,
                             struct messages *messages);

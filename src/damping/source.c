@@ -89,7 +89,8 @@ static struct source source_at(const struct scene *scene, size_t index)
 {
     if (index < scene->loads) return source_of_load(scene, &scene->load[index]);
     const enum face face = (enum face)(index - scene->loads);
-    return boundary_acts(&scene->boundary[face]) ? source_of_face(scene, face) : (struct source){.force = 0};
+    const struct boundary *boundary = &scene->boundary[face];
+    return boundary_acts(boundary) ? source_of_face(scene, face) : (struct source){&boundary->history, 0, 1};
 }
 
 static double part_of(const struct source *source, double w)
@@ -129,7 +130,8 @@ double source_top(const struct scene *scene, double fraction)
         const struct source source = source_at(scene, i);
         const double own = strength(scene, &source);
         if (own <= fraction * strongest) continue;
-        if (last.force >= source.force && history_alike(last.history, source.history)) continue;
+        if (last.history != NULL && last.force >= source.force && history_alike(last.history, source.history))
+            continue;
         top = fmax(top, history_cutoff(source.history, fraction * strongest / own));
         last = source; /* many sources of a list have one history */
     }
