@@ -430,4 +430,15 @@ untold "six mechanisms" check rings.nml method%mechanisms=6
 untold "a wider pulse" check rings.nml load%width=1 load%delay=5
 untold "an earlier end" check rings.nml scene%end_time=15
 untold "a face that takes the waves up" check rings.nml boundary%kind=transmitting
+# --- Loads are counted as the deck's &load ---
+printf '%s\n' '-.5 0 1 0 0 1' '.5 0 1 0 0 1' >sources.txt
+cat >numbers.nml <<'END'
+&scene dimension = 3, end_time = 5 /
+&material name = 'rock', density = 1.0, p_speed = 1.5, s_speed = 0.8 /
+&body material = 'rock', low = -2, -2, 0, high = 2, 2, 2, spacing = 0.25 /
+&load kind = 'body-force', sources = 'sources.txt', history = 'gaussian', width = 0.6, delay = 2.76 /
+&load face = 'z-', shape = 'square', centre = 0, 0, 0, size = 1, 1, direction = 0, 0, 1, history = 'gaussian', width = 0.6, delay = 2.76, start = 9 /
+&receiver name = 'r', position = 1.25, .75, 1.5 /
+END
+told "a load behind a file of sources" "load 2 begins at t = 9" check numbers.nml
 exit $failures

@@ -132,7 +132,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
         if (boundary_absorbs(&scene->boundary[load->face]))
             advise(adviser,
                    "load %zu acts on the absorbing face %s, which takes up part of it; a free face would not",
-                   k + 1, face_name(load->face));
+                   scene->load[k].group + 1, face_name(load->face));
         return;
     }
     body_from_deck(&scene->body, load->centre, centre);
@@ -145,7 +145,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
                    "inside it "
                    "would not",
-                   k + 1, face_name((enum face)face), 2.0 * layer_spacing(scene, face));
+                   scene->load[k].group + 1, face_name((enum face)face), 2.0 * layer_spacing(scene, face));
     }
 }
 
@@ -170,7 +170,7 @@ static void look_at_speed(struct adviser *adviser, size_t k)
                "load %zu moves at %.4g, faster than the Rayleigh wave (%.4g): its Mach lines have velocities "
                "that no spacing resolves; compare displacements, or velocities through a window of some "
                "spacings, or move it slower",
-               k + 1, speed, ground.rayleigh_speed);
+               scene->load[k].group + 1, speed, ground.rayleigh_speed);
 }
 
 /* The exact ground goes on beyond the box, and a load that runs over it there sends waves into the box. */
@@ -193,7 +193,7 @@ static void look_at_path(struct adviser *adviser, size_t k)
             "load %zu runs beyond the body, where nothing feels it; in the exact solution it runs on ground "
             "there, too, so the error holds what it sends from there; a body from %.6g to %.6g along %c "
             "would hold it",
-            k + 1, fmin(from[axis], to) - half, fmax(from[axis], to) + half, "xyz"[axis]);
+            scene->load[k].group + 1, fmin(from[axis], to) - half, fmax(from[axis], to) + half, "xyz"[axis]);
         return;
     }
 }

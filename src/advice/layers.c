@@ -129,8 +129,8 @@ void look_at_clearance(struct adviser *adviser)
         advise(adviser,
                "the moment tensor of load %zu lies %.2g cells from the absorbing layer behind face %s, which "
                "leaves a displacement of up to about %.1g of the largest behind; %.0f cells would be right",
-               load.index + 1, least, face_name((enum face)nearest), layer_left_behind(scene, least),
-               ceil(clearance));
+               scene->load[load.index].group + 1, least, face_name((enum face)nearest),
+               layer_left_behind(scene, least), ceil(clearance));
     }
 }
 
@@ -146,6 +146,6 @@ void look_at_rests(struct adviser *adviser)
         adviser,
         "load %zu stays on, and absorbing layers give way to what stays: by the end displacements%s may err "
         "by %.1g of what is left at receiver '%s'; %s would be right",
-        rest.load + 1, grows ? " and, as these go on growing, velocities" : "", rest.error,
+        scene->load[rest.load].group + 1, grows ? " and, as these go on growing, velocities" : "", rest.error,
         scene->receiver[rest.receiver].name, right);
 }

@@ -33,13 +33,13 @@ static void look_at_patch(struct adviser *adviser, const struct mirror_plane *pl
                "the symmetry plane %s cuts load %zu beside its middle: it and its image are no such patch; "
                "%c = %.6g "
                "would be its middle",
-               face_name(plane->face), k + 1, "xyz"[plane->axis], plane -> place);
+               face_name(plane->face), scene->load[k].group + 1, "xyz"[plane->axis], plane -> place);
     if (across(plane, &scene->body, load->direction))
         advise(adviser,
                "load %zu pushes across the symmetry plane %s that cuts it, where its image pushes back; a "
                "load along "
                "the plane, or the whole body, would be right",
-               k + 1, face_name(plane->face));
+               scene->load[k].group + 1, face_name(plane->face));
 }
 
 /* Loads that reach everywhere, and those at one place in the plane. */
@@ -62,7 +62,7 @@ static void look_at_load(struct adviser *adviser, const struct mirror_plane *pla
                "load %zu pushes across the symmetry plane %s, beyond which its image pushes the other way; a "
                "load along "
                "the plane, or the whole body, would be right",
-               k + 1, face_name(plane->face));
+               scene->load[k].group + 1, face_name(plane->face));
 }
 
 static void look_at_motions(struct adviser *adviser, const struct mirror_plane *plane)

@@ -15,8 +15,8 @@ static void look_at_rest(struct adviser *adviser)
         if (load->amplitude == 0) continue;
         acts = true;
         if (load->driven == BY_HISTORY && load->history.start >= scene->end_time)
-            advise(adviser, "load %zu begins at t = %g and the run ends at %g: it does nothing", k + 1,
-                   load->history.start, scene->end_time);
+            advise(adviser, "load %zu begins at t = %g and the run ends at %g: it does nothing",
+                   scene->load[k].group + 1, load->history.start, scene->end_time);
     }
     for (int face = 0; face < FACES; face++)
         acts = acts || boundary_acts(&scene->boundary[face]);

@@ -94,7 +94,7 @@ void look_at_nearness(struct adviser *adviser)
     advise(adviser,
            "receiver '%s' is %.3g from load %zu, which is a point that the lattice spreads: nearer than "
            "%.0f spacings (%.3g) velocities may be some per cent%s wrong; a receiver farther off%s would do",
-           scene->receiver[receiver].name, least * wanted, load + 1, spacings, wanted,
+           scene->receiver[receiver].name, least * wanted, scene->load[load].group + 1, spacings, wanted,
            spacings > 6.0 ? " or tenths" : "", finer);
 }
 
@@ -157,7 +157,7 @@ void look_at_interfaces(struct adviser *adviser)
         "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
         "velocities by the general operator may be wrong by a twentieth%s; body%%spacing = %.3g or a source "
         "farther off would do%s",
-        load + 1, least, reach,
+        scene->load[load].group + 1, least, reach,
         ground_is_general(scene)
             ? ", a tenth within 7 spacings of a face, several tenths beside corners of the rock"
             : " where moduli are 1 : 10",
@@ -250,7 +250,7 @@ void look_at_passed(struct adviser *adviser, size_t k)
                "load %zu comes by receiver '%s': its edges pass as jumps of the velocity, which may err by "
                "about %.2g there, less only by the root of the spacing (displacements by %.1g); a receiver "
                "beside the path would do",
-               k + 1, scene->receiver[r].name, error, kink * part);
+               scene->load[k].group + 1, scene->receiver[r].name, error, kink * part);
         return;
     }
 }

@@ -24,7 +24,7 @@ static void look_at_edges(struct adviser *adviser, size_t k, const char *why)
         const double off = fmax(fabs(centre[axis] - half - from), fabs(centre[axis] + half - to));
         if (half <= 0.0 || off < 1e-6 * body->spacing) continue;
         advise(adviser, "the edges of load %zu along %c lie between %s; %.6g to %.6g would lie on them",
-               k + 1, "xyz"[axis], why, from, to);
+               scene->load[k].group + 1, "xyz"[axis], why, from, to);
     }
 }
 
@@ -79,7 +79,7 @@ static void look_at_particles(struct adviser *adviser, size_t k)
         advise(adviser,
                "the particles in load %zu have %.3g of its area, so the force is that much of what is meant; "
                "amplitude = %.6g would be right, or a finer spacing",
-               k + 1, share, share > 0.0 ? load->amplitude / share : load->amplitude);
+               scene->load[k].group + 1, share, share > 0.0 ? load->amplitude / share : load->amplitude);
 }
 
 /* Least-squares gradients under a patch of few points. */
@@ -101,7 +101,7 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
         adviser,
         "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "
         "%s, or method%%name = 'smoothed-point', would be right",
-        k + 1, width / scene->body.spacing,
+        scene->load[k].group + 1, width / scene->body.spacing,
         scene->body.jitter > 0.0 ? "method%variant = 'cloud'" : "method%gradient = 'central'");
 }
 

@@ -146,7 +146,7 @@ static selas_status check_loads(const struct plane_wave *wave, struct messages *
             return fail(
                 messages, SELAS_BAD_SCENE,
                 "no plane wave: &load %zu is not a traction on the whole of an end along the wave's motion",
-                i + 1);
+                scene->load[i].group + 1);
     }
     return SELAS_OK;
 }

@@ -23,7 +23,7 @@ static selas_status check_loads(const struct scene *scene, struct messages *mess
                 messages, SELAS_UNSUPPORTED,
                 "%s takes tractions at rest on box faces (square, disc, face) and uniform body forces; "
                 "load %zu is another kind",
-                NAME, k + 1);
+                NAME, scene->load[k].group + 1);
     }
     return SELAS_OK;
 }

@@ -40,7 +40,7 @@ void layers_describe(const struct consistent *c,
     if (worst_rest(scene, &rest)) {
         snprintf(text, sizeof text,
                  "displacements may err by %.2g of what load %zu leaves at receiver '%s' by the end",
-                 rest.error, rest.load + 1, scene->receiver[rest.receiver].name);
+                 rest.error, scene->load[rest.load].group + 1, scene->receiver[rest.receiver].name);
         tell(context, "what stays", text);
     }
     if (c->pml == NULL || c->part.ranks != NULL) return;

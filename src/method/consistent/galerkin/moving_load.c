@@ -56,7 +56,7 @@ static selas_status create(struct consistent *c, size_t index, struct moving_loa
     if (load->shape == LOAD_DISC)
         return fail(messages, SELAS_UNSUPPORTED,
                     "load %zu: a disc cannot move with the consistent method; take shape = 'square'",
-                    index + 1);
+                    scene->load[index].group + 1);
     moving->load = index;
     body_from_deck(&scene->body, load->centre, moving->centre);
     body_direction_from_deck(&scene->body, load->direction, moving->direction);
