@@ -119,8 +119,8 @@ static double strength(const struct scene *scene, const struct source *source)
 
 double source_top(const struct scene *scene, double fraction)
 {
-    double top = 0, strongest = 0;
-    struct source last = {.force = 0};
+    double top = 0, strongest = 0, taken = 0;
+    const struct history *last = NULL;
     if (scene_driven(scene)) return INFINITY;
     for (size_t i = 0; i < scene->loads + FACES; i++) {
         const struct source source = source_at(scene, i);
@@ -130,10 +130,10 @@ double source_top(const struct scene *scene, double fraction)
         const struct source source = source_at(scene, i);
         const double own = strength(scene, &source);
         if (own <= fraction * strongest) continue;
-        if (last.history != NULL && last.force >= source.force && history_alike(last.history, source.history))
-            continue;
+        if (last != NULL && taken >= own && history_alike(last, source.history)) continue;
         top = fmax(top, history_cutoff(source.history, fraction * strongest / own));
-        last = source; /* many sources of a list have one history */
+        last = source.history; /* many sources of a list have one history */
+        taken = own;
     }
     return top;
 }

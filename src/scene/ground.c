@@ -21,6 +21,14 @@ static double surface_at(const struct scene *scene, const double place[3])
     return topography == NULL ? 0 : topography_drop(topography, place);
 }
 
+/* No part of the surface lies deeper. */
+static double lowest(const struct topography *topography)
+{
+    if (topography == NULL) return 0;
+    const double down = topography->shape == TOPOGRAPHY_CANYON ? topography->height : -topography->height;
+    return topography->map != NULL ? topography->depth : fmax(0, down);
+}
+
 /* Depth of a layer's upper face above or below a place. */
 static double top_at(const struct layer *layer, const double place[3])
 {
@@ -32,13 +40,14 @@ static double top_at(const struct layer *layer, const double place[3])
  * layers reach beyond, and blocks often end on the face. */
 static const double film = .02;
 
-static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3])
+static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3],
+                   double surface)
 {
     const struct body *body = &scene->body;
     double square = 0, most = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
-        const double surface = axis == scene->dimension - 1 ? surface_at(scene, place) : 0;
-        const double low = body->low[axis] + surface + film * body->spacing;
+        const double top = axis == scene->dimension - 1 ? surface : 0;
+        const double low = body->low[axis] + top + film * body->spacing;
         const double held = fmax(low, fmin(place[axis], body->high[axis] - film * body->spacing));
         const double part = fabs(held - block->centre[axis]) / block->half[axis];
         square += part * part;
@@ -93,12 +102,15 @@ struct found {
 static struct found find(const struct scene *scene, const double place[3])
 {
     const struct body *body = &scene->body;
-    const double depth = fmax(depth_of(scene, place), surface_at(scene, place));
+    const double own = depth_of(scene, place);
+    const double surface =
+        own > lowest(body->topography) + body->spacing ? -INFINITY : surface_at(scene, place);
+    const double depth = fmax(own, surface);
     const size_t layer = layer_at(body, place, depth + body_rounding(scene));
     struct found found = {.material = layer < body->layers ? body->layer[layer].material : body->material};
     bool in_block = false;
     for (size_t i = 0; i < body->blocks; i++)
-        if (inside(scene, &body->block[i], place)) {
+        if (inside(scene, &body->block[i], place, surface)) {
             found.material = body->block[i].material;
             in_block = true;
         }
