@@ -25,7 +25,7 @@ static double defect(const struct spline *spline, bool slope, double x, double t
     double complex sum = 0;
     struct tuned_point at;
     if (wide)
-        assert_true(source_at(spline, false, slope, x, &at));
+        assert_true(source_at(spline, false, SOURCE_MOMENT, slope, x, &at));
     else
         tuned_at(spline, false, x, &at);
     for (size_t b = 0; b < at.count; b++)
@@ -36,11 +36,11 @@ static double defect(const struct spline *spline, bool slope, double x, double t
 static void waves_are_those_of_the_functions(void **state)
 {
     (void)state;
-    for (int degree = 1; degree <= 2; degree++) {
-        struct spline *spline = axis(degree, 24, false);
+    for (int degree = 1; degree <= 4; degree++) {
+        struct spline *spline = axis(degree, 40, false);
         for (int slope = 0; slope < 2; slope++) {
             double coarse = 0, fine = 0, plain = 0;
-            for (double x = 2.6; x < 3.4; x += .013) {
+            for (double x = 4.6; x < 5.4; x += .013) {
                 coarse = fmax(coarse, defect(spline, slope, x, .8, true));
                 fine = fmax(fine, defect(spline, slope, x, .4, true));
                 plain = fmax(plain, defect(spline, slope, x, .4, false));
@@ -49,7 +49,7 @@ static void waves_are_those_of_the_functions(void **state)
                           fine, log2(coarse / fine), plain);
             assert_true(log2(coarse / fine) > (slope ? 4.7 : 5.7)); /* 5 and 6 */
             assert_true(fine < (slope ? 8e-5 : 4e-5));
-            assert_true(plain > fine);
+            assert_true(plain > fine || degree == TUNED_DEGREE);
         }
         spline_free(spline);
     }
@@ -72,12 +72,13 @@ static void images_are_folded(void **state)
                 for (double x = 0; x < 1.2; x += .11) {
                     double line[128] = {0}, all[128] = {0};
                     struct tuned_point at;
-                    assert_true(source_at(half, odd, slope, x, &at));
+                    assert_true(source_at(half, odd, SOURCE_MOMENT, slope, x, &at));
                     for (size_t b = 0; b < at.count; b++)
                         line[at.index[b]] += slope ? at.slope[b] : at.value[b];
                     for (int image = 0; image < 2; image++) {
                         const double sign = (image && odd ? -1 : 1) * (image && slope ? -1 : 1);
-                        assert_true(source_at(whole, false, slope, middle + (image ? -x : x), &at));
+                        assert_true(
+                            source_at(whole, false, SOURCE_MOMENT, slope, middle + (image ? -x : x), &at));
                         for (size_t b = 0; b < at.count; b++)
                             all[at.index[b]] += sign * (slope ? at.slope[b] : at.value[b]);
                     }
@@ -100,7 +101,7 @@ static double end_defect(const struct spline *spline, bool slope, double x, doub
     const size_t last = spline->count - 1;
     double complex sum = 0;
     struct tuned_point at;
-    assert_true(source_at(spline, false, slope, x, &at));
+    assert_true(source_at(spline, false, SOURCE_MOMENT, slope, x, &at));
     for (size_t b = 0; b < at.count; b++) {
         const size_t i = at.index[b];
         const double place = spline->greville[i];
@@ -146,34 +147,33 @@ static void what_alternates_is_left_alone(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct spline *spline = axis(cases[i].degree, 96, false);
         assert_true(!cases[i].tuned || (spline_tune(spline) && spline->filter[0] != NULL));
-        for (int slope = 0; slope < 2; slope++)
-            for (double x = 12; x < 12.25; x += .031) {
-                struct tuned_point wide, plain;
-                assert_true(source_at(spline, false, slope, x, &wide));
-                tuned_at(spline, false, x, &plain);
-                for (int end = 0; end < 4; end++) {
-                    double sum[2] = {0}, most = 0;
-                    for (int part = 0; part < 2; part++) {
-                        const struct tuned_point *at = part == 0 ? &wide : &plain;
-                        for (size_t b = 0; b < at->count; b++) {
-                            const double away = (spline->greville[at->index[b]] - x) / .25;
-                            const double value = slope ? at->slope[b] : at->value[b];
-                            sum[part] += value * (at->index[b] % 2 == 0 ? 1 : -1) *
-                                         exp((end % 2 == 0 ? 1 : -1) * cases[i].decay[end / 2] * away);
-                            most += part == 1 ? fabs(value) : 0;
-                        }
+        for (double x = 12; x < 12.25; x += .031) {
+            struct tuned_point wide, plain;
+            assert_true(source_at(spline, false, SOURCE_FORCE, false, x, &wide));
+            tuned_at(spline, false, x, &plain);
+            for (int end = 0; end < 4; end++) {
+                double sum[2] = {0}, most = 0;
+                for (int part = 0; part < 2; part++) {
+                    const struct tuned_point *at = part == 0 ? &wide : &plain;
+                    for (size_t b = 0; b < at->count; b++) {
+                        const double away = (spline->greville[at->index[b]] - x) / .25;
+                        const double value = at->value[b];
+                        sum[part] += value * (at->index[b] % 2 == 0 ? 1 : -1) *
+                                     exp((end % 2 == 0 ? 1 : -1) * cases[i].decay[end / 2] * away);
+                        most += part == 1 ? fabs(value) : 0;
                     }
-                    assert_true(fabs(sum[0]) < cases[i].left * fabs(sum[1]) + 1e-9 * most);
                 }
-                double complex taken = 0, whole = 0;
-                for (size_t b = 0; b < wide.count; b++)
-                    taken += (slope ? wide.slope[b] : wide.value[b]) *
-                             cexp(-I * cases[i].theta * (spline->greville[wide.index[b]] - x) / .25);
-                for (size_t b = 0; b < plain.count; b++)
-                    whole += (slope ? plain.slope[b] : plain.value[b]) *
-                             cexp(-I * cases[i].theta * (spline->greville[plain.index[b]] - x) / .25);
-                assert_true(cabs(taken - whole) < cases[i].change * cabs(whole));
+                assert_true(fabs(sum[0]) < cases[i].left * fabs(sum[1]) + 1e-9 * most);
             }
+            double complex taken = 0, whole = 0;
+            for (size_t b = 0; b < wide.count; b++)
+                taken +=
+                    (wide.value[b]) * cexp(-I * cases[i].theta * (spline->greville[wide.index[b]] - x) / .25);
+            for (size_t b = 0; b < plain.count; b++)
+                whole += (plain.value[b]) *
+                         cexp(-I * cases[i].theta * (spline->greville[plain.index[b]] - x) / .25);
+            assert_true(cabs(taken - whole) < cases[i].change * cabs(whole));
+        }
         spline_free(spline);
     }
 }
@@ -183,11 +183,11 @@ static void other_ends_stay(void **state)
     (void)state;
     struct tuned_point at;
     struct spline *cubic = axis(3, 24, false), *quartic = axis(4, 24, false);
-    assert_false(source_at(cubic, false, true, .5, &at));
-    assert_false(source_at(cubic, false, true, 5.9, &at));
-    assert_true(source_at(cubic, false, true, 3, &at));
-    assert_true(source_at(quartic, false, true, 3, &at));
-    assert_false(source_at(quartic, false, true, 1.5, &at));
+    assert_false(source_at(cubic, false, SOURCE_MOMENT, true, .5, &at));
+    assert_false(source_at(cubic, false, SOURCE_MOMENT, true, 5.9, &at));
+    assert_true(source_at(cubic, false, SOURCE_MOMENT, true, 3, &at));
+    assert_true(source_at(quartic, false, SOURCE_MOMENT, true, 3, &at));
+    assert_false(source_at(quartic, false, SOURCE_MOMENT, true, 1.5, &at));
     spline_free(cubic);
     spline_free(quartic);
 }
@@ -201,7 +201,7 @@ static void weights_change_smoothly(void **state)
         struct tuned_point at;
         double line[2][32] = {{0}};
         for (int side = 0; side < 2; side++) {
-            assert_true(source_at(spline, false, false, x + (side ? step : -step), &at));
+            assert_true(source_at(spline, false, SOURCE_MOMENT, false, x + (side ? step : -step), &at));
             for (size_t b = 0; b < at.count; b++)
                 line[side][at.index[b]] += at.value[b];
         }

@@ -23,7 +23,7 @@ bool spline_difference(const struct spline *spline, bool odd, ptrdiff_t first, i
                        struct difference *difference);
 
 /* The evenly spaced control values nearest x, an odd number of them, images beyond symmetry planes among them. */
-enum { MOST_IMAGES = 21 };
+enum { MOST_IMAGES = 23 };
 struct images {
     size_t index[MOST_IMAGES];
     double sign[MOST_IMAGES]; /* -1 beyond a plane where the component changes its sign there */

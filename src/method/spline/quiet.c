@@ -1,14 +1,15 @@
 /* Point sources of degrees 3 and 4 (doc/theory/consistent-splines.md, section 15). Where M is not lumped the equations
- * along an axis have solutions (-1)^b exp(-a |b|), which stand about a point source. The functions at the source are
- * filtered,
+ * along an axis have solutions (-1)^b exp(-a |b|), which stand about a point source. The functions at a force,
+ * the weights (V2) of a moment tensor, are filtered,
  *
- *   w = P N(x),   P = 1 - (t / t_a)^n,   t_a = 2 + 2 cosh a,                                                     (V3)
+ *   w := P w,   P = 1 - (t / t_a)^n,   t_a = 2 + 2 cosh a,                                                     (V3)
  *
  * t = (2 sin(theta / 2))^2, minus the second difference: P is 0 for these solutions and 1 to order theta^(2 n) for the
  * waves that the lattice carries. */
 #include "method/spline/quiet.h"
 
 #include "method/spline/images.h"
+#include "method/spline/source.h"
 
 #include <math.h>
 
@@ -38,21 +39,23 @@ static void minus_second_difference(double *y, int count)
     }
 }
 
-bool quiet_at(const struct spline *spline, bool odd, bool slope, double x, struct tuned_point *point)
+bool quiet_at(const struct spline *spline, bool odd, enum source_kind kind, bool slope, double x,
+              struct tuned_point *point)
 {
     const int degree = spline->degree;
     const struct rule *rule = degree == 3 ? &cubic : spline->filter[odd] == NULL ? &quartic : &tuned;
-    const int wide = 2 * rule->power + 5; /* five functions at x */
+    const int wide = 2 * rule->power + SOURCE_WIDE;
     struct images images;
     struct tuned_point plain = {.count = (size_t)wide};
-    double function[MOST_IMAGES], taken[MOST_IMAGES];
+    double away[SOURCE_WIDE], weight[SOURCE_WIDE], function[MOST_IMAGES] = {0}, taken[MOST_IMAGES] = {0};
     if (!spline_images(spline, odd, x, wide, &images)) return false;
-    for (int b = 0; b < wide; b++) {
-        const double away = (x - images.position[b]) / images.gap;
-        function[b] = taken[b] =
-            !slope ? cardinal(degree, away)
-                   : (cardinal(degree - 1, away + .5) - cardinal(degree - 1, away - .5)) / images.gap;
-    }
+    for (int b = 0; b < SOURCE_WIDE; b++)
+        away[b] = (images.position[rule->power + b] - x) / images.gap;
+    source_weights(degree, slope, away, .5 * SOURCE_WIDE, weight);
+    for (int b = 0; b < SOURCE_WIDE && kind == SOURCE_FORCE; b++)
+        weight[b] = cardinal(degree, away[b]);
+    for (int b = 0; b < SOURCE_WIDE; b++)
+        function[rule->power + b] = taken[rule->power + b] = weight[b] / (slope ? images.gap : 1);
     for (int j = 0; j < rule->power; j++)
         minus_second_difference(taken, wide);
     const double most = pow(2 + 2 * cosh(rule->decay), rule->power);

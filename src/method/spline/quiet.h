@@ -2,11 +2,12 @@
 #ifndef SELAS_METHOD_SPLINE_QUIET_H
 #define SELAS_METHOD_SPLINE_QUIET_H
 
-#include "method/spline/tuned.h"
+#include "method/spline/source.h"
 
-/* Value (slope false) or slope at x of the functions filtered by P (V3), and by F where the spline is tuned: what a
- * unit force or slope there gives to each control value. False, and nothing set, where the control values about x (13,
- * of a tuned spline 21) are not evenly spaced. */
-bool quiet_at(const struct spline *spline, bool odd, bool slope, double x, struct tuned_point *point);
+/* Source of degree 3 or 4: the functions at a force, the weights (V2) of a moment tensor, filtered by P (V3), and by F
+ * where the spline is tuned. False, and nothing set, where the control values about x (15, of a tuned spline 23) are not
+ * evenly spaced. */
+bool quiet_at(const struct spline *spline, bool odd, enum source_kind kind, bool slope, double x,
+              struct tuned_point *point);
 
 #endif

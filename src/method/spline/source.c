@@ -9,7 +9,7 @@
  *   m_0 = 1, m_2 = s, m_4 = 3 s^2 - (p + 1) h^4 / 120, s = (p + 1) h^2 / 12, m_1 = m_3 = 0,
  *
  * and are the smallest such: least sum of w_b^2 / r_b, r a bell over seven cells, so that they change smoothly with
- * x and stand alike on both sides of it. Degrees 3 and 4 take the functions themselves, filtered (quiet.c). */
+ * x and stand alike on both sides of it. Degrees 3 and 4 filter them (quiet.c). */
 #include "method/spline/source.h"
 
 #include "method/spline/images.h"
@@ -18,7 +18,7 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-enum { WIDE = 7, MOMENTS = 6 };
+enum { WIDE = SOURCE_WIDE, MOMENTS = 6 };
 
 static void set_moments(int degree, bool slope, double moment[MOMENTS])
 {
@@ -63,6 +63,14 @@ static void solve(const double away[WIDE], double reach, const double moment[MOM
     }
 }
 
+void source_weights(int degree, bool slope, const double away[SOURCE_WIDE], double reach,
+                    double weight[SOURCE_WIDE])
+{
+    double moment[MOMENTS];
+    set_moments(degree, slope, moment);
+    solve(away, reach, moment, weight);
+}
+
 /* The seven control values of the unclamped spline next to an open end, where x is too near for as many on either side;
  * the first of them is twice that on the end less its neighbour. Degree 2. */
 static bool end_images(const struct spline *spline, double x, int end, struct images *images)
@@ -82,15 +90,17 @@ static bool end_images(const struct spline *spline, double x, int end, struct im
     return true;
 }
 
-bool source_at(const struct spline *spline, bool odd, bool slope, double x, struct tuned_point *point)
+bool source_at(const struct spline *spline, bool odd, enum source_kind kind, bool slope, double x,
+               struct tuned_point *point)
 {
     struct images images;
-    double away[WIDE], moment[MOMENTS], weight[WIDE];
+    double away[WIDE], weight[WIDE];
     const double rounding =
         1e-9 * (spline->high - spline->low); /* of a place on an end, in a body that is turned */
     if (x < spline->low && x > spline->low - rounding) x = spline->low;
     if (x > spline->high && x < spline->high + rounding) x = spline->high;
-    if (spline->degree > 2) return quiet_at(spline, odd, slope, x, point);
+    if (kind == SOURCE_NONE || (kind == SOURCE_FORCE && spline->degree < 3)) return false;
+    if (spline->degree > 2) return quiet_at(spline, odd, kind, slope, x, point);
     const bool inside = spline_images(spline, odd, x, WIDE, &images);
     if (!inside && !end_images(spline, x, 0, &images) && !end_images(spline, x, 1, &images)) return false;
     double farthest = 0;
@@ -98,8 +108,7 @@ bool source_at(const struct spline *spline, bool odd, bool slope, double x, stru
         away[b] = (images.position[b] - x) / images.gap;
         farthest = fmax(farthest, fabs(away[b]));
     }
-    set_moments(spline->degree, slope, moment);
-    solve(away, inside ? .5 * WIDE : farthest + .5, moment, weight);
+    source_weights(spline->degree, slope, away, inside ? .5 * WIDE : farthest + .5, weight);
     point->count = WIDE;
     for (size_t b = 0; b < WIDE; b++) {
         point->index[b] = images.index[b];

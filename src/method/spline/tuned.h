@@ -12,7 +12,7 @@ enum {
     TUNED_DEGREE = 4, /* the only one there are numbers for */
     TUNED_REACH = 5,  /* half-width of the matrices */
     FILTER_REACH = 8,
-    TUNED_MOST_LOCAL = 21 + 2 * FILTER_REACH /* of a filtered source (quiet.c) */
+    TUNED_MOST_LOCAL = 23 + 2 * FILTER_REACH /* of a filtered source (quiet.c) */
 };
 
 /* Builds the filters of a spline of TUNED_DEGREE, plain knots and no interfaces: from here on it is tuned.

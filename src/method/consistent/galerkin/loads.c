@@ -67,8 +67,8 @@ static void add_product(const struct consistent *c, const struct workspace *w, i
 
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
  * Slopes of degree 1 jump at the points: there the mean of both sides. */
-static void point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, bool source,
-                       double x, double *line)
+static void point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half,
+                       enum source_kind source, double x, double *line)
 {
     const struct spline *spline = c->spline[axis];
     const struct boundary *boundary = &c->model.scene->boundary[2 * axis];
@@ -76,7 +76,7 @@ static void point_line(const struct consistent *c, int axis, bool odd, bool slop
     const bool cut = (boundary_mirrors(&boundary[0]) && fabs(x - spline->low) < small) ||
                      (boundary_mirrors(&boundary[1]) && fabs(x - spline->high) < small);
     struct tuned_point at;
-    const bool wide = source && source_at(spline, odd, slope, x, &at);
+    const bool wide = source_at(spline, odd, source, slope, x, &at);
     const int sides = !wide && slope && spline->degree == 1 ? 2 : 1;
     memset(line, 0, spline->count * sizeof *line);
     for (int side = 0; side < sides; side++) {
@@ -90,19 +90,18 @@ static void point_line(const struct consistent *c, int axis, bool odd, bool slop
 void consistent_point_line(const struct consistent *c, int axis, bool odd, bool slope, bool half, double x,
                            double *line)
 {
-    point_line(c, axis, odd, slope, half, false, x, line);
+    point_line(c, axis, odd, slope, half, SOURCE_NONE, x, line);
 }
 
-/* A force at a point: the functions up to degree 2, the wide weights beyond (source.h). */
 static void force_line(const struct consistent *c, int axis, bool odd, double x, double *line)
 {
-    point_line(c, axis, odd, false, true, c->spline[axis]->degree > 2, x, line);
+    point_line(c, axis, odd, false, true, SOURCE_FORCE, x, line);
 }
 
 void consistent_source_line(const struct consistent *c, int axis, bool odd, bool slope, double x,
                             double *line)
 {
-    point_line(c, axis, odd, slope, true, true, x, line);
+    point_line(c, axis, odd, slope, true, SOURCE_MOMENT, x, line);
 }
 
 static bool traction(struct consistent *c, const struct load *load, const double centre[3],
