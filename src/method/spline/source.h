@@ -13,8 +13,8 @@ enum source_kind { SOURCE_NONE, SOURCE_FORCE, SOURCE_MOMENT };
 bool source_at(const struct spline *spline, bool odd, enum source_kind kind, bool slope, double x,
                struct tuned_point *point);
 
-/* Weights (V2) of control values at distances `away` (in cells), from a bell that is 0 from `reach` on; slopes: times the
- * cell. */
+/* Weights (V2) of control values at distances `away` (in cells), from a bell that is 0 from `reach` on; slopes: times
+ * the cell. */
 enum { SOURCE_WIDE = 7 };
 void source_weights(int degree, bool slope, const double away[SOURCE_WIDE], double reach,
                     double weight[SOURCE_WIDE]);
