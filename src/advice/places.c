@@ -27,7 +27,7 @@ static bool shallow(const struct scene *scene, const double position[3])
            place[axis] - scene->body.low[axis] < 3.0 * scene->body.spacing;
 }
 
-/* Beside the exact mass velocities on the axes of the lattice were .02 to .24 wrong as near as this
+/* Beside the exact mass velocities on the axes of the lattice were .02 to .67 wrong as near as this
  * (doc/theory/sources.md, "The method"). */
 static bool by_exact_mass(const struct scene *scene)
 {

@@ -27,8 +27,8 @@ static bool absorbs_anywhere(const struct scene *scene)
     return absorbs;
 }
 
-/* Measured: at .1 velocities of a bar were .03 to .04 wrong, displacements .05 to .065, with six mechanisms .002
- * (doc/theory/damping.md, section 2). */
+/* Where it says .11 to .14 velocities of bars were .04 wrong, displacements .06, with six mechanisms .004 at most
+ * (regress/studies/ringing). */
 void look_at_ringing_body(struct adviser *adviser)
 {
     static const double seen = .05;

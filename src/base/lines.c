@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The mark of UTF-8 that some editors put before the first line. */
+/* The mark of UTF-8 that some editors put before a file, and others where files are joined: before a line. */
 static const char mark[3] = {'\xEF', '\xBB', '\xBF'};
 
 enum line_found line_next(FILE *file, char line[LINE_SIZE])

@@ -14,8 +14,8 @@ enum line_found {
     LINE_NO_TEXT   /* a byte 0 */
 };
 
-/* The next line of the file; its end may be "\n", "\r\n", "\r" or the end of the file. A mark of UTF-8 (BOM) at its
- * beginning is left out. */
+/* The next line of the file; its end may be "\n", "\r\n", "\r" or the end of the file. A mark of UTF-8 (BOM) before
+ * it is left out. */
 enum line_found line_next(FILE *file, char line[LINE_SIZE]);
 /* What is wrong after LINE_TOO_LONG or LINE_NO_TEXT, for a message. */
 const char *line_fault(enum line_found found);

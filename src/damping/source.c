@@ -41,6 +41,7 @@ static double measure(const struct scene *scene, const struct load *load)
     const bool plane = scene->dimension == 2;
     if (load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_POINT || scene->dimension == 1) return 1;
     if (load->kind == LOAD_BODY_FORCE) return extent(scene, -1);
+    if (load->face == FACE_HOLE) return 2 * M_PI * scene->body.hole_radius;
     if (load->shape == LOAD_FACE) return extent(scene, face_axis(load->face));
     if (load->shape == LOAD_DISC) return plane ? load->size[0] : M_PI / 4 * load->size[0] * load->size[0];
     return plane ? load->size[0] : load->size[0] * load->size[1];

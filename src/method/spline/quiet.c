@@ -1,6 +1,6 @@
 /* Point sources of degrees 3 and 4 (doc/theory/consistent-splines.md, section 15). Where M is not lumped the equations
  * along an axis have solutions (-1)^b exp(-a |b|), which stand about a point source. The functions at a force,
- * the weights (V2) of a moment tensor, are filtered,
+ * of degree 4 at a moment tensor, and the weights (V2) of one of degree 3 are filtered,
  *
  *   w := P w,   P = 1 - (t / t_a)^n,   t_a = 2 + 2 cosh a,                                                     (V3)
  *
@@ -51,9 +51,11 @@ bool quiet_at(const struct spline *spline, bool odd, enum source_kind kind, bool
     if (!spline_images(spline, odd, x, wide, &images)) return false;
     for (int b = 0; b < SOURCE_WIDE; b++)
         away[b] = (images.position[rule->power + b] - x) / images.gap;
-    source_weights(degree, slope, away, .5 * SOURCE_WIDE, weight);
-    for (int b = 0; b < SOURCE_WIDE && kind == SOURCE_FORCE; b++)
-        weight[b] = cardinal(degree, away[b]);
+    const bool functions = kind == SOURCE_FORCE || degree == TUNED_DEGREE;
+    if (!functions) source_weights(degree, slope, away, .5 * SOURCE_WIDE, weight);
+    for (int b = 0; b < SOURCE_WIDE && functions; b++)
+        weight[b] = slope ? cardinal(degree - 1, away[b] - .5) - cardinal(degree - 1, away[b] + .5)
+                          : cardinal(degree, away[b]);
     for (int b = 0; b < SOURCE_WIDE; b++)
         function[rule->power + b] = taken[rule->power + b] = weight[b] / (slope ? images.gap : 1);
     for (int j = 0; j < rule->power; j++)

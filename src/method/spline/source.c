@@ -9,7 +9,7 @@
  *   m_0 = 1, m_2 = s, m_4 = 3 s^2 - (p + 1) h^4 / 120, s = (p + 1) h^2 / 12, m_1 = m_3 = 0,
  *
  * and are the smallest such: least sum of w_b^2 / r_b, r a bell over seven cells, so that they change smoothly with
- * x and stand alike on both sides of it. Degrees 3 and 4 filter them (quiet.c). */
+ * x and stand alike on both sides of it. Degrees 3 and 4 filter them where there is room (quiet.c). */
 #include "method/spline/source.h"
 
 #include "method/spline/images.h"
@@ -99,8 +99,9 @@ bool source_at(const struct spline *spline, bool odd, enum source_kind kind, boo
         1e-9 * (spline->high - spline->low); /* of a place on an end, in a body that is turned */
     if (x < spline->low && x > spline->low - rounding) x = spline->low;
     if (x > spline->high && x < spline->high + rounding) x = spline->high;
-    if (kind == SOURCE_NONE || (kind == SOURCE_FORCE && spline->degree < 3)) return false;
-    if (spline->degree > 2) return quiet_at(spline, odd, kind, slope, x, point);
+    if (kind == SOURCE_NONE) return false;
+    if (spline->degree > 2 && quiet_at(spline, odd, kind, slope, x, point)) return true;
+    if (kind == SOURCE_FORCE) return false;
     const bool inside = spline_images(spline, odd, x, WIDE, &images);
     if (!inside && !end_images(spline, x, 0, &images) && !end_images(spline, x, 1, &images)) return false;
     double farthest = 0;
@@ -109,17 +110,16 @@ bool source_at(const struct spline *spline, bool odd, enum source_kind kind, boo
         farthest = fmax(farthest, fabs(away[b]));
     }
     source_weights(spline->degree, slope, away, inside ? .5 * WIDE : farthest + .5, weight);
-    point->count = WIDE;
+    struct tuned_point plain = {.count = WIDE};
+    double *line = slope ? plain.slope : plain.value;
     for (size_t b = 0; b < WIDE; b++) {
-        point->index[b] = images.index[b];
-        point->value[b] = slope ? 0 : weight[b] * images.sign[b];
-        point->slope[b] = slope ? weight[b] * images.sign[b] / images.gap : 0;
+        plain.index[b] = images.index[b];
+        line[b] = weight[b] * images.sign[b] / (slope ? images.gap : 1);
     }
     if (!inside) {
-        point->value[1] -= point->value[0];
-        point->value[0] *= 2;
-        point->slope[1] -= point->slope[0];
-        point->slope[0] *= 2;
+        line[1] -= line[0];
+        line[0] *= 2;
     }
+    tuned_filter(spline, odd, &plain, point);
     return true;
 }

@@ -6,9 +6,10 @@
 
 /* What a unit force at x, or of a moment tensor its value (slope false) or slope (true), gives to each control value:
  * like value or slope of tuned_at(), but free of what the place of x between the knots makes of moment tensors, to
- * fifth order, and of solutions that alternate along the axis (degrees 3 and 4; doc/theory/consistent-splines.md,
- * section 15). False, and nothing set, for forces of degrees 1 and 2 and where the control values about x are not
- * evenly spaced: next to ends that are no symmetry planes (degree 2: to clamped ones) and to interfaces. */
+ * fifth order, and of solutions that alternate along the axis (degrees 3 and 4, where there is room for their filter;
+ * doc/theory/consistent-splines.md, section 15). False, and nothing set, for other forces and where the seven control
+ * values about x are not evenly spaced: next to ends that are no symmetry planes (degree 2: to clamped ones) and to
+ * interfaces. */
 enum source_kind { SOURCE_NONE, SOURCE_FORCE, SOURCE_MOMENT };
 bool source_at(const struct spline *spline, bool odd, enum source_kind kind, bool slope, double x,
                struct tuned_point *point);
