@@ -275,12 +275,56 @@ static void velocities_are_no_displacements(void **state)
         assert_near(moved[1][k], moved[0][k], .01 * moved[0][k]);
 }
 
+/* On a face the motion is what the face prescribes. */
+static void faces_move_as_they_should(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        struct box_scene box;
+        struct run run;
+        make_box(&box, 2 + k / 3, 1, k < 3 ? .1 : .2);
+        struct boundary *moved = &box.scene.boundary[FACE_X_LOW];
+        moved->kind = BOUNDARY_DISPLACEMENT;
+        moved->amplitude = .01;
+        moved->direction[0] = k < 3 ? .6 : 1; /* the roller is near in space */
+        moved->direction[1] = k < 3 ? .8 : 0;
+        moved->history = (struct history){.kind = HISTORY_GAUSSIAN, .width = .2, .delay = .7};
+        box.scene.boundary[FACE_X_HIGH].kind = BOUNDARY_FIXED;
+        box.scene.boundary[FACE_Y_LOW].kind = BOUNDARY_ROLLER;
+        struct tl_options choice = options(1 + k % 3 % 2, LAW_LINEAR, .1);
+        choice.central = k % 3 == 2;
+        start(&run, &box.scene, &choice);
+        while (run.state.time < .8)
+            step(&run, 1);
+        const struct tl_model *tl = (const struct tl_model *)run.model;
+        const double *drive[3] = {tl->displacement, tl->velocity, tl->acceleration};
+        for (int place = 0; place < 3; place++) {
+            const double z = k < 3 ? 0 : .31, at[3][3] = {{0, .43, z}, {1, .43, z}, {.52, 0, z}};
+            struct probe probe;
+            struct messages messages = {0};
+            assert_int_equal(run.model->core->probe(run.model, at[place], &probe, &messages), SELAS_OK);
+            for (int field = SELAS_DISPLACEMENT; field < 3; field++) {
+                double value[3];
+                const double *y = run.state.y;
+                run.model->core->observe(run.model, &probe, (selas_field)field, y, run.state.a, value);
+                for (int c = 0; c < 2; c++)
+                    if (place < 2 || c == 1)
+                        assert_near(value[c], place > 0 ? 0 : .01 * moved->direction[c] * drive[field][0],
+                                    1e-12);
+            }
+            probe_free(&probe);
+            messages_free(&messages);
+        }
+        finish(&run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(free_flight_keeps_momenta),       cmocka_unit_test(leapfrog_keeps_the_energy),
         cmocka_unit_test(bars_carry_and_swallow_waves),    cmocka_unit_test(viscosity_takes_energy),
-        cmocka_unit_test(velocities_are_no_displacements),
+        cmocka_unit_test(velocities_are_no_displacements), cmocka_unit_test(faces_move_as_they_should),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,6 +36,7 @@ struct energy {
 struct probe {
     double position[3]; /* deck coordinates */
     size_t count;
+    size_t sites;     /* entries behind these, which only the method knows */
     size_t *index;    /* [count] */
     double *weight;   /* [count] */
     double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame

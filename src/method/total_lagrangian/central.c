@@ -80,64 +80,93 @@ bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis)
     return false;
 }
 
-/* Weights of the value at place along one axis: on a mirror plane the layer next to it and the second one by
- * the even parabola; beyond the last layer the line through two; else the cubic through four (as many as
- * there are). Returns how many, from layer *first on, at most 4. */
-static size_t axis_weights(const struct tl_model *tl, const double place[3], int axis, size_t *first,
-                           double weight[4], double slope[4])
+/* Layers of points and ghosts along an axis at one place. */
+struct layers {
+    ptrdiff_t from, end, first; /* of all there are; the first of those taken */
+    size_t count;               /* of those taken */
+    double weight[4], slope[4];
+};
+
+/* Weights of the value at place along one axis: the cubic through four layers (as many as there are). Of points alone
+ * (ghosts false) on a mirror plane the layer next to it and the second one by the even parabola, beyond the last layer
+ * the line through two. */
+static void axis_weights(const struct tl_model *tl, const double place[3], int axis, bool ghosts,
+                         struct layers *to)
 {
     const struct body *body = &tl->model.scene->body;
-    const size_t layers = tl->cloud->grid[axis];
     const double step = step_of(tl, axis);
     const double s = (place[axis] - body->low[axis]) / step - 0.5;
-    const bool beyond = s < 0 || s > (double)(layers - 1);
-    size_t count = beyond ? 2 : 4;
-    if (count > layers) count = layers;
-    const double lowest = fmax(0, floor(s) - (count == 4 ? 1 : 0));
-    *first = (size_t)fmin(lowest, (double)(layers - count));
-    memset(slope, 0, 4 * sizeof *slope);
-    if (beyond && count == 2 && tl_on_mirror(tl, place, axis)) { /* u = a + b x^2 through x = 1/2, 3/2 */
+    to->from = ghosts && tl->mirrors[2 * axis] ? -2 : 0;
+    to->end = (ptrdiff_t)tl->cloud->grid[axis] + (ghosts && tl->mirrors[2 * axis + 1] ? 2 : 0);
+    const bool beyond = s < (double)to->from || s > (double)(to->end - 1);
+    to->count = beyond ? 2 : 4;
+    if ((ptrdiff_t)to->count > to->end - to->from) to->count = (size_t)(to->end - to->from);
+    const double lowest = fmax((double)to->from, floor(s) - (to->count == 4 ? 1 : 0));
+    to->first = (ptrdiff_t)fmin(lowest, (double)(to->end - (ptrdiff_t)to->count));
+    memset(to->slope, 0, sizeof to->slope);
+    if (beyond && to->count == 2 && tl_on_mirror(tl, place, axis)) { /* u = a + b x^2 through x = 1/2, 3/2 */
         const bool low = s < 0;
-        weight[0] = low ? 9.0 / 8 : -1.0 / 8;
-        weight[1] = low ? -1.0 / 8 : 9.0 / 8;
-        return count;
+        to->weight[0] = low ? 9.0 / 8 : -1.0 / 8;
+        to->weight[1] = low ? -1.0 / 8 : 9.0 / 8;
+        return;
     }
-    for (size_t k = 0; k < count; k++) {
-        weight[k] = 1;
-        for (size_t l = 0; l < count; l++) {
+    for (size_t k = 0; k < to->count; k++) {
+        to->weight[k] = 1;
+        for (size_t l = 0; l < to->count; l++) {
             if (l == k) continue;
             const double across = (double)k - (double)l;
             double others = 1 / (across * step);
-            for (size_t m = 0; m < count; m++)
-                if (m != l && m != k) others *= (s - (double)(*first + m)) / ((double)k - (double)m);
-            weight[k] *= (s - (double)(*first + l)) / across;
-            slope[k] += others;
+            for (size_t m = 0; m < to->count; m++)
+                if (m != l && m != k)
+                    others *= (s - (double)(to->first + (ptrdiff_t)m)) / ((double)k - (double)m);
+            to->weight[k] *= (s - (double)(to->first + (ptrdiff_t)l)) / across;
+            to->slope[k] += others;
         }
     }
-    return count;
 }
 
-size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], size_t *index, double *weight,
-                        double *gradient)
+/* Point or ghost of the lattice; SIZE_MAX: none here. */
+static size_t site_at(const struct tl_model *tl, const ptrdiff_t at[3])
 {
-    size_t first[3] = {0};
-    size_t many[3] = {1, 1, 1};
-    double w[3][4] = {{1}, {1}, {1}};
-    double g[3][4] = {{0}};
-    for (int axis = 0; axis < tl->cloud->dimension; axis++)
-        many[axis] = axis_weights(tl, place, axis, &first[axis], w[axis], g[axis]);
-    const size_t *grid = tl->cloud->grid;
-    size_t count = 0;
-    for (size_t z = 0; z < many[2]; z++)
-        for (size_t y = 0; y < many[1]; y++)
-            for (size_t x = 0; x < many[0]; x++) {
-                index[count] =
-                    first[0] + x + grid[0] * (first[1] + y + grid[1] * (first[2] + z)) - tl->cloud->first;
-                weight[count] = w[0][x] * w[1][y] * w[2][z];
-                gradient[3 * count] = g[0][x] * w[1][y] * w[2][z];
-                gradient[3 * count + 1] = w[0][x] * g[1][y] * w[2][z];
-                gradient[3 * count + 2] = w[0][x] * w[1][y] * g[2][z];
-                count++;
-            }
-    return count;
+    const struct body *body = &tl->model.scene->body;
+    size_t point = 0;
+    bool inside = true;
+    for (int axis = 2; axis >= 0; axis--) {
+        inside = inside && at[axis] >= 0 && at[axis] < (ptrdiff_t)tl->cloud->grid[axis];
+        point = point * tl->cloud->grid[axis] + (inside ? (size_t)at[axis] : 0);
+    }
+    if (inside) return point - tl->cloud->first;
+    for (size_t site = tl->cloud->points; site < tl->sites; site++) {
+        bool same = true;
+        for (int axis = 0; axis < tl->cloud->dimension; axis++) {
+            const double step = step_of(tl, axis);
+            const double x = body->low[axis] + ((double)at[axis] + 0.5) * step;
+            same = same && fabs(tl->site_position[3 * site + (size_t)axis] - x) < 1e-3 * step;
+        }
+        if (same) return site;
+    }
+    return SIZE_MAX;
+}
+
+size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], bool ghosts, size_t *index,
+                        double *weight, double *gradient)
+{
+    struct layers along[3];
+    for (int axis = 0; axis < 3; axis++) {
+        along[axis] = (struct layers){.end = 1, .count = 1, .weight = {1}};
+        if (axis < tl->cloud->dimension) axis_weights(tl, place, axis, ghosts, &along[axis]);
+    }
+    const struct layers *x = &along[0], *y = &along[1], *z = &along[2];
+    const size_t all = x->count * y->count * z->count;
+    for (size_t k = 0; k < all; k++) {
+        const size_t i = k % x->count, j = k / x->count % y->count, l = k / (x->count * y->count);
+        const ptrdiff_t at[3] = {x->first + (ptrdiff_t)i, y->first + (ptrdiff_t)j, z->first + (ptrdiff_t)l};
+        index[k] = site_at(tl, at);
+        if (index[k] == SIZE_MAX) return 0;
+        weight[k] = x->weight[i] * y->weight[j] * z->weight[l];
+        gradient[3 * k] = x->slope[i] * y->weight[j] * z->weight[l];
+        gradient[3 * k + 1] = x->weight[i] * y->slope[j] * z->weight[l];
+        gradient[3 * k + 2] = x->weight[i] * y->weight[j] * z->slope[l];
+    }
+    return all;
 }

@@ -14,8 +14,17 @@
 #include <math.h>
 #include <string.h>
 
-static double ghost_value(const struct tl_model *tl, const double *u, size_t g, size_t c,
-                          const double *amplitude)
+void tl_keep_amplitudes(struct tl_model *tl, const struct drive *drive)
+{
+    const double *const from[] = {drive->displacement, drive->velocity, drive->motion};
+    double *const to[] = {tl->displacement, tl->velocity, tl->acceleration};
+    for (size_t k = 0; k < 3; k++) {
+        memset(to[k], 0, sizeof tl->displacement);
+        if (from[k] != NULL) memcpy(to[k], from[k], sizeof tl->displacement);
+    }
+}
+
+double tl_ghost_value(const struct tl_model *tl, const double *u, size_t g, size_t c, const double *amplitude)
 {
     const struct tl_ghost *ghost = &tl->ghost[g];
     double value = ghost->sign[c] * u[(size_t)tl->cloud->dimension * ghost->source + c];
@@ -29,7 +38,7 @@ static void fill_ghosts(const struct tl_model *tl, double *site, const double *a
     const size_t d = (size_t)tl->cloud->dimension;
     for (size_t g = 0; g < tl->ghosts; g++)
         for (size_t c = 0; c < d; c++)
-            site[d * (tl->cloud->points + g) + c] = ghost_value(tl, site, g, c, amplitude);
+            site[d * (tl->cloud->points + g) + c] = tl_ghost_value(tl, site, g, c, amplitude);
 }
 
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
@@ -83,7 +92,7 @@ void tl_gradient_at(const struct tl_model *tl, const double *u, size_t i, double
     for (size_t k = tl_first(&tl->gradient, i); k < tl_last(&tl->gradient, i); k++) {
         const size_t j = tl_neighbour(&tl->gradient, i, k);
         for (size_t a = 0; a < d; a++) {
-            const double other = j < n ? u[d * j + a] : ghost_value(tl, u, j - n, a, tl->displacement);
+            const double other = j < n ? u[d * j + a] : tl_ghost_value(tl, u, j - n, a, tl->displacement);
             for (size_t b = 0; b < d; b++)
                 H[a * d + b] += (other - u[d * i + a]) * tl->gradient.weight[d * k + b];
         }

@@ -151,6 +151,7 @@ selas_status tl_make_ghosts(struct tl_model *tl, double radius, struct messages 
     bool room = true;
     for (int face = 0; face < FACES && status == SELAS_OK; face++) {
         status = treatment_of(tl, face, &treatment[face], messages);
+        tl->mirrors[face] = treatment[face] != LEAVE;
         tl->moving = tl->moving || boundary_moves(&tl->model.scene->boundary[face]);
     }
     for (int face = 0; face < FACES && status == SELAS_OK && room; face++)

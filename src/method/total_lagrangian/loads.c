@@ -1,4 +1,4 @@
-/* Loads, dampers and probes of total-Lagrangian SPH.
+/* Loads and dampers of total-Lagrangian SPH.
  *
  * A uniform stress t x n in the body pulls at the points with f_j = -sum_i V_i (t x n) G_ij + ..., the
  * discrete form of the integral of t phi_j over the surface; so these forces, taken from the points near the
@@ -10,58 +10,9 @@
 
 #include "base/memory.h"
 #include "points/disc.h"
-#include "points/least_squares.h"
 
 #include <math.h>
 #include <string.h>
-
-double tl_probe_radius(const struct tl_model *tl)
-{
-    const struct body *body = &tl->model.scene->body;
-    const double four = tl->options.central ? 2.5 * tl_plane_step(tl) : 0;
-    return fmax(tl->near.radius, four) + body->jitter * body->spacing;
-}
-
-selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
-                      double *weight, double *gradient, struct messages *messages)
-{
-    double offset[3 * TL_PROBE_ROOM];
-    double kernel[TL_PROBE_ROOM];
-    double work[FIT_TERMS * TL_PROBE_ROOM];
-    if (tl->options.central) {
-        *count = tl_lattice_probe(tl, body_position, index, weight, gradient);
-        return SELAS_OK;
-    }
-    const int d = tl->cloud->dimension;
-    const size_t wanted = tl_wanted(tl);
-    const size_t near = neighbours_at(&tl->near, body_position, tl->cloud->points, tl->found);
-    const size_t nearest = neighbours_nearest(&tl->near, body_position);
-    const double spacing = nearest < tl->cloud->points ? tl->spacing[nearest] : tl->cloud->spacing;
-    double radius = tl_radius(tl) * spacing / tl->cloud->spacing;
-    while (radius <= tl->near.radius * (1 + 1e-9)) {
-        *count = 0;
-        for (size_t k = 0; k < near && *count < TL_PROBE_ROOM; k++) {
-            double square = 0;
-            for (size_t c = 0; c < 3; c++) {
-                offset[3 * *count + c] = tl->cloud->position[3 * tl->found[k] + c] - body_position[c];
-                square += offset[3 * *count + c] * offset[3 * *count + c];
-            }
-            kernel[*count] =
-                kernel_value(tl->options.kernel, d, sqrt(square), radius / tl->options.kernel->support);
-            kernel[*count] *= tl->cloud->volume[tl->found[k]];
-            if (tl->options.form != NULL) /* interpolates: a receiver at a point reads that point */
-                kernel[*count] /= 1e-6 + square / (spacing * spacing);
-            if (!(kernel[*count] > 0)) continue;
-            index[(*count)++] = tl->found[k];
-        }
-        const struct fit fit = {d, tl->options.degree, radius, *count, offset, kernel, work};
-        const bool enough = *count >= wanted || radius * 1.05 > tl->near.radius;
-        if (enough && fit_free(&fit, weight, gradient)) return SELAS_OK;
-        radius *= 1.05;
-    }
-    return fail(messages, SELAS_BAD_SCENE, "no points near (%g, %g, %g) to take a value from",
-                body_position[0], body_position[1], body_position[2]);
-}
 
 /* Length that [a - half, a + half] and [b - wide, b + wide] share. */
 static double overlap(double a, double half, double b, double wide)

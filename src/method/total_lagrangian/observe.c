@@ -9,27 +9,24 @@ selas_status tl_model_probe(struct model *model, const double position[3], struc
                             struct messages *messages)
 {
     struct tl_model *tl = (struct tl_model *)model;
-    size_t count = 0;
-    size_t index[TL_PROBE_ROOM] = {0};
-    double weight[TL_PROBE_ROOM];
-    double gradient[3 * TL_PROBE_ROOM];
+    struct tl_value value = {0};
     double place[3];
     body_from_deck(&model->scene->body, position, place);
     const bool own = tl_owns(tl, place);
-    selas_status status = own ? tl_probe(tl, place, &count, index, weight, gradient, messages) : SELAS_OK;
-    size_t heaviest = 0;
+    selas_status status = own ? tl_value_at(tl, place, &value, messages) : SELAS_OK;
     int holder = own ? 0 : tl_owner(tl, place);
-    for (size_t k = 1; k < count; k++)
-        if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
-    if (status == SELAS_OK && own) status = tl_find_holder(tl, count, index, &holder, messages);
-    if (holder != ranks_me(tl->part.ranks)) count = 0;
-    if (status == SELAS_OK) status = probe_allocate(probe, count, messages);
+    if (status == SELAS_OK && own)
+        status = tl_find_holder(tl, value.count + value.sites, value.source, &holder, messages);
+    if (holder != ranks_me(tl->part.ranks)) value.count = value.sites = 0;
+    if (status == SELAS_OK) status = probe_allocate(probe, value.count + value.sites, messages);
     if (status != SELAS_OK) return status;
+    probe->count = value.count;
+    probe->sites = value.sites;
     memcpy(probe->position, position, sizeof probe->position);
-    memcpy(probe->index, index, count * sizeof *index);
-    memcpy(probe->weight, weight, count * sizeof *weight);
-    memcpy(probe->gradient, gradient, 3 * count * sizeof *gradient);
-    probe->material = tl->material[index[heaviest]];
+    memcpy(probe->index, value.index, (value.count + value.sites) * sizeof *value.index);
+    memcpy(probe->weight, value.weight, (value.count + value.sites) * sizeof *value.weight);
+    memcpy(probe->gradient, value.gradient, 3 * value.count * sizeof *value.gradient);
+    probe->material = tl->material[value.heaviest];
     probe->holder = holder;
     return SELAS_OK;
 }
@@ -73,6 +70,20 @@ static bool is_vector(selas_field field)
     return field == SELAS_DISPLACEMENT || field == SELAS_VELOCITY || field == SELAS_ACCELERATION;
 }
 
+/* A vector near ghosts, in the body's frame: these carry what faces do to the motion beside them. */
+static void vector_of_sites(const struct tl_model *tl, const struct probe *probe, const double *field,
+                            const double *amplitude, double *value)
+{
+    const size_t d = (size_t)tl->cloud->dimension, n = tl->cloud->points;
+    for (size_t k = probe->count; k < probe->count + probe->sites; k++)
+        for (size_t c = 0; c < d; c++) {
+            const size_t site = probe->index[k];
+            const double u =
+                site < n ? field[d * site + c] : tl_ghost_value(tl, field, site - n, c, amplitude);
+            value[c] += probe->weight[k] * u;
+        }
+}
+
 /* Stress and strain at a place: from H of the points around, interpolated. (The gradient of the interpolated
  * displacements would do for smooth ones, but it magnifies what is left of hourglass modes.) */
 void tl_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
@@ -82,6 +93,20 @@ void tl_observe(struct model *model, const struct probe *probe, selas_field fiel
     const size_t d = (size_t)tl->cloud->dimension;
     double place[3];
     body_from_deck(&model->scene->body, probe->position, place);
+    if (is_vector(field) && probe->sites > 0) {
+        double vector[3] = {0};
+        const bool displaced = field == SELAS_DISPLACEMENT, moves = field == SELAS_VELOCITY;
+        vector_of_sites(tl, probe,
+                        displaced ? y
+                        : moves   ? y + model->unknowns
+                                  : a,
+                        displaced ? tl->displacement
+                        : moves   ? tl->velocity
+                                  : tl->acceleration,
+                        vector);
+        body_direction_to_deck(&model->scene->body, vector, value);
+        return;
+    }
     if (is_vector(field)) {
         probe_observe(model, probe, field, y, a, value);
         for (int axis = 0; axis < (int)d && model->frame == NULL; axis++)

@@ -73,17 +73,15 @@ static void widen_window(const struct tl_model *tl, bool *window)
  * with the place is told where its probe is made. */
 static void widen_to(struct tl_model *tl, const double position[3], const bool *own, bool *window)
 {
-    size_t count = 0, heaviest = 0, index[TL_PROBE_ROOM] = {0};
-    double place[3], weight[TL_PROBE_ROOM], gradient[3 * TL_PROBE_ROOM];
+    struct tl_value value = {0};
+    double place[3];
     struct messages unheard = {0};
     body_from_deck(&tl->model.scene->body, position, place);
-    const selas_status status = tl_probe(tl, place, &count, index, weight, gradient, &unheard);
+    const selas_status status = tl_value_at(tl, place, &value, &unheard);
     messages_free(&unheard);
-    for (size_t k = 1; status == SELAS_OK && k < count; k++)
-        if (fabs(weight[k]) > fabs(weight[heaviest])) heaviest = k;
-    for (size_t k = 0; status == SELAS_OK && own[index[heaviest]] && k < count; k++) {
-        window[index[k]] = true;
-        mark_row(tl, &tl->gradient, index[k], window);
+    for (size_t k = 0; status == SELAS_OK && own[value.heaviest] && k < value.count + value.sites; k++) {
+        window[value.source[k]] = true;
+        mark_row(tl, &tl->gradient, value.source[k], window);
     }
 }
 

@@ -73,8 +73,7 @@ static void destroy(struct model *model)
 /* All forces but the dampers' into tl->force. */
 static void all_forces(struct tl_model *tl, const struct drive *drive, const double *u, const double *v)
 {
-    memset(tl->displacement, 0, sizeof tl->displacement);
-    if (drive->displacement != NULL) memcpy(tl->displacement, drive->displacement, sizeof tl->displacement);
+    tl_keep_amplitudes(tl, drive);
     tl_sites(tl, u, v, drive->displacement, drive->velocity);
     tl_gradients(tl);
     tl_forces(tl);

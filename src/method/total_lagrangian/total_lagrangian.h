@@ -147,6 +147,7 @@ struct tl_model {
     size_t sites, ghosts;
     struct tl_ghost *ghost;
     bool moving;               /* some face is prescribed to move */
+    bool mirrors[FACES];       /* what is near the face has ghosts behind it */
     struct tl_rows gradient;   /* rows of points over sites: G_ij */
     struct tl_rows transposed; /* rows of sites over points: G_ji, G_ii = minus the sum over j of G_ij */
     size_t sources, *source;   /* points that have ghosts */
@@ -169,12 +170,12 @@ struct tl_model {
     double *numbers;                  /* what site_u, H, A, force and extra stand in */
     double *site_u, *site_v;          /* [dimension * sites]; site_v NULL without viscosity */
     size_t plane;                     /* at least dimension * sites */
-    double *H;                  /* [dimension * plane]: H_ab of site s at b * plane + dimension * s + a */
-    double *A;                  /* the same, of the points: V P (and the hourglass part) */
-    double *force;              /* [dimension * sites] */
-    double *extra;              /* [dimension * points] hourglass forces */
-    bool linear;                /* linearise() is on */
-    double displacement[FACES]; /* amplitudes of the last drive, for energy() */
+    double *H;     /* [dimension * plane]: H_ab of site s at b * plane + dimension * s + a */
+    double *A;     /* the same, of the points: V P (and the hourglass part) */
+    double *force; /* [dimension * sites] */
+    double *extra; /* [dimension * points] hourglass forces */
+    bool linear;   /* linearise() is on */
+    double displacement[FACES], velocity[FACES], acceleration[FACES]; /* amplitudes of the last drive */
 };
 
 /* ghosts.c: sites beyond and on the faces. */
@@ -244,17 +245,27 @@ size_t tl_wanted(const struct tl_model *tl);
  * a value at a place of the body over at most 64 points. */
 size_t tl_central_row(const struct tl_model *tl, const uint32_t *near, size_t count, size_t i,
                       uint32_t *index, double *gradient);
-size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], size_t *index, double *weight,
-                        double *gradient);
+size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], bool ghosts, size_t *index,
+                        double *weight, double *gradient);
 /* A place of the body's frame on a symmetry plane or roller across the axis. */
 bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis);
-/* loads.c */
+/* loads.c, probes.c */
+enum { TL_PROBE_ROOM = 512 };
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
 /* How far from a place the points are at most that tl_probe() takes. */
 double tl_probe_radius(const struct tl_model *tl);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,
                       double *weight, double *gradient, struct messages *messages);
+/* A value at a place: from points, and beside faces with ghosts from sites, too, which hold what faces prescribe. */
+struct tl_value {
+    size_t count, sites; /* entries from points, and those from sites behind them (0 elsewhere) */
+    size_t heaviest;     /* the point that weighs most */
+    size_t index[2 * TL_PROBE_ROOM], source[2 * TL_PROBE_ROOM];
+    double weight[2 * TL_PROBE_ROOM], gradient[3 * TL_PROBE_ROOM]; /* the gradient of the points' value */
+};
+selas_status tl_value_at(struct tl_model *tl, const double place[3], struct tl_value *value,
+                         struct messages *messages);
 /* energy.c: adds what the loads of a drive pull at the points to tl->force; entries of the
  * model's class. */
 void tl_add_loads(struct tl_model *tl, const struct drive *drive);
@@ -291,7 +302,6 @@ void tl_complete(struct model *model, double *u);
 void tl_unseen(struct model *model, const double *y, struct unseen *found);
 void tl_describe_part(const struct tl_model *tl,
                       void (*tell)(void *context, const char *key, const char *value), void *context);
-enum { TL_PROBE_ROOM = 512 };
 /* Up to so many points one thread is as fast as several (the cost of a parallel region is that of about a
  * hundred points, much more on a busy machine). */
 enum { TL_SERIAL = 3000 };
@@ -299,6 +309,11 @@ enum { TL_SERIAL = 3000 };
  */
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
               const double *velocity);
+void tl_keep_amplitudes(struct tl_model *tl,
+                        const struct drive *drive); /* what ghosts have in the drive's motion */
+/* Component c of ghost g from a field of the points and its amplitudes. */
+double tl_ghost_value(const struct tl_model *tl, const double *field, size_t g, size_t c,
+                      const double *amplitude);
 void tl_gradients(struct tl_model *tl);
 void tl_all_gradients(struct tl_model *tl); /* of all points here, on ranks too */
 void tl_stresses(struct tl_model *tl);
