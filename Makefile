@@ -215,8 +215,8 @@ install: all ## install program, libraries, header, module, manual and decks bel
 	install -D -m 644 -t '$(AT)/include' src/selas.h
 	install -D -m 644 -t '$(AT)/include/selas' $(BUILD)/selas.mod src/selas.f90 src/selas77.f90
 	install -D -m 644 -t '$(AT)/share/man/man1' doc/selas.1
-	install -D -m 644 -t '$(AT)/share/selas' input/*.nml
-	for page in $$(cd doc && find . -name '*.md' -o -name '*.png'); do \
+	install -D -m 644 -t '$(AT)/share/selas' input/*.nml input/*.txt
+	for page in $$(cd doc && find . -name '*.md' -o -name '*.png' -o -name '*.txt'); do \
 	    install -D -m 644 "doc/$$page" '$(AT)/share/doc/selas/'"$$page" || exit 1; done
 
 install-mpi: mpi install ## the same and selas-mpi, libselas-mpi and selas_mpi.h

@@ -23,7 +23,7 @@ check "make install with DESTDIR puts the same files below it" sh -c "
 check "make uninstall leaves no file" sh -c "
     make -s uninstall BUILD='$build' PREFIX=/opt/selas DESTDIR='$work/dest' && ! find '$work/dest' ! -type d | grep -q ."
 only_selas() { ! nm "$@" | awk 'NF > 1 {print $NF}' | grep -v '^selas_'; }
-check "the manual and the decks are installed" test -s "$place/share/doc/selas/README.md" -a -s "$place/share/selas/halfspace.nml"
+check "the manual and the decks are installed" test -s "$place/share/doc/selas/README.md" -a -s "$place/share/selas/halfspace.nml" -a -s "$place/share/selas/loh2-fault.txt"
 check "libselas.so shows only selas_ names" only_selas -D --defined-only "$place/lib/libselas.so"
 check "libselas.a shows only selas_ names" only_selas -g --defined-only "$place/lib/libselas.a"
 check "libselas.so has a versioned name" sh -c "readelf -d '$place/lib/libselas.so' | grep -q 'SONAME.*libselas.so.[0-9]'"
