@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 1200, TOP = 80, BOTTOM = 10, PANEL = 300, GAP = 80 };
+enum { WIDTH = 1200, TOP = 80, BOTTOM = 10, PANEL = 300, GAP = 90 };
 
 /* f; 1/Q_p, 1/Q_s reached, wanted; c_p, c_s reached, wanted; weight over the largest. */
 static void write_data(FILE *script, const struct ground_damping *damping, size_t material, double density)
@@ -32,13 +32,14 @@ static void write_data(FILE *script, const struct ground_damping *damping, size_
     fprintf(script, "END\n");
 }
 
-static void plot_panel(FILE *script, const char *unit, size_t material, int first, bool speeds)
+static void plot_panel(FILE *script, const char *label, size_t material, int first, bool speeds)
 {
     const char *name = speeds ? "c" : "1/Q";
-    fprintf(script, "set ylabel '%s'\n", unit);
+    fprintf(script, "set ylabel ");
+    gnuplot_quote(script, label);
     fprintf(
         script,
-        "plot $damping%zu u 1:10 axes x1y2 w filledcurves y=0 lc rgb '#e6e6e6' t 'spectrum of source', "
+        " noenhanced\nplot $damping%zu u 1:10 axes x1y2 w filledcurves y=0 lc rgb '#e6e6e6' t 'spectrum', "
         "'' u 1:%d w l lc rgb '#f5a742' lw 6 t '%s_P wanted', '' u 1:%d w l lc rgb '#12306b' lw 1.6 t '%s_P "
         "reached', "
         "'' u 1:%d w l lc rgb '#e8a9a0' lw 6 t '%s_S wanted', '' u 1:%d w l lc rgb '#b3202c' lw 1.6 t "
@@ -52,16 +53,17 @@ static void plot_materials(FILE *script, const struct recorder *recorder,
     const struct scene *scene = recorder->scene;
     int top = TOP;
     for (size_t i = 0; i < scene->materials; i++) {
-        char unit[NAME_SIZE + UNIT_TEXT], text[UNIT_TEXT];
+        char label[NAME_SIZE + 2 * UNIT_TEXT], text[UNIT_TEXT];
         if (!(scene->material[i].q_p > 0)) continue;
         write_data(script, damping, i, scene->material[i].density);
         for (int speeds = 0; speeds < 2; speeds++) {
             gnuplot_panel(script, WIDTH, height, top, top + PANEL);
             if (speeds)
-                snprintf(unit, sizeof unit, "phase speed%s", unit_text(&scene->output, 1, -1, "", text));
+                snprintf(label, sizeof label, "phase speed in %s%s", scene->material[i].name,
+                         unit_text(&scene->output, 1, -1, "", text));
             else
-                snprintf(unit, sizeof unit, "1/Q of %s", scene->material[i].name);
-            plot_panel(script, unit, i, speeds ? 6 : 2, speeds != 0);
+                snprintf(label, sizeof label, "1/Q of %s", scene->material[i].name);
+            plot_panel(script, label, i, speeds ? 6 : 2, speeds != 0);
             fprintf(script, "unset label 1\n");
             top += PANEL + GAP;
         }
@@ -87,10 +89,10 @@ void plot_damping(struct recorder *recorder, struct messages *messages)
     gnuplot_page(plot.script, WIDTH, height, TOP, scene->title);
     gnuplot_output(plot.script, recorder->folder, "damping.png");
     char text[UNIT_TEXT];
-    fprintf(plot.script,
-            "set multiplot\nset logscale x\nset xlabel 'frequency%s'\nset y2range [0:1.2]\nset "
-            "key inside right center vertical maxrows 5 samplen 2\n",
-            unit_text(&scene->output, 0, -1, " (1/unit of time of the deck)", text));
+    fprintf(
+        plot.script,
+        "set multiplot\nset logscale x\nset xlabel 'frequency%s'\nset y2range [0:1.2]\nset key samplen 2\n",
+        unit_text(&scene->output, 0, -1, " (1/unit of time of the deck)", text));
     plot_materials(plot.script, recorder, damping, height);
     fprintf(plot.script, "unset multiplot\nunset output\n");
     gnuplot_keep(recorder->folder, "damping.png", gnuplot_run(&plot, "damping", messages), messages);
