@@ -2,7 +2,8 @@
 # Scenes whose answers would be wrong without a word are refused, or warned of with what would be right; the sound scene
 # beside each is told nothing. Argument: the build folder. Prints TAP.
 build=${1:-build}
-selas=$PWD/$build/selas
+home=$PWD
+selas=$home/$build/selas
 work=$(mktemp -d "${TMPDIR:-/tmp}/selas-silence-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -94,6 +95,10 @@ cat >turn.nml <<'END'
 END
 told "law = 'linear' in a body that turns" "turn by [0-9.e+]* degrees" -q turn.nml
 untold "the same by a law for any rotation" -q turn.nml method%law=saint-venant-kirchhoff
+
+# A half-space does not, whatever the unit of its load
+sed '/^&reference/,/\//d' "$home/input/halfspace.nml" >ground.nml
+untold "a linear scene of ground under a unit load" -q ground.nml body%spacing=.25 snapshot%times=6 output%plots=F output%directory=out
 
 # --- The method of Ding et al. ---
 cat >paper.nml <<'END'
@@ -371,6 +376,8 @@ END
 "$selas" -q source.nml output%directory=faint >said 2>&1
 "$selas" -q source.nml output%directory=sole 'load(2)%amplitude=0' >said 2>&1
 alike "damped, with a load of 1e-9 beside the other, and without" 1e-8 a faint sole
+sed "s/'m'/'soil''s_1'/g" source.nml >quoted.nml
+untold "a quote in a material's name" -q quoted.nml output%plots=T scene%end_time=.5
 grep -v '^&load' source.nml >moved.nml
 echo "&boundary face = 'x-', kind = 'velocity', direction = 1, history = 'gaussian', width = 0.4, delay = 2.5 /" >>moved.nml
 "$selas" -q moved.nml output%directory=rate >said 2>&1

@@ -3,8 +3,8 @@
  *
  * Rotation w and strain e at a place are the parts of grad u = e + w (nonlinear methods: Green's strain). Small-strain
  * theory gives a body that turns by the angle w edges that are w^2 / 2 too long. Strains are held against w because a
- * linear scene may have any unit of load: a patch on a half-space turns places by up to 2.5 times the strain, a bent
- * beam by .8 L / W times. */
+ * linear scene may have any unit of load: a bent beam turns by .8 L / W times the strain. A half-space does not turn:
+ * what a few places tell of its rotations and strains is chance. */
 #include "record/watch.h"
 
 #include "base/memory.h"
@@ -45,7 +45,8 @@ static bool beside_point(const struct scene *scene, double wavelength, const dou
 selas_status hindsight_create(struct recorder *recorder, struct messages *messages)
 {
     struct model *model = recorder->model;
-    if (recorder->scene->dimension < 2 || (!model->small_strain && !linear_reference(recorder->scene)))
+    if (recorder->scene->dimension < 2 || recorder->scene->body.shape == BODY_HALF_SPACE ||
+        (!model->small_strain && !linear_reference(recorder->scene)))
         return SELAS_OK;
     const double wavelength = points_per_wavelength(recorder->scene) * recorder->scene->body.spacing;
     recorder->place = array_new(PLACES, sizeof *recorder->place);
