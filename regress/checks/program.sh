@@ -31,6 +31,7 @@ out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT
 ok "a quiet run prints nothing" sh -c "[ -z \"\$('$selas' -q input/halfspace.nml body%spacing=1 output%plots=F output%low_pass=0 output%directory='$out' 2>&1)\" ]"
 ok "and leaves its report" test -s "$out/report.txt"
+ok "options may stand before a command" "$selas" -q diff "$out" "$out"
 
 # selas words
 ok "words lists every group of the deck reference" sh -c "for group in \$(sed -n 's/^### .&\(.*\)\`/\1/p' doc/reference/deck.md); do '$selas' words | grep -q \"^  \$group \" || exit 1; done"

@@ -195,8 +195,21 @@ static bool read_words(const struct argp *parser, int count, char **words, const
     return argp_parse(parser, count, words, flags, NULL, arguments) == 0 && arguments->deck != NULL;
 }
 
+/* `selas -q diff A B` is `selas diff -q A B`. */
+static void command_first(int count, char **words)
+{
+    int at = 1;
+    while (at < count && words[at][0] == '-')
+        at++;
+    if (at == count) return;
+    char *command = words[at];
+    memmove(words + 2, words + 1, (size_t)(at - 1) * sizeof *words);
+    words[1] = command;
+}
+
 int main(int count, char **words)
 {
+    command_first(count, words);
     if (count > 1 && strcmp(words[1], "diff") == 0) return diff_command(count - 1, words + 1);
     if (count > 1 && strcmp(words[1], "words") == 0) return words_command(count - 1, words + 1);
     const struct argp parser = {options, parse_option, usage, documentation, NULL, NULL, NULL};
