@@ -133,6 +133,12 @@ static void plot_name(const struct recorder *recorder, size_t receiver, char *na
     file_name_of(recorder->scene->receiver[receiver].name, ".png", name, size);
 }
 
+/* What is nothing beside the spacing, such as the far foot of a hill, is told as 0. */
+static double told(const struct scene *scene, double place)
+{
+    return fabs(place) > 1e-6 * scene->body.spacing ? place : 0.0;
+}
+
 static void plot_one(FILE *script, const struct recorder *recorder, size_t receiver)
 {
     const struct scene *scene = recorder->scene;
@@ -145,8 +151,8 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     char name[NAME_SIZE + 16], title[512];
     plot_name(recorder, receiver, name, sizeof name);
     snprintf(title, sizeof title, "%s%s%s%s at (%g, %g, %g)", recorder->so_far ? "UNFINISHED: " : "",
-             scene->title, scene->title[0] != '\0' ? ": " : "", place->name, place->position[0],
-             place->position[1], place->position[2]);
+             scene->title, scene->title[0] != '\0' ? ": " : "", place->name, told(scene, place->position[0]),
+             told(scene, place->position[1]), told(scene, place->position[2]));
     gnuplot_page(script, WIDTH, height, TOP, title);
     gnuplot_output(script, recorder->folder, name);
     write_data(script, recorder, receiver);
