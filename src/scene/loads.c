@@ -232,8 +232,9 @@ static void read_moment(struct builder *builder, const struct deck_group *group,
         zero = zero && load->moment[i] == 0;
         const bool beyond = builder->scene->dimension < 2 ? i > 0 : i == 2 || i > 3;
         if (builder->scene->dimension < 3 && beyond && load->moment[i] != 0)
-            complain(builder, group, "moment", "moment has components beyond the scene's %d dimension%s",
-                     builder->scene->dimension, builder->scene->dimension == 1 ? "" : "s");
+            complain(builder, group, "moment", "moment has components beyond the scene's %s must be 0",
+                     builder->scene->dimension == 1 ? "1 dimension: all but xx"
+                                                    : "2 dimensions: zz, yz and zx");
     }
     if (zero) complain(builder, group, "moment", "moment is zero; expected a component that is not");
 }
