@@ -21,7 +21,7 @@ const struct deck_group *deck_get(const struct deck *deck, const char *group, si
     return &deck->list.group[deck->first[kind] + index];
 }
 
-const struct item *group_item(const struct deck_group *group, const char *name, size_t *index)
+static const struct item *group_item(const struct deck_group *group, const char *name, size_t *index)
 {
     *index = words_find(group->kind, name, strlen(name));
     assert(*index < group->kind->words);

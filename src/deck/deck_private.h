@@ -16,8 +16,7 @@ struct deck {
     const struct given_points *points; /* borrowed from the host; NULL: none */
 };
 
-/* The item of a name and the value that holds (given or default), or NULL. */
-const struct item *group_item(const struct deck_group *group, const char *name, size_t *index);
+/* The value that holds (given or default), or NULL. */
 const struct value *group_value(const struct deck_group *group, size_t word, size_t i);
 size_t group_values(const struct deck_group *group, size_t word);
 

@@ -181,7 +181,8 @@ selas_status simulation_consequence(selas_simulation *simulation, selas_status s
     return status;
 }
 
-selas_status simulation_check(selas_simulation *simulation)
+/* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
+static selas_status simulation_check(selas_simulation *simulation)
 {
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     if (simulation->busy)

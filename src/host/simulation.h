@@ -81,13 +81,11 @@ selas_status simulation_new(selas_simulation **simulation);
 
 /* A function of the library begins: what it says from here on is the message of the last call. NULL is fine. */
 void simulation_call(selas_simulation *simulation);
-/* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
-selas_status simulation_check(selas_simulation *simulation);
 /* No step can follow, for what this call has said. */
 void simulation_failed(selas_simulation *simulation, selas_status status);
 /* A call that is not done because of what an earlier one has said; that is not said again. */
 selas_status simulation_consequence(selas_simulation *simulation, selas_status status);
-/* The same, with the scene built. */
+/* SELAS_OK if the handle can be used; builds the scene if it is not there. */
 selas_status simulation_scene(selas_simulation *simulation);
 /* The same, with model, time step and recorder, without files. */
 selas_status simulation_prepare(selas_simulation *simulation);

@@ -66,14 +66,6 @@ static inline void ranks_fetch(struct ranks *ranks, int from, void *data, size_t
     if (from > 0 && ranks_first(ranks)) ranks_exchange(ranks, 1, &get);
     if (from > 0 && ranks_me(ranks) == from) ranks_exchange(ranks, 1, &give);
 }
-/* The other way: rank `to` gets what the first one has. */
-static inline void ranks_give(struct ranks *ranks, int to, void *data, size_t bytes)
-{
-    const struct ranks_piece get = {.with = 0, .receive = data, .receive_bytes = bytes};
-    const struct ranks_piece give = {.with = to, .send = data, .send_bytes = bytes};
-    if (to > 0 && ranks_first(ranks)) ranks_exchange(ranks, 1, &give);
-    if (to > 0 && ranks_me(ranks) == to) ranks_exchange(ranks, 1, &get);
-}
 double ranks_sent(const struct ranks *ranks);   /* bytes, by this rank */
 double ranks_waited(const struct ranks *ranks); /* seconds, for others and for what they send */
 

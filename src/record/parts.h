@@ -203,9 +203,7 @@ void plot_damping(struct recorder *recorder, struct messages *messages);
 bool plots_ground(const struct scene *scene);
 void plot_ground(const struct scene *scene, struct messages *messages);
 
-/* provenance.c: compiler that built the library, its flags, and the commit of the source ("unknown") */
-const char *compiler_name(void);
-const char *build_flags(void);
+/* provenance.c: commit of the source ("unknown") */
 const char *build_commit(void);
 /* Version, commit, compiler, flags, libraries, host, and date. */
 void provenance_tell(void (*tell)(void *context, const char *key, const char *value), void *context);

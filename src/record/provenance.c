@@ -15,7 +15,7 @@
 #define SELAS_COMMIT "unknown"
 #endif
 
-const char *build_flags(void)
+static const char *build_flags(void)
 {
     return SELAS_FLAGS;
 }
@@ -25,7 +25,7 @@ const char *build_commit(void)
     return SELAS_COMMIT;
 }
 
-const char *compiler_name(void)
+static const char *compiler_name(void)
 {
 #ifdef __clang__
     return __VERSION__; /* says its own name */

@@ -111,7 +111,8 @@ bool hdf_rows_pass(hid_t set, bool write, size_t first, size_t rows, size_t colu
     return good;
 }
 
-bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value)
+static bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns,
+                      const double *value)
 {
     const hid_t set = hdf_rows(place, name, type, rows, columns);
     const bool good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0;

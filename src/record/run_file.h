@@ -26,7 +26,6 @@ hid_t hdf_open_together(const struct ranks *ranks, const char *path, bool write)
 /* An attribute, or a data set where the text is too long for one. */
 bool hdf_text(hid_t place, const char *name, const char *text);
 bool hdf_numbers(hid_t place, const char *name, size_t count, const double *value);
-bool hdf_table(hid_t place, const char *name, hid_t type, size_t rows, size_t columns, const double *value);
 /* A table whose rows come piece by piece; negative on failure. */
 hid_t hdf_rows(hid_t place, const char *name, hid_t type, size_t rows, size_t columns);
 /* Rows from `first` on, written (or read). */

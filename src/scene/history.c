@@ -3,7 +3,7 @@
  * Smoothing S: f * B with the cubic B-spline B of knots 0, h, 2h, 3h, 4h (h = S/4) and unit area,
  *   (f * B)(t) = integral over [0, S] of B(x) f(t - x) dx,                                            (1)
  * by 8-point Gauss panels between the knots of B and the kinks of f: exact to rounding, since both are
- * polynomials there (or vary over history_plain_scale()). A derivative goes to f where f is smooth in the
+ * polynomials there (or vary over plain_scale()). A derivative goes to f where f is smooth in the
  * window, otherwise to B, whose first two derivatives are continuous, so that jumps of f remain. */
 #include "scene/history.h"
 #include "scene/history_kinds.h"
@@ -163,14 +163,8 @@ static double one_side(const struct history *history, double t, int derivative, 
     return 0;
 }
 
-double history_plain_value(const struct history *history, double t, int derivative)
-{
-    const double value = one_side(history, t, derivative, true);
-    if (history_plain_kink_after(history, nextafter(t, -INFINITY)) != t) return value;
-    return .5 * (value + one_side(history, t, derivative, false));
-}
-
-double history_plain_kink_after(const struct history *history, double t)
+/* Smallest kink (or jump, or cut) later than t of the history without smoothing; INFINITY if there is none. */
+static double plain_kink_after(const struct history *history, double t)
 {
     if (history->kind == HISTORY_TABLE) return history_table_kink_after(history, t);
     if (t < 0) return 0;
@@ -183,7 +177,16 @@ double history_plain_kink_after(const struct history *history, double t)
     return INFINITY;
 }
 
-double history_plain_scale(const struct history *history)
+double history_plain_value(const struct history *history, double t, int derivative)
+{
+    const double value = one_side(history, t, derivative, true);
+    if (plain_kink_after(history, nextafter(t, -INFINITY)) != t) return value;
+    return .5 * (value + one_side(history, t, derivative, false));
+}
+
+/* Time over which the history without smoothing may be taken as a polynomial of low degree between kinks;
+ * INFINITY where it is one. */
+static double plain_scale(const struct history *history)
 {
     switch (history->kind) {
     case HISTORY_RICKER:
@@ -202,7 +205,8 @@ double history_plain_scale(const struct history *history)
     return INFINITY;
 }
 
-double history_plain_end(const struct history *history)
+/* Time after which the history without smoothing is constant (to rounding for Gaussian and Ricker). */
+static double plain_end(const struct history *history)
 {
     switch (history->kind) {
     case HISTORY_TRIANGLE:
@@ -226,7 +230,7 @@ double history_plain_end(const struct history *history)
 
 double history_end(const struct history *history)
 {
-    return history->start + history_plain_end(history) + fmax(0, history->smoothing);
+    return history->start + plain_end(history) + fmax(0, history->smoothing);
 }
 
 /* Derivative of order 0, 1 or 2 of the cubic B-spline with knots 0..4 and unit area (Schoenberg 1946). */
@@ -276,8 +280,8 @@ double history_value(const struct history *history, double t, int derivative)
         t = 0; /* a step of time on the start but for rounding: the jump's middle */
     if (history->smoothing <= 0) return history_plain_value(history, t, derivative);
     if (t <= 0) return 0;
-    const double h = .25 * history->smoothing, scale = history_plain_scale(history);
-    const bool smooth_inside = history_plain_kink_after(history, t - history->smoothing) >= t;
+    const double h = .25 * history->smoothing, scale = plain_scale(history);
+    const bool smooth_inside = plain_kink_after(history, t - history->smoothing) >= t;
     struct window window = {history, t, h, derivative, 0};
     if (!smooth_inside && derivative > 0) {
         window.of_history = 0;
@@ -288,7 +292,7 @@ double history_value(const struct history *history, double t, int derivative)
     int knot = 3;
     while (knot >= 0) {
         const double end_of_knot = knot == 0 ? t : t - knot * h;
-        double next = fmin(end_of_knot, history_plain_kink_after(history, old));
+        double next = fmin(end_of_knot, plain_kink_after(history, old));
         if (next - old > scale) next = old + scale;
         if (next > 0) sum += panel(&window, t - next, t - fmax(old, 0));
         old = next;
@@ -303,7 +307,7 @@ size_t history_kinks(const struct history *history, double *times, size_t room)
     const double h = .25 * history->smoothing;
     double next[5] = {0};
     for (int i = 0; i < copies; i++)
-        next[i] = history_plain_kink_after(history, -1);
+        next[i] = plain_kink_after(history, -1);
     size_t count = 0;
     double last = -INFINITY;
     for (;;) {
@@ -317,7 +321,7 @@ size_t history_kinks(const struct history *history, double *times, size_t room)
             count++;
             last = kink;
         }
-        next[first] = history_plain_kink_after(history, next[first]);
+        next[first] = plain_kink_after(history, next[first]);
     }
 }
 

@@ -7,15 +7,6 @@
 /* Derivative of order -1 (integral from 0) to 2 of the history without smoothing; the mean of both sides at
  * kinks. */
 double history_plain_value(const struct history *history, double t, int derivative);
-/* Smallest kink (or jump, or cut) later than t of the history without smoothing; INFINITY if there is none.
- */
-double history_plain_kink_after(const struct history *history, double t);
-/* Time over which the history without smoothing may be taken as a polynomial of low degree between kinks;
- * INFINITY where it is one. */
-double history_plain_scale(const struct history *history);
-/* Time after which the history without smoothing is constant (to rounding for Gaussian and Ricker). */
-double history_plain_end(const struct history *history);
-
 double history_table_value(const struct history *history, double t, int derivative, bool right);
 double history_table_kink_after(const struct history *history, double t);
 double complex history_table_laplace(const struct history *history, double complex s);

@@ -157,7 +157,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
     return status;
 }
 
-void general_free_family(struct family *family)
+static void free_family(struct family *family)
 {
     array_free(family->lambda);
     array_free(family->mu);
@@ -179,7 +179,7 @@ void general_free(struct consistent *c)
             for (int at = 0; at < 2; at++)
                 array_free(g->taps[slot][odd][at]);
     for (int f = 0; f < 3; f++)
-        general_free_family(&g->family[f]);
+        free_family(&g->family[f]);
     for (int thread = 0; g->buffer != NULL && thread < c->threads; thread++)
         array_free(g->buffer[thread]);
     array_free(g->buffer);

@@ -154,7 +154,6 @@ void general_edges(const struct consistent *c, const double *u, size_t from, siz
 /* material.c: lays moduli at the points, those of a part of damped ground too, and the mass of each control value.
  * False: no memory. */
 bool general_material(struct consistent *c, double *mass);
-void general_free_family(struct family *family);
 /* Weight of a point, with the map's Jacobian. */
 double general_weight(const struct consistent *c, const struct family *family, const size_t at[3]);
 
