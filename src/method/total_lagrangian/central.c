@@ -129,16 +129,14 @@ static void axis_weights(const struct tl_model *tl, const double place[3], int a
 static size_t site_at(const struct tl_model *tl, const ptrdiff_t at[3])
 {
     const struct body *body = &tl->model.scene->body;
-    size_t point = 0;
+    const size_t *grid = tl->cloud->grid;
     bool inside = true;
-    for (int axis = 2; axis >= 0; axis--) {
-        inside = inside && at[axis] >= 0 && at[axis] < (ptrdiff_t)tl->cloud->grid[axis];
-        point = point * tl->cloud->grid[axis] + (inside ? (size_t)at[axis] : 0);
-    }
-    if (inside) return point - tl->cloud->first;
+    for (int axis = 0; axis < 3; axis++)
+        inside = inside && at[axis] >= 0 && at[axis] < (ptrdiff_t)grid[axis];
+    if (inside) return (size_t)at[0] + grid[0] * ((size_t)at[1] + grid[1] * (size_t)at[2]) - tl->cloud->first;
     for (size_t site = tl->cloud->points; site < tl->sites; site++) {
         bool same = true;
-        for (int axis = 0; axis < tl->cloud->dimension; axis++) {
+        for (int axis = 0; axis < 3 && axis < tl->cloud->dimension; axis++) {
             const double step = step_of(tl, axis);
             const double x = body->low[axis] + ((double)at[axis] + 0.5) * step;
             same = same && fabs(tl->site_position[3 * site + (size_t)axis] - x) < 1e-3 * step;
