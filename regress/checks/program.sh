@@ -24,6 +24,9 @@ for word in check exact diff words experts GROUP%NAME=VALUE 'Exit status' OMP_NU
 done
 status 2 "no deck" "$selas"
 status 2 "check without a deck" "$selas" check
+ok "a word that is no command says which there are" sh -c "'$selas' wrods 2>&1 | grep -q 'neither a command nor a deck'"
+ok "restart without a checkpoint" sh -c "'$selas' -q restart 2>&1 | grep -q 'no checkpoint was named'"
+ok "rerun without a run" sh -c "'$selas' rerun 2>&1 | grep -q 'no run was named'"
 status 2 "unknown option" "$selas" --fast input/halfspace.nml
 status 2 "a deck that is not there" "$selas" nothere.nml
 status 0 "check of each deck" sh -c "for deck in input/*.nml; do '$selas' check \$deck >/dev/null 2>&1 || exit 1; done"

@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 SELAS_API const char *argp_program_version = "selas " SELAS_VERSION; /* glibc looks for it: must be visible */
 
@@ -92,6 +93,11 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
                     return 0;
                 }
             arguments->command = "run";
+            if (strpbrk(argument, "./") == NULL && access(argument, F_OK) != 0)
+                argp_error(state,
+                           "'%s' is neither a command nor a deck; commands are run, check, exact, restart, "
+                           "rerun, diff and words",
+                           argument);
         }
         if (arguments->deck == NULL)
             arguments->deck = argument;
@@ -99,7 +105,13 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
             arguments->override[arguments->overrides++] = argument;
         return 0;
     case ARGP_KEY_END:
-        if (arguments->deck == NULL) argp_error(state, "no deck was named; try: selas input/halfspace.nml");
+        if (arguments->deck == NULL)
+            argp_error(state, "%s",
+                       strcmp(arguments->command, "restart") == 0
+                           ? "no checkpoint was named: selas restart output/NAME/unfinished/checkpoint.h5"
+                       : strcmp(arguments->command, "rerun") == 0
+                           ? "no run was named: selas rerun output/NAME/run.h5"
+                           : "no deck was named; try: selas input/halfspace.nml");
         if (arguments->echo && strcmp(arguments->command, "check") != 0)
             argp_error(state, "--echo goes with check: selas check --echo DECK");
         if (arguments->plot && strcmp(arguments->command, "check") != 0)
