@@ -40,9 +40,10 @@ static struct lamb_range wavenumbers(const struct work *work, double angular_fre
 {
     const double slowest = angular_frequency / work->sum.slowest;
     const double flat = 1.15 * slowest + 240 / work->scales.edge;
-    /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading */
+    /* below the surface exp(-z sqrt(k^2 - (w/c)^2)) ends it earlier, without fading; both ends rise with the frequency,
+     * so that those of a band's top hold for all of it */
     const double buried = hypot(26 / work->scales.depth, slowest);
-    return buried < flat ? (struct lamb_range){buried, buried} : (struct lamb_range){flat, flat / .6};
+    return (struct lamb_range){fmin(flat, buried), fmin(flat / .6, buried)};
 }
 
 static void one_frequency(const struct work *work, size_t j, double complex *sum)

@@ -9,6 +9,7 @@
 #include "base/sums.h"
 #include "exact/gauss12.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -254,6 +255,7 @@ void lamb_sum_at(const struct lamb_sum *sum, double complex s, struct lamb_range
         const size_t nodes = PANEL * (near ? sum->refine : 1);
         for (size_t from = panel * nodes; from < next * nodes && grid->k[from] < range.end; from += BLOCK) {
             const size_t count = next * nodes - from < BLOCK ? next * nodes - from : BLOCK;
+            assert(from + count <= grid->nodes);
             sum_block(sum, grid, s, range, from, count, value);
         }
         panel = next;
