@@ -421,6 +421,27 @@ untold "one that does not" check lies.nml
 untold "one that reaches a block of nearly the same rock" check lies.nml initial%centre=-0.8,0 'material(2)%density=1' \
     'material(2)%p_speed=1.81' 'material(2)%s_speed=1'
 told "a pulse through a block" "$across" check lies.nml initial%kind=plane-wave initial%centre=1,0
+# --- Depths below a hill or canyon are true ones ---
+cat >below.nml <<'END'
+&scene dimension = 2, end_time = 1 /
+&material name = 'rock', density = 1.0, p_speed = 1.9, s_speed = 1.0 /
+&material name = 'soft', density = 0.6, p_speed = 1.2, s_speed = 0.6 /
+&body material = 'rock', low = -4, 0, high = 4, 4, spacing = 0.1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'fixed' /
+&layer material = 'soft', top = 0 /
+&layer material = 'rock', top = 1.1, dip = 2 /
+&topography shape = 'canyon', height = 0.8, centre = 0, width = 1.2 /
+&load kind = 'moment-tensor', centre = 0, 1.5, moment = 1, -.5, 0, .3, 0, 0, history = 'gaussian', width = 0.6, delay = 3 /
+&receiver name = 'a', position = -2.2, depth = 0 /
+&profile name = 'p', from = 0, 1.3, to = 0, 1.6, times = 1, fields = 'stress' /
+&output plots = F /
+END
+untold "a moment tensor 4 spacings below a soil, and stress 2 below it, under a canyon" check below.nml
+told "a moment tensor nearer" "2.[01] spacings from where the rock changes" check below.nml load%centre=0,1.3
+told "stress across the soil's lower face" "'p' has stress.*$smooth" check below.nml profile%from=0,1 profile%to=0,1.3
+sed "/^&layer/d; s/^&topography.*/\&topography shape = 'gaussian', height = 0.5, centre = 0, width = 0.6 \/ \&block material = 'soft', centre = 0, -.3, size = .8, .36 \//
+    s/^&load.*/\&load kind = 'body-force', shape = 'point', centre = 1, 1, direction = 1, 1, history = 'gaussian', width = 0.6, delay = 3 \//" below.nml >within.nml
+told "stress across the lower face of a block in a hill" "'p' has stress.*$smooth" check within.nml profile%from=0,-.3 profile%to=0,0
 # --- Damped bodies that ring ---
 cat >rings.nml <<'END'
 &scene dimension = 1, end_time = 60 /

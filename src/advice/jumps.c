@@ -74,8 +74,8 @@ static bool by_law(unsigned fields)
 static bool at_jump(const struct scene *scene, const double position[3])
 {
     double place[3] = {0, 0, 0};
-    body_from_deck(&scene->body, position, place);
-    const double spacing = body_spacing_at(&scene->body, place);
+    ground_from_deck(&scene->body, position, place);
+    const double spacing = spacing_at(scene, position);
     for (int axis = 0; axis < scene->dimension; axis++)
         if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL)) return true;
     return false;
@@ -100,8 +100,8 @@ static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *s
     }
     if (!snapshot->whole) {
         double one[3], other[3];
-        body_from_deck(&scene->body, snapshot->region_low, one);
-        body_from_deck(&scene->body, snapshot->region_high, other);
+        ground_from_deck(&scene->body, snapshot->region_low, one);
+        ground_from_deck(&scene->body, snapshot->region_high, other);
         for (int axis = 0; axis < scene->dimension; axis++) {
             low[axis] = fmax(low[axis], fmin(one[axis], other[axis]) - scene->body.spacing);
             high[axis] = fmin(high[axis], fmax(one[axis], other[axis]) + scene->body.spacing);
@@ -141,7 +141,7 @@ static bool state_reaches(const struct scene *scene, const double place[3])
     const struct initial *initial = &scene->initial;
     double centre[3] = {0, 0, 0}, direction[3] = {0, 0, 0}, along = 0, square = 0;
     if (initial->kind == INITIAL_PLANE_WAVE && initial->wavelength > 0) return true;
-    body_from_deck(&scene->body, initial->centre, centre);
+    ground_from_deck(&scene->body, initial->centre, centre);
     body_direction_from_deck(&scene->body, initial->direction, direction);
     for (int axis = 0; axis < scene->dimension; axis++) {
         along += direction[axis] * (place[axis] - centre[axis]);
@@ -157,7 +157,7 @@ void look_at_crossed_rock(struct adviser *adviser)
     const struct initial *initial = &scene->initial;
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, centre[3] = {0, 0, 0};
     if (initial->kind != INITIAL_PLANE_WAVE && initial->kind != INITIAL_GAUSSIAN) return;
-    body_from_deck(&scene->body, initial->centre, centre);
+    ground_from_deck(&scene->body, initial->centre, centre);
     for (int axis = 0; axis < scene->dimension; axis++) {
         const double reach = initial->kind == INITIAL_GAUSSIAN ? STATE_REACH * initial->width : INFINITY;
         low[axis] = fmax(scene->body.low[axis], centre[axis] - reach);

@@ -25,6 +25,8 @@ void advise(struct adviser *adviser, const char *format, ...) __attribute__((for
 
 /* Is the ground, level layers too, carried by the general operator? */
 bool by_general_operator(const struct scene *scene);
+/* Largest distance of neighbouring points about a place of the deck. */
+double spacing_at(const struct scene *scene, const double position[3]);
 /* A traction on a square or a disc. */
 bool has_patch(const struct load *load);
 /* Half its extent along an axis; 0 across its face. */

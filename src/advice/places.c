@@ -62,7 +62,7 @@ static double near(const struct scene *scene, const struct load *load, const dou
                                                                                                   : 6.0;
 }
 
-static double spacing_at(const struct scene *scene, const double position[3])
+double spacing_at(const struct scene *scene, const double position[3])
 {
     double place[3];
     body_from_deck(&scene->body, position, place);
@@ -141,8 +141,8 @@ void look_at_interfaces(struct adviser *adviser)
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
         double place[3] = {0.0, 0.0, 0.0};
-        body_from_deck(&scene->body, scene->load[k].centre, place);
-        const double spacing = body_spacing_at(&scene->body, place);
+        ground_from_deck(&scene->body, scene->load[k].centre, place);
+        const double spacing = spacing_at(scene, scene->load[k].centre);
         if (!ground_is_general(scene) && contrast(scene, place, reach * spacing) <= strong) continue;
         for (int axis = 0; axis < scene->dimension; axis++)
             for (int n = 1; n < least * STEPS; n++) {

@@ -67,21 +67,26 @@ void body_direction_to_deck(const struct body *body, const double body_direction
     memcpy(direction, result, sizeof result);
 }
 
-/* Places of a body that is not turned pass unchanged, to the last bit, but for those below a surface that is not
- * level, which never is that of a turned body. */
-void body_from_deck(const struct body *body, const double position[3], double body_position[3])
+/* Places of a body that is not turned pass unchanged, to the last bit. */
+void ground_from_deck(const struct body *body, const double position[3], double place[3])
 {
     double offset[3];
     if (!body->rotated) {
-        memmove(body_position, position, sizeof offset);
-        if (body->topography != NULL) topography_to_lattice(body->topography, body_position);
+        memmove(place, position, sizeof offset);
         return;
     }
     for (int c = 0; c < 3; c++)
         offset[c] = position[c] - body->pivot[c];
     body_direction_from_deck(body, offset, offset);
     for (int c = 0; c < 3; c++)
-        body_position[c] = body->pivot[c] + offset[c];
+        place[c] = body->pivot[c] + offset[c];
+}
+
+/* A surface that is not level never is that of a turned body. */
+void body_from_deck(const struct body *body, const double position[3], double body_position[3])
+{
+    ground_from_deck(body, position, body_position);
+    if (body->topography != NULL) topography_to_lattice(body->topography, body_position);
 }
 
 void body_to_deck(const struct body *body, const double body_position[3], double position[3])

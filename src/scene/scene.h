@@ -287,6 +287,8 @@ void scene_free(struct scene **scene);
 /* Position and direction between the deck's coordinates and the body's own frame. */
 void body_from_deck(const struct body *body, const double position[3], double body_position[3]);
 void body_to_deck(const struct body *body, const double body_position[3], double position[3]);
+/* The same below a surface that is not level with the depth as it is, for ground_at() and ground_jumps(). */
+void ground_from_deck(const struct body *body, const double position[3], double place[3]);
 /* The same for places of the lattice, which is even there: those of the body's own frame but for depths of a graded
  * one. */
 void lattice_from_deck(const struct body *body, const double position[3], double place[3]);
