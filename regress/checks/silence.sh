@@ -242,6 +242,11 @@ told "a load of amplitude 0 alone" "nothing acts" check nothing.nml load%amplitu
 told "a load that begins behind the end" "begins at t = 3 and the run ends at 2: it does nothing" check nothing.nml load%start=3
 told "rows farther apart than the run is long" "have the row t = 0 alone" check nothing.nml output%history_step=9
 told "a block beside the body" "&block 1 lies outside the body: along x" check nothing.nml block%centre=9,2
+untold "a block inside the hill" check nothing.nml block%centre=1,-.1 block%size=1,.2 topography%height=.4
+told "a block above the hill" "&block 1 lies outside the body: along y it goes from -0.6 to -0.4, the body from -0.4 to 3" check nothing.nml \
+    block%centre=1,-.5 block%size=1,.2 topography%height=.4
+told "a block above a canyon's rim" "along y it goes from -0.3 to -0.1, the body from -?[0-9e.-]* to 3" check nothing.nml block%centre=1,-.2 \
+    block%size=1,.2 topography%shape=canyon
 told "a hill between two points" "width = 0.01 is less than the spacing" check nothing.nml topography%width=.01
 grep -v '&load' nothing.nml >outside.nml
 echo "&initial kind = 'gaussian', centre = 9, 1, width = 0.5, amplitude = 1, direction = 1, 0 /" >>outside.nml
@@ -442,6 +447,7 @@ told "stress across the soil's lower face" "'p' has stress.*$smooth" check below
 sed "/^&layer/d; s/^&topography.*/\&topography shape = 'gaussian', height = 0.5, centre = 0, width = 0.6 \/ \&block material = 'soft', centre = 0, -.3, size = .8, .36 \//
     s/^&load.*/\&load kind = 'body-force', shape = 'point', centre = 1, 1, direction = 1, 1, history = 'gaussian', width = 0.6, delay = 3 \//" below.nml >within.nml
 told "stress across the lower face of a block in a hill" "'p' has stress.*$smooth" check within.nml profile%from=0,-.3 profile%to=0,0
+untold "stress within it" check within.nml profile%from=0,-.35 profile%to=0,-.25
 # --- Damped bodies that ring ---
 cat >rings.nml <<'END'
 &scene dimension = 1, end_time = 60 /

@@ -2,6 +2,7 @@
 #include "advice/parts.h"
 
 #include "scene/boundary.h"
+#include "scene/ground.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -31,10 +32,11 @@ static void look_at_blocks(struct adviser *adviser)
         for (int axis = 0; axis < adviser->scene->dimension; axis++) {
             const double from = body->block[k].centre[axis] - body->block[k].half[axis];
             const double to = body->block[k].centre[axis] + body->block[k].half[axis];
-            if (to > body->low[axis] && from < body->high[axis]) continue;
+            const double low = ground_low(body, axis);
+            if (to > low && from < body->high[axis]) continue;
             advise(adviser,
                    "&block %zu lies outside the body: along %c it goes from %g to %g, the body from %g to %g",
-                   k + 1, 'x' + axis, from, to, body->low[axis], body->high[axis]);
+                   k + 1, 'x' + axis, from, to, low, body->high[axis]);
             break;
         }
 }

@@ -258,6 +258,12 @@ size_t ground_jumps_at_most(const struct scene *scene)
            (scene->body.model != NULL ? MODEL_PARTS << HALVINGS : 0);
 }
 
+double ground_low(const struct body *body, int axis)
+{
+    const struct topography *topography = body->topography;
+    return body->low[axis] + (topography != NULL && axis == topography->axis ? topography->top : 0);
+}
+
 bool ground_grades(const struct scene *scene)
 {
     if (scene->body.line != NULL) return false;

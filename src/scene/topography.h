@@ -26,8 +26,9 @@ struct topography {
     int axis;                        /* the vertical one */
     double plane;                    /* where the vertical axis cuts face z- */
     double depth;                    /* below the plane the lattice is level */
-    struct drawn_out end[2][2];      /* [horizontal axis][low, high] */
-    double changed;                  /* by that, at the points of the surface at most */
+    double top;                 /* how far its highest point lies below the plane; a hill's is negative */
+    struct drawn_out end[2][2]; /* [horizontal axis][low, high] */
+    double changed;             /* by that, at the points of the surface at most */
     char text
         [4]
         [200]; /* for the plan: heights and slope, lattice, what splines and what absorbing layers changed */

@@ -308,6 +308,7 @@ void build_topography(struct builder *builder)
         topography_changed(topography, body->spacing, body->chosen ? body->waves_low : body->low,
                            body->chosen ? body->waves_high : body->high);
     const struct range range = range_of(body);
+    topography->top = range.low;
     tell(builder, topography, &range);
     check_range(builder, group, topography, &range);
     warn_of_low_model(builder, group, &range);
