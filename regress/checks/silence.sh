@@ -448,6 +448,25 @@ sed "/^&layer/d; s/^&topography.*/\&topography shape = 'gaussian', height = 0.5,
     s/^&load.*/\&load kind = 'body-force', shape = 'point', centre = 1, 1, direction = 1, 1, history = 'gaussian', width = 0.6, delay = 3 \//" below.nml >within.nml
 told "stress across the lower face of a block in a hill" "'p' has stress.*$smooth" check within.nml profile%from=0,-.3 profile%to=0,0
 untold "stress within it" check within.nml profile%from=0,-.35 profile%to=0,-.25
+sed "s/^&profile.*/\&snapshot times = 1, fields = 'stress' \//" within.nml >hill.nml
+told "stress all over a hill with a block in it" "&snapshot 1 has stress.*$smooth" check hill.nml
+untold "stress below it" check hill.nml snapshot%region=-2,.1,2,2
+cat >small.nml <<'END'
+&scene dimension = 3, end_time = 1 /
+&material name = 'rock', density = 1.0, p_speed = 1.9, s_speed = 1.0 /
+&material name = 'soft', density = 0.6, p_speed = 1.0, s_speed = 0.5 /
+&body material = 'rock', low = -4.5, -4.5, 0, high = 4.5, 4.5, 4.5, spacing = 0.5 /
+&block material = 'soft', shape = 'box', centre = .5, 0, 2, size = .9, .9, .4 /
+&load face = 'z-', shape = 'square', centre = 0, 0, 0, size = 2, 2, direction = 0, 0, 1, history = 'gaussian', width = 2, delay = 10 /
+&receiver name = 'a', position = 0, 0, 0 /
+&snapshot times = 1, fields = 'stress' /
+&output plots = F /
+END
+told "stress of a body with a small block" "&snapshot 1 has stress.*$smooth" check small.nml
+told "with a small ball" "&snapshot 1 has stress.*$smooth" check small.nml block%shape=ellipsoid snapshot%region=-4,-1,0,.6,1,4
+untold "stress beside the ball" check small.nml block%shape=ellipsoid snapshot%region=-4,-1,0,-.6,1,4
+told "a state at a thin block" "$across" check lies.nml block%centre=.02,.23 block%size=.04,.3
+untold "a state beside it" check lies.nml block%centre=1.02,.23 block%size=.04,.3
 # --- Damped bodies that ring ---
 cat >rings.nml <<'END'
 &scene dimension = 1, end_time = 60 /

@@ -44,19 +44,37 @@ static bool jumps_on(const struct scene *scene, const double place[3], int axis,
     return found;
 }
 
-/* The same of lines through a box of the body's frame. */
+/* The middle of what a box holds of a block; of an ellipsoid what lies nearest to its own. */
+static bool middle_of(const struct ground_block *block, int dimension, const double low[3],
+                      const double high[3], double middle[3])
+{
+    for (int axis = 0; axis < dimension; axis++) {
+        const double centre = block->centre[axis], half = block->half[axis];
+        const double from = fmax(low[axis], centre - half), to = fmin(high[axis], centre + half);
+        if (from >= to) return false;
+        middle[axis] = block->shape == BLOCK_BOX ? (from + to) / 2 : fmin(fmax(from, centre), to);
+    }
+    return true;
+}
+
+/* The same of lines through a box of the body's frame: evenly over it, and through each block. */
 static bool jumps_in(const struct scene *scene, const double low[3], const double high[3],
                      bool (*counts)(const struct scene *scene, const double place[3]))
 {
     enum { LINES = 9 };
     for (int axis = 0; axis < scene->dimension; axis++) {
         const int one = (axis + 1) % 3, other = (axis + 2) % 3;
+        double place[3] = {low[0], low[1], low[2]};
+        for (size_t k = 0; k < scene->body.blocks; k++)
+            if (middle_of(&scene->body.block[k], scene->dimension, low, high, place) &&
+                jumps_on(scene, place, axis, low[axis], high[axis], counts))
+                return true;
         for (int line = 0; line < LINES * LINES; line++) {
             const int i = line % LINES, j = line / LINES;
             if ((one >= scene->dimension && i > 0) || (other >= scene->dimension && j > 0)) continue;
-            double place[3] = {low[0], low[1], low[2]};
-            place[one] += (high[one] - low[one]) * (i + .5) / LINES;
-            place[other] += (high[other] - low[other]) * (j + .5) / LINES;
+            place[axis] = low[axis];
+            place[one] = low[one] + (high[one] - low[one]) * (i + .5) / LINES;
+            place[other] = low[other] + (high[other] - low[other]) * (j + .5) / LINES;
             if (jumps_on(scene, place, axis, low[axis], high[axis], counts)) return true;
         }
     }
@@ -95,7 +113,7 @@ static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *s
 {
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     for (int axis = 0; axis < scene->dimension; axis++) {
-        low[axis] = scene->body.low[axis];
+        low[axis] = ground_low(&scene->body, axis);
         high[axis] = scene->body.high[axis];
     }
     if (!snapshot->whole) {
@@ -160,7 +178,7 @@ void look_at_crossed_rock(struct adviser *adviser)
     ground_from_deck(&scene->body, initial->centre, centre);
     for (int axis = 0; axis < scene->dimension; axis++) {
         const double reach = initial->kind == INITIAL_GAUSSIAN ? STATE_REACH * initial->width : INFINITY;
-        low[axis] = fmax(scene->body.low[axis], centre[axis] - reach);
+        low[axis] = fmax(ground_low(&scene->body, axis), centre[axis] - reach);
         high[axis] = fmin(scene->body.high[axis], centre[axis] + reach);
     }
     if (!jumps_in(scene, low, high, state_reaches)) return;
