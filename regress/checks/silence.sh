@@ -467,6 +467,10 @@ told "with a small ball" "&snapshot 1 has stress.*$smooth" check small.nml block
 untold "stress beside the ball" check small.nml block%shape=ellipsoid snapshot%region=-4,-1,0,-.6,1,4
 told "a state at a thin block" "$across" check lies.nml block%centre=.02,.23 block%size=.04,.3
 untold "a state beside it" check lies.nml block%centre=1.02,.23 block%size=.04,.3
+sed "/^&layer/d; /^&topography/d; /^&profile/d; s/^&load/\&block material = 'soft', centre = 0, 1.5, size = 1.6, 1 \/ &/" below.nml >corner.nml
+told "a moment tensor off a block's corner" "0.6 spacings from where the rock changes" check corner.nml load%centre=.84,.97
+told "farther off" "2.9 spacings from where the rock changes" check corner.nml load%centre=1,.8
+untold "one 3.1 spacings off it" check corner.nml load%centre=1.02,.78
 # --- Damped bodies that ring ---
 cat >rings.nml <<'END'
 &scene dimension = 1, end_time = 60 /

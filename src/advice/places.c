@@ -98,22 +98,38 @@ void look_at_nearness(struct adviser *adviser)
            spacings > 6.0 ? " or tenths" : "", finer);
 }
 
-/* Difference of a modulus from the mean of those on either side, over it: 0 where the rock is even or changes
- * evenly. */
-static double bend(const struct scene *scene, const double place[3], int axis, double away)
+/* Difference of a modulus from the mean of those on either side along a direction, over it: 0 where the rock is even or
+ * changes evenly. */
+static double bend(const struct scene *scene, const double place[3], const double direction[3], double away)
 {
     double sides[2] = {0.0, 0.0};
     const struct rock here = ground_at(scene, place);
     for (int side = -1; side <= 1; side += 2) {
         double there[3];
         for (int c = 0; c < 3; c++)
-            there[c] = place[c] + (c == axis ? side * away : 0.0);
+            there[c] = place[c] + side * away * direction[c];
         const struct rock rock = ground_at(scene, there);
         sides[0] += 0.5 * (rock.lambda + 2.0 * rock.mu);
         sides[1] += 0.5 * rock.mu;
     }
     const double worst = fabs(sides[0] / (here.lambda + 2.0 * here.mu) - 1.0);
     return here.mu > 0.0 ? fmax(worst, fabs(sides[1] / here.mu - 1.0)) : worst;
+}
+
+/* Unit vectors along axes and diagonals of the lattice: of each two that are opposite one. How many. */
+enum { MOST_DIRECTIONS = 13 };
+static size_t lay_directions(int dimension, double direction[MOST_DIRECTIONS][3])
+{
+    const int all = dimension == 1 ? 3 : dimension == 2 ? 9 : 27;
+    size_t count = 0;
+    for (int code = all / 2 + 1; code < all; code++) {
+        const double step[3] = {code % 3 - 1, dimension > 1 ? code / 3 % 3 - 1 : 0,
+                                dimension > 2 ? code / 9 - 1 : 0};
+        for (int c = 0; c < 3; c++)
+            direction[count][c] = step[c] / hypot(hypot(step[0], step[1]), step[2]);
+        count++;
+    }
+    return count;
 }
 
 /* The greater of the shear moduli at the ends over the lesser, along depth. */
@@ -135,7 +151,8 @@ void look_at_interfaces(struct adviser *adviser)
     enum { STEPS = 10 }; /* in a spacing */
     static const double reach = 3.0, slight = 0.05, strong = 10.0;
     const struct scene *scene = adviser->scene;
-    double least = reach;
+    double least = reach, direction[MOST_DIRECTIONS][3];
+    const size_t directions = lay_directions(scene->dimension, direction);
     size_t load = 0;
     if (strcmp(scene->method.variant, "consistent") != 0 || !by_general_operator(scene)) return;
     for (size_t k = 0; k < scene->loads; k++) {
@@ -144,9 +161,9 @@ void look_at_interfaces(struct adviser *adviser)
         ground_from_deck(&scene->body, scene->load[k].centre, place);
         const double spacing = spacing_at(scene, scene->load[k].centre);
         if (!ground_is_general(scene) && contrast(scene, place, reach * spacing) <= strong) continue;
-        for (int axis = 0; axis < scene->dimension; axis++)
+        for (size_t i = 0; i < directions; i++)
             for (int n = 1; n < least * STEPS; n++) {
-                if (bend(scene, place, axis, n * spacing / STEPS) <= slight) continue;
+                if (bend(scene, place, direction[i], n * spacing / STEPS) <= slight) continue;
                 least = (double)n / STEPS;
                 load = k;
             }
