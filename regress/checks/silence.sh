@@ -487,6 +487,19 @@ untold "six mechanisms" check rings.nml method%mechanisms=6
 untold "a wider pulse" check rings.nml load%width=1 load%delay=5
 untold "an earlier end" check rings.nml scene%end_time=15
 untold "a face that takes the waves up" check rings.nml boundary%kind=transmitting
+cat >strip.nml <<'END'
+&scene dimension = 2, end_time = 60 /
+&method mechanisms = 3 /
+&material name = 'm', density = 1.0, p_speed = 1.8, s_speed = 1.0, q_p = 40, q_s = 20 /
+&body material = 'm', low = 0, 0, high = 12, 1, spacing = 0.1 /
+&boundary face = 'x-', kind = 'fixed' /
+&load kind = 'body-force', shape = 'point', centre = .73, .52, direction = 1, .4, history = 'gaussian', width = .25, delay = 2 /
+&receiver name = 'a', position = 4.3, .3 /
+&output plots = F /
+END
+told "a damped strip held at one end" "rings at frequencies below the source's" check strip.nml
+untold "held all round" check strip.nml boundary%face=all
+told "on rollers all round" "rings at frequencies below the source's" check strip.nml boundary%face=all boundary%kind=roller
 # --- Loads are counted as the deck's &load ---
 printf '%s\n' '-.5 0 1 0 0 1' '.5 0 1 0 0 1' >sources.txt
 cat >numbers.nml <<'END'

@@ -7,16 +7,33 @@
 
 #include <math.h>
 
-/* Of bending, c/2pi times about h/L^2 of a body clamped at one end; in one dimension c/4L. */
+/* Over speed, of displacements of one component held on a face across an axis: a quarter of the edge's wave; where the
+ * body is thin along the component that of bending, 1/2pi times about h/L^2. */
+static double swing(const struct scene *scene, int component, int axis)
+{
+    const double *low = scene->body.low, *high = scene->body.high;
+    const double edge = high[axis] - low[axis], thick = high[component] - low[component];
+    return axis == component ? .25 / edge : fmin(.25, .16 * thick / edge) / edge;
+}
+
+/* Of the components' the least: held on both faces twice that of one; where none holds it that of the longest edge. */
 static double lowest_frequency(const struct scene *scene)
 {
-    double least = INFINITY, most = 0;
-    for (int axis = 0; axis < scene->dimension; axis++) {
-        const double edge = scene->body.high[axis] - scene->body.low[axis];
-        least = fmin(least, edge);
-        most = fmax(most, edge);
+    const struct body *body = &scene->body;
+    double least = INFINITY;
+    int longest = 0;
+    for (int axis = 1; axis < scene->dimension; axis++)
+        if (body->high[axis] - body->low[axis] > body->high[longest] - body->low[longest]) longest = axis;
+    for (int component = 0; component < scene->dimension; component++) {
+        double held = 0;
+        for (int axis = 0; axis < scene->dimension; axis++) {
+            const int faces = face_holds(scene, (enum face)(2 * axis), component) +
+                              face_holds(scene, (enum face)(2 * axis + 1), component);
+            held = fmax(held, faces * swing(scene, component, axis));
+        }
+        least = fmin(least, held > 0 ? held : swing(scene, component, longest));
     }
-    return slowest_speed(scene) / most * (scene->dimension == 1 ? .25 : .16 * least / most);
+    return slowest_speed(scene) * least;
 }
 
 static bool absorbs_anywhere(const struct scene *scene)
