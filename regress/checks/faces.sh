@@ -1,6 +1,7 @@
 #!/bin/sh
 # What acts and what the ground is made of end on faces: blocks drawn to a face are those drawn past it, rock that a valley
-# takes away is none, a traction on the edge of a plate leaves the rim of its hole alone. Argument: the build folder. TAP.
+# takes away is none, dampers beside a plateau have the speeds of the rock there, a traction on the edge of a plate leaves
+# the rim of its hole alone. Argument: the build folder. TAP.
 build=${1:-build}
 selas=$PWD/$build/selas
 work=$(mktemp -d "${TMPDIR:-/tmp}/selas-faces-XXXXXX") || exit 1
@@ -44,6 +45,27 @@ sed "s/^&block.*/\&topography file = 'flat.txt' \/ \&layer material = 'soft', to
     s/centre = 0.2, 0,/centre = 0.2, .3,/; s/position = 1.2, 0 /position = 1.2, .3 /" flush.nml >valley.nml
 run valley valley.nml && sed "s/.soft., top/'rock', top/; /name = .soft/d" valley.nml >even.nml && run even even.nml
 differ "rock that a valley takes away acts on nothing" 0 1e-9 valley even
+# --- The same ground as a body below a plateau and as one with a level surface ---
+printf '%s\n' '-9 .8' '9 .8' >plateau.txt
+cat >plateau.nml <<'END'
+&scene dimension = 2, end_time = 7 /
+&material name = 'rock', density = 1.2, p_speed = 3, s_speed = 1.7 /
+&material name = 'soft', density = .8, p_speed = 1.4, s_speed = .7 /
+&body material = 'rock', shape = 'box', low = -2, 0, high = 2, 3, spacing = .1 /
+&topography file = 'plateau.txt' /
+&layer material = 'soft', top = 0 /
+&layer material = 'rock', top = .4 /
+&load kind = 'body-force', shape = 'point', centre = .2, -.1, direction = 1, .6, history = 'gaussian', width = .5, delay = 2 /
+&receiver name = 'a', position = -1, -.8 /
+&receiver name = 'b', position = 1.2, -.3 /
+&output history_step = .1, plots = F /
+END
+sed "s/^&topography.*/\&method operator = 'general' \//; s/low = -2, 0/low = -2, -.8/; s/top = .4/top = 1.2/" plateau.nml >level.nml
+for side in "" "boundary%face=x-,x+ boundary%kind=transmitting boundary%layer=lysmer"; do
+    # shellcheck disable=SC2086 # words
+    run plateau plateau.nml $side && run level level.nml $side
+    differ "ground below a plateau as level ground (${side:-free sides})" 0 .015 plateau level
+done
 # --- The rim of a hole ---
 cat >hole.nml <<'END'
 &scene dimension = 2, end_time = 8 /

@@ -1,6 +1,7 @@
 /* The consistent smoothed point method (consistent.c): its axes, and what faces and grounds do to the control
  * values on them. */
 #include "method/consistent/galerkin/galerkin.h"
+#include "method/consistent/galerkin/surface.h"
 
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
@@ -124,8 +125,8 @@ static bool lay_material(struct consistent *c)
     return true;
 }
 
-/* Speeds of P and S waves on a face of general ground at the depth of plane k (on those across depth: in all),
- * the mean over places along it: the dampers of a plane are one. */
+/* Speeds of P and S waves on a face of general ground where plane k of the lattice lies (on those across depth: all
+ * planes), the mean over places along it: the dampers of a plane are one. */
 static void mean_speeds(const struct consistent *c, int face, size_t k, double speed[2])
 {
     enum { SAMPLES = 33 };
@@ -134,7 +135,8 @@ static void mean_speeds(const struct consistent *c, int face, size_t k, double s
     double place[3] = {0};
     const int n[3] = {across == 0 || depth == 0 ? 1 : SAMPLES, across == 1 || depth < 2 ? 1 : SAMPLES, 1};
     place[across] = face_plane(&scene->body, (enum face)face);
-    if (across != depth) place[depth] = grading_real(scene->body.grading, c->layout[DEPTH]->greville[k]);
+    place[depth] =
+        across == depth ? grading_lattice(scene->body.grading, place[depth]) : c->layout[DEPTH]->greville[k];
     speed[0] = speed[1] = 0;
     for (int i = 0; i < n[0] * n[1]; i++) {
         const int at[2] = {i % n[0], i / n[0]};
@@ -142,8 +144,9 @@ static void mean_speeds(const struct consistent *c, int face, size_t k, double s
             if (n[axis] > 1)
                 place[axis] = scene->body.low[axis] +
                               (at[axis] + .5) / SAMPLES * (scene->body.high[axis] - scene->body.low[axis]);
-        double here[2];
-        ground_speeds_at(scene, place, here);
+        double real[3] = {place[0], place[1], place[2]}, here[2];
+        consistent_to_ground(c, real);
+        ground_speeds_at(scene, real, here);
         speed[0] += here[0] / (n[0] * n[1]);
         speed[1] += here[1] / (n[0] * n[1]);
     }
@@ -210,7 +213,7 @@ selas_status consistent_lay(struct consistent *c, struct messages *messages)
     const selas_status status = lay_axes(c, messages);
     if (status != SELAS_OK) return status;
     lay_faces(c);
-    if (lay_material(c) && lay_planes(c) && consistent_lay_surface(c)) return SELAS_OK;
+    if (lay_material(c) && consistent_lay_surface(c) && lay_planes(c)) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
 }
 
