@@ -170,6 +170,29 @@ static void a_patch_that_has_left_pushes_no_more(void **unused)
     finish(&run);
 }
 
+/* A block is the top of a plateau: the patch is slower than the Rayleigh waves there, or not. */
+static void the_rock_is_that_below_the_patch(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "&scene dimension=2, end_time=2 /\n&material name='m', density=1.2, p_speed=3, s_speed=1.7 /\n"
+        "&material name='soft', density=.8, p_speed=1.4, s_speed=.7 /\n"
+        "&body material='m', shape='box', low=-3,0, high=3,3, spacing=.25 /\n"
+        "&topography shape='gaussian', height=.8, centre=0, width=1.5 /\n"
+        "&block material='soft', shape='box', centre=0,-.6, size=20,.8 /\n"
+        "&load face='y-', shape='point', centre=0,-.8, direction=0,1, velocity=%g,0, history='step' /\n";
+    for (int fast = 0; fast < 2; fast++) {
+        char full[1024];
+        struct model *model = NULL;
+        snprintf(full, sizeof full, text, fast == 1 ? .66 : .62);
+        struct from_deck from = right_scene(full);
+        assert_int_equal(model_create(from.scene, &model, &from.messages), SELAS_OK);
+        assert_int_equal(((const struct consistent *)model)->moving_load[0].lag == 0, fast == 1);
+        model_free(&model);
+        from_deck_free(&from);
+    }
+}
+
 static void what_cannot_move_is_refused(void **unused)
 {
     (void)unused;
@@ -202,6 +225,7 @@ int main(void)
         cmocka_unit_test(forces_follow_the_patch),
         cmocka_unit_test(the_mean_passes_what_points_carry),
         cmocka_unit_test(a_patch_that_has_left_pushes_no_more),
+        cmocka_unit_test(the_rock_is_that_below_the_patch),
         cmocka_unit_test(what_cannot_move_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

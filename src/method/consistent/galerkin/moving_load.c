@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "method/consistent/galerkin/hform.h"
+#include "method/consistent/galerkin/surface.h"
 #include "scene/ground.h"
 #include "scene/resolution.h"
 
@@ -28,10 +29,14 @@ void moving_weights(double weight[MOVING_SHIFTS])
 
 /* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more; none where the
  * load is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
-static double lag(const struct scene *scene, const double centre[3], const double velocity[3])
+static double lag(const struct consistent *c, const struct load *load, const double velocity[3])
 {
     static const double spacings = 9, rayleigh = .92;
-    const struct rock rock = ground_at(scene, centre);
+    const struct scene *scene = c->model.scene;
+    double place[3];
+    lattice_from_deck(&scene->body, load->centre, place);
+    consistent_to_ground(c, place);
+    const struct rock rock = ground_at(scene, place);
     const double here = sqrt(rock.mu / rock.density), slowest = fmin(slowest_speed(scene), here);
     const double speed = hypot(hypot(velocity[0], velocity[1]), velocity[2]);
     return speed < rayleigh * here ? spacings / MOVING_SHIFTS * scene->body.spacing / fmax(slowest, speed)
@@ -67,7 +72,7 @@ static selas_status create(struct consistent *c, size_t index, struct moving_loa
             moving->half[axis] = load->size[edge++] / 2;
     }
     moving->face = face_axis(load->face);
-    moving->lag = lag(scene, moving->centre, moving->velocity);
+    moving->lag = lag(c, load, moving->velocity);
     moving_weights(moving->weight);
     moving->work = array_new(2 * longest, sizeof *moving->work);
     moving->shifted = moving->work + longest;
