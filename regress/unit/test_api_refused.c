@@ -130,12 +130,55 @@ static void test_loads_behind_sources(void **state)
     remove(path);
 }
 
+/* The host's load stays that of its &load when a list of sources before it grows; it cannot become several. */
+static void test_sources_grow(void **state)
+{
+    (void)state;
+    static const char *const path[2] = {"build/test-api-source.txt", "build/test-api-sources.txt"};
+    static const char more[] =
+        "%s&load kind = 'body-force', sources = '%s', amplitude = 0, history = 'triangle', duration = 1 /\n"
+        "&load name = 'held', face = 'z-', shape = 'square', centre = 2, 2, 0, size = 2, 2, direction = 0, "
+        "0, 1,\n"
+        "  history = 'triangle', duration = 1 /\n";
+    char text[2048];
+    double value[2][6];
+    for (int n = 0; n < 2; n++) {
+        FILE *file = fopen(path[n], "w");
+        assert_non_null(file);
+        fputs(n == 0 ? "1 1 1  0 0 1\n" : "1 1 1  0 0 1\n3 1 1  0 0 1\n", file);
+        fclose(file);
+    }
+    snprintf(text, sizeof text, more, scene, path[0]);
+    for (int grown = 0; grown < 2; grown++) {
+        selas_simulation *s = NULL;
+        if (selas_open_text("grown.nml", text, &s) != SELAS_OK) fail_msg("%s", selas_message(s));
+        assert_int_equal(selas_set_load(s, "held", 1), SELAS_OK);
+        assert_int_equal(selas_set_text(s, "load(2)%sources", 1, &path[grown]), SELAS_OK);
+        if (selas_step(s, 3) != SELAS_OK) fail_msg("%s", selas_message(s));
+        assert_int_equal(selas_receiver(s, "r", SELAS_VELOCITY, value[grown]), SELAS_OK);
+        assert_true(value[grown][2] == value[0][2] && fabs(value[0][2]) > 1e-3);
+        selas_close(&s);
+    }
+    selas_simulation *s = NULL;
+    assert_int_equal(selas_open_text("grown.nml", text, &s), SELAS_OK);
+    assert_int_equal(selas_set_load(s, "2", 1), SELAS_OK);
+    assert_int_equal(selas_set_text(s, "load(2)%sources", 1, &path[1]), SELAS_OK);
+    wrong(s, selas_step(s, 1));
+    assert_non_null(strstr(selas_last_message(s), "is several sources"));
+    assert_int_equal(selas_set_text(s, "load(2)%sources", 1, &path[0]), SELAS_OK);
+    assert_int_equal(selas_step(s, 1), SELAS_OK);
+    selas_close(&s);
+    remove(path[0]);
+    remove(path[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused_calls_change_nothing),
         cmocka_unit_test(test_one_failure_is_told_once),
         cmocka_unit_test(test_loads_behind_sources),
+        cmocka_unit_test(test_sources_grow),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

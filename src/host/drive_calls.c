@@ -15,16 +15,10 @@ static selas_status find_load(selas_simulation *simulation, const char *name, si
 {
     const struct scene *scene = simulation->scene;
     for (size_t i = 0; name != NULL && i < scene->loads && scene->load[i].driven != BY_HOST; i++) {
-        const struct load *load = &scene->load[i], *next = i + 1 < scene->loads ? load + 1 : NULL;
         char number[LOAD_NUMBER_SIZE];
         if (strcmp(load_name(scene, i, number), name) != 0) continue;
-        if (next != NULL && next->driven != BY_HOST && next->group == load->group)
-            return fail(&simulation->messages, SELAS_UNSUPPORTED,
-                        "load '%s' is several sources, which no host drives as one; a &load for each of them "
-                        "would do",
-                        name);
         *index = i;
-        return SELAS_OK;
+        return host_drives_all(simulation, i);
     }
     return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                 "there is no load '%.60s'; expected the name of a &load, or its number if it has none",
@@ -56,6 +50,7 @@ static selas_status drive_new_load(selas_simulation *simulation, const struct dr
         driven = &host->load[host->loads++];
     }
     *driven = *wanted;
+    driven->group = simulation->scene->load[wanted->load].group;
     simulation_discard(simulation);
     return SELAS_OK;
 }

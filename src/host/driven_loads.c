@@ -94,12 +94,29 @@ static void lay_pieces(const struct scene *scene, const struct driven_load *driv
     }
 }
 
-/* Marks a load as the host's; behind the scene's loads come the pieces of one that a function gives. */
+selas_status host_drives_all(selas_simulation *simulation, size_t load)
+{
+    const struct scene *scene = simulation->scene;
+    const struct load *next = load + 1 < scene->loads ? &scene->load[load + 1] : NULL;
+    char number[LOAD_NUMBER_SIZE];
+    if (next == NULL || next->driven == BY_HOST || next->group != scene->load[load].group) return SELAS_OK;
+    return fail(
+        &simulation->messages, SELAS_UNSUPPORTED,
+        "load '%s' is several sources, which no host drives as one; a &load for each of them would do",
+        load_name(scene, load, number));
+}
+
+/* Marks a load as the host's, wherever the scene has it; behind the scene's loads come the pieces of one that a
+ * function gives. */
 static selas_status take_over(selas_simulation *simulation, struct driven_load *driven)
 {
     struct scene *scene = simulation->scene;
+    driven->load = 0;
+    while (scene->load[driven->load].group != driven->group) /* each &load is a load at least */
+        driven->load++;
     struct load *load = &scene->load[driven->load];
     struct cut cut;
+    if (host_drives_all(simulation, driven->load) != SELAS_OK) return SELAS_UNSUPPORTED;
     history_free(&load->history);
     load->history = (struct history){0};
     load->driven = HELD_BY_HOST; /* at 0 if a function gives its pieces */

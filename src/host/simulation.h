@@ -13,7 +13,8 @@
 
 /* A load whose traction, force or body force the host gives. */
 struct driven_load {
-    size_t load;                    /* in the scene */
+    size_t group;                   /* occurrence of &load */
+    size_t load;                    /* in the scene: another one once a list of sources before it grows */
     selas_vector_function function; /* NULL: the host holds the load at `value` along its direction */
     void *context;
     double value;
@@ -136,6 +137,8 @@ selas_status host_refresh(selas_simulation *simulation);
 /* Name of a load, or the number of its &load if it has none. */
 enum { LOAD_NUMBER_SIZE = 32 };
 const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE]);
+/* SELAS_OK if this load is all of its &load; SELAS_UNSUPPORTED: one of several sources. */
+selas_status host_drives_all(selas_simulation *simulation, size_t load);
 /* SELAS_OK if a function can give this load, or the reason why not. */
 selas_status host_can_drive(const struct scene *scene, const struct load *load, struct messages *messages);
 void host_free(selas_simulation *simulation);
