@@ -185,6 +185,23 @@ static void both_sides_are_averaged(void **state)
     assert_true(fabs(history_value(&table, .5, 1) - .5 * (2 - 26)) < 1e-12);
 }
 
+static void cutoff_of_a_step_has_no_unit(void **state)
+{
+    (void)state;
+    for (int table = 0; table < 2; table++)
+        for (int k = -1; k < 2; k++) {
+            double zero = 0, one = 1;
+            struct history history = {.kind = table ? HISTORY_TABLE : HISTORY_STEP,
+                                      .smoothing = 3 * pow(1e9, k)};
+            if (table) {
+                history.rows = 1;
+                history.table_time = &zero;
+                history.table_value = &one;
+            }
+            assert_true(fabs(history_cutoff(&history, .05) * history.smoothing - 3 * 5.639) < .01);
+        }
+}
+
 /* Above the cutoff the spectrum stays below the fraction; a fifth of it is not yet enough. */
 static void cutoff_bounds_the_spectrum(void **state)
 {
@@ -317,6 +334,7 @@ int main(void)
         cmocka_unit_test(kinks_are_knots),
         cmocka_unit_test(both_sides_are_averaged),
         cmocka_unit_test(cutoff_bounds_the_spectrum),
+        cmocka_unit_test(cutoff_of_a_step_has_no_unit),
         cmocka_unit_test(complex_error_function),
         cmocka_unit_test(test_start_but_for_rounding),
         cmocka_unit_test(tables_are_read_or_refused),

@@ -226,6 +226,34 @@ static void units_do_not_matter(void **state)
     }
 }
 
+/* Sums end sooner below the surface: where both ends are near each other, too, nothing jumps with the depth. */
+static void depths_go_on_evenly(void **state)
+{
+    (void)state;
+    const double depth[] = {.09, .12, .102, .104, .106, .107, .108};
+    const struct lamb_load load = {square, {1, 0, 0}, &gaussian};
+    struct lamb_problem problem = {.loads = 1, .load = &load};
+    struct lamb_signal signal[7] = {{.position = {0}}};
+    half_space_set(&problem.ground, 1, 1, 1);
+    for (int i = 0; i < 7; i++) {
+        const double position[3] = {1, .5, depth[i]};
+        memcpy(signal[i].position, position, sizeof position);
+        compute(&problem, 6, 1, &signal[i]);
+    }
+    for (int i = 2; i < 7; i++)
+        for (double t = .5; t < 6; t += .5) {
+            double value[3][6];
+            const int from[3] = {0, 1, i};
+            for (int k = 0; k < 3; k++)
+                lamb_signal_value(&problem, &signal[from[k]], t, value[k]);
+            const double part = (depth[i] - depth[0]) / (depth[1] - depth[0]);
+            for (int c = 0; c < 6; c++) /* up to some .14 */
+                assert_true(fabs((1 - part) * value[0][c] + part * value[1][c] - value[2][c]) < 2e-4);
+        }
+    for (int i = 0; i < 7; i++)
+        lamb_signal_free(&signal[i]);
+}
+
 static void disc_meets_closed_form(void **state)
 {
     (void)state;
@@ -399,6 +427,7 @@ int main(void)
         cmocka_unit_test(short_pulse_meets_closed_form),
         cmocka_unit_test(smooth_pulse_meets_closed_form),
         cmocka_unit_test(units_do_not_matter),
+        cmocka_unit_test(depths_go_on_evenly),
         cmocka_unit_test(disc_meets_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

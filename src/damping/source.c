@@ -65,10 +65,19 @@ static struct source source_of_load(const struct scene *scene, const struct load
     return source;
 }
 
+/* Largest value of a table; 1 of what is made by a formula. */
+static double largest_value(const struct history *history)
+{
+    double largest = history->kind == HISTORY_TABLE ? 0 : 1;
+    for (size_t i = 0; history->kind == HISTORY_TABLE && i < history->rows; i++)
+        largest = fmax(largest, fabs(history->table_value[i]));
+    return largest;
+}
+
 static bool stays(const struct history *history)
 {
     const double end = history_end(history);
-    return !isfinite(end) || fabs(history_value(history, end, 0)) > 1e-6;
+    return !isfinite(end) || fabs(history_value(history, end, 0)) > 1e-6 * largest_value(history);
 }
 
 /* A function that stays counts by its rate: no integral of it has a spectrum. */
@@ -115,7 +124,7 @@ static double strength(const struct scene *scene, const struct source *source)
 {
     if (!(source->force > 0)) return 0;
     const double w = source->history->rate > 0 ? source->history->rate : 1 / scene->end_time;
-    return source->force * pow(w, source->derivatives - 1);
+    return source->force * largest_value(source->history) * pow(w, source->derivatives - 1);
 }
 
 double source_top(const struct scene *scene, double fraction)

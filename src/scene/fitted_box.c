@@ -129,7 +129,7 @@ static void add(struct held *held, const struct extent *extent, int dimension)
         if (extent->skew[c]) held->one_centre[c] = false;
         if (held->load[c].low > held->load[c].high) /* the first */
             held->centre[c] = centre;
-        else if (fabs(centre - held->centre[c]) > 1e-9 * (1 + fabs(centre)))
+        else if (fabs(centre - held->centre[c]) > 1e-9 * (fabs(centre) + extent->high[c] - extent->low[c]))
             held->one_centre[c] = false;
         widen(&held->load[c], extent->low[c], extent->high[c]);
         if (extent->dipole) widen(&held->dipole[c], extent->low[c], extent->high[c]);

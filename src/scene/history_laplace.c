@@ -129,6 +129,8 @@ static bool comes_back(const struct history *history)
 /* Frequency beyond which envelope() holds. */
 static double highest_peak(const struct history *history)
 {
+    /* of a step: where its smoothing begins to count; without one its spectrum is the same at all frequencies */
+    const double step = history->smoothing > 0 ? 8 / history->smoothing : 1;
     switch (history->kind) {
     case HISTORY_TRIANGLE:
         return 4 / history->duration;
@@ -144,12 +146,12 @@ static double highest_peak(const struct history *history)
         double shortest = INFINITY;
         for (size_t i = 0; i + 1 < history->rows; i++)
             shortest = fmin(shortest, history->table_time[i + 1] - history->table_time[i]);
-        return isinf(shortest) ? 1 : M_PI / shortest;
+        return isinf(shortest) ? step : M_PI / shortest;
     }
     case HISTORY_STEP:
         break;
     }
-    return 1;
+    return step;
 }
 
 /* Bound of |F(i w)| (of |w F| if f does not come back) that decreases for w > highest_peak(). */
