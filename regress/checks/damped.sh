@@ -182,6 +182,20 @@ refused "an undamped reference" "reference 'lamb' is undamped" reference%kind=la
 refused "an accuracy that leaves no choice of mechanisms" "'mechanisms' does not belong to a deck with scene%accuracy" scene%accuracy=0.01 body%spacing=
 check "the plan says what is reached" sh -c "'$selas' check input/damped.nml | grep -q 'damping of rock: Q_p 40 wanted, 39.* reached'"
 
+# the size of a table and the amplitude make the same source, however it is shared
+printf '0 0\n.5 1e-8\n1 5e-8\n2 9e-8\n3 1e-7\n' >"$out/small.txt"
+printf '0 0\n.5 .1\n1 .5\n2 .9\n3 1\n' >"$out/large.txt"
+cat >"$out/table.nml" <<END
+&scene dimension = 2, end_time = 6.0 /
+&material name = 'rock', density = 1.0, p_speed = 1.7320508, s_speed = 1.0, q_p = 40.0, q_s = 20.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, high = 4, 2, spacing = 0.125 /
+&boundary face = 'x-', kind = 'fixed' /
+&boundary face = 'x+', kind = 'velocity', direction = 0.3, 1.0, history = 'table', file = '$out/small.txt', amplitude = 1e-2 /
+END
+band() { "$selas" check "$out/table.nml" "$@" | sed -n 's/.*; source between/source between/p'; }
+small=$(band) large=$(band "boundary(2)%file=$out/large.txt" "boundary(2)%amplitude=1e-9")
+check "a table's size is no matter of the band: $small" sh -c "[ -n '$small' ] && [ '$small' = '$large' ]"
+
 # a wanted error: spacing and number of mechanisms follow
 for wanted in 0.1 0.02 0.005; do
     "$selas" -q input/damped.nml scene%accuracy=$wanted scene%end_time=8 body%spacing= method%mechanisms= output%plots=F output%directory="$out/wanted" >"$out/log" 2>&1 ||
