@@ -450,7 +450,10 @@ told "stress across the lower face of a block in a hill" "'p' has stress.*$smoot
 untold "stress within it" check within.nml profile%from=0,-.35 profile%to=0,-.25
 sed "s/^&profile.*/\&snapshot times = 1, fields = 'stress' \//" within.nml >hill.nml
 told "stress all over a hill with a block in it" "&snapshot 1 has stress.*$smooth" check hill.nml
-untold "stress below it" check hill.nml snapshot%region=-2,.1,2,2
+untold "stress two spacings below it" check hill.nml snapshot%region=-2,.43,2,2
+told "stress of a region that cuts the block" "&snapshot 1 has stress.*$smooth" check hill.nml snapshot%region=-1,0,1,.1
+told "stress of one whose depth in the hill is that of the block" "&snapshot 1 has stress.*$smooth" check hill.nml snapshot%region=-.2,.3,.2,.4
+untold "stress of a region within the block" check hill.nml snapshot%region=-.05,.15,.05,.205
 cat >small.nml <<'END'
 &scene dimension = 3, end_time = 1 /
 &material name = 'rock', density = 1.0, p_speed = 1.9, s_speed = 1.0 /

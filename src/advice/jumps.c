@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/ground.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,9 +27,12 @@ static bool differs(const struct scene *scene, const double place[3], int axis, 
            fabs(shear[1] - shear[0]) > slight * fmin(shear[0], shear[1]);
 }
 
-/* Does the rock jump on a line through `place` at a place that counts (NULL: all do)? */
+/* Which places count, of what; NULL: all do. */
+typedef bool (*counted)(const struct scene *scene, const void *of, const double place[3]);
+
+/* Does the rock jump on a line through `place` at a place that counts? */
 static bool jumps_on(const struct scene *scene, const double place[3], int axis, double from, double to,
-                     bool (*counts)(const struct scene *scene, const double place[3]))
+                     counted counts, const void *of)
 {
     double *at = array_new(ground_jumps_at_most(scene) + 1, sizeof *at);
     bool found = false;
@@ -38,44 +42,57 @@ static bool jumps_on(const struct scene *scene, const double place[3], int axis,
         double there[3] = {place[0], place[1], place[2]};
         there[axis] = at[i];
         found = differs(scene, there, axis, 1e-6 * scene->body.spacing) &&
-                (counts == NULL || counts(scene, there));
+                (counts == NULL || counts(scene, of, there));
     }
     array_free(at);
     return found;
 }
 
+/* A coordinate of the lattice in the column of `place`, in the ground. */
+static double real(const struct scene *scene, const double place[3], int axis, double lattice)
+{
+    const struct topography *topography = scene->body.topography;
+    if (topography == NULL || axis != topography->axis) return lattice;
+    return topography_real(topography, topography_drop(topography, place), lattice);
+}
+
 /* The middle of what a box holds of a block; of an ellipsoid what lies nearest to its own. */
-static bool middle_of(const struct ground_block *block, int dimension, const double low[3],
+static bool middle_of(const struct scene *scene, const struct ground_block *block, const double low[3],
                       const double high[3], double middle[3])
 {
-    for (int axis = 0; axis < dimension; axis++) {
+    for (int axis = 0; axis < scene->dimension; axis++) {
         const double centre = block->centre[axis], half = block->half[axis];
-        const double from = fmax(low[axis], centre - half), to = fmin(high[axis], centre + half);
+        const double from = fmax(real(scene, middle, axis, low[axis]), centre - half),
+                     to = fmin(real(scene, middle, axis, high[axis]), centre + half);
         if (from >= to) return false;
         middle[axis] = block->shape == BLOCK_BOX ? (from + to) / 2 : fmin(fmax(from, centre), to);
     }
     return true;
 }
 
-/* The same of lines through a box of the body's frame: evenly over it, and through each block. */
-static bool jumps_in(const struct scene *scene, const double low[3], const double high[3],
-                     bool (*counts)(const struct scene *scene, const double place[3]))
+/* The same of lines through a box of the lattice: evenly over it, and through each block. */
+static bool jumps_in(const struct scene *scene, const double low[3], const double high[3], counted counts,
+                     const void *of)
 {
     enum { LINES = 9 };
+    const size_t blocks = scene->body.blocks;
     for (int axis = 0; axis < scene->dimension; axis++) {
-        const int one = (axis + 1) % 3, other = (axis + 2) % 3;
-        double place[3] = {low[0], low[1], low[2]};
-        for (size_t k = 0; k < scene->body.blocks; k++)
-            if (middle_of(&scene->body.block[k], scene->dimension, low, high, place) &&
-                jumps_on(scene, place, axis, low[axis], high[axis], counts))
+        const int one = (axis + 1) % 3, other = (axis + 2) % 3, down = scene->dimension - 1;
+        for (size_t line = 0; line < LINES * LINES + blocks; line++) {
+            const size_t i = line % LINES, j = line / LINES;
+            double place[3] = {low[0], low[1], low[2]};
+            if (line >= LINES * LINES) {
+                if (!middle_of(scene, &scene->body.block[line - LINES * LINES], low, high, place)) continue;
+            } else {
+                if ((one >= scene->dimension && i > 0) || (other >= scene->dimension && j > 0)) continue;
+                place[axis] = (low[axis] + high[axis]) / 2;
+                place[one] += (high[one] - low[one]) * ((double)i + .5) / LINES;
+                place[other] += (high[other] - low[other]) * ((double)j + .5) / LINES;
+                place[down] = real(scene, place, down, place[down]);
+            }
+            if (jumps_on(scene, place, axis, real(scene, place, axis, low[axis]),
+                         real(scene, place, axis, high[axis]), counts, of))
                 return true;
-        for (int line = 0; line < LINES * LINES; line++) {
-            const int i = line % LINES, j = line / LINES;
-            if ((one >= scene->dimension && i > 0) || (other >= scene->dimension && j > 0)) continue;
-            place[axis] = low[axis];
-            place[one] = low[one] + (high[one] - low[one]) * (i + .5) / LINES;
-            place[other] = low[other] + (high[other] - low[other]) * (j + .5) / LINES;
-            if (jumps_on(scene, place, axis, low[axis], high[axis], counts)) return true;
         }
     }
     return false;
@@ -95,7 +112,8 @@ static bool at_jump(const struct scene *scene, const double position[3])
     ground_from_deck(&scene->body, position, place);
     const double spacing = spacing_at(scene, position);
     for (int axis = 0; axis < scene->dimension; axis++)
-        if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL)) return true;
+        if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL, NULL))
+            return true;
     return false;
 }
 
@@ -109,23 +127,35 @@ static bool profile_at_jump(const struct scene *scene, const struct profile *pro
     return false;
 }
 
+/* A box of the lattice, as a snapshot's region is. */
+struct part {
+    double low[3], high[3];
+};
+
+static bool part_holds(const struct scene *scene, const void *of, const double place[3])
+{
+    const struct part *part = of;
+    double lattice[3] = {place[0], place[1], place[2]};
+    if (scene->body.topography != NULL) topography_to_lattice(scene->body.topography, lattice);
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (lattice[axis] < part->low[axis] || lattice[axis] > part->high[axis]) return false;
+    return true;
+}
+
+/* Within a spacing of its places. */
 static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *snapshot)
 {
-    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    struct part part = {{0, 0, 0}, {0, 0, 0}};
+    double one[3], other[3];
+    ground_from_deck(&scene->body, snapshot->region_low, one);
+    ground_from_deck(&scene->body, snapshot->region_high, other);
     for (int axis = 0; axis < scene->dimension; axis++) {
-        low[axis] = ground_low(&scene->body, axis);
-        high[axis] = scene->body.high[axis];
+        const double low = fmin(one[axis], other[axis]) - scene->body.spacing,
+                     high = fmax(one[axis], other[axis]) + scene->body.spacing;
+        part.low[axis] = snapshot->whole ? scene->body.low[axis] : fmax(low, scene->body.low[axis]);
+        part.high[axis] = snapshot->whole ? scene->body.high[axis] : fmin(high, scene->body.high[axis]);
     }
-    if (!snapshot->whole) {
-        double one[3], other[3];
-        ground_from_deck(&scene->body, snapshot->region_low, one);
-        ground_from_deck(&scene->body, snapshot->region_high, other);
-        for (int axis = 0; axis < scene->dimension; axis++) {
-            low[axis] = fmax(low[axis], fmin(one[axis], other[axis]) - scene->body.spacing);
-            high[axis] = fmin(high[axis], fmax(one[axis], other[axis]) + scene->body.spacing);
-        }
-    }
-    return jumps_in(scene, low, high, NULL);
+    return jumps_in(scene, part.low, part.high, part_holds, &part);
 }
 
 /* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
@@ -154,9 +184,9 @@ void look_at_fields(struct adviser *adviser)
 /* --- States at t = 0 ------------------------------------------------------------------------------------ */
 
 /* Is there anything of the state? */
-static bool state_reaches(const struct scene *scene, const double place[3])
+static bool state_reaches(const struct scene *scene, const void *of, const double place[3])
 {
-    const struct initial *initial = &scene->initial;
+    const struct initial *initial = of;
     double centre[3] = {0, 0, 0}, direction[3] = {0, 0, 0}, along = 0, square = 0;
     if (initial->kind == INITIAL_PLANE_WAVE && initial->wavelength > 0) return true;
     ground_from_deck(&scene->body, initial->centre, centre);
@@ -175,13 +205,13 @@ void look_at_crossed_rock(struct adviser *adviser)
     const struct initial *initial = &scene->initial;
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0}, centre[3] = {0, 0, 0};
     if (initial->kind != INITIAL_PLANE_WAVE && initial->kind != INITIAL_GAUSSIAN) return;
-    ground_from_deck(&scene->body, initial->centre, centre);
+    body_from_deck(&scene->body, initial->centre, centre);
     for (int axis = 0; axis < scene->dimension; axis++) {
         const double reach = initial->kind == INITIAL_GAUSSIAN ? STATE_REACH * initial->width : INFINITY;
-        low[axis] = fmax(ground_low(&scene->body, axis), centre[axis] - reach);
+        low[axis] = fmax(scene->body.low[axis], centre[axis] - reach);
         high[axis] = fmin(scene->body.high[axis], centre[axis] + reach);
     }
-    if (!jumps_in(scene, low, high, state_reaches)) return;
+    if (!jumps_in(scene, low, high, state_reaches, initial)) return;
     advise(adviser,
            "the initial state lies across an interface of rocks of other moduli, where it begins with a "
            "traction that jumps: velocities were .05 to .2 wrong there; %s would do",
