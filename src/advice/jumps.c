@@ -137,7 +137,7 @@ static bool part_holds(const struct scene *scene, const void *of, const double p
     const struct part *part = of;
     double lattice[3] = {place[0], place[1], place[2]};
     if (scene->body.topography != NULL) topography_to_lattice(scene->body.topography, lattice);
-    for (int axis = 0; axis < scene->dimension; axis++)
+    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++)
         if (lattice[axis] < part->low[axis] || lattice[axis] > part->high[axis]) return false;
     return true;
 }
