@@ -5,8 +5,8 @@ chain "restart with snapshots" regress/parallel/tall-shown.nml scene%end_time=6
 chain "restart, general ground in one pass, layers" $hill stepping%time_step=.03 $layers
 chain "restart, damped general ground, layers" $hill stepping%time_step=.03 $layers $quality
 chain "restart, damped ground, modified equation" regress/parallel/tall.nml material%q_p=40 material%q_s=25 stepping%scheme=modified-equation
-chain "restart, points along the first axis" regress/parallel/long-sph.nml scene%end_time=6
-chain "restart, points in layers" regress/parallel/column-sph.nml scene%end_time=4
+chain "restart, points along the first axis" regress/parallel/long-sph.nml scene%end_time=20
+chain "restart, points in layers" regress/parallel/column-sph.nml scene%end_time=10
 chain "restart, particles that move" regress/parallel/moving-particles.nml scene%end_time=20
 one=2x2 two=3x1
 chain "restart on blocks" regress/parallel/wide.nml
