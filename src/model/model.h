@@ -36,9 +36,9 @@ struct energy {
 struct probe {
     double position[3]; /* deck coordinates */
     size_t count;
-    size_t sites;     /* entries behind these, which only the method knows */
-    size_t *index;    /* [count] */
-    double *weight;   /* [count] */
+    size_t sites;     /* entries of index and weight behind these, which only the method knows */
+    size_t *index;    /* [count + sites] */
+    double *weight;   /* [count + sites] */
     double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame
                          of the unknowns (the body's if model->frame is set, else the deck's) */
     const struct material *material;

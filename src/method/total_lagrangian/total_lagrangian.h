@@ -309,8 +309,8 @@ enum { TL_SERIAL = 3000 };
  */
 void tl_sites(struct tl_model *tl, const double *u, const double *v, const double *displacement,
               const double *velocity);
-void tl_keep_amplitudes(struct tl_model *tl,
-                        const struct drive *drive); /* what ghosts have in the drive's motion */
+/* What ghosts have in the drive's motion, for those who read them between evaluations. */
+void tl_keep_amplitudes(struct tl_model *tl, const struct drive *drive);
 /* Component c of ghost g from a field of the points and its amplitudes. */
 double tl_ghost_value(const struct tl_model *tl, const double *field, size_t g, size_t c,
                       const double *amplitude);
