@@ -5,6 +5,8 @@
 #include "damping/ground.h"
 #include "scene/build.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { KINDS = 5 };
@@ -80,10 +82,12 @@ static void check(struct builder *builder)
                  why);
 }
 
-static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
-                           struct scene_choice *choice, struct messages *messages)
+/* What the run is held against when it is over, if the deck names no &reference. */
+static void take_reference(const struct scene_choice *choice, double accuracy, struct reference *reference)
 {
-    return kind_of(scene)->choose(scene, accuracy, trial, choice, messages);
+    if (reference->kind[0] != '\0' || choice->exact == NULL) return;
+    snprintf(reference->kind, sizeof reference->kind, "%s", choice->exact);
+    reference->tolerance = fmin(1e-3, .1 * accuracy);
 }
 
 /* Builds a scene that asks for an accuracy: with a guess, then with the spacing that follows from it. */
@@ -96,12 +100,15 @@ static selas_status build_accurate(const struct deck *deck, double accuracy, tri
     selas_status status = scene_build(deck, &choice, scene, &scratch);
     messages_free(&scratch);
     if (status != SELAS_OK) return scene_build(deck, &choice, scene, messages);
-    status = choose(*scene, accuracy, &trial, &choice, messages);
+    const struct accuracy_kind *kind = kind_of(*scene);
+    status = kind->choose(*scene, accuracy, &trial, &choice, messages);
     scene_free(scene);
     if (status == SELAS_OK) status = scene_build(deck, &choice, scene, messages);
-    if (status == SELAS_OK && *scene != NULL)
-        memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
-    return status;
+    if (status != SELAS_OK || *scene == NULL) return status;
+    memcpy((*scene)->body.accuracy, choice.text, sizeof choice.text);
+    if (kind->velocity) (*scene)->accuracy = accuracy;
+    take_reference(&choice, accuracy, &(*scene)->reference);
+    return SELAS_OK;
 }
 
 selas_status accuracy_build(const struct deck *deck, trial_run *run, struct scene **scene,

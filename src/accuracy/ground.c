@@ -136,15 +136,16 @@ static selas_status find_spacing(const struct task *task, const struct surface_g
     return SELAS_OK;
 }
 
-/* A coarser spacing of the same kind for a trial; 0 if there is none, or if even the trial is too much work. */
-static double trial_spacing(const struct task *task, const struct surface_ground *ground, double h)
+/* A coarser spacing of the same kind below `most` for a trial; 0 if there is none. */
+static double trial_spacing(const struct task *task, const struct surface_ground *ground, double h,
+                            double most)
 {
     static const double least = 1.15, step = 1.04, useful = .5;
     double ratio = TRIAL_RATIO * step;
     while ((ratio /= step) > least) {
         double coarse = possible_spacing(task->scene, ground, ratio * h);
         const double error = coarse > 0 ? worst(task->scene, task->place, coarse, ground) : INFINITY;
-        if (error > useful) continue;
+        if (error > useful || coarse >= most) continue;
         const double gain = error / worst(task->scene, task->place, coarse / SLOWLY, ground);
         if (!ground->tuned) coarse = quiet_spacing(task->scene, task->place, coarse, gain);
         if (coarse > least * h) return coarse;
@@ -218,7 +219,7 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
 {
     enum { TRIALS = 4 };
     static const double far = 2, good = .3;
-    double proven = 0, next = trial_spacing(task, ground, *h);
+    double proven = 0, next = trial_spacing(task, ground, *h, most);
     for (int i = 0; i < TRIALS && next > 0 && next < most; i++) {
         bool made = false;
         selas_status status = make_trial(task, ground, next, trial, choice, &made, messages);
@@ -236,7 +237,7 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
         if (status != SELAS_OK) return status;
         if (*h < next && next < far * *h) return SELAS_OK;
         if (*h < next && proven > *h) break;
-        next = *h > next ? *h : fmin(trial_spacing(task, ground, *h), .98 * next);
+        next = *h > next ? *h : trial_spacing(task, ground, *h, .98 * next);
     }
     if (proven > 0) *h = *tried = proven;
     return SELAS_OK;
@@ -268,6 +269,7 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
     if (status == SELAS_OK && tried == 0) status = ground_in_range(scene, h, messages);
     if (status != SELAS_OK) return status;
     set_choice(task, &ground, h, choice);
+    choice->exact = exact_of_ground(scene);
     char how[48] = "predicted";
     if (tried > 0) snprintf(how, sizeof how, "after a trial with %.6g: expected", tried);
     snprintf(choice->text, sizeof choice->text,
@@ -330,4 +332,5 @@ const struct accuracy_kind accuracy_ground = {
     .served = "method 'smoothed-point', variant 'consistent'",
     .refusal = ground_refusal,
     .choose = choose_for,
+    .velocity = true,
 };

@@ -92,6 +92,11 @@ void end_task(struct task *task)
     array_free(task->power);
 }
 
+const char *exact_of_ground(const struct scene *scene)
+{
+    return points_act(scene) || ground_is_damped(scene) ? "layered" : "lamb";
+}
+
 bool points_act(const struct scene *scene)
 {
     for (size_t k = 0; k < scene->loads; k++)
@@ -109,8 +114,7 @@ selas_status begin_task(const struct scene *scene, struct task *task, struct mes
     task->power = array_new(scene->receivers * (ROWS / 2 + 1), sizeof *task->power);
     if (task->place == NULL || task->power == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
-    selas_status status = exact_find(!points_act(scene) && !ground_is_damped(scene) ? "lamb" : "layered")
-                              ->create(&task->longer, &task->exact, messages);
+    selas_status status = exact_find(exact_of_ground(scene))->create(&task->longer, &task->exact, messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
         struct surface_place *place = &task->place[i];
         place->power = task->power + i * (ROWS / 2 + 1);

@@ -18,8 +18,10 @@ struct task {
 /* Does a force or a moment tensor act at a point? */
 bool points_act(const struct scene *scene);
 
-/* Places and spectra of all receivers, from the reference 'lamb' or, with points that act or damping (constant
- * Q), 'layered'. To be ended whatever comes back. */
+/* The reference that knows the ground: 'lamb' or, with points that act or damping (constant Q), 'layered'. */
+const char *exact_of_ground(const struct scene *scene);
+
+/* Places and spectra of all receivers. To be ended whatever comes back. */
 selas_status begin_task(const struct scene *scene, struct task *task, struct messages *messages);
 void end_task(struct task *task);
 

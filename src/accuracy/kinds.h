@@ -15,6 +15,7 @@ struct accuracy_kind {
     /* Fails (SELAS_BAD_SCENE) only if no spacing will do or the exact solution is not for this scene. */
     selas_status (*choose)(const struct scene *scene, double accuracy, const struct trial *trial,
                            struct scene_choice *choice, struct messages *messages);
+    bool velocity;  /* the error is that of the velocities at receivers */
     bool particles; /* the deck may say gradient and viscosity of particles: there are tables for them */
 };
 

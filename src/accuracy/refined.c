@@ -390,4 +390,5 @@ const struct accuracy_kind accuracy_refined = {
     .served = "method 'smoothed-point', variant 'consistent'",
     .refusal = refusal,
     .choose = choose,
+    .velocity = true,
 };

@@ -280,4 +280,5 @@ const struct accuracy_kind accuracy_wave = {
     .served = "method 'smoothed-point', variant 'consistent'",
     .refusal = refusal,
     .choose = choose,
+    .velocity = true,
 };

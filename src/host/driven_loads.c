@@ -153,6 +153,9 @@ selas_status host_prepare_scene(selas_simulation *simulation)
     }
     for (size_t i = 0; i < host->loads && status == SELAS_OK; i++)
         status = take_over(simulation, &host->load[i]);
+    struct reference *reference = &simulation->scene->reference;
+    if (scene_driven(simulation->scene) && reference->group == NULL) /* that of the deck's histories */
+        reference->kind[0] = '\0';
     return status;
 }
 

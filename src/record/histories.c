@@ -1,5 +1,6 @@
 /* NAME.dat and NAME.exact.dat: columns t ux uy uz vx vy vz with a header; NAME.exact.stress.dat: t sxx syy
  * szz sxy syz szx. Numbers have 17 digits: what is read back is what was written. */
+#include "compare/misfit.h"
 #include "record/results.h"
 #include "scene/units.h"
 
@@ -70,7 +71,34 @@ selas_status histories_compare(struct recorder *recorder, struct exact *exact, s
         array_free(recorder->exact);
         recorder->exact = NULL;
     }
+    char missed[MISSED_TEXT];
+    if (histories_missed(recorder, missed)) warn(messages, "%s", missed);
     return status;
+}
+
+double histories_error(const struct recorder *recorder)
+{
+    double worst = 0;
+    for (size_t r = 0; r < recorder->scene->receivers; r++) {
+        const struct misfit vector = misfit_of(recorder->rows, recorder->time, recorder->trace[r].value + 3,
+                                               recorder->exact + r * recorder->rows * 6 + 3, 6, 3);
+        const double error = vector.l2 == 0 ? 0 : vector.l2 / vector.l2_of;
+        if (isnan(error) || error > worst) worst = error; /* NaN stays */
+    }
+    return worst;
+}
+
+bool histories_missed(const struct recorder *recorder, char text[MISSED_TEXT])
+{
+    const double wanted = recorder->scene->accuracy;
+    const double reached = recorder->exact != NULL && wanted > 0 ? histories_error(recorder) : 0;
+    if (reached <= wanted) return false;
+    snprintf(
+        text, MISSED_TEXT,
+        "the error reached is %.2g, above scene%%accuracy = %g: coarser points, from which the spacing was "
+        "concluded, did not show it; scene%%accuracy = %.2g would be right",
+        reached, wanted, .8 * wanted * wanted / reached);
+    return true;
 }
 
 selas_status histories_write(struct recorder *recorder, struct messages *messages)

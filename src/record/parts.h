@@ -178,6 +178,11 @@ selas_status watch_sound(const struct recorder *recorder, const struct state *st
 /* histories.c: the exact histories into recorder->exact, NULL if they cannot be had; NAME.dat and
  * NAME.exact.dat */
 selas_status histories_compare(struct recorder *recorder, struct exact *exact, struct messages *messages);
+/* Relative L2 error of the velocity vector at the worst receiver; recorder->exact must be there. */
+double histories_error(const struct recorder *recorder);
+enum { MISSED_TEXT = 256 };
+/* True if that is more than scene%accuracy asked for, with what to say. */
+bool histories_missed(const struct recorder *recorder, char text[MISSED_TEXT]);
 selas_status histories_write(struct recorder *recorder, struct messages *messages);
 /* A line of comment that says so if they are of a run that goes on later. */
 void histories_note(FILE *out, const struct recorder *recorder);

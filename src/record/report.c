@@ -170,16 +170,11 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
     if (recorder->rows > 0 && !brief)
         fprintf(out, "error window: 0 to %.9g, %zu rows\n", recorder->time[recorder->rows - 1],
                 recorder->rows);
-    double worst = 0.0;
-    for (size_t r = 0; r < recorder->scene->receivers; r++) {
+    for (size_t r = 0; r < recorder->scene->receivers; r++)
         write_errors_at(out, recorder, r, brief);
-        const struct misfit vector = misfit_of(recorder->rows, recorder->time, recorder->trace[r].value + 3,
-                                               recorder->exact + r * recorder->rows * 6 + 3, 6, 3);
-        const double error = per(vector.l2, vector.l2_of);
-        if (isnan(error) || error > worst) worst = error; /* NaN stays */
-    }
     write_floor(out, recorder);
-    fprintf(out, "error largest: %.4e (L2 of the velocity vector, worst receiver)\n", worst);
+    fprintf(out, "error largest: %.4e (L2 of the velocity vector, worst receiver)\n",
+            histories_error(recorder));
 }
 
 void recorder_summary(const struct recorder *recorder, const struct run_figures *figures, FILE *out)
@@ -206,6 +201,8 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
             exact->class->judge(exact, &recorder->scene->receiver[r], recorder->rows, recorder->time,
                                 recorder->trace[r].value, tell_line, out);
     }
+    char missed[MISSED_TEXT];
+    if (histories_missed(recorder, missed)) tell_line(out, "warning", missed);
     write_energy(out, recorder);
     write_precision(out, recorder);
     write_cost(out, recorder, figures);

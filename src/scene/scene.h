@@ -259,6 +259,7 @@ struct scene {
     struct stepping_choice stepping;
     struct output_choice output;
     struct reference reference;
+    double accuracy; /* wanted relative L2 error of the velocities at receivers (scene%accuracy); 0: none */
     struct ranks *ranks; /* that share the work (parallel/ranks.h), borrowed; NULL: one alone */
 };
 
@@ -273,6 +274,7 @@ struct scene_choice {
     size_t mechanisms;        /* of damped materials; 0: as without */
     const char *scheme;       /* NULL: as without */
     double courant;           /* 0: the default step */
+    const char *exact;        /* reference that a deck without one gets; NULL: none */
     char text[ACCURACY_TEXT]; /* for the plan */
     /* Refuses what cannot be served or leaves no choice (complain()); called when all else is built. */
     void (*check)(struct builder *builder);
