@@ -3,6 +3,7 @@
 #include "api_scene.h"
 
 #include <omp.h>
+#include <stdlib.h>
 
 static void test_refused_calls_change_nothing(void **state)
 {
@@ -172,13 +173,44 @@ static void test_sources_grow(void **state)
     remove(path[1]);
 }
 
+/* An exact solution, asked for or that of scene%accuracy, is that of the deck's histories: not of what a host drives. */
+static void test_nothing_to_compare(void **state)
+{
+    (void)state;
+    static const char *const ground =
+        "&scene dimension = 3, end_time = 4%s /\n&material name = 'r', density = 1, s_speed = 1, p_speed = "
+        "1.8 /\n"
+        "&body material = 'r', shape = 'half-space'%s /\n"
+        "&load name = 'l', face = 'z-', shape = 'square', size = 1, 1, centre = 0, 0, 0, direction = 0, 0, "
+        "1,\n"
+        "history = 'gaussian', width = .8, delay = 3 /\n"
+        "&receiver name = 'a', position = 1.5, .3, 0 /\n%s&output directory = '%s' /\n";
+    static const char *const words[2][3] = {{", accuracy = .1", "", ""},
+                                            {"", ", spacing = .5", "&reference kind = 'lamb' /\n"}};
+    char folder[] = "/tmp/selas-compare-XXXXXX", command[64], text[1024];
+    assert_non_null(mkdtemp(folder));
+    for (int k = 0; k < 4; k++) {
+        const bool asked = k >= 2, driven = k % 2 == 1;
+        const char *const *word = words[asked];
+        selas_simulation *s = NULL;
+        snprintf(text, sizeof text, ground, word[0], word[1], word[2], folder);
+        assert_int_equal(selas_open_text("t", text, &s), SELAS_OK);
+        if (driven) assert_int_equal(selas_set_load(s, "l", 1), SELAS_OK);
+        assert_int_equal(selas_build(s), SELAS_OK);
+        assert_int_equal(strstr(selas_message(s), "nothing is compared") != NULL, asked && driven);
+        assert_int_equal(selas_write_exact(s), driven ? SELAS_BAD_SCENE : SELAS_OK);
+        selas_close(&s);
+    }
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused_calls_change_nothing),
-        cmocka_unit_test(test_one_failure_is_told_once),
-        cmocka_unit_test(test_loads_behind_sources),
-        cmocka_unit_test(test_sources_grow),
+        cmocka_unit_test(test_refused_calls_change_nothing), cmocka_unit_test(test_one_failure_is_told_once),
+        cmocka_unit_test(test_loads_behind_sources),         cmocka_unit_test(test_sources_grow),
+        cmocka_unit_test(test_nothing_to_compare),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

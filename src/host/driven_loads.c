@@ -138,6 +138,19 @@ static selas_status take_over(selas_simulation *simulation, struct driven_load *
     return SELAS_OK;
 }
 
+/* An exact solution is that of the deck's histories, which nobody asks for. */
+static void drop_reference(selas_simulation *simulation)
+{
+    struct reference *reference = &simulation->scene->reference;
+    if (reference->kind[0] == '\0' || strcmp(reference->kind, "file") == 0) return;
+    if (reference->group != NULL)
+        warn(&simulation->messages,
+             "reference '%s' knows the histories of the deck, not what a host drives: nothing is compared; "
+             "reference 'file' would be right",
+             reference->kind);
+    reference->kind[0] = '\0';
+}
+
 selas_status host_prepare_scene(selas_simulation *simulation)
 {
     const struct host *host = &simulation->host;
@@ -153,9 +166,7 @@ selas_status host_prepare_scene(selas_simulation *simulation)
     }
     for (size_t i = 0; i < host->loads && status == SELAS_OK; i++)
         status = take_over(simulation, &host->load[i]);
-    struct reference *reference = &simulation->scene->reference;
-    if (scene_driven(simulation->scene) && reference->group == NULL) /* that of the deck's histories */
-        reference->kind[0] = '\0';
+    if (scene_driven(simulation->scene)) drop_reference(simulation);
     return status;
 }
 
