@@ -117,6 +117,14 @@ else
     echo "not ok - a deck without a reference says what error it reached"
     cat "$out/log"
 fi
+rm -rf "$out/run"
+"$build/selas" -q regress/studies/accuracy/uneven.nml "output%directory=$out/run" >"$out/log" 2>&1
+if ! grep -q "$missed" "$out/log" && awk -v e="$(vector)" 'BEGIN { exit !(e != "" && e <= .05) }'; then
+    echo "ok - errors that do not fall evenly: $(vector) where .05 is wanted"
+else
+    echo "not ok - errors that do not fall evenly: $(vector) where .05 is wanted"
+    cat "$out/log"
+fi
 for other in hill basin; do # the last of $out/fine is that of the hill
     echo "&reference kind = 'file', file = '$out/fine' /" | cat "$out/$other.nml" - >"$out/held.nml"
     rm -rf "$out/run"

@@ -9,15 +9,18 @@
 #include "accuracy/outlook.h"
 #include "base/memory.h"
 #include "exact/half_space.h"
+#include "scene/resolution.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double SLOWLY = 1.1;
-/* A trial's spacing over the chosen one, at most: a fifth of the run's work; share of the wanted error that is aimed
- * at after a trial, and that is good enough in one. */
-static const double TRIAL_RATIO = 1.5, MEASURED_AIM = .55, MEASURED_MOST = .85;
+/* A trial's spacing over the chosen one, at most: a fifth of the run's work, or half of it where errors do not fall
+ * evenly; from where on another trial is made; share of the wanted error that is aimed at after a trial, and that is
+ * good enough in one. */
+static const double TRIAL_RATIO = 1.5, CLOSE_RATIO = 1.2, FAR_RATIO = 2, MEASURED_AIM = .55,
+                    MEASURED_MOST = .85;
 enum { ROWS = SURFACE_ROWS };
 
 static bool looks_like(const struct scene *scene)
@@ -136,12 +139,20 @@ static selas_status find_spacing(const struct task *task, const struct surface_g
     return SELAS_OK;
 }
 
-/* A coarser spacing of the same kind below `most` for a trial; 0 if there is none. */
+/* True if waves come that the lattice hardly carries: errors then do not fall evenly with the spacing. */
+static bool rings(const struct scene *scene, double h)
+{
+    static const double carried = 3; /* points a wavelength at the cutoff */
+    const double wavelength = points_per_wavelength(scene) * scene->body.spacing;
+    return wavelength > 0 && wavelength < carried * h;
+}
+
+/* A coarser spacing of the same kind, up to `times` h and below `most`, for a trial; 0 if there is none. */
 static double trial_spacing(const struct task *task, const struct surface_ground *ground, double h,
-                            double most)
+                            double times, double most)
 {
     static const double least = 1.15, step = 1.04, useful = .5;
-    double ratio = TRIAL_RATIO * step;
+    double ratio = times * step;
     while ((ratio /= step) > least) {
         double coarse = possible_spacing(task->scene, ground, ratio * h);
         const double error = coarse > 0 ? worst(task->scene, task->place, coarse, ground) : INFINITY;
@@ -218,8 +229,8 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
                            struct messages *messages)
 {
     enum { TRIALS = 4 };
-    static const double far = 2, good = .3;
-    double proven = 0, next = trial_spacing(task, ground, *h, most);
+    static const double good = .3;
+    double proven = 0, next = trial_spacing(task, ground, *h, TRIAL_RATIO, most);
     for (int i = 0; i < TRIALS && next > 0 && next < most; i++) {
         bool made = false;
         selas_status status = make_trial(task, ground, next, trial, choice, &made, messages);
@@ -235,9 +246,11 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
         if (error <= MEASURED_MOST && error >= good) return SELAS_OK;
         status = find_spacing(task, ground, most, h, messages);
         if (status != SELAS_OK) return status;
-        if (*h < next && next < far * *h) return SELAS_OK;
+        const bool close = rings(task->scene, *h);
+        if (*h < next && next < (close ? CLOSE_RATIO : FAR_RATIO) * *h) return SELAS_OK;
         if (*h < next && proven > *h) break;
-        next = *h > next ? *h : trial_spacing(task, ground, *h, .98 * next);
+        next =
+            *h > next ? *h : trial_spacing(task, ground, *h, close ? CLOSE_RATIO : TRIAL_RATIO, .98 * next);
     }
     if (proven > 0) *h = *tried = proven;
     return SELAS_OK;
