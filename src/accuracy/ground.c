@@ -147,7 +147,7 @@ static bool rings(const struct scene *scene, double h)
     return wavelength > 0 && wavelength < carried * h;
 }
 
-/* A coarser spacing of the same kind, up to `times` h and below `most`, for a trial; 0 if there is none. */
+/* A coarser spacing of the same kind, up to `times` h and below `most`, for a trial; h if there is none. */
 static double trial_spacing(const struct task *task, const struct surface_ground *ground, double h,
                             double times, double most)
 {
@@ -161,7 +161,7 @@ static double trial_spacing(const struct task *task, const struct surface_ground
         if (!ground->tuned) coarse = quiet_spacing(task->scene, task->place, coarse, gain);
         if (coarse > least * h) return coarse;
     }
-    return 0;
+    return h;
 }
 
 static void set_choice(const struct task *task, const struct surface_ground *ground, double h,
@@ -231,7 +231,7 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
     enum { TRIALS = 4 };
     static const double good = .3;
     double proven = 0, next = trial_spacing(task, ground, *h, TRIAL_RATIO, most);
-    for (int i = 0; i < TRIALS && next > 0 && next < most; i++) {
+    for (int i = 0; i < TRIALS && next < most; i++) {
         bool made = false;
         selas_status status = make_trial(task, ground, next, trial, choice, &made, messages);
         if (!made || status != SELAS_OK) return status;

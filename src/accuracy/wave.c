@@ -247,6 +247,16 @@ static bool begins_smoothly(const struct scene *scene, double accuracy)
     return true;
 }
 
+static bool known_exactly(const struct scene *scene)
+{
+    struct exact *exact = NULL;
+    struct messages unsaid = {0};
+    const bool known = exact_find("plane-wave")->create(scene, &exact, &unsaid) == SELAS_OK;
+    exact_free(&exact);
+    messages_free(&unsaid);
+    return known;
+}
+
 static selas_status choose(const struct scene *scene, double accuracy, const struct trial *trial,
                            struct scene_choice *choice, struct messages *messages)
 {
@@ -269,6 +279,7 @@ static selas_status choose(const struct scene *scene, double accuracy, const str
                           scene->receiver[k].name);
     if (place != NULL && status == SELAS_OK)
         status = choose_setting(scene, place, accuracy, work, choice, messages);
+    if (known_exactly(scene)) choice->exact = "plane-wave";
     array_free(work);
     arrivals_free(&place);
     return status;
