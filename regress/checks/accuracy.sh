@@ -125,6 +125,13 @@ else
     echo "not ok - errors that do not fall evenly: $(vector) where .05 is wanted"
     cat "$out/log"
 fi
+points='^warning: .*points per wavelength'
+if ! "$build/selas" check regress/studies/accuracy/uneven.nml 2>&1 | grep -q "$points" &&
+    "$build/selas" check regress/studies/accuracy/uneven.nml snapshot%times=1 2>&1 | grep -q "$points"; then
+    echo "ok - few points a wavelength are told of where a snapshot looks, not where the error at receivers is known"
+else
+    echo "not ok - few points a wavelength where the error is chosen"
+fi
 for other in hill basin; do # the last of $out/fine is that of the hill
     echo "&reference kind = 'file', file = '$out/fine' /" | cat "$out/$other.nml" - >"$out/held.nml"
     rm -rf "$out/run"

@@ -33,7 +33,9 @@ static void look_at_resolution(struct adviser *adviser)
             "a history jumps, into waves of all lengths that the points do not carry: velocities ring behind "
             "fronts by about a tenth, whatever the spacing; smoothing = %.3g would be right",
             1.01 * jump_smoothing(FEWEST_POINTS * spacing / slowest));
-    if (points > 0.0 && points < FEWEST_POINTS)
+    const bool chosen =
+        scene->accuracy > 0 && scene->snapshots == 0 && scene->profiles == 0; /* for the receivers */
+    if (points > 0.0 && points < FEWEST_POINTS && !chosen)
         advise(
             adviser,
             "%.3g points per wavelength of the slowest wave at the source's cutoff%s; %g need body%%spacing "
