@@ -88,12 +88,11 @@ static double typical_number(const struct scene *scene)
 /* What the velocities of a pulse or a Gaussian err by (initial-states.md, Eq 3a). */
 static double error_of_state(const struct scene *scene, const struct wave_law *law, bool slower)
 {
-    static const double turned = .093, spread = .24; /* shares, measured */
     const bool plane = scene->initial.kind == INITIAL_PLANE_WAVE;
     const double speed = slower ? slowest_speed(scene) : plane_wave_speed(scene);
     const double way = slower ? speed * scene->end_time : longest_way(scene, speed);
     const double k = typical_number(scene) * (slower ? plane_wave_speed(scene) / speed : 1);
-    return (plane ? 1 : slower ? turned : spread) * error_of_waves(scene, law, k, way);
+    return (plane ? 1 : slower ? law->turned : law->spread) * error_of_waves(scene, law, k, way);
 }
 
 void look_at_short_waves(struct adviser *adviser, const struct model *model)
