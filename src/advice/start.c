@@ -276,7 +276,8 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     if (error > seen)
         advise(adviser,
                "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
-               "end_time%s; finer points, or variant = 'consistent', would be right",
+               "end_time%s; %svariant = 'consistent' would be right",
                model->method->variant, fmin(1, error),
-               model->waves.floor > 0 ? ", whatever the spacing with artificial stress" : "");
+               model->waves.floor > 0 ? ", much of it whatever the spacing" : "",
+               model->waves.floor > 0 ? "" : "finer points or ");
 }

@@ -270,6 +270,13 @@ static const struct model_core core = {
 static const struct model_operator filtering = {.accelerate = accelerate, .after_step = filter};
 static const struct model_operator plain = {.accelerate = accelerate}; /* every time scheme may be had */
 
+/* As printed points hang on springs to the ground; without these the smoothed acceleration slows waves down. */
+static struct wave_law waves_of(const struct paper_options *options, int dimension)
+{
+    if (!options->zero_row_sums) return (struct wave_law){0, 1, 1, 0, 0};
+    return (struct wave_law){.9, 1, dimension < 3 ? .05 : .12, 0, 0};
+}
+
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
                           struct model **model, struct messages *messages)
 {
@@ -284,6 +291,7 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->model.method = &method_paper;
     paper->model.core = &core;
     paper->model.patch = PATCH_BY_POINTS;
+    paper->model.waves = waves_of(options, scene->dimension);
     paper->model.spatial = options->filter > 0 ? &filtering : &plain;
     paper->model.scene = scene;
     status = fill(paper, messages);
