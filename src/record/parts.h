@@ -64,6 +64,7 @@ struct watch {
     struct energy last;
     double worked, let_out, taken; /* of `work`, `absorbed` and `damped`, at that time */
     double largest_defect;         /* largest |E - E0 - work + absorbed + damped| */
+    double gained;                 /* E - E0 - work + absorbed + damped at the end */
     double last_time;
     double sampled; /* sum of squares of a sample of the velocities when they were last energetic */
     double next;    /* step of the next look at the whole state */

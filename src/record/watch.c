@@ -16,9 +16,6 @@
  * (leapfrog: by up to 1 / (1 - (omega dt / 2)^2), 5 at nine tenths of the limit): growth beyond ten times the
  * work is no rounding and no such difference. */
 static const double growth_allowed = 10.0;
-/* Energy gained without being given, over what was given: a few per cent is usual at 15^3 (doc/reference/results.md).
- */
-static const double growth_noted = 0.5;
 /* In fewer steps the trapezoid of the work of a load that just begins is itself half wrong. */
 enum { NOTED_STEPS = 8 };
 /* Moved faces: times what they can give (faces_can_give). */
@@ -161,17 +158,6 @@ static double energy_of_waves(const struct recorder *recorder, const struct stat
     return fmin(total, 2.0 * energy->kinetic * (vv > 0.0 ? fmax(1.0, ww / vv) : 1.0));
 }
 
-/* Energy from nowhere that is not yet enough to stop, but too much to trust: said once, at the end. */
-static void warn_of_growth(const struct watch *watch, double waves, double given, struct messages *messages)
-{
-    const double gained = waves - watch->initial - watch->work + watch->absorbed + watch->damped;
-    if (gained > growth_noted * given)
-        warn(messages,
-             "the body ends with %.3g of energy that nobody gave it (%.3g was given): the results grow by "
-             "themselves and are not to be trusted",
-             gained, given);
-}
-
 /* More energy than can have been given? Fills `what` if so. */
 static bool grown(const struct recorder *recorder, const struct state *state, double waves, size_t size,
                   char *what)
@@ -179,7 +165,7 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
     const struct watch *watch = &recorder->watch;
     const double later = 1.0 + watch->face_rate * state->time;
     const double faces = watch->face_energy * later * later, given = watch->initial + watch->gross + faces;
-    if (state->step < WATCH_EVERY) return false;
+    if (state->step < (state->step < recorder->stepper->steps ? WATCH_EVERY : NOTED_STEPS)) return false;
     if (watch->by_work && waves > growth_allowed * given)
         snprintf(what, size, "the body has the energy %.3g, but was given only %.3g", waves, given);
     else if (!watch->by_work && faces > 0.0 && waves > growth_of_faces * given)
@@ -195,8 +181,7 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
     return true;
 }
 
-static void keep_energy(struct recorder *recorder, const struct state *state, const struct energy *energy,
-                        struct messages *messages)
+static void keep_energy(struct recorder *recorder, const struct state *state, const struct energy *energy)
 {
     struct watch *watch = &recorder->watch;
     const double total = energy->kinetic + energy->strain, waves = energy_of_waves(recorder, state, energy);
@@ -211,7 +196,7 @@ static void keep_energy(struct recorder *recorder, const struct state *state, co
         const double defect = fabs(total - watch->initial - watch->work + watch->absorbed + watch->damped);
         watch->largest_defect = fmax(watch->largest_defect, defect);
         if (state->step == recorder->stepper->steps && state->step >= NOTED_STEPS)
-            warn_of_growth(watch, waves, watch->initial + watch->gross, messages);
+            watch->gained = waves - watch->initial - watch->work + watch->absorbed + watch->damped;
     } else if (state->time <= watch->reference_until) {
         watch->reference = fmax(watch->reference, waves);
     }
@@ -227,7 +212,7 @@ static selas_status judge(struct recorder *recorder, const struct state *state, 
     recorder->model->core->energy(recorder->model, state->y, &energy);
     const double total = energy.kinetic + energy.strain;
     if (!isfinite(total)) return watch_tell(recorder, state, "the energy is not finite", messages);
-    if (keep) keep_energy(recorder, state, &energy, messages);
+    if (keep) keep_energy(recorder, state, &energy);
     const double waves = energy_of_waves(recorder, state, &energy);
     return grown(recorder, state, waves, sizeof what, what) ? watch_tell(recorder, state, what, messages)
                                                             : SELAS_OK;
