@@ -236,6 +236,29 @@ static void cutoff_bounds_the_spectrum(void **state)
         }
 }
 
+/* Rows of a smooth function, as fine as they may be, have its spectrum, and not that of the corners between them. */
+static void rows_of_a_smooth_function_have_its_cutoff(void **state)
+{
+    (void)state;
+    enum { MOST = 801 };
+    static const double intervals[] = {.01, .05, .1, .2};
+    static const enum history_kind kinds[] = {HISTORY_GAUSSIAN, HISTORY_RICKER, HISTORY_ERROR_FUNCTION};
+    static double time[MOST], value[MOST];
+    for (size_t i = 0; i < sizeof intervals / sizeof *intervals; i++)
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+            const struct history made = {.kind = kinds[k], .width = .4, .frequency = .5, .delay = 2.4};
+            struct history rows = {.kind = HISTORY_TABLE, .table_time = time, .table_value = value};
+            for (; (double)rows.rows * intervals[i] < 8.001; rows.rows++) {
+                time[rows.rows] = (double)rows.rows * intervals[i] * (rows.rows % 7 == 3 ? 1 + 1e-7 : 1);
+                value[rows.rows] = history_value(&made, time[rows.rows], 0);
+            }
+            for (double fraction = .05; fraction > .009; fraction /= 2) {
+                const double cutoff = history_cutoff(&made, fraction);
+                assert_true(fabs(history_cutoff(&rows, fraction) - cutoff) < .08 * cutoff);
+            }
+        }
+}
+
 /* erfcx on the real axis against GSL; elsewhere against its integral (2/sqrt pi) int exp(-t^2 - 2 z t) dt. */
 static double erfc_integrand(double t, void *parameters)
 {
@@ -335,6 +358,7 @@ int main(void)
         cmocka_unit_test(both_sides_are_averaged),
         cmocka_unit_test(cutoff_bounds_the_spectrum),
         cmocka_unit_test(cutoff_of_a_step_has_no_unit),
+        cmocka_unit_test(rows_of_a_smooth_function_have_its_cutoff),
         cmocka_unit_test(complex_error_function),
         cmocka_unit_test(test_start_but_for_rounding),
         cmocka_unit_test(tables_are_read_or_refused),

@@ -58,7 +58,7 @@ double history_rate_norm(const struct history *history);
 /* Keeps what history_cutoff() searches for, as long as nothing but the start changes. */
 void history_set_peak(struct history *history);
 /* Angular frequency above which the amplitude spectrum of f, wherever it begins, stays below `fraction` of its largest
- * value. */
+ * value; of a table that its rows resolve so far, that of the smooth function behind it. */
 double history_cutoff(const struct history *history, double fraction);
 
 /* Reads a table: text, two columns, '#' or '!' comments; times must ascend from t >= 0. */

@@ -3,6 +3,7 @@
  * Smoothing by the cubic B-spline on [0, S] multiplies by ((1 - exp(-s S/4)) / (s S/4))^4. The Gaussian and
  * the Ricker wavelet are cut at t = 0, which needs the error function of a complex argument. */
 #include "base/faddeeva.h"
+#include "base/memory.h"
 #include "scene/history.h"
 #include "scene/history_kinds.h"
 
@@ -122,8 +123,7 @@ static bool comes_back(const struct history *history)
     if (history->kind == HISTORY_STEP || history->kind == HISTORY_BRUNE ||
         history->kind == HISTORY_ERROR_FUNCTION)
         return false;
-    return history->kind != HISTORY_TABLE || history->rows == 0 ||
-           history->table_value[history->rows - 1] == 0;
+    return history->kind != HISTORY_TABLE || history_table_ends(history);
 }
 
 /* Frequency beyond which envelope() holds. */
@@ -142,12 +142,8 @@ static double highest_peak(const struct history *history)
         return 2 * M_PI * history->frequency;
     case HISTORY_SINE_BURST:
         return 2 * M_PI * history->frequency * (1 + 1 / history->cycles);
-    case HISTORY_TABLE: {
-        double shortest = INFINITY;
-        for (size_t i = 0; i + 1 < history->rows; i++)
-            shortest = fmin(shortest, history->table_time[i + 1] - history->table_time[i]);
-        return isinf(shortest) ? step : M_PI / shortest;
-    }
+    case HISTORY_TABLE:
+        return history->rows > 1 ? history_table_top(history) : step;
     case HISTORY_STEP:
         break;
     }
@@ -182,15 +178,7 @@ static double plain_envelope(const struct history *history, double w)
         return (1 + fabs(cos(phase))) * fabs(odd) + fabs(sin(phase)) * w * fabs(even);
     }
     case HISTORY_TABLE: {
-        double sum = fabs(history->table_value[0]) / w, slope = 0;
-        for (size_t i = 0; i < history->rows; i++) {
-            const double next = i + 1 < history->rows
-                                    ? (history->table_value[i + 1] - history->table_value[i]) /
-                                          (history->table_time[i + 1] - history->table_time[i])
-                                    : 0;
-            sum += fabs(next - slope) / (w * w);
-            slope = next;
-        }
+        const double sum = fabs(history->table_value[0]) / w + history_table_kinks(history) / (w * w);
         return comes_back(history) ? sum : w * sum;
     }
     case HISTORY_BRUNE: {
@@ -213,10 +201,39 @@ static double envelope(const struct history *history, double w)
     return plain * fmin(1, pow(8 / (w * history->smoothing), 4)); /* |2 sin(x/2) / x|^4, x = w S/4 */
 }
 
+/* The spectrum that history_cutoff() judges, of a table below highest_peak(): its largest value, and the frequency
+ * above which it stays below `level`, highest_peak() or more if there is none. One that has fallen so far is that of a
+ * smooth function: what straight lines between its rows add beyond is not meant. */
+static double table_spectrum(const struct history *history, double level, double *above)
+{
+    struct table_spectrum spectrum;
+    const bool back = comes_back(history);
+    const size_t last = history->rows - 1;
+    double largest = back ? fabs(history_table_value(history, history->table_time[last], -1, true))
+                          : fabs(history->table_value[last]);
+    *above = 0;
+    if (!history_table_spectrum(history, &spectrum)) {
+        *above = INFINITY;
+        return largest;
+    }
+    for (size_t k = 1; k <= spectrum.count; k++) {
+        const double w = (double)k * spectrum.step;
+        double value = spectrum.amplitude[k] * (back ? 1 : w);
+        if (history->smoothing > 0)
+            value *= pow(cabs(history_decay_ratio(.25 * I * w * history->smoothing)), 4);
+        largest = fmax(largest, value);
+        if (value > level) *above = w + spectrum.step;
+    }
+    array_free(spectrum.amplitude);
+    return largest;
+}
+
 /* Largest |F(i w)|, or |w F| if f does not come back, for w <= highest_peak(). */
 static double spectrum_peak(const struct history *history)
 {
     enum { SAMPLES = 512 };
+    double above;
+    if (history->kind == HISTORY_TABLE && history->rows > 1) return table_spectrum(history, INFINITY, &above);
     struct history still = *history;
     still.start = 0;
     const double top = highest_peak(&still), span = fmax(history_end(&still), 1 / top);
@@ -241,6 +258,11 @@ double history_cutoff(const struct history *history, double fraction)
                  largest = history->peak > 0 ? history->peak : spectrum_peak(history);
     double low = top * (1 + 1e-9), high = low;
     if (!(largest > 0)) return 0;
+    if (history->kind == HISTORY_TABLE && history->rows > 1) {
+        table_spectrum(history, fraction * largest, &high);
+        if (high < top) return high;
+        high = low;
+    }
     while (envelope(history, high) > fraction * largest) {
         low = high;
         high *= 2;

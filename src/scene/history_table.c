@@ -6,6 +6,7 @@
 #include "scene/history_kinds.h"
 
 #include <errno.h>
+#include <gsl/gsl_fft_real.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,6 +82,77 @@ double complex history_table_laplace(const struct history *history, double compl
     const size_t last = history->rows - 1;
     return sum + value[last] * cexp(-s * time[last]) / s;
 }
+
+/* --- Its spectrum ----------------------------------------------------------------------------------------- */
+
+double history_table_top(const struct history *history)
+{
+    double shortest = INFINITY;
+    for (size_t i = 0; i + 1 < history->rows; i++)
+        shortest = fmin(shortest, history->table_time[i + 1] - history->table_time[i]);
+    return M_PI / shortest;
+}
+
+bool history_table_ends(const struct history *history)
+{
+    static const double nothing = 1e-2;
+    double largest = 0;
+    for (size_t i = 0; i < history->rows; i++)
+        largest = fmax(largest, fabs(history->table_value[i]));
+    return history->rows == 0 || fabs(history->table_value[history->rows - 1]) <= nothing * largest;
+}
+
+/* Change of the slope at a row, an impulse of f''. */
+static double impulse(const struct history *history, size_t row)
+{
+    const double *time = history->table_time + row, *value = history->table_value + row;
+    const double before = row > 0 ? (value[0] - value[-1]) / (time[0] - time[-1]) : 0;
+    return (row + 1 < history->rows ? (value[1] - value[0]) / (time[1] - time[0]) : 0) - before;
+}
+
+/* The impulses on places `step` apart; one between two places is shared. */
+static void lay_impulses(const struct history *history, double step, double *laid)
+{
+    for (size_t i = 0; i < history->rows; i++) {
+        const double place = (history->table_time[i] - history->table_time[0]) / step, below = floor(place);
+        laid[(size_t)below] += (1 - (place - below)) * impulse(history, i);
+        laid[(size_t)below + 1] += (place - below) * impulse(history, i);
+    }
+}
+
+/* (i w)^2 F = i w f(t_0) + sum of the impulses times exp(-i w (t - t_0)), by a transform of four times the length,
+ * which sees peaks of any width. */
+bool history_table_spectrum(const struct history *history, struct table_spectrum *spectrum)
+{
+    enum { FINER = 4, MOST = 1 << 20 };
+    const double length = history->table_time[history->rows - 1] - history->table_time[0];
+    const double top = history_table_top(history), step = fmax(M_PI / top, FINER * length / (MOST / 2));
+    size_t n = 16;
+    while ((double)n < FINER * (length / step + 2))
+        n *= 2;
+    double *a = array_new(n, sizeof *a);
+    if (a == NULL) return false;
+    lay_impulses(history, step, a);
+    gsl_fft_real_radix2_transform(a, 1, n);
+    *spectrum =
+        (struct table_spectrum){.step = 2 * M_PI / ((double)n * step), .count = n / 2, .amplitude = a};
+    for (size_t k = 1; k <= n / 2; k++) {
+        const double w = (double)k * spectrum->step;
+        const double imaginary = (k < n / 2 ? a[n - k] : 0) + w * history->table_value[0];
+        a[k] = hypot(a[k], imaginary) / (w * w);
+    }
+    return true;
+}
+
+double history_table_kinks(const struct history *history)
+{
+    double sum = 0;
+    for (size_t i = 0; i < history->rows; i++)
+        sum += fabs(impulse(history, i));
+    return sum;
+}
+
+/* --- Reading it ------------------------------------------------------------------------------------------- */
 
 static selas_status keep_row(struct history *history, size_t *room, double time, double value)
 {

@@ -52,18 +52,19 @@ static bool take_table(struct builder *builder, const struct deck_group *group, 
 static void warn_of_table(struct builder *builder, const struct deck_group *group,
                           const struct history *history)
 {
-    static const double small = .1;
+    static const double small = .1, nothing = 1e-3;
     const size_t last = history->rows - 1;
     const double held = history->table_value[last];
     double largest = 0;
     for (size_t i = 0; i <= last; i++)
         largest = fmax(largest, fabs(history->table_value[i]));
-    if (history->table_time[0] > 0 && fabs(history->table_value[0]) > 1e-3 * largest)
+    if (history->table_time[0] > 0 && fabs(history->table_value[0]) > nothing * largest)
         deck_warning(builder->deck, group, "file", builder->messages,
                      "the table begins at t = %.6g with %.6g; before that the history is 0, so that it jumps "
                      "there; a row before it with the value 0 would let it begin smoothly",
                      history->table_time[0], history->table_value[0]);
-    if (held != 0 && fabs(held) < small * largest && history->table_time[last] < builder->scene->end_time)
+    if (fabs(held) > nothing * largest && fabs(held) < small * largest &&
+        history->table_time[last] < builder->scene->end_time)
         deck_warning(
             builder->deck, group, "file", builder->messages,
             "the table ends at t = %.6g with %.6g, which holds from then on; a last row with the value 0 "
