@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "parallel/ranks.h"
+#include "scene/symmetry.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -135,46 +136,69 @@ selas_status selas_set_load(selas_simulation *simulation, const char *load, doub
     return SELAS_OK;
 }
 
-/* The velocities of a body that moves as one in the direction given (deck coordinates): their power is the
- * load's resultant. */
-static void translate(const struct model *model, const double direction[3], double *velocity)
+/* The velocities of a body that moves as one in the direction given (deck coordinates), but not across mirror planes,
+ * which hold it: their power is the part of the load's resultant that is returned. */
+static double translate(const struct model *model, unsigned mirrors, const double direction[3],
+                        double *velocity)
 {
+    static const double little = 1e-3;
     const size_t d = (size_t)model->scene->dimension;
-    double own[3] = {direction[0], direction[1], direction[2]};
+    double own[3] = {direction[0], direction[1], direction[2]}, along = 0.0;
     if (model->frame != NULL) body_direction_from_deck(&model->scene->body, direction, own);
+    for (size_t c = 0; c < d; c++)
+        if ((mirrors & 1u << c) == 0) along += own[c] * own[c];
+    for (size_t c = 0; c < d && along > little; c++)
+        if ((mirrors & 1u << c) != 0) own[c] = 0.0;
     for (size_t i = 0; i < model->unknowns / d; i++)
-        for (size_t c = 0; c < 3 && c < d; c++)
+        for (size_t c = 0; c < d; c++)
             velocity[c * model->component_stride + i * model->point_stride] = own[c];
+    return along > little ? along : 1.0;
 }
 
-/* Mean of a part [unknowns] of the state or of a change of it over the patch of a load. The power of a unit load
- * is the integral of what it does work on. */
-static selas_status mean_of(selas_simulation *simulation, size_t index, const double *part, double *value)
+/* What a unit of a load does work on, and what it would if all moved as one by its direction, added to sum[2]. */
+static void add_work(struct model *model, unsigned mirrors, const struct state *state, size_t index,
+                     const double *part, double *scratch, double sum[2])
 {
-    struct model *model = simulation->model;
-    const struct load *named = &simulation->scene->load[index];
-    if (model->core->power == NULL || model->state_size < 2 * model->unknowns ||
-        named->kind == LOAD_MOMENT_TENSOR || named->amplitude == 0.0)
-        return fail(&simulation->messages, SELAS_UNSUPPORTED, "this load or method has no mean displacement");
-    const struct state *state = &simulation->state;
-    const size_t n = model->unknowns, loads = simulation->scene->loads;
-    if (simulation->scratch == NULL)
-        simulation->scratch = array_new(model->state_size + 2 * loads, sizeof(double));
-    if (simulation->scratch == NULL)
-        return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a mean");
-    double *y = simulation->scratch, *unit = y + model->state_size;
-    for (size_t k = 0; k < loads; k++)
-        unit[k] = k == index ? 1.0 / named->amplitude : 0.0;
+    const struct scene *scene = model->scene;
+    const size_t n = model->unknowns;
+    double *y = scratch, *unit = y + model->state_size;
+    for (size_t k = 0; k < scene->loads; k++)
+        unit[k] = k == index ? 1.0 / fabs(scene->load[k].amplitude) : 0.0;
     const struct drive drive = {.time = state->time, .load = unit};
     double measure = 0.0, power = 0.0, absorbed = 0.0;
     memcpy(y, state->y, model->state_size * sizeof *y);
-    translate(model, named->direction, y + n);
+    const double along = translate(model, mirrors, scene->load[index].direction, y + n);
     model->core->power(model, &drive, y, &measure, &absorbed);
     memcpy(y + n, part, n * sizeof *y);
     model->core->power(model, &drive, y, &power, &absorbed);
-    double sum[2] = {power, measure};
+    sum[0] += power;
+    sum[1] += fabs(measure) / along;
+}
+
+/* Mean of a part [unknowns] of the state or of a change of it over the patch of a load, what of it lies beyond mirror
+ * planes by the images of the load, which are among the loads. The power of a unit load is the integral of what it
+ * does work on. */
+static selas_status mean_of(selas_simulation *simulation, size_t index, const double *part, double *value)
+{
+    struct model *model = simulation->model;
+    const struct scene *scene = simulation->scene;
+    const struct load *named = &scene->load[index];
+    const size_t loads = scene->loads;
+    if (model->core->power == NULL || model->state_size < 2 * model->unknowns ||
+        named->kind == LOAD_MOMENT_TENSOR || named->amplitude == 0.0)
+        return fail(&simulation->messages, SELAS_UNSUPPORTED, "this load or method has no mean displacement");
+    if (simulation->scratch == NULL) {
+        simulation->scratch = array_new(model->state_size + loads, sizeof(double));
+        simulation->mirrors = scene_mirror_axes(scene);
+    }
+    if (simulation->scratch == NULL)
+        return fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for a mean");
+    double sum[2] = {0.0, 0.0};
+    for (size_t k = 0; k < loads; k++)
+        if (scene_load_repeats(scene, simulation->mirrors, index, k))
+            add_work(model, simulation->mirrors, &simulation->state, k, part, simulation->scratch, sum);
     ranks_sum(simulation->ranks, 2, sum);
-    *value = sum[0] / sum[1];
+    *value = (named->amplitude < 0.0 ? -sum[0] : sum[0]) / sum[1];
     ranks_spread(simulation->ranks, 0, value, sizeof *value);
     return SELAS_OK;
 }

@@ -64,7 +64,8 @@ struct selas_simulation {
     size_t *point_material;
     double *values; /* fields handed out: [values_room] */
     size_t values_room;
-    double *scratch;      /* [state_size] */
+    double *scratch;      /* [state_size + loads], for means */
+    unsigned mirrors;     /* the scene's planes, known beside it */
     double *lattice;      /* [3 * points]: positions, once a host asks and the model does not store them */
     char *results;        /* folder of the results in place of the deck's; NULL */
     char *work;           /* folder of the checkpoint from which the run goes on; NULL */

@@ -115,6 +115,25 @@ static bool loads_are_symmetric(const struct scene *scene, int axis, double midd
     return true;
 }
 
+bool scene_load_repeats(const struct scene *scene, unsigned axes, size_t load, size_t other)
+{
+    const struct body *body = &scene->body;
+    const struct load found = in_body_frame(body, &scene->load[other]);
+    if (load == other) return true;
+    for (unsigned planes = 1; planes < 8; planes++) {
+        struct load image = in_body_frame(body, &scene->load[load]);
+        double length = 0.0;
+        if ((planes & ~axes) != 0) continue;
+        for (int axis = 0; axis < scene->dimension; axis++) {
+            length = fmax(length, body->high[axis] - body->low[axis]);
+            if ((planes & 1u << axis) != 0)
+                image = mirrored(&image, axis, 0.5 * (body->low[axis] + body->high[axis]));
+        }
+        if (same_load(&image, &found, length)) return true;
+    }
+    return false;
+}
+
 static bool faces_are_symmetric(const struct scene *scene, int axis)
 {
     const struct boundary *low = &scene->boundary[2 * axis];

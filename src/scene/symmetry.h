@@ -10,6 +10,9 @@
  * the deck says method%symmetry = .false. */
 unsigned scene_mirror_axes(const struct scene *scene);
 
+/* Is load `other` the load itself or its image across any of these mirror planes? */
+bool scene_load_repeats(const struct scene *scene, unsigned axes, size_t load, size_t other);
+
 /* The part of a scene below its mirror planes: low..middle along each axis of the mask, symmetry on the new
  * faces. A shallow copy that shares all arrays with the scene given, which must outlive it; loads keep their
  * order. */
