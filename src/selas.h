@@ -74,7 +74,8 @@ SELAS_API selas_status selas_open_text(const char *name, const char *text, selas
 SELAS_API selas_status selas_share_handle(selas_simulation *simulation, int communicator);
 
 /* Runs to the first step at or past `time` (to rounding); steps are never shortened. Past the end time it
- * goes on. Errors: SELAS_UNSTABLE (the message says where and when), SELAS_BAD_SCENE (no stable step),
+ * goes on; there faces that the deck leaves open send waves back (a warning), and histories have no rows.
+ * Errors: SELAS_UNSTABLE (the message says where and when), SELAS_BAD_SCENE (no stable step),
  * SELAS_UNSUPPORTED. */
 SELAS_API selas_status selas_advance(selas_simulation *simulation, double time);
 /* Runs `steps` steps. */
@@ -116,7 +117,8 @@ SELAS_API selas_status selas_plan(selas_simulation *simulation,
                                   void (*tell)(void *context, const char *key, const char *value),
                                   void *context);
 
-/* All messages so far (errors and warnings, one a line), "" if none; valid until the next call. Never NULL. A
+/* All messages so far (errors and warnings, one a line), "" if none; valid until the next call. Never NULL. The advice
+ * on a scene (doc/howto/troubleshooting.md) is said at the first step. A
  * failure that keeps all later calls from being done (a deck that cannot be opened, a scene that cannot be
  * built, a run that went unstable) is told once. */
 SELAS_API const char *selas_message(const selas_simulation *simulation);
@@ -171,7 +173,8 @@ SELAS_API selas_status selas_build(selas_simulation *simulation);
 /* A vector at a time and a place (deck coordinates). Returns 0 to go on, > 0 to stop after this step with the
  * state kept (the advancing call returns SELAS_STOPPED; the next one goes on), < 0 to fail
  * (SELAS_CALLBACK_FAILED; no step can follow). A value that is not finite counts as a failure. Called in
- * order of time, once for each step's time and place (Runge-Kutta schemes: once for each stage), and one step
+ * order of time, once for each step's time and place (Runge-Kutta schemes: once for each stage, for motions also the
+ * times around it), and one step
  * ahead of the state by the scheme 'modified-equation' and for motions. Only the thread that advances the
  * simulation calls it. It must not call functions of the same simulation (they return SELAS_BAD_ARGUMENT). */
 typedef int (*selas_vector_function)(void *context, double time, const double position[3], double value[3]);

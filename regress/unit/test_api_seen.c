@@ -12,7 +12,7 @@ static const char plate[] =
 static selas_simulation *open_with(const char *ground, const char *more)
 {
     selas_simulation *simulation = NULL;
-    char text[2000];
+    char text[4000];
     snprintf(text, sizeof text, "%s%s", ground, more);
     const selas_status status = selas_open_text("test-api-seen", text, &simulation);
     if (status != SELAS_OK) fail_msg("%s", selas_message(simulation));
@@ -52,9 +52,90 @@ static void test_means_beyond_mirrors(void **state)
     }
 }
 
+static const char ground[] =
+    "&scene dimension = 2, end_time = 4 /\n"
+    "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+    "&body material = 'rock', shape = 'half-space', spacing = 0.125 /\n"
+    "&load face = 'y-', shape = 'square', centre = 0, 0, size = 1, direction = 0, 1\n"
+    "  history = 'gaussian', width = .3, delay = 1.2 /\n";
+
+/* The mean velocity under the load at the end, and what was said. */
+static double end_mean(const char *more, double end, const char **said, selas_simulation **simulation)
+{
+    double mean = 0;
+    *simulation = open_with(ground, more);
+    assert_int_equal(selas_advance(*simulation, end), SELAS_OK);
+    assert_int_equal(selas_load_mean(*simulation, "1", SELAS_VELOCITY, &mean), SELAS_OK);
+    *said = selas_message(*simulation);
+    return mean;
+}
+
+/* The box holds what a host looks at; past the end, or where it does not, the host is told. */
+static void test_looks(void **state)
+{
+    (void)state;
+    static const char *const far = "&receiver name = 'r', position = 6, 0 /\n";
+    const char *said;
+    selas_simulation *s, *large;
+    const double nobody = end_mean("", 4, &said, &s);
+    assert_string_equal(said, "");
+    assert_int_equal(selas_load_mean(s, "1", SELAS_DISPLACEMENT, &(double){0}), SELAS_OK);
+    selas_close(&s);
+    const char *deck = strstr(ground, "&body");
+    char text[2000];
+    snprintf(text, sizeof text,
+             "%.*s&body material = 'rock', low = -15, 0, high = 15, 15, spacing = 0.125 /%s",
+             (int)(deck - ground), ground, strchr(deck, '/') + 1);
+    large = open_with(text, far);
+    double right = 0, late = 0;
+    assert_int_equal(selas_advance(large, 4), SELAS_OK);
+    assert_int_equal(selas_load_mean(large, "1", SELAS_VELOCITY, &right), SELAS_OK);
+    assert_int_equal(selas_advance(large, 8), SELAS_OK);
+    assert_int_equal(selas_load_mean(large, "1", SELAS_VELOCITY, &late), SELAS_OK);
+    assert_string_equal(selas_message(large), "");
+    selas_close(&large);
+    assert_true(fabs(nobody - right) < 2e-3);
+
+    const double past = end_mean("", 8, &said, &s);
+    assert_true(fabs(past - late) > 1e-2); /* the side has come back */
+    assert_non_null(strstr(said, "may hold what face"));
+    selas_close(&s);
+    s = open_with(ground, far);
+    size_t count, components;
+    const double *field;
+    assert_int_equal(selas_advance(s, 4), SELAS_OK);
+    assert_int_equal(selas_receiver(s, "r", SELAS_VELOCITY, (double[3]){0}), SELAS_OK);
+    assert_string_equal(selas_message(s), "");
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(selas_field_values(s, SELAS_VELOCITY, &count, &components, &field), SELAS_OK);
+    const char *first = strstr(selas_message(s), "may hold");
+    assert_non_null(first);
+    assert_null(strstr(first + 1, "may hold"));
+    selas_close(&s);
+}
+
+/* The warnings that the program prints are messages to a host, once. */
+static void test_advice(void **state)
+{
+    (void)state;
+    selas_simulation *s = open_with(
+        plate, "&method name = 'sph', law = 'linear' /\n&load face = 'y-', shape = 'square', centre = 1, 0\n"
+               "size = .5, direction = 0, 1, history = 'gaussian', width = .3, delay = 1.2 /\n");
+    assert_int_equal(selas_step(s, 0), SELAS_OK);
+    assert_string_equal(selas_message(s), "");
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(selas_step(s, 1), SELAS_OK);
+    const char *first = strstr(selas_message(s), "points per wavelength of the slowest wave");
+    assert_non_null(first);
+    assert_null(strstr(first + 1, "points per wavelength of the slowest wave"));
+    selas_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_advice),
         cmocka_unit_test(test_means_beyond_mirrors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -215,6 +215,7 @@ selas_status selas_load_mean(selas_simulation *simulation, const char *load, sel
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "means are those of displacement, velocity or acceleration, and need room for a value");
     const struct state *state = &simulation->state;
+    host_looks_at(simulation, simulation->scene->load[index].centre, "the mean under a load");
     state_settle(simulation->stepper, state, true);
     return mean_of(simulation, index,
                    field == SELAS_ACCELERATION

@@ -51,6 +51,7 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
                         model->points);
         }
     }
+    host_looks_at_all(simulation);
     state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
     model->core->field(model, field, simulation->state.y, simulation->state.a, 0, model->points,
                        simulation->values);

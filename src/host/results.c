@@ -29,8 +29,10 @@ selas_status selas_receiver(selas_simulation *simulation, const char *name, sela
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "no such field, or no room for its value");
     size_t index = 0;
     status = find_receiver(simulation, name, &index);
-    if (status == SELAS_OK) recorder_value(simulation->recorder, index, field, &simulation->state, value);
-    return status;
+    if (status != SELAS_OK) return status;
+    host_looks_at(simulation, simulation->scene->receiver[index].position, "a receiver");
+    recorder_value(simulation->recorder, index, field, &simulation->state, value);
+    return SELAS_OK;
 }
 
 selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows, const double **time,

@@ -281,6 +281,7 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     if (simulation->failed != SELAS_OK) return simulation_consequence(simulation, simulation->failed);
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
+    if (steps > 0) host_advise(simulation);
     const struct stopwatch begun = start_watch();
     const double waited = ranks_waited(simulation->ranks);
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {

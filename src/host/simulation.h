@@ -48,6 +48,8 @@ struct selas_simulation {
     struct exact *exact;
     struct run_figures figures;
     bool prepared, recording, finished;
+    bool advised;        /* the host, or the user by the program, has been told the advice on the scene */
+    bool warned;         /* that it looks where the deck does not */
     bool broken;         /* the scene could not be built from what was set so far */
     bool busy;           /* a callback of the host is running */
     bool dirty;          /* loads at the time reached have changed; the acceleration has not yet */
@@ -143,5 +145,11 @@ selas_status host_drives_all(selas_simulation *simulation, size_t load);
 /* SELAS_OK if a function can give this load, or the reason why not. */
 selas_status host_can_drive(const struct scene *scene, const struct load *load, struct messages *messages);
 void host_free(selas_simulation *simulation);
+
+/* looks.c: the advice on the scene as messages, once; and a warning, once, where what is asked for, of the whole body
+ * or at a place, may hold what a face sends back that has no absorbing layer. */
+void host_advise(selas_simulation *simulation);
+void host_looks_at_all(selas_simulation *simulation);
+void host_looks_at(selas_simulation *simulation, const double position[3], const char *what);
 
 #endif

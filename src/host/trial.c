@@ -40,7 +40,8 @@ selas_status host_trial(struct scene *scene, struct exact *exact, double *error,
 {
     struct scene bare = *scene;
     bare.snapshots = bare.profiles = 0;
-    struct selas_simulation simulation = {.scene = &bare, .deck = (struct deck *)scene->deck};
+    struct selas_simulation simulation = {
+        .scene = &bare, .deck = (struct deck *)scene->deck, .advised = true};
     selas_status status = simulation_finish(&simulation);
     for (size_t i = 0; i < bare.receivers && status == SELAS_OK; i++) {
         const struct history_rows history = recorder_history(simulation.recorder, i);

@@ -71,6 +71,7 @@ static selas_status run(selas_simulation *simulation, double step, double **valu
         simulation->scene->stepping.time_step = step;
         simulation->scene->stepping.courant = simulation->scene->stepping.safety = 0;
     }
+    simulation->advised = true;
     selas_status status = selas_step(simulation, 0);
     if (status != SELAS_OK) return status;
     *rows = simulation->stepper->steps;

@@ -189,6 +189,7 @@ static selas_status step_on(struct run *run, struct progress *progress, unsigned
 static selas_status begin(struct run *run, const char *from)
 {
     selas_simulation *simulation = run->simulation;
+    simulation->advised = true; /* by the program */
     selas_status status = selas_record(simulation);
     if (status == SELAS_OK && from != NULL) status = selas_restore(simulation, from);
     if (status == SELAS_OK) status = selas_step(simulation, 0); /* builds everything; says what cannot be */

@@ -5,7 +5,6 @@
 #include "scene/echo.h"
 
 #include "scene/absorbing_layers.h"
-#include "scene/extent.h"
 
 #include <math.h>
 
@@ -38,6 +37,28 @@ bool echo_seen(const struct scene *scene, int face, double less)
                 return true;
     }
     return !looked;
+}
+
+/* One behind which ground goes on that is not computed. */
+static bool is_open(const struct scene *scene, int face)
+{
+    const struct boundary *boundary = &scene->boundary[face];
+    const bool surface = face == 2 * scene->dimension - 2;
+    return layer_left_out(scene, face) ||
+           (scene->body.chosen && !surface && !boundary->given && boundary_is_free(boundary));
+}
+
+int echo_heard(const struct scene *scene, const struct extent *seen, double time)
+{
+    const double reach = scene_first(scene) * time;
+    struct extent acts;
+    for (int face = 0; body_is_box(&scene->body) && face < 2 * scene->dimension; face++) {
+        if (!is_open(scene, face)) continue;
+        const double back = distance(scene, face, seen);
+        for (size_t k = 0; back < reach && scene_extent(scene, k, &acts); k++)
+            if (acts.role == EXTENT_ACTS && distance(scene, face, &acts) + back < reach) return face;
+    }
+    return FACES;
 }
 
 /* --- Absorbing layers ----------------------------------------------------------------------------------- */

@@ -236,6 +236,17 @@ static void state_snapshot(const struct scene *scene, size_t index, struct exten
     }
 }
 
+/* A host looks at the motion under its loads: those with a name, and all where the deck looks at nothing. */
+static void state_patch(const struct scene *scene, size_t index, struct extent *extent)
+{
+    const struct load *load = &scene->load[first_of_group(scene, index)];
+    const bool looked = scene->receivers + scene->profiles + scene->snapshots > 0;
+    state_load(scene, index, extent);
+    if (extent->role == EXTENT_IDLE) return;
+    extent->role = !isinf(extent->low[0]) && (load->name[0] != '\0' || !looked) ? EXTENT_SEEN : EXTENT_IDLE;
+    extent->dipole = extent->plane = false;
+}
+
 /* What a block sends back has to be in the box: it is held as if it were looked at. */
 static size_t count_blocks(const struct scene *scene)
 {
@@ -286,6 +297,7 @@ static const struct kind {
     {"receiver", count_receivers, state_receiver},
     {"profile", count_profiles, state_profile},
     {"snapshot", count_snapshots, state_snapshot},
+    {"load", count_loads, state_patch},
     {"scene", NULL, NULL},
     {"method", NULL, NULL},
     {"stepping", NULL, NULL},

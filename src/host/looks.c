@@ -1,0 +1,53 @@
+/* What a host is told that the program tells its user: the advice on the scene, once, when it begins to step; and that
+ * it looks where or when the deck looks at nothing, so that faces have no absorbing layers (scene/echo.h). */
+#include "host/simulation.h"
+
+#include "advice/advice.h"
+#include "scene/echo.h"
+
+#include <math.h>
+
+static void take_advice(void *context, const char *key, const char *value)
+{
+    (void)key;
+    warn(context, "%s", value);
+}
+
+void host_advise(selas_simulation *simulation)
+{
+    if (simulation->advised) return;
+    simulation->advised = true;
+    advice_tell(simulation->scene, simulation->stepper, take_advice, &simulation->messages);
+}
+
+static void look(selas_simulation *simulation, const struct extent *seen, const char *what)
+{
+    const struct scene *scene = simulation->scene;
+    const double time = simulation->state.time;
+    if (simulation->warned) return;
+    const int face = echo_heard(scene, seen, time);
+    if (face == FACES) return;
+    simulation->warned = true;
+    warn(&simulation->messages,
+         "%s at t = %.4g may hold what face '%s' sends back: it has no absorbing layer, since the deck looks "
+         "at "
+         "nothing there by end_time = %.4g that would see it; a later end_time, a receiver or a load with a "
+         "name "
+         "there, or a &snapshot of the whole body, would be right",
+         what, time, face_name((enum face)face), scene->end_time);
+}
+
+void host_looks_at_all(selas_simulation *simulation)
+{
+    const struct extent all = {.low = {-INFINITY, -INFINITY, -INFINITY},
+                               .high = {INFINITY, INFINITY, INFINITY}};
+    look(simulation, &all, "a whole field");
+}
+
+void host_looks_at(selas_simulation *simulation, const double position[3], const char *what)
+{
+    struct extent place = {.role = EXTENT_SEEN};
+    body_from_deck(&simulation->scene->body, position, place.low);
+    body_from_deck(&simulation->scene->body, position, place.high);
+    look(simulation, &place, what);
+}
