@@ -249,6 +249,26 @@ cat >moment.nml <<'END'
 END
 told "a moment tensor on total-Lagrangian points" "moment tensors on total-Lagrangian points were .* 'consistent', would be right" check moment.nml
 untold "a moment tensor on splines" check moment.nml method%name=smoothed-point method%gradient=
+# --- Absorbing faces ---
+cat >absorb.nml <<'END'
+&scene dimension = 2, end_time = 6.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', low = 0, 0, high = 8, 4, spacing = 0.2 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting' /
+&load face = 'y-', shape = 'square', centre = 4, 0, size = 1.2, direction = 0, 1, history = 'gaussian', width = .5, delay = 2 /
+&receiver name = 'a', position = 6, 0 /
+&receiver name = 'b', position = 4, 2 /
+END
+untold "absorbing layers at degree 2" check absorb.nml
+told "dampers that nobody asked for" "face x-, transmitting, has dampers, .* need method%mass = 'exact'; layer = 'lysmer' says" check absorb.nml method%degree=3
+untold "dampers that somebody asked for" check absorb.nml method%degree=3 boundary%layer=lysmer
+untold "layers at degree 3" check absorb.nml method%degree=3 method%mass=exact
+untold "dampers that no wave comes back from" check absorb.nml method%degree=3 scene%end_time=1.5
+all="load%shape=face load%size= load%centre="
+# shellcheck disable=SC2086
+told "absorbing sides beside a load on all of the surface" "ends at face x-, which absorbs: .*kind = 'roller'" check absorb.nml $all
+# shellcheck disable=SC2086
+untold "rollers there" check absorb.nml $all boundary%face=y+ boundary%layer=lysmer "boundary(2)%face=x-,x+" "boundary(2)%kind=roller"
 # --- What does nothing ---
 cat >nothing.nml <<'END'
 &scene dimension = 2, end_time = 2.0 /

@@ -81,23 +81,46 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper)
         points, (double)points / cells, error, outlook.error, outlook.layer_points);
 }
 
-/* Measured (regress/checks/fitted.sh): layers of 8 points sent back .017 to .14 of the velocity, dampers .0035 and less
- * (doc/verification/tables/absorbing.txt, table 9). */
+/* What acts all over the surface. Measured (regress/checks/fitted.sh): layers of 8 points sent back .017 to .14 of the
+ * velocity, dampers .0035 and less (doc/verification/tables/absorbing.txt, table 9). Absorbing sides, of either kind,
+ * end the load: .11 to .36 of the velocity is wrong in the scene of silence.sh. */
 void look_at_columns(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
+    const bool plain = !ground_is_general(scene) && !ground_is_damped(scene);
     struct extent load;
     for (size_t i = 0; scene_extent(scene, i, &load); i++)
         for (int face = 0; load.role == EXTENT_ACTS && load.plane && face < 2 * scene->dimension; face++) {
-            if (layer_points(scene, face) == 0 || ground_is_general(scene) || ground_is_damped(scene))
+            const bool side = face < 2 * scene->dimension - 2;
+            if (side ? !boundary_absorbs(&scene->boundary[face]) : layer_points(scene, face) == 0 || !plain)
                 continue;
             advise(adviser,
-                   "all moves at right angles to face %s, and the absorbing layer behind it sends slow waves "
-                   "back: "
-                   "with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends hardly anything back",
+                   side
+                       ? "what acts all over the surface ends at face %s, which absorbs: waves come in from "
+                         "there; of the ground that goes on rollers on all sides (kind = 'roller') would be "
+                         "right, of a patch its size"
+                       : "all moves at right angles to face %s, and the absorbing layer behind it sends slow "
+                         "waves back: with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends "
+                         "hardly anything back",
                    face_name((enum face)face));
             return;
         }
+}
+
+/* Dampers that nobody asked for. */
+void look_at_fallen_layers(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    if (scene->initial.kind == INITIAL_PLANE_WAVE) return;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        if (!scene->boundary[face].fallen || !echo_seen(scene, face, 0)) continue;
+        advise(adviser,
+               "face %s, transmitting, has dampers, which send back a good part of the waves that meet them "
+               "askew: "
+               "%s; layer = 'lysmer' says that dampers are meant",
+               face_name((enum face)face), layers_refusal(scene));
+        return;
+    }
 }
 
 /* Cells between what a load acts on and a face. */

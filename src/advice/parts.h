@@ -66,6 +66,7 @@ void look_at_interfaces(struct adviser *adviser);
 void look_at_fields(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
+void look_at_fallen_layers(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */
 void look_at_tilted(struct adviser *adviser);
 void look_at_grading(struct adviser *adviser);

@@ -22,7 +22,8 @@ struct boundary {
     double layer_thickness;  /* length; 0: not given */
     double layer_reflection; /* wanted; 0: not given */
     long least_points;       /* where they are chosen, at least so many; 0: the default */
-    bool always;             /* keep the absorbing layer even where no reflection can be seen by end_time */
+    bool fallen; /* dampers in place of an absorbing layer, which the consistent method has, but not here */
+    bool always; /* keep the absorbing layer even where no reflection can be seen by end_time */
     double normal_factor, shear_factor; /* Lysmer-Kuhlemeyer: traction = -factor rho c v; 1, 1 as published */
     double direction[3];                /* of a moved face: unit vector in the deck's coordinates */
     double amplitude;

@@ -69,6 +69,9 @@ static void read_absorber(struct builder *builder, const struct deck_group *grou
     const bool thickness = deck_given(group, "layer_points") || deck_given(group, "layer_thickness") ||
                            deck_given(group, "layer_reflection");
     boundary->absorber = factors ? ABSORBER_LYSMER : best_absorber(builder->scene);
+    boundary->fallen = !factors && deck_values(group, "layer") == 0 && builder->scene->dimension > 1 &&
+                       strcmp(builder->scene->method.variant, "consistent") == 0 &&
+                       layers_refusal(builder->scene) != NULL;
     if (thickness && layers_refusal(builder->scene) == NULL) boundary->absorber = ABSORBER_PML;
     if (deck_values(group, "layer") > 0) boundary->absorber = (enum absorber)deck_choice(group, "layer", 0);
     boundary->normal_factor = deck_real(group, "normal_factor", 0);
