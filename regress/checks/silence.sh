@@ -269,6 +269,14 @@ all="load%shape=face load%size= load%centre="
 told "absorbing sides beside a load on all of the surface" "ends at face x-, which absorbs: .*kind = 'roller'" check absorb.nml $all
 # shellcheck disable=SC2086
 untold "rollers there" check absorb.nml $all boundary%face=y+ boundary%layer=lysmer "boundary(2)%face=x-,x+" "boundary(2)%kind=roller"
+# a block of the density 20 errs by .24, .05 at half the spacing
+block="material(2)%name=heavy material(2)%density=20 material(2)%p_speed=1.732 material(2)%s_speed=1 block%material=heavy block%centre=5.2,1 block%size=.8,.4 load%width=.4"
+# shellcheck disable=SC2086
+told "a very heavy block" "densities differ 20 times .* err by up to about 0.2[0-9]*; body%spacing = 0.08" check absorb.nml $block
+# shellcheck disable=SC2086
+untold "at that spacing" check absorb.nml $block body%spacing=.08
+# shellcheck disable=SC2086
+untold "a heavy block" check absorb.nml $(echo "$block" | sed s,density=20,density=3,)
 # --- What does nothing ---
 cat >nothing.nml <<'END'
 &scene dimension = 2, end_time = 2.0 /

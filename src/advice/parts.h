@@ -65,6 +65,7 @@ void look_at_interfaces(struct adviser *adviser);
 /* Stresses that are asked for where the rock jumps (jumps.c). */
 void look_at_fields(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
+void look_at_weights(struct adviser *adviser);
 void look_at_columns(struct adviser *adviser);
 void look_at_fallen_layers(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */
