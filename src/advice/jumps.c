@@ -219,7 +219,7 @@ void look_at_crossed_rock(struct adviser *adviser)
            initial->wavelength > 0 ? "even ground" : "a state that begins 3.5 widths from it");
 }
 
-/* Sweeps invert the mass badly where densities jump. Measured: blocks of 1/36 to 36 times the density, two times at least,
+/* Sweeps invert the mass badly where densities jump. Measured: blocks of 1/36 to 36 times the ground density,
  * drawn by chance, at 3 to 9 points a wavelength, err by .04 to 2.6 times the law (general-ground.md). */
 void look_at_weights(struct adviser *adviser)
 {
