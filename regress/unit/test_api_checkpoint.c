@@ -202,9 +202,59 @@ static void test_driven(void **state)
         go_on(&all[i]);
 }
 
+/* Eight rows of eight points of the host's own, the last of each `wide` off its place. */
+static selas_simulation *open_points(double wide)
+{
+    static const char text[] =
+        "&scene dimension = 2, end_time = 2 /\n&method name = 'sph', law = 'linear' /\n"
+        "&stepping time_step = .05 /\n&material name = 'm', density = 1, lambda = 1, mu = 1 /\n"
+        "&body material = 'm', low = 0, 0, high = 8, 8, spacing = 1 /\n"
+        "&initial kind = 'uniform-velocity', velocity = 1, 0 /\n";
+    double position[64][3] = {{0}}, volume[64];
+    selas_simulation *simulation = NULL;
+    for (int i = 0; i < 64; i++) {
+        position[i][0] = i % 8 + .5 + (i % 8 == 7 ? wide : 0);
+        position[i][1] = i / 8 + .5;
+        volume[i] = 1;
+    }
+    assert_int_equal(selas_open_text("points", text, &simulation), SELAS_OK);
+    assert_int_equal(selas_set_points(simulation, 64, position[0], volume, NULL), SELAS_OK);
+    return simulation;
+}
+
+/* A simulation goes on only with what the host gave: the loads that it drives, and its points. */
+static void test_other_host(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/selas-checkpoint-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    for (int saved = 0; saved < 2; saved++)
+        for (int gone_on = 0; gone_on < 2; gone_on++) {
+            selas_simulation *one = open_scene(), *other = open_scene();
+            selas_simulation *body = open_points(0), *changed = open_points(saved == gone_on ? 0 : .01);
+            const selas_status wanted = saved == gone_on ? SELAS_OK : SELAS_FILE_ERROR;
+            if (saved) assert_int_equal(selas_set_load(one, "hammer", 1), SELAS_OK);
+            if (gone_on) assert_int_equal(selas_set_load(other, "hammer", 1), SELAS_OK);
+            assert_int_equal(selas_step(one, 2), SELAS_OK);
+            assert_int_equal(selas_save(one, path), SELAS_OK);
+            assert_int_equal(selas_restore(other, path), wanted);
+            assert_int_equal(selas_step(body, 2), SELAS_OK);
+            assert_int_equal(selas_save(body, path), SELAS_OK);
+            assert_int_equal(selas_restore(changed, path), wanted);
+            selas_close(&one);
+            selas_close(&other);
+            selas_close(&body);
+            selas_close(&changed);
+        }
+    remove(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_other_host),
         cmocka_unit_test(test_smoothed_point),
         cmocka_unit_test(test_particles),
         cmocka_unit_test(test_driven),

@@ -181,7 +181,9 @@ static const char *misfit_of_figures(const struct recorder *recorder, const doub
     if (!(fabs(figures[TIME_STEP] - dt) <= 1e-9 * dt)) return "its time step is another one";
     if (!kept_files_checksum(recorder->scene, &files)) return "there is no memory for its name";
     if (figures[FILES_LOW] != (double)(files & UINT32_MAX) || figures[FILES_HIGH] != (double)(files >> 32))
-        return "a file that its deck names (points, table or reference) has changed since";
+        return "a file that its deck names (points, table or reference) has changed since, or the host gives "
+               "other "
+               "points or drives other loads";
     if (recorder->file != NULL && recorder->scene->snapshots > 0 && figures[RECORDED] == 0.0)
         return "it was saved by a run without result files: its snapshots are not there";
     return NULL;

@@ -35,11 +35,32 @@ static bool add_file(void *context, const char *path)
     return true;
 }
 
+static void add_bytes(struct sum *sum, const void *bytes, size_t length)
+{
+    if (bytes != NULL) sum->checksum = crc64_add(&sum->table, sum->checksum, bytes, length);
+}
+
+/* What a host gives beside the deck: points, and which loads and faces it drives. */
+static void add_host(const struct scene *scene, struct sum *sum)
+{
+    const struct given_points *given = scene->body.given;
+    if (given != NULL) {
+        add_bytes(sum, given->position, 3 * given->count * sizeof *given->position);
+        add_bytes(sum, given->volume, given->count * sizeof *given->volume);
+        add_bytes(sum, given->material, given->material != NULL ? given->count * sizeof *given->material : 0);
+    }
+    for (size_t k = 0; k < scene->loads; k++)
+        if (scene->load[k].driven != BY_HISTORY) add_bytes(sum, &k, sizeof k);
+    for (size_t face = 0; face < FACES; face++)
+        if (scene->boundary[face].driven != BY_HISTORY) add_bytes(sum, &face, sizeof face);
+}
+
 bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
 {
     struct sum sum = {.checksum = 0};
     crc64_prepare(&sum.table);
     const bool good = scene->deck == NULL || deck_files(scene->deck, add_file, &sum);
+    add_host(scene, &sum);
     *checksum = sum.checksum;
     return good;
 }

@@ -18,7 +18,8 @@ selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, stru
 selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct messages *messages);
 void kept_deck_free(struct kept_deck *kept);
 
-/* Checksum of the files that the deck only names: points, tables, references; false without memory. */
+/* Checksum of what the deck only names: points, tables, references, and what a host gives beside it: points, and which
+ * loads and faces it drives; false without memory. */
 bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
 
 #endif
