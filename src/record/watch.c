@@ -165,7 +165,8 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
     const struct watch *watch = &recorder->watch;
     const double later = 1.0 + watch->face_rate * state->time;
     const double faces = watch->face_energy * later * later, given = watch->initial + watch->gross + faces;
-    if (state->step < (state->step < recorder->stepper->steps ? WATCH_EVERY : NOTED_STEPS)) return false;
+    const bool last = watch->by_work && state->step == recorder->stepper->steps;
+    if (state->step < (last ? NOTED_STEPS : WATCH_EVERY)) return false;
     if (watch->by_work && waves > growth_allowed * given)
         snprintf(what, size, "the body has the energy %.3g, but was given only %.3g", waves, given);
     else if (!watch->by_work && faces > 0.0 && waves > growth_of_faces * given)
