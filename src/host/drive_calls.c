@@ -145,12 +145,12 @@ static double translate(const struct model *model, unsigned mirrors, const doubl
     const size_t d = (size_t)model->scene->dimension;
     double own[3] = {direction[0], direction[1], direction[2]}, along = 0.0;
     if (model->frame != NULL) body_direction_from_deck(&model->scene->body, direction, own);
-    for (size_t c = 0; c < d; c++)
+    for (size_t c = 0; c < 3 && c < d; c++)
         if ((mirrors & 1u << c) == 0) along += own[c] * own[c];
-    for (size_t c = 0; c < d && along > little; c++)
+    for (size_t c = 0; c < 3 && c < d && along > little; c++)
         if ((mirrors & 1u << c) != 0) own[c] = 0.0;
     for (size_t i = 0; i < model->unknowns / d; i++)
-        for (size_t c = 0; c < d; c++)
+        for (size_t c = 0; c < 3 && c < d; c++)
             velocity[c * model->component_stride + i * model->point_stride] = own[c];
     return along > little ? along : 1.0;
 }

@@ -126,7 +126,7 @@ bool history_table_spectrum(const struct history *history, struct table_spectrum
 {
     enum { FINER = 4, MOST = 1 << 20 };
     const double length = history->table_time[history->rows - 1] - history->table_time[0];
-    const double top = history_table_top(history), step = fmax(M_PI / top, FINER * length / (MOST / 2));
+    const double top = history_table_top(history), step = fmax(M_PI / top, FINER * length / (.5 * MOST));
     size_t n = 16;
     while ((double)n < FINER * (length / step + 2))
         n *= 2;

@@ -27,6 +27,7 @@
 #include <complex.h>
 #include <fftw3.h>
 #include <math.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -71,60 +72,81 @@ selas_status time_dispersion_warp(const struct history *history, int integrals, 
     return SELAS_OK;
 }
 
-/* Quadrature of (3): what does not change from row to row. */
+/* Quadrature of (3): true frequencies 0..half and their weights cos(omega' dt/2) / length, twice that for conjugate
+ * pairs. They are not even in omega, but the rows are in time: each is smeared over a grid of frequencies by a
+ * Gaussian, which an FFT takes to the rows, times a Gaussian in time that is divided out (Greengard & Lee 2004, SIAM
+ * Review 46, Eqs 3 to 9; SPREAD cells to either side: 1e-12). */
+enum { SPREAD = 12, ORDERS = 3 };
 struct quadrature {
-    size_t half;            /* frequencies 0..half */
-    double *omega, *weight; /* true frequency; cos(omega' dt/2) / length, twice that for conjugate pairs */
-    double complex *turn, *phasor; /* exp(i omega dt), exp(i omega t) */
+    size_t half;
+    double *omega, *weight;
+    size_t rows, grid; /* rows to either side of the middle one, together; cells of 2 pi / grid in omega dt */
+    double tau;        /* of the Gaussian exp(-(omega dt)^2 / (4 tau)) */
+    fftw_complex *cell[ORDERS]; /* of u, v, a */
 };
 
-static bool quadrature_create(double dt, size_t length, struct quadrature *q)
+static bool quadrature_create(double dt, size_t n, size_t length, struct quadrature *q)
 {
     q->half = length / 2;
+    q->rows = n + n % 2;
+    q->grid = power_of_two_above(q->rows > SPREAD ? 2 * q->rows : 2 * SPREAD);
+    const double finer = (double)q->grid / (double)q->rows;
+    q->tau = PI * SPREAD / (finer * (finer - .5)) / ((double)q->rows * (double)q->rows);
     q->omega = array_new(q->half + 1, sizeof *q->omega);
     q->weight = array_new(q->half + 1, sizeof *q->weight);
-    q->turn = array_new(q->half + 1, sizeof *q->turn);
-    q->phasor = array_new(q->half + 1, sizeof *q->phasor);
-    if (q->omega == NULL || q->weight == NULL || q->turn == NULL || q->phasor == NULL) return false;
-    for (size_t k = 0; k <= q->half; k++) {
+    bool room = q->omega != NULL && q->weight != NULL && fft_room(q->grid);
+    for (size_t order = 0; order < ORDERS; order++) {
+        q->cell[order] = fftw_alloc_complex(q->grid);
+        room = room && q->cell[order] != NULL;
+    }
+    for (size_t k = 0; k <= q->half && room; k++) {
         const double angle = PI * (double)k / (double)length;
         q->omega[k] = 2.0 / dt * sin(angle);
         q->weight[k] = cos(angle) * (k == 0 || k == q->half ? 1.0 : 2.0) / (double)length;
-        q->turn[k] = cexp(I * q->omega[k] * dt);
-        q->phasor[k] = 1.0;
     }
-    return true;
+    return room;
 }
 
 static void quadrature_free(struct quadrature *q)
 {
     array_free(q->omega);
     array_free(q->weight);
-    array_free(q->turn);
-    array_free(q->phasor);
+    for (size_t order = 0; order < ORDERS; order++)
+        fftw_free(q->cell[order]);
 }
 
-/* Sums (3) for all rows and its first two derivatives. */
-static void unwarp_rows(struct quadrature *q, size_t n, fftw_complex *const spectrum[3], double *u, double *v,
-                        double *a)
+static void smear(const struct quadrature *q, double dt, const fftw_complex *spectrum)
 {
-    for (size_t i = 0; i < n; i++) {
-        double sum[9] = {0.0};
-        for (size_t k = 0; k <= q->half; k++) {
-            const double complex factor = q->weight[k] * q->phasor[k];
-            const double omega = q->omega[k];
-            for (size_t c = 0; c < 3; c++) {
-                const double complex term = spectrum[c][k] * factor;
-                sum[c] += creal(term);
-                sum[3 + c] -= omega * cimag(term);
-                sum[6 + c] -= omega * omega * creal(term);
-            }
-            q->phasor[k] *= q->turn[k];
+    const double cell = 2.0 * PI / (double)q->grid;
+    for (size_t order = 0; order < ORDERS; order++)
+        memset(q->cell[order], 0, q->grid * sizeof *q->cell[order]);
+    for (size_t k = 0; k <= q->half; k++) {
+        const double omega = q->omega[k], angle = omega * dt;
+        const double complex u = q->weight[k] * spectrum[k] * cexp(I * angle * .5 * (double)q->rows);
+        const double complex part[ORDERS] = {u, I * omega * u, -omega * omega * u};
+        const double first = floor(angle / cell) - SPREAD + 1;
+        for (int m = 0; m < 2 * SPREAD; m++) {
+            const double away = (first + m) * cell - angle;
+            const double share = exp(-away * away / (4.0 * q->tau));
+            const size_t at = (size_t)((long)first + m + (long)(SPREAD * q->grid)) % q->grid;
+            for (size_t order = 0; order < ORDERS; order++)
+                q->cell[order][at] += share * part[order];
         }
-        for (size_t c = 0; c < 3; c++) {
-            u[3 * i + c] = sum[c];
-            v[3 * i + c] = sum[3 + c];
-            a[3 * i + c] = sum[6 + c];
+    }
+}
+
+/* Sums (3) for all rows of a component and its first two derivatives. */
+static void unwarp_rows(const struct quadrature *q, double dt, size_t n, fftw_plan plan,
+                        const fftw_complex *spectrum, double *const row[ORDERS])
+{
+    const double scale = sqrt(PI / q->tau) / (double)q->grid;
+    smear(q, dt, spectrum);
+    for (size_t order = 0; order < ORDERS; order++) {
+        fftw_execute_dft(plan, q->cell[order], q->cell[order]);
+        for (size_t i = 0; i < n; i++) {
+            const double from_middle = (double)i - .5 * (double)q->rows;
+            const size_t at = (i + q->grid - q->rows / 2) % q->grid;
+            row[order][3 * i] = scale * exp(q->tau * from_middle * from_middle) * creal(q->cell[order][at]);
         }
     }
 }
@@ -143,29 +165,33 @@ selas_status time_dispersion_unwarp(double dt, size_t n, double *u, double *v, d
 {
     if (n < 2) return SELAS_OK;
     const size_t length = power_of_two_above(4 * n);
-    fftw_complex *spectrum[3] = {NULL, NULL, NULL};
+    fftw_complex *spectrum = fftw_alloc_complex(length / 2 + 1);
     double *padded = fftw_alloc_real(length);
     struct quadrature quadrature = {0};
-    bool room = quadrature_create(dt, length, &quadrature) && padded != NULL && fft_room(length);
-    for (size_t c = 0; c < 3; c++) {
-        spectrum[c] = fftw_alloc_complex(length / 2 + 1);
-        room = room && spectrum[c] != NULL;
-    }
+    const bool room = quadrature_create(dt, n, length, &quadrature) && padded != NULL && spectrum != NULL &&
+                      fft_room(length);
     if (room) {
-        fftw_plan plan;
+        fftw_plan there, back;
 #pragma omp critical(selas_fftw_planner)
-        plan = fftw_plan_dft_r2c_1d((int)length, padded, spectrum[0], FFTW_ESTIMATE);
+        {
+            there = fftw_plan_dft_r2c_1d((int)length, padded, spectrum, FFTW_ESTIMATE);
+            back = fftw_plan_dft_1d((int)quadrature.grid, quadrature.cell[0], quadrature.cell[0],
+                                    FFTW_BACKWARD, FFTW_ESTIMATE);
+        }
         for (size_t c = 0; c < 3; c++) {
+            double *const row[ORDERS] = {u + c, v + c, a + c};
             for (size_t i = 0; i < length; i++)
                 padded[i] = faded(u, n, c, i);
-            fftw_execute_dft_r2c(plan, padded, spectrum[c]);
+            fftw_execute(there);
+            unwarp_rows(&quadrature, dt, n, back, spectrum, row);
         }
 #pragma omp critical(selas_fftw_planner)
-        fftw_destroy_plan(plan);
-        unwarp_rows(&quadrature, n, spectrum, u, v, a);
+        {
+            fftw_destroy_plan(there);
+            fftw_destroy_plan(back);
+        }
     }
-    for (size_t c = 0; c < 3; c++)
-        fftw_free(spectrum[c]);
+    fftw_free(spectrum);
     fftw_free(padded);
     quadrature_free(&quadrature);
     if (!room) return fail(messages, SELAS_NO_MEMORY, "no memory to un-warp a history of %zu rows", n);
