@@ -95,6 +95,38 @@ else
     failures=$((failures + 1))
 fi
 unset deck
+cat >shaken.nml <<'END'
+&scene dimension = 2, end_time = 20 /
+&material name = 'soil', density = 1, p_speed = 1.8, s_speed = 1 /
+&body material = 'soil', low = -6, 0, high = 6, 5, spacing = .25 /
+&boundary face = 'x-', 'x+', kind = 'transmitting', layer = 'lysmer' /
+&boundary face = 'y+', kind = 'velocity', direction = 1, 0, history = 'gaussian', width = .7, delay = 3 /
+&receiver name = 'r', position = 0, 0 /
+&output plots = F /
+END
+deck=shaken.nml
+told "a shaken base between dampers" "the motion of face y+ acts as far as the absorbing face x- and on nothing behind it"
+untold "one whose sides leave the motion as it is" "boundary(1)%kind=displacement" "boundary(1)%layer=" \
+    "boundary(1)%direction=0,1" "boundary(1)%slip=T" "boundary(1)%amplitude=0" "boundary(1)%history=step"
+untold "one whose sides are not seen" scene%end_time=3.3
+told "a load of a whole face between dampers" "load 1 acts as far as the absorbing face x-" "boundary(2)%kind=fixed" \
+    "boundary(2)%direction=" "boundary(2)%history=" "boundary(2)%width=" "boundary(2)%delay=" load%face=y- load%shape=face \
+    load%direction=0,1 load%history=gaussian load%width=.7 load%delay=3
+told "a body force between dampers" "load 1 acts as far as the absorbing face x-" "boundary(2)%kind=fixed" \
+    "boundary(2)%direction=" "boundary(2)%history=" "boundary(2)%width=" "boundary(2)%delay=" load%kind=body-force \
+    load%direction=1,0 load%history=gaussian load%width=.7 load%delay=3
+patch="boundary(2)%kind=transmitting boundary(2)%direction= boundary(2)%history= boundary(2)%width= boundary(2)%delay= \
+    load%face=y- load%shape=square load%size=2 load%direction=0,1 load%history=gaussian load%width=2 load%delay=8 scene%end_time=30"
+# shellcheck disable=SC2086
+told "a patch that hangs over an absorbing face" "load 1 runs beyond the body.* a body from 4.5 to 6.5 along x" $patch load%centre=5.5,0
+# shellcheck disable=SC2086
+told "a patch that drives over an absorbing face" "load 1 runs beyond the body.* a body from -1 to 7 along x" $patch load%centre=0,0 \
+    load%velocity=.2,0 receiver%position=0,4
+# shellcheck disable=SC2086
+untold "one that is there at the end only" $patch load%centre=0,0 load%velocity=.167,0 receiver%position=0,4
+# shellcheck disable=SC2086
+untold "one that drives over a free face" $patch load%centre=0,0 load%velocity=.2,0 receiver%position=0,4 "boundary(1)%face=x-"
+unset deck
 # lambda = mu: (cR/cs)^2 = 2 - 2/sqrt 3
 told "a load faster than the Rayleigh wave" "load 1 moves at 0.95, faster than the Rayleigh wave (0.9194)" load%velocity=-.95,0 "boundary(2)%kind=free"
 told "a patch beside the lattice" "edges of load 1 along x lie between points; -0.5 to 0.5 would" method%variant=paper method%row_sums=zero scene%end_time=.5 load%size=1.1 "boundary(2)%kind=free"
@@ -106,8 +138,8 @@ told "a patch beside the particles' cells" "edges of load 1 along x lie between 
 # 0.55 of a disc of diameter 1.1 lies on the body, with two particles in it: .5 / .55
 # shellcheck disable=SC2086
 told "a disc of few particles" "have 0.909 of its area.* amplitude = 1.1 would" $particles load%shape=disc load%size=1.1
-told "shear on a whole face across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%shape=face load%direction=1,0 load%centre= load%size=
-told "a body force across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%kind=body-force load%shape=face load%face= load%direction=1,0 load%centre= load%size=
+told "shear on a whole face across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%shape=face load%direction=1,0 load%centre= load%size= "boundary(1)%kind=free"
+told "a body force across a symmetry plane" "load 1 pushes across the symmetry plane x-, beyond which" load%kind=body-force load%shape=face load%face= load%direction=1,0 load%centre= load%size= "boundary(1)%kind=free"
 told "a force at an absorbing face" "load 1 acts at the absorbing face y+.*two spacings (0.5)" load%kind=body-force load%shape=point load%face= load%centre=1,3.9 load%size=
 force="load%kind=body-force load%shape=point load%face= load%size="
 # shellcheck disable=SC2086

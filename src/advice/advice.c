@@ -175,31 +175,6 @@ static void look_at_speed(struct adviser *adviser, size_t k)
                scene->load[k].group + 1, speed, ground.rayleigh_speed);
 }
 
-/* The exact ground goes on beyond the box, and a load that runs over it there sends waves into the box. */
-static void look_at_path(struct adviser *adviser, size_t k)
-{
-    const struct scene *scene = adviser->scene;
-    const struct load *load = &scene->load[k];
-    double from[3], velocity[3];
-    body_from_deck(&scene->body, load->centre, from);
-    body_direction_from_deck(&scene->body, load->velocity, velocity);
-    if (load->kind != LOAD_TRACTION || strcmp(scene->reference.kind, "lamb") != 0) return;
-    for (int axis = 0; axis < scene->dimension; axis++) {
-        const double to = from[axis] + velocity[axis] * scene->end_time, half = half_size(load, axis);
-        if (axis == face_axis(load->face) || velocity[axis] == 0.0) continue;
-        if (fmin(from[axis], to) - half >= scene->body.low[axis] - 1e-9 * scene->body.spacing &&
-            fmax(from[axis], to) + half <= scene->body.high[axis] + 1e-9 * scene->body.spacing)
-            continue;
-        advise(
-            adviser,
-            "load %zu runs beyond the body, where nothing feels it; in the exact solution it runs on ground "
-            "there, too, so the error holds what it sends from there; a body from %.6g to %.6g along %c "
-            "would hold it",
-            scene->load[k].group + 1, fmin(from[axis], to) - half, fmax(from[axis], to) + half, "xyz"[axis]);
-        return;
-    }
-}
-
 size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context)
 {
@@ -226,6 +201,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_ringing_body(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
+    look_at_beyond(&adviser);
     look_at_rests(&adviser);
     look_at_weights(&adviser);
     look_at_columns(&adviser);
@@ -236,7 +212,6 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         look_at_speed(&adviser, k);
-        look_at_path(&adviser, k);
         look_at_passed(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }

@@ -1,7 +1,7 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
  * points.c (patches on points), ringing.c (damped bodies), jumps.c (fields and states where the rock
  * jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
- * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others). */
+ * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others), beyond.c (ground that goes on). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -54,6 +54,8 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 void look_at_ligament(struct adviser *adviser);
 /* Loads that stay on between layers that give way. */
 void look_at_rests(struct adviser *adviser);
+/* What acts as far as faces behind which the ground goes on, or beyond them (beyond.c). */
+void look_at_beyond(struct adviser *adviser);
 /* Moment tensors too near to layers. */
 void look_at_clearance(struct adviser *adviser);
 /* Receivers in the midst of a point source. */
