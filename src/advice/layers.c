@@ -81,28 +81,22 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper)
         points, (double)points / cells, error, outlook.error, outlook.layer_points);
 }
 
-/* What acts all over the surface. Measured (regress/checks/fitted.sh): layers of 8 points sent back .017 to .14 of the
- * velocity, dampers .0035 and less (doc/verification/tables/absorbing.txt, table 9). Absorbing sides, of either kind,
- * end the load: .11 to .36 of the velocity is wrong in the scene of silence.sh. */
+/* What acts all over the surface sends all of it straight down. Measured (regress/checks/fitted.sh): layers of 8 points
+ * sent back .017 to .14 of the velocity, dampers .0035 and less (doc/verification/tables/absorbing.txt, table 9). */
 void look_at_columns(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
-    const bool plain = !ground_is_general(scene) && !ground_is_damped(scene);
     struct extent load;
+    if (ground_is_general(scene) || ground_is_damped(scene)) return;
     for (size_t i = 0; scene_extent(scene, i, &load); i++)
-        for (int face = 0; load.role == EXTENT_ACTS && load.plane && face < 2 * scene->dimension; face++) {
-            const bool side = face < 2 * scene->dimension - 2;
-            if (side ? !boundary_absorbs(&scene->boundary[face]) : layer_points(scene, face) == 0 || !plain)
-                continue;
-            advise(adviser,
-                   side
-                       ? "what acts all over the surface ends at face %s, which absorbs: waves come in from "
-                         "there; of the ground that goes on rollers on all sides (kind = 'roller') would be "
-                         "right, of a patch its size"
-                       : "all moves at right angles to face %s, and the absorbing layer behind it sends slow "
-                         "waves back: with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends "
-                         "hardly anything back",
-                   face_name((enum face)face));
+        for (int face = 2 * scene->dimension - 2;
+             load.role == EXTENT_ACTS && load.plane && face < 2 * scene->dimension; face++) {
+            if (layer_points(scene, face) == 0) continue;
+            advise(
+                adviser,
+                "all moves at right angles to face %s, and the absorbing layer behind it sends slow waves "
+                "back: with 8 points .02 to .14 of the velocity; layer = 'lysmer' sends hardly anything back",
+                face_name((enum face)face));
             return;
         }
 }
