@@ -279,7 +279,7 @@ static selas_status choose(const struct scene *scene, double accuracy, const str
                           scene->receiver[k].name);
     if (place != NULL && status == SELAS_OK)
         status = choose_setting(scene, place, accuracy, work, choice, messages);
-    if (known_exactly(scene)) choice->exact = "plane-wave";
+    if (status == SELAS_OK && known_exactly(scene)) choice->exact = "plane-wave";
     array_free(work);
     arrivals_free(&place);
     return status;

@@ -66,9 +66,11 @@ void look_at_passed(struct adviser *adviser, size_t load);
 void look_at_interfaces(struct adviser *adviser);
 /* Stresses that are asked for where the rock jumps (jumps.c). */
 void look_at_fields(struct adviser *adviser);
-/* Absorbing layers where dampers send nothing back. */
+/* Densities that jump in general ground (jumps.c). */
 void look_at_weights(struct adviser *adviser);
+/* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
+/* Dampers where an absorbing layer cannot be, and nobody asked for them. */
 void look_at_fallen_layers(struct adviser *adviser);
 /* Tilted layers that go on beyond a box that the program chose. */
 void look_at_tilted(struct adviser *adviser);

@@ -93,11 +93,11 @@ bool histories_missed(const struct recorder *recorder, char text[MISSED_TEXT])
     const double wanted = recorder->scene->accuracy;
     const double reached = recorder->exact != NULL && wanted > 0 ? histories_error(recorder) : 0;
     if (reached <= wanted) return false;
-    snprintf(
-        text, MISSED_TEXT,
-        "the error reached is %.2g, above scene%%accuracy = %g: coarser points, from which the spacing was "
-        "concluded, did not show it; scene%%accuracy = %.2g would be right",
-        reached, wanted, .8 * wanted * wanted / reached);
+    snprintf(text, MISSED_TEXT,
+             "the error reached is %.2g, above scene%%accuracy = %g: what the spacing was chosen by, laws or "
+             "coarser "
+             "points, did not show it; scene%%accuracy = %.2g would be right",
+             reached, wanted, .8 * wanted * wanted / reached);
     return true;
 }
 

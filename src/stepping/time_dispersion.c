@@ -80,8 +80,8 @@ enum { SPREAD = 12, ORDERS = 3 };
 struct quadrature {
     size_t half;
     double *omega, *weight;
-    size_t rows, grid; /* rows to either side of the middle one, together; cells of 2 pi / grid in omega dt */
-    double tau;        /* of the Gaussian exp(-(omega dt)^2 / (4 tau)) */
+    size_t rows, grid;          /* an even number of rows; cells of 2 pi / grid in omega dt */
+    double tau;                 /* of the Gaussian exp(-(omega dt)^2 / (4 tau)) */
     fftw_complex *cell[ORDERS]; /* of u, v, a */
 };
 
