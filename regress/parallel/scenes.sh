@@ -34,7 +34,13 @@ same_fields() { # same_fields FOLDER: what run.h5 and the XDMF files show, alone
     h5ls -r "$work/$1/run.h5" | grep '^/[ps][on]' | cmp -s - "$work/one" && [ -s "$work/one" ] &&
         h5diff -q "$work/alone/run.h5" "$work/$1/run.h5" /snapshots && h5diff -q "$work/alone/run.h5" "$work/$1/run.h5" /points
 }
-same() { # same "RANKS..." WHAT WORDS...: histories alone and on ranks
+same_energies() { # same_energies FOLDER: those that its report tells, to the rounding of sums over ranks
+    sed -n 's/^\(energy [^:]*\): \([^ ]*\).*/\1:\2/p; s/^\(work [^:]*\): \([^ ]*\).*/\1:\2/p' "$work/$1/report.txt" | grep -v '^energy balance' >"$work/one"
+    sed -n 's/^\(energy [^:]*\): \([^ ]*\).*/\1:\2/p; s/^\(work [^:]*\): \([^ ]*\).*/\1:\2/p' "$work/alone/report.txt" |
+        awk -F : 'NR == FNR { alone[$1] = $2; if ($2 > most) most = $2; next }
+            { d = $2 - alone[$1]; if (d * d > 1e-10 * most * most) exit 1; found++ } END { if (found < 3) exit 1 }' - "$work/one"
+}
+same() { # same "RANKS..." WHAT WORDS...: histories and energies alone and on ranks
     counts=$1 what=$2
     shift 2
     rm -rf "$work/alone"
@@ -49,9 +55,10 @@ same() { # same "RANKS..." WHAT WORDS...: histories alone and on ranks
             numbers "$work/ranks/$(basename "$file")" 2>/dev/null | cmp -s - "$work/one" || bad="$bad $(basename "$file")"
         done
         [ ! -e "$work/alone/run.xdmf" ] || same_fields ranks || bad="$bad run.h5"
+        same_energies ranks || bad="$bad energies"
         case $n in 1x*) ;; *x*) grep -q "^ranks: ${n%x*} x ${n#*x} blocks" "$work/ranks/report.txt" || bad="$bad grid" ;; esac
         [ "$bad" = 0 ]
-        verdict $? "$what on $n ranks: same histories"
+        verdict $? "$what on $n ranks: same histories and energies"
         [ "$bad" = 0 ] || { echo "#   $bad"; sed 's/^/#   /' "$work/log" | head -5; }
     done
 }

@@ -133,7 +133,8 @@ static void energy(struct model *model, const double *y, struct energy *energy)
 {
     struct consistent *c = consistent_of(model);
     const double *v = y + model->unknowns;
-    const size_t own = c->part.along[DEPTH].own, end = c->part.along[DEPTH].end;
+    const struct part_axis *y_axis = &c->part.along[1], *z_axis = &c->part.along[DEPTH];
+    const size_t rows[] = {y_axis->own, y_axis->end}, planes[] = {z_axis->own, z_axis->end};
     bool moving = false;
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
@@ -142,8 +143,8 @@ static void energy(struct model *model, const double *y, struct energy *energy)
     } else if (c->hform != NULL && !moving) {
         hform_energy(c, y, energy);
     } else {
-        energy->kinetic = tensor_form_planes(c->mass, own, end, v, v) / 2;
-        energy->strain = tensor_form_planes(c->stiffness, own, end, y, y) / 2;
+        energy->kinetic = tensor_form_part(c->mass, rows, planes, v, v) / 2;
+        energy->strain = tensor_form_part(c->stiffness, rows, planes, y, y) / 2;
     }
     double sums[2] = {energy->kinetic, energy->strain};
     ranks_sum(c->part.ranks, 2, sums);

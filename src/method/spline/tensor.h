@@ -41,9 +41,9 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
 /* Control values that a number reads on each side, at most: along x (slot 0), y, z. */
 size_t tensor_reach(const struct tensor_plan *plan, int slot);
 
-/* w^T A u, summed plane by plane; of the planes from .. end - 1 of w alone. */
+/* w^T A u, summed plane by plane; of the rows [0] .. [1] - 1 of such planes of w alone. */
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u);
-double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, const double *w,
-                          const double *u);
+double tensor_form_part(struct tensor_plan *plan, const size_t rows[2], const size_t planes[2],
+                        const double *w, const double *u);
 
 #endif

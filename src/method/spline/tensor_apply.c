@@ -154,11 +154,13 @@ void tensor_plane(const struct tensor_plan *plan, int thread, size_t k, double f
 
 double tensor_form(struct tensor_plan *plan, const double *w, const double *u)
 {
-    return tensor_form_planes(plan, 0, plan->n[2], w, u);
+    return tensor_form_part(plan, (const size_t[]){0, plan->n[1]}, (const size_t[]){0, plan->n[2]}, w, u);
 }
 
-double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, const double *w, const double *u)
+double tensor_form_part(struct tensor_plan *plan, const size_t rows[2], const size_t planes[2],
+                        const double *w, const double *u)
 {
+    const size_t from = planes[0], end = planes[1];
     const size_t plane = plan->plane, step = (plane + TENSOR_ALIGN - 1) / TENSOR_ALIGN * TENSOR_ALIGN;
     const int components = plan->components;
 #pragma omp parallel for num_threads(plan->threads) schedule(static)
@@ -171,7 +173,7 @@ double tensor_form_planes(struct tensor_plan *plan, size_t from, size_t end, con
         }
         tensor_plane(plan, thread, k, 1, u, out);
         for (int c = 0; c < components; c++)
-            for (size_t i = 0; i < plane; i++)
+            for (size_t i = rows[0] * plan->n[0]; i < rows[1] * plan->n[0]; i++)
                 sum += out[c][i] * w[(size_t)c * plan->volume + k * plane + i];
         plan->plane_sums[k] = sum;
     }

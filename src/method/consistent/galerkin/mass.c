@@ -134,10 +134,11 @@ static void solve_planes(void *context, size_t from_plane, size_t end_plane)
             band_backward_rows(factors->depth[component], &rows, factors->half[DEPTH], lane, c->plane, lanes);
             continue;
         }
-        band_forward_rows(factors->depth[component], &rows, factors->half[DEPTH], lane, c->plane, lanes);
+        /* before the sweep, whose last planes the next rank goes on with */
         for (size_t k = from_plane; scale != 1 && k < end_plane; k++)
             for (size_t i = 0; i < lanes; i++)
                 lane[k * c->plane + i] *= scale;
+        band_forward_rows(factors->depth[component], &rows, factors->half[DEPTH], lane, c->plane, lanes);
     }
 }
 
