@@ -98,14 +98,15 @@ static void gradient_and_jaumann(void **unused)
         }
 }
 
-/* A uniform stress is in balance with the tractions it makes on all faces: no particle moves, corners
- * included. */
+/* A uniform stress is in balance with the tractions it makes on all faces, corners included; a body that turns as
+ * one has no viscosity, not behind such faces either: no particle is accelerated. */
 static void tractions_balance(void **unused)
 {
     (void)unused;
     for (int d = 1; d <= 3; d++) {
         struct fixture f;
         box(&f, d, .1);
+        f.options.alpha = f.options.beta = 1;
         double s[3][3] = {{0}}, amplitude[PLAIN_LOADS];
         for (int a = 0; a < d; a++)
             for (int b = 0; b < d; b++)
@@ -119,8 +120,11 @@ static void tractions_balance(void **unused)
         make(&f);
         for (size_t i = 0; i < f.model->points; i++)
             for (int a = 0; a < d; a++)
-                for (int b = 0; b < d; b++)
+                for (int b = 0; b < d; b++) {
                     stress(&f, f.y)[components(&f) * i + (size_t)updated_component[d][a][b]] = s[a][b];
+                    velocity(&f, f.y)[(size_t)d * i + (size_t)a] +=
+                        (s[a][b] + 1) * ((a > b) - (a < b)) * f.model->position[3 * i + (size_t)b];
+                }
         const struct drive drive = {.load = amplitude};
         evaluate(&f, &drive);
         for (size_t i = 0; i < f.model->unknowns; i++)

@@ -13,9 +13,9 @@
  * face, so that corners have images of images.
  *
  * The ghosts of a traction carry stress but do not deform: they count in the momentum equation (with its own
- * L) and not in the velocity gradient. A copied velocity there is an even continuation, which leaves the
- * first particles of the bar with stresses of 3.2, 1.1, .7, 1.3 ... times the applied one; without it they
- * are right to 1e-3. */
+ * L) and not in the velocity gradient, nor in the viscosity. A copied velocity there is an even continuation, which
+ * leaves the first particles of the bar with stresses of 3.2, 1.1, .7, 1.3 ... times the applied one (without it
+ * they are right to 1e-3), and brakes a body that turns. */
 #include "base/memory.h"
 #include "base/vectors.h"
 #include "method/updated_lagrangian/updated_lagrangian.h"

@@ -222,7 +222,9 @@ INLINED void weigh(const struct updated *updated, const struct pair_constants *c
             const lanes approach = WHERE(chunk->approach[k] < constants->one_side, chunk->approach[k]);
             lanes b = approach * (chunk->inverse[k] * q);
             if (!on.even) b *= chunk->shorter[k];
-            const lanes part = (constants->beta * (b * chunk->mean[k]) - constants->alpha) * b * mass;
+            lanes deforming = mass;
+            if (on.pressed) deforming = chunk->span[k] * OTHER(layout.density);
+            const lanes part = (constants->beta * (b * chunk->mean[k]) - constants->alpha) * b * deforming;
             for (int a = 0; a < dimension; a++)
                 sums->damp[a] += part * d[a];
         }
