@@ -170,6 +170,14 @@ told "volumes that do not fit in it, with normals" "heavy.txt: the volumes of th
 awk '{ print $1, $2, $3, 0, $2 < .2 ? -1 : 0, $2 < .2 ? .2 : 0 }' whole.txt >normals.txt
 sed '/^&boundary/d' points.nml >free.nml
 untold "volumes that fill it, with normals" -q free.nml body%file=normals.txt
+# one normal a point: corners have those of two faces in one
+awk -v h=.2 '{ nx = ($1 > 3.8) - ($1 < h); ny = ($2 > 3.8) - ($2 < h); n = sqrt(nx * nx + ny * ny)
+    print $1, $2, $3, nx / (n + !n), ny / (n + !n), h * n }' whole.txt >corners.txt
+awk '{ print $1, $2, $3, $4, $5, 2 * $6 }' corners.txt >double.txt
+awk '{ print $1, $2, $3 / 2, $4, $5, $6 }' corners.txt >light.txt
+told "areas that leave out corners" "their areas on face 'y-' add up to 0.9 times its: loads" check free.nml body%file=corners.txt
+told "areas that do not fit on the face" "double.txt: the areas of the points on face 'y-' add up to 1.8 times" check free.nml body%file=double.txt
+told "volumes that the surface is too large for" "volumes of the points add up to 8, but their areas and outward normals enclose 15.7" check free.nml body%file=light.txt
 told "points without areas that do not" "the points come without areas and fill 0.975 of the box" check points.nml body%file=gap.txt
 cloud="method%name=smoothed-point method%variant=cloud"
 paper="method%name=smoothed-point method%variant=paper"

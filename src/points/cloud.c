@@ -227,8 +227,9 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
     if (body->shape == BODY_POINTS) {
         status = cloud_read(scene, cloud, messages);
         if (status == SELAS_OK && *cloud != NULL) status = check_filling(*cloud, body, messages);
-        if (status == SELAS_OK && *cloud != NULL && (*cloud)->elements == 0 &&
-            fabs(cloud_filling(*cloud, body) - 1) < 0.02)
+        if (status == SELAS_OK && *cloud != NULL && (*cloud)->elements > 0)
+            points_warn_of_volumes(*cloud, body, messages);
+        else if (status == SELAS_OK && *cloud != NULL && fabs(cloud_filling(*cloud, body) - 1) < 0.02)
             status = cloud_surface(*cloud, body, messages);
         if (status != SELAS_OK) cloud_free(cloud);
         return status;

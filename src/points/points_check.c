@@ -51,6 +51,32 @@ selas_status points_check_apart(size_t points, const double *position, double sp
     return status;
 }
 
+/* A closed surface encloses a third of the sum of area times normal times place (a half in two dimensions); that of
+ * points with one normal each, cut off at corners, 3 % less with five points across. */
+void points_warn_of_volumes(const struct cloud *cloud, const struct body *body, struct messages *messages)
+{
+    double volume = 0, enclosed = 0, area = 0, open[3] = {0};
+    for (size_t i = 0; i < cloud->points; i++)
+        volume += cloud->volume[i];
+    for (size_t e = 0; e < cloud->elements; e++) {
+        const struct face_element *element = &cloud->element[e];
+        area += element->area;
+        for (int c = 0; c < 3; c++) {
+            open[c] += element->area * element->normal[c];
+            const double place = element->position[c] - 0.5 * (body->low[c] + body->high[c]);
+            enclosed += element->area * element->normal[c] * place / cloud->dimension;
+        }
+    }
+    const double share = volume / enclosed;
+    if (fmax(fmax(fabs(open[0]), fabs(open[1])), fabs(open[2])) > 0.02 * area ||
+        (share > 0.75 && share < 1.33))
+        return;
+    warn(messages,
+         "%s: the volumes of the points add up to %.3g, but their areas and outward normals enclose "
+         "%.3g: masses are density times volume, loads traction times area; those that fit would be right",
+         body->file, volume, enclosed);
+}
+
 /* Looks at places half a spacing apart: in a lattice without gaps the farthest from any point is a cell's middle, at
  * most .87 spacings away, and where a point is missing it is a whole spacing. */
 selas_status points_warn_of_gaps(const struct body *body, int dimension, size_t points,

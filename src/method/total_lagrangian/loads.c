@@ -283,6 +283,39 @@ static selas_status compress(struct tl_model *tl, const double *force, struct tl
     return SELAS_OK;
 }
 
+/* Areas from a file on the faces where something acts: no more than the box has, nor less where the points fill it. */
+static selas_status check_areas(const struct tl_model *tl, struct messages *messages)
+{
+    const struct scene *scene = tl->model.scene;
+    const struct body *body = &scene->body;
+    const bool filled = fabs(cloud_filling(tl->cloud, body) - 1) < 0.02;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        bool acts = boundary_absorbs(&scene->boundary[face]);
+        double area = 0;
+        for (size_t k = 0; k < scene->loads; k++)
+            acts = acts || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].face == (enum face)face);
+        for (size_t e = 0; acts && e < tl->cloud->elements; e++)
+            if (tl->cloud->element[e].face == face) area += tl->cloud->element[e].area;
+        for (int c = 0; c < scene->dimension; c++)
+            if (c != face_axis((enum face)face)) area /= body->high[c] - body->low[c];
+        if (area > 1.02)
+            return fail(
+                messages, SELAS_BAD_SCENE,
+                "%s: the areas of the points on face '%s' add up to %.4g times that of the box low .. high; "
+                "expected at most 1.02, as loads are traction times area",
+                body->file, face_name((enum face)face), area);
+        if (area > 0 && area < 0.98 && filled)
+            warn(
+                messages,
+                "%s: the points fill their box low .. high, but their areas on face '%s' add up to %.3g "
+                "times "
+                "its: loads and dampers there act by as much; no normals and areas would be right: the faces "
+                "are then those of the box",
+                body->file, face_name((enum face)face), area);
+    }
+    return SELAS_OK;
+}
+
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
@@ -292,6 +325,7 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
     selas_status status = SELAS_OK;
     if (gather.force == NULL || tl->load == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for loads");
+    if (status == SELAS_OK && scene->body.file != NULL) status = check_areas(tl, messages);
     status = tl_agree(tl, status, messages);
     for (size_t k = 0; k < scene->loads && status == SELAS_OK; k++) {
         const struct load *load = &scene->load[k];
