@@ -178,6 +178,9 @@ awk '{ print $1, $2, $3 / 2, $4, $5, $6 }' corners.txt >light.txt
 told "areas that leave out corners" "their areas on face 'y-' add up to 0.9 times its: loads" check free.nml body%file=corners.txt
 told "areas that do not fit on the face" "double.txt: the areas of the points on face 'y-' add up to 1.8 times" check free.nml body%file=double.txt
 told "volumes that the surface is too large for" "volumes of the points add up to 8, but their areas and outward normals enclose 15.7" check free.nml body%file=light.txt
+told "a spacing that the points do not have" "by their volumes the points are 0.2 apart, not body.spacing = 0.4" check free.nml body%spacing=.4
+"$selas" -q free.nml method%variant=updated-lagrangian body%spacing=.12 scene%end_time=3 >said 2>&1
+verdict "what they are given is measured by their own" $?
 told "points without areas that do not" "the points come without areas and fill 0.975 of the box" check points.nml body%file=gap.txt
 cloud="method%name=smoothed-point method%variant=cloud"
 paper="method%name=smoothed-point method%variant=paper"

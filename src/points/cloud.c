@@ -227,6 +227,7 @@ selas_status cloud_create(const struct scene *scene, struct cloud **cloud, struc
     if (body->shape == BODY_POINTS) {
         status = cloud_read(scene, cloud, messages);
         if (status == SELAS_OK && *cloud != NULL) status = check_filling(*cloud, body, messages);
+        if (status == SELAS_OK && *cloud != NULL) points_warn_of_spacing(*cloud, body, messages);
         if (status == SELAS_OK && *cloud != NULL && (*cloud)->elements > 0)
             points_warn_of_volumes(*cloud, body, messages);
         else if (status == SELAS_OK && *cloud != NULL && fabs(cloud_filling(*cloud, body) - 1) < 0.02)

@@ -75,6 +75,8 @@ selas_status points_check_apart(size_t points, const double *position, double sp
                                 const size_t *line, struct messages *messages);
 /* Warns of volumes that do not fit into a closed surface. */
 void points_warn_of_volumes(const struct cloud *cloud, const struct body *body, struct messages *messages);
+/* Warns of a body%spacing that the points do not have. */
+void points_warn_of_spacing(const struct cloud *cloud, const struct body *body, struct messages *messages);
 /* Warns of places of the box without a point within a spacing (position in the body's frame). */
 selas_status points_warn_of_gaps(const struct body *body, int dimension, size_t points,
                                  const double *position, struct messages *messages);

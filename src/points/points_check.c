@@ -77,6 +77,20 @@ void points_warn_of_volumes(const struct cloud *cloud, const struct body *body, 
          body->file, volume, enclosed);
 }
 
+void points_warn_of_spacing(const struct cloud *cloud, const struct body *body, struct messages *messages)
+{
+    double volume = 0;
+    for (size_t i = 0; i < cloud->points; i++)
+        volume += cloud->volume[i];
+    const double apart = pow(volume / (double)cloud->points, 1.0 / cloud->dimension);
+    if (apart > 0.7 * body->spacing && apart < 1.4 * body->spacing) return;
+    warn(messages,
+         "%s: by their volumes the points are %.3g apart, not body%%spacing = %.3g, by which the program "
+         "tells what "
+         "they resolve, and kernels their reach; body%%spacing = %.3g would be right",
+         body->file != NULL ? body->file : "points of the host", apart, body->spacing, apart);
+}
+
 /* Looks at places half a spacing apart: in a lattice without gaps the farthest from any point is a cell's middle, at
  * most .87 spacings away, and where a point is missing it is a whole spacing. */
 selas_status points_warn_of_gaps(const struct body *body, int dimension, size_t points,

@@ -303,8 +303,9 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
         const size_t axis = (size_t)face_axis((enum face)face);
         const double depth = fabs(updated->reference[3 * (updated->cloud->points + g) + axis] -
                                   updated->reference[3 * i + axis]);
-        if (ghost->count > 1 || depth > 1.5 * updated->cloud->spacing) continue; /* not the outermost */
-        const double area = updated->cloud->volume[i] / updated->cloud->spacing;
+        const double volume = updated->cloud->volume[i], spacing = pow(volume, 1.0 / updated->dimension);
+        if (ghost->count > 1 || depth > 1.5 * spacing) continue; /* not the outermost */
+        const double area = volume / spacing;
         struct image image = {.density = 1};
         load_particle(updated, y, i, &image);
         double traction[3] = {0}, sum = 0;
