@@ -219,5 +219,12 @@ check "rerun" "$selas" -q rerun whole_bar/run.h5
 check "rerun: same bits" same whole_bar output/bar-rerun
 check "rerun with overrides" "$selas" -q rerun whole_bar/run.h5 output%directory=finer body%spacing=0.005
 check "rerun with overrides: they count" grep -q '^points: 200' finer/report.txt
+awk 'BEGIN { for (t = 0; t < 21; t++) print t * 1e-5, t % 2 }' >table.dat
+"$selas" -q bar.nml output%directory=tabled load%history=table load%file=table.dat 2>/dev/null
+check "rerun: nothing to tell of files that are the same" sh -c "'$selas' -q rerun tabled/run.h5 2>err && ! grep 'has changed' err"
+echo "1 0" >>table.dat
+check "rerun: a file that has changed is told" sh -c "'$selas' -q rerun tabled/run.h5 2>err && grep -q 'names has changed since' err"
+check "rerun: not where another one is asked for" sh -c "
+    '$selas' -q rerun tabled/run.h5 load%file=table.dat 2>err && ! grep 'has changed' err"
 check "rerun: no run.h5" sh -c "! '$selas' rerun cut_paper/p.dat 2>err && grep -q 'p.dat' err"
 exit $failures

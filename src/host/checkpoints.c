@@ -158,6 +158,24 @@ static selas_status place_rerun(selas_simulation *simulation)
     return SELAS_OK;
 }
 
+/* The deck only names its files, and nothing keeps what a host gave; overrides that name files mean others. */
+static void warn_of_change(selas_simulation *simulation, const char *path, const char *files, size_t count,
+                           const char *const *overrides)
+{
+    char text[KEPT_CHECKSUM];
+    if (files == NULL || !kept_files_text(simulation->scene, text) || strcmp(files, text) == 0) return;
+    for (size_t i = 0; i < count; i++) {
+        const size_t name = strcspn(overrides[i], "=");
+        if (memmem(overrides[i], name, "file", 4) != NULL || memmem(overrides[i], name, "sources", 7) != NULL)
+            return;
+    }
+    warn(&simulation->messages,
+         "a file that the deck of '%s' names has changed since, or a host gave that run its points or drove "
+         "its loads: "
+         "this is another run; the files as they were would be right",
+         path);
+}
+
 selas_status simulation_open_run(const char *path, size_t count, const char *const *overrides,
                                  selas_simulation **opened)
 {
@@ -176,9 +194,11 @@ selas_status simulation_open_run(const char *path, size_t count, const char *con
         status = fail(&simulation->messages, SELAS_NO_MEMORY, "no memory for the overrides");
     }
     if (status == SELAS_OK) status = place_rerun(simulation);
+    if (status == SELAS_OK) status = simulation_scene(simulation);
+    if (status == SELAS_OK) warn_of_change(simulation, path, kept.files, count, overrides);
     free(all);
     kept_deck_free(&kept);
-    return status == SELAS_OK ? simulation_scene(simulation) : status;
+    return status;
 }
 
 char *simulation_checkpoint_path(selas_simulation *simulation)

@@ -65,6 +65,14 @@ bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
     return good;
 }
 
+bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM])
+{
+    uint64_t checksum = 0;
+    const bool good = kept_files_checksum(scene, &checksum);
+    snprintf(text, KEPT_CHECKSUM, "%016llx", (unsigned long long)checksum);
+    return good;
+}
+
 selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, struct kept_deck *kept,
                                      struct messages *messages)
 {
@@ -126,6 +134,7 @@ selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct m
         kept->text = provenance_text(place, "deck_echo");
         kept->source = provenance_text(place, "deck");
         kept->name = provenance_text(place, "deck_name");
+        kept->files = provenance_text(place, "files");
         H5Gclose(place);
     }
     if (file >= 0) H5Fclose(file);
@@ -142,5 +151,6 @@ void kept_deck_free(struct kept_deck *kept)
     free(kept->text);
     free(kept->source);
     free(kept->name);
+    free(kept->files);
     *kept = (struct kept_deck){0};
 }

@@ -10,6 +10,7 @@ struct kept_deck {
     char *text;   /* with all defaults and overrides: runs to the same bits */
     char *source; /* as it was read */
     char *name;   /* file name without folder and ".nml" */
+    char *files;  /* of run.h5: kept_files_text() of that run; else NULL */
 };
 
 /* SELAS_FILE_ERROR with the reason if the file is damaged or holds none. Ranks: together; each looks for itself. */
@@ -21,5 +22,8 @@ void kept_deck_free(struct kept_deck *kept);
 /* Checksum of what the deck only names: points, tables, references, and what a host gives beside it: points, and which
  * loads and faces it drives; false without memory. */
 bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
+enum { KEPT_CHECKSUM = 17 };
+/* The same as text. */
+bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM]);
 
 #endif
