@@ -198,9 +198,10 @@ static selas_status traction_on_box(struct tl_model *tl, const struct load *load
     const double area = part * tl_sum_in_order(tl, add_area, &patch);
     if (part < 1e-20) return SELAS_OK;
     if (!(sum > 0.5 * area) || !(sum < 2 * area))
-        return fail(
-            gather->messages, SELAS_BAD_SCENE,
-            "a load's patch is too small for the spacing: make it a point load, or the spacing smaller");
+        return fail(gather->messages, SELAS_BAD_SCENE,
+                    "a load's patch, or the body behind it, is too small for the spacing: make the spacing "
+                    "smaller, or a "
+                    "small patch a point load");
     for (size_t k = 0; k < (size_t)tl->cloud->dimension * tl->cloud->points; k++)
         gather->force[k] *= load->amplitude * area / sum;
     return SELAS_OK;
