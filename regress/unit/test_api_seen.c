@@ -131,11 +131,40 @@ static void test_advice(void **state)
     selas_close(&s);
 }
 
+static void count_driven(void *context, const char *key, const char *value)
+{
+    int *told = context;
+    if (strcmp(key, "driven by the host") == 0) *told += strcmp(value, "load 1") == 0 ? 1 : 10;
+}
+
+static int push(void *context, double time, const double position[3], double value[3])
+{
+    (void)context, (void)time, (void)position;
+    value[0] = value[2] = 0;
+    value[1] = 1;
+    return 0;
+}
+
+/* The plan, and so the report, tells what the deck alone does not do. */
+static void test_driven(void **state)
+{
+    (void)state;
+    for (int drives = 0; drives < 2; drives++) {
+        int told = 0;
+        selas_simulation *s = open_with(ground, "");
+        if (drives) assert_int_equal(selas_set_traction(s, "1", push, NULL), SELAS_OK);
+        assert_int_equal(selas_plan(s, count_driven, &told), SELAS_OK);
+        assert_int_equal(told, drives);
+        selas_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_advice),
+        cmocka_unit_test(test_driven),
         cmocka_unit_test(test_means_beyond_mirrors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -140,6 +140,18 @@ static void say_interfaces(const struct teller *teller, const struct body *body)
     }
 }
 
+/* What the deck alone does not tell; a patch under a function is many loads of one group. */
+static void say_driven(const struct teller *teller, const struct scene *scene)
+{
+    const struct load *load = scene->load;
+    for (size_t k = 0; k < scene->loads; k++)
+        if (load[k].driven != BY_HISTORY && (k == 0 || load[k].group != load[k - 1].group))
+            say(teller, "driven by the host", "load %zu", load[k].group + 1);
+    for (size_t face = 0; face < FACES; face++)
+        if (scene->boundary[face].driven != BY_HISTORY)
+            say(teller, "driven by the host", "face %s", face_name((enum face)face));
+}
+
 static void say_parts(const struct teller *teller, const struct scene *scene)
 {
     if (scene->body.accuracy[0] != '\0') say(teller, "accuracy", "%s", scene->body.accuracy);
@@ -149,6 +161,7 @@ static void say_parts(const struct teller *teller, const struct scene *scene)
     say_grading(teller, scene);
     say_interfaces(teller, &scene->body);
     say(teller, "loads", "%zu", scene->loads);
+    say_driven(teller, scene);
     say(teller, "receivers", "%zu", scene->receivers);
     if (scene->profiles > 0) say(teller, "profiles", "%zu", scene->profiles);
     if (scene->snapshots > 0) say(teller, "snapshot groups", "%zu", scene->snapshots);

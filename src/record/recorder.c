@@ -152,6 +152,9 @@ static selas_status write_deck(const struct recorder *recorder, struct messages 
     struct safe_file file;
     selas_status status = safe_file_open(scene->output.directory, "deck.nml", &file, messages);
     if (status != SELAS_OK) return status;
+    if (scene_driven(scene))
+        fprintf(file.file,
+                "! A host drove loads or faces (report.txt): by itself this deck is another run.\n");
     status = deck_write(scene->deck, file.file, messages);
     return safe_file_close(&file, status, messages);
 }
