@@ -137,6 +137,26 @@ told "energy from nowhere at the end of a short run" "the run went unstable at t
 told "a third of what was given" "of energy that nobody gave it" -q grows.nml scene%end_time=3.2
 reported "the report tells of it, too" "^warning: the body ends with .* nobody gave it"
 
+# free to turn under four tractions along its faces; at the right speed, as nothing brakes it
+cat >turns.nml <<'END'
+&scene dimension = 2, end_time = 7 /
+&method name = 'sph', variant = 'updated-lagrangian', artificial_stress = 0 /
+&material name = 'rock', density = 1.0, lambda = 100.0, mu = 100.0 /
+&body material = 'rock', shape = 'box', low = -1, -1, high = 1, 1, spacing = 0.2 /
+&load face = 'x+', shape = 'face', direction = 0, 1, amplitude = .005, history = 'gaussian', width = 1, delay = 4 /
+&load face = 'x-', shape = 'face', direction = 0, -1, amplitude = .005, history = 'gaussian', width = 1, delay = 4 /
+&load face = 'y+', shape = 'face', direction = -1, 0, amplitude = .005, history = 'gaussian', width = 1, delay = 4 /
+&load face = 'y-', shape = 'face', direction = 1, 0, amplitude = .005, history = 'gaussian', width = 1, delay = 4 /
+&receiver name = 'r', position = .5, 0 /
+&output plots = F, directory = 'out' /
+END
+told "a body that turns under tractions on moved points" "turn by 5[.0-9]* degrees.*presses faces by images that do not turn" -q turns.nml
+speed=$(awk '!/^#/ { v = $6 } END { print v }' out/r.dat)
+untold "which turns by less" -q turns.nml scene%end_time=5
+"$selas" -q turns.nml method%variant=total-lagrangian method%artificial_stress= >said 2>&1
+awk -v v="$speed" '!/^#/ { w = $6 } END { exit !(v > .85 * w && v < 1.15 * w) }' out/r.dat
+verdict "and is not braked" $?
+
 # --- Points from a file ---
 points() { # points FILE SHIFT SKIP: 20 x 20 points .2 apart, from SHIFT on; without those whose number has SKIP
     awk -v shift="$2" -v skip="$3" -v n="$4" 'BEGIN {

@@ -249,6 +249,7 @@ struct model {
     double dissipation; /* bound on the damping rate of forces that accelerate() takes from v as it is
                            [1/time] */
     bool small_strain;  /* forces are linear in grad u: rotations must stay small */
+    bool level_images;  /* images behind faces with tractions stay across where the faces were */
     bool leaks;         /* parts of the operator hold or take energy that energy() and power() do not tell */
     bool untold;        /* power() does not tell all that dampers absorb */
     unsigned energy_calls; /* operator calls that energy() takes, if more than one */

@@ -1,5 +1,5 @@
-/* What only the run can tell: rotations that small-strain theory takes for small, and energy that was given and did
- * not arrive. Told once, when end_time is reached, with what would be right (doc/howto/troubleshooting.md, The run).
+/* What only the run can tell: rotations that small-strain theory or images take for small, and energy that was given
+ * and did not arrive. Told once, when end_time is reached, with what would be right (troubleshooting.md, The run).
  *
  * Rotation w and strain e at a place are the parts of grad u = e + w (nonlinear methods: Green's strain). Small-strain
  * theory gives a body that turns by the angle w edges that are w^2 / 2 too long. Strains are held against w because a
@@ -48,7 +48,7 @@ selas_status hindsight_create(struct recorder *recorder, struct messages *messag
 {
     struct model *model = recorder->model;
     if (recorder->scene->dimension < 2 || recorder->scene->body.shape == BODY_HALF_SPACE ||
-        (!model->small_strain && !linear_reference(recorder->scene)))
+        (!model->small_strain && !model->level_images && !linear_reference(recorder->scene)))
         return SELAS_OK;
     const double wavelength = points_per_wavelength(recorder->scene) * recorder->scene->body.spacing;
     recorder->place = array_new(PLACES, sizeof *recorder->place);
@@ -131,6 +131,14 @@ static void tell_rotation(const struct recorder *recorder, teller *tell, void *c
                  "rotations for small%s; method%%name = 'sph', variant = 'total-lagrangian', law = "
                  "'saint-venant-kirchhoff' would be right",
                  degrees, watch->strain, linear_reference(scene) ? ", and so does the reference" : "");
+    else if (recorder->model->level_images)
+        snprintf(text, sizeof text,
+                 "parts of the body turn by %.3g degrees, with strains of %.2g: variant 'updated-lagrangian' "
+                 "presses "
+                 "faces by images that do not turn, and stresses were wrong by twice the traction at 4 "
+                 "degrees, 50 "
+                 "times at 12; variant = 'total-lagrangian' would be right",
+                 degrees, watch->strain);
     else
         snprintf(text, sizeof text,
                  "parts of the body turn by %.3g degrees, with strains of %.2g: reference '%s' is linear and "

@@ -207,6 +207,8 @@ static void fill_public_face(struct updated *updated)
     model->component_stride = 1;
     model->point_stride = dimension;
     model->damped = updated->alpha > 0 || updated->beta > 0;
+    for (int face = 0; face < 2 * updated->dimension; face++)
+        model->level_images = model->level_images || updated->wall[face] == WALL_TRACTION;
     model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
     model->bytes = neighbours_bytes(&updated->neighbours) + (points + updated->ghosts) * 6 * sizeof(double) +
                    updated->layout.size * sizeof(double) *
