@@ -121,6 +121,41 @@ told "a state at t = 0 on springs" "waves on the points of variant 'paper' err b
 # shellcheck disable=SC2086
 untold "waves that go a third of their length" check paper.nml method%row_sums=zero body%spacing=.125 scene%end_time=.5 $blob
 
+# --- Moment tensors that pull across the surface right above ---
+cat >slip.nml <<'END'
+&scene dimension = 3, end_time = 4.5 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'half-space', spacing = 0.2 /
+&load kind = 'moment-tensor', centre = 0.03, 0.05, 0.004, moment = 0, 0, 0, 0, 0, 1
+      history = 'gaussian', width = 0.36, delay = 1.6 /
+&receiver name = 'r', position = 1.4, 0.7, 1.4 /
+&reference kind = 'layered', tolerance = 1e-2 /
+&output plots = .false., directory = 'out' /
+END
+for operator in layered general; do
+    untold "a dip-slip source .02 spacings deep, operator $operator" -q slip.nml method%operator=$operator
+    awk '$1 " " $2 == "error largest:" {good = $3 < .1} END {exit !good}' out/report.txt
+    verdict "its error is that of the waves" $?
+done
+# In graded ground it is as much weaker as it is shallower
+cat >graded.nml <<'END'
+&scene dimension = 2, end_time = 4.5 /
+&material name = 'soil', density = 1.0, lambda = 0.5, mu = 0.4 /
+&material name = 'rock', density = 1.0, lambda = 2.0, mu = 1.6 /
+&body low = -3, 0, high = 4, 3, spacing = 0.2 /
+&layer material = 'soil', top = 0, bottom = 'rock' /
+&layer material = 'rock', top = 2 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting' /
+&load kind = 'moment-tensor', centre = 0.03, 0.004, moment = 0, 0, 0, 1, 0, 0
+      history = 'gaussian', width = 0.45, delay = 2 /
+&receiver name = 'r', position = 1.4, 1.4 /
+&output plots = .false., directory = 'out' /
+END
+"$selas" -q graded.nml >said 2>&1 && "$selas" -q graded.nml load%centre=.03,.02 load%amplitude=.2 output%directory=five >>said 2>&1
+"$selas" diff out five >>said 2>&1
+awk '$2 ~ /^v[xy]$/ {found++; good += $3 < .2} END {exit !(found == 2 && good == 2)}' said
+verdict "a dip-slip source in graded ground, .02 and .1 spacings deep" $?
+
 # --- Energy from nowhere: updated-Lagrangian points beside the edges of a patch, in runs shorter than a look ---
 cat >grows.nml <<'END'
 &scene dimension = 2, end_time = 7.71 /

@@ -213,6 +213,30 @@ static void weights_change_smoothly(void **state)
     spline_free(spline);
 }
 
+/* Hats at the knots 0 .. 6, half of one at the end: moments of the density, by Simpson's rule. */
+static void hats_have_the_moments(void **state)
+{
+    enum { FINE = 1000 };
+    (void)state;
+    for (int place = 0; place < 20; place++) {
+        const double depth = place * .17;
+        double share[SOURCE_WIDE + 1] = {0};
+        source_hats(depth, share);
+        for (int m = 1; m <= 6; m++) {
+            double sum = 0;
+            for (int n = 0; n < FINE * SOURCE_WIDE; n++)
+                for (int part = 0; part < 3; part++) {
+                    const double t = (n + part / 2.) / FINE, in = t - n / FINE;
+                    const double here = share[n / FINE] * (1 - in) + share[n / FINE + 1] * in;
+                    sum += (part == 1 ? 4 : 1) * here * pow(t, m) / (6 * FINE);
+                }
+            assert_true(fabs(sum - pow(depth, m)) < 1e-9 * pow(SOURCE_WIDE, m));
+        }
+        for (int j = 0; place == 0 && j < SOURCE_WIDE; j++)
+            assert_true(fabs(share[j]) < 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +246,7 @@ int main(void)
         cmocka_unit_test(what_alternates_is_left_alone),
         cmocka_unit_test(other_ends_stay),
         cmocka_unit_test(weights_change_smoothly),
+        cmocka_unit_test(hats_have_the_moments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,40 +35,63 @@ static const double legendre[MOMENTS][MOMENTS] = {{1},
                                                   {.375, 0, -3.75, 0, 4.375},
                                                   {0, 1.875, 0, -8.75, 0, 7.875}};
 
-/* Weights at distances `away` (in cells) with these moments, a bell that is 0 from `reach` on. */
-static void solve(const double away[WIDE], double reach, const double moment[MOMENTS], double weight[WIDE])
+/* The smallest weights, in the metric of a bell, whose sums over `value` are those wanted. */
+static void solve(const double bell[WIDE], double value[WIDE][MOMENTS], size_t count, double *wanted,
+                  double weight[WIDE])
 {
-    double bell[WIDE], value[WIDE][MOMENTS] = {{0}}, wanted[MOMENTS] = {0}, matrix[MOMENTS * MOMENTS] = {0};
-    for (int j = 0; j < MOMENTS; j++)
-        for (int k = 0; k <= j; k++)
-            wanted[j] += legendre[j][k] * moment[k] / pow(reach, k);
-    for (int b = 0; b < WIDE; b++) {
-        const double t = away[b] / reach, part = fmax(0, 1 - t * t);
-        bell[b] = part * part * part;
-        for (int j = 0; j < MOMENTS; j++)
-            for (int k = 0; k <= j; k++)
-                value[b][j] += legendre[j][k] * pow(t, k);
-        for (int i = 0; i < MOMENTS; i++)
-            for (int j = 0; j < MOMENTS; j++)
-                matrix[i * MOMENTS + j] += bell[b] * value[b][i] * value[b][j];
-    }
-    gsl_matrix_view a = gsl_matrix_view_array(matrix, MOMENTS, MOMENTS);
-    gsl_vector_view x = gsl_vector_view_array(wanted, MOMENTS);
+    double matrix[MOMENTS * MOMENTS] = {0};
+    for (int b = 0; b < WIDE; b++)
+        for (size_t i = 0; i < count; i++)
+            for (size_t j = 0; j < count; j++)
+                matrix[i * count + j] += bell[b] * value[b][i] * value[b][j];
+    gsl_matrix_view a = gsl_matrix_view_array(matrix, count, count);
+    gsl_vector_view x = gsl_vector_view_array(wanted, count);
     gsl_linalg_cholesky_decomp1(&a.matrix);
     gsl_linalg_cholesky_svx(&a.matrix, &x.vector);
     for (int b = 0; b < WIDE; b++) {
         weight[b] = 0;
-        for (int j = 0; j < MOMENTS; j++)
+        for (size_t j = 0; j < count; j++)
             weight[b] += bell[b] * wanted[j] * value[b][j];
     }
+}
+
+static double bell_at(double t)
+{
+    return pow(fmax(0, 1 - t * t), 3);
 }
 
 void source_weights(int degree, bool slope, const double away[SOURCE_WIDE], double reach,
                     double weight[SOURCE_WIDE])
 {
-    double moment[MOMENTS];
+    double moment[MOMENTS], bell[WIDE], value[WIDE][MOMENTS] = {{0}}, wanted[MOMENTS] = {0};
     set_moments(degree, slope, moment);
-    solve(away, reach, moment, weight);
+    for (int j = 0; j < MOMENTS; j++)
+        for (int k = 0; k <= j; k++)
+            wanted[j] += legendre[j][k] * moment[k] / pow(reach, k);
+    for (int b = 0; b < WIDE; b++) {
+        bell[b] = bell_at(away[b] / reach);
+        for (int j = 0; j < MOMENTS; j++)
+            for (int k = 0; k <= j; k++)
+                value[b][j] += legendre[j][k] * pow(away[b] / reach, k);
+    }
+    solve(bell, value, MOMENTS, wanted, weight);
+}
+
+void source_hats(double depth, double share[SOURCE_WIDE])
+{
+    const double reach = fmax(depth, WIDE - 1 - depth) + .5;
+    double bell[WIDE], value[WIDE][MOMENTS], wanted[MOMENTS];
+    for (int m = 1; m <= MOMENTS; m++)
+        wanted[m - 1] = pow(depth / WIDE, m);
+    for (int j = 0; j < WIDE; j++) {
+        bell[j] = bell_at((j - depth) / reach);
+        for (int m = 1; m <= MOMENTS; m++) {
+            const double beyond = pow(j + 1, m + 2) - pow(j, m + 2),
+                         before = pow(j, m + 2) - pow(j - 1, m + 2);
+            value[j][m - 1] = (j > 0 ? beyond - before : beyond) / ((m + 1) * (m + 2) * pow(WIDE, m));
+        }
+    }
+    solve(bell, value, MOMENTS, wanted, share);
 }
 
 /* The seven control values of the unclamped spline next to an open end, where x is too near for as many on either side;

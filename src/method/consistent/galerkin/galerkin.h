@@ -170,6 +170,19 @@ void consistent_point_line(const struct consistent *c, int axis, bool odd, bool 
 /* The same for a moment tensor: of higher order, halved on symmetry planes. */
 void consistent_source_line(const struct consistent *c, int axis, bool odd, bool slope, double x,
                             double *line);
+/* beneath.c: adds the forces of what a moment tensor, by slot, pulls at across a free face that is near; `moment` keeps
+ * the rest. False: no memory. */
+bool consistent_beneath(const struct consistent *c, const double centre[3], double moment[3][3],
+                        double *field);
+/* The free face that a source is right below: spacings, its normal there by slot. False: below none. */
+struct consistent_face {
+    int face;
+    double depth, normal[3];
+};
+bool consistent_face_above(const struct consistent *c, const double centre[3], struct consistent_face *face);
+/* (G21): the strain across n, and the part of M n along it over mu; `moment` keeps the rest. */
+void consistent_part_moment(const double n[3], double lambda, double mu, double moment[3][3],
+                            double strain[3][3], double slip[3]);
 /* field += factor * product of the lines, by axis. */
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
                             double *field);

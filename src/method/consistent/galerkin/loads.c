@@ -193,6 +193,7 @@ static bool moment_tensor(struct consistent *c, const struct load *load, const d
         for (int j = 0; j < c->dimension; j++)
             by_slot[c->slot[i]][c->slot[j]] = moment[i][j];
     if (w->beside != NULL && !w->beside(c, load, centre, by_slot, w->field)) return false;
+    if (!consistent_beneath(c, centre, by_slot, w->field)) return false;
     for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++) {
             const double pull = c->slot[j] == DEPTH ? metric_pull(&metric, by_slot[c->slot[i]])

@@ -2,6 +2,7 @@
  * (doc/theory/general-ground.md, section 6). */
 #include "method/consistent/general/glut.h"
 #include "method/consistent/general/piece.h"
+#include "method/spline/source.h"
 
 #include "base/memory.h"
 
@@ -17,28 +18,11 @@ struct rock general_rock_at(const struct consistent *c, const double place[3])
     return ground_at(c->model.scene, real);
 }
 
-/* (G21) */
-static void part_moment(struct glut *g, double moment[3][3])
+/* Does the rock change along the normal of the face above alone? */
+static bool along_face(const struct glut *g)
 {
-    const double *n = g->normal, bulk = g->lambda + 2 * g->mu;
-    double pull[3] = {0}, along = 0, trace = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            pull[i] += moment[i][j] * n[j];
-    for (int i = 0; i < 3; i++)
-        along += pull[i] * n[i];
-    for (int i = 0; i < 3; i++) {
-        g->slip[i] = (pull[i] - along * n[i]) / g->mu;
-        pull[i] = along * n[i] / bulk + g->slip[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        trace += n[i] * pull[i];
-        for (int j = 0; j < 3; j++)
-            g->strain[i][j] = (n[i] * pull[j] + n[j] * pull[i]) / 2;
-    }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            g->tangent[i][j] = moment[i][j] - 2 * g->mu * g->strain[i][j] - (i == j ? g->lambda * trace : 0);
+    const double *n = g->normal, *m = g->face.normal;
+    return fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) > 1 - 1e-6;
 }
 
 /* (G22): first what the slope at the source is of the slopes at the knots. */
@@ -46,6 +30,10 @@ static void find_share(struct glut *g)
 {
     const size_t last = g->c->spline[g->across]->cells;
     double sum = 0, *share = g->share, *upper = g->row[0];
+    if (g->beneath) {
+        source_hats(g->face.depth, share);
+        return;
+    }
     consistent_source_line(g->c, g->across, true, true, g->centre[g->across], share);
     for (size_t k = 0; k <= last; k++) {
         const bool end = k == 0 || k == last;
@@ -259,7 +247,10 @@ bool general_add_glut(const struct consistent *c, const struct load *load, const
     g.spacing = glut_spacing(c->spline[g.across]);
     for (int axis = 0; axis < c->dimension; axis++)
         most = c->spline[axis]->count > most ? c->spline[axis]->count : most;
+    const bool below = consistent_face_above(c, centre, &g.face);
+    g.beneath = below && g.face.face == 2 * g.across && along_face(&g);
     double *room = array_new(ALL * most, sizeof *room), failed = room == NULL;
+    if (below && !g.beneath && !consistent_beneath(c, centre, moment, field)) failed = 1;
     ranks_largest(c->part.ranks, 1, &failed);
     if (failed != 0) {
         array_free(room);
@@ -271,7 +262,8 @@ bool general_add_glut(const struct consistent *c, const struct load *load, const
     g.row[0] = g.share + most;
     g.row[1] = g.row[0] + most;
     double *const work[3] = {g.row[1] + most, g.row[1] + 2 * most, g.row[1] + 3 * most};
-    part_moment(&g, moment);
+    memcpy(g.tangent, moment, sizeof g.tangent);
+    consistent_part_moment(g.normal, g.lambda, g.mu, g.tangent, g.strain, g.slip);
     find_share(&g);
     general_find_lag(&g);
     for (int f = 0; f < 3; f++)

@@ -10,18 +10,20 @@ enum along { ALONG_SHEAR, ALONG_SPREAD, ALONG_RATIO, ALONGS };
 /* A moment tensor beside an interface. */
 struct glut {
     const struct consistent *c;
-    double centre[3];         /* by axis, of the lattice */
-    int across;               /* the axis nearest to the interface's normal */
-    double spacing;           /* along it */
-    bool surface;             /* normal is that of a surface on which the rock is the same ... */
-    double away;              /* ... so many spacings from the source */
-    double normal[3];         /* by slot, as all that follows */
-    double lambda, mu;        /* at the source */
-    double strain[3][3];      /* Gamma_n M (G21) */
-    double tangent[3][3];     /* what is left of M for strains along the interface */
-    double slip[3];           /* the part of M n along the interface, over mu */
-    double lag, stay[ALONGS]; /* (G23), (G24): lengths, and lengths times stresses */
-    double *share;            /* [knots] of the axis across (G22) */
+    double centre[3]; /* by axis, of the lattice */
+    int across;       /* the axis nearest to the interface's normal */
+    double spacing;   /* along it */
+    bool surface;     /* normal is that of a surface on which the rock is the same ... */
+    double away;      /* ... so many spacings from the source */
+    bool beneath;     /* the source is right below a free face, where the axis across begins, ... */
+    struct consistent_face face; /* ... and the rock changes along its normal alone */
+    double normal[3];            /* by slot, as all that follows */
+    double lambda, mu;           /* at the source */
+    double strain[3][3];         /* Gamma_n M (G21) */
+    double tangent[3][3];        /* what is left of M for strains along the interface */
+    double slip[3];              /* the part of M n along the interface, over mu */
+    double lag, stay[ALONGS];    /* (G23), (G24): lengths, and lengths times stresses */
+    double *share;               /* [knots] of the axis across (G22) */
     double *line[4][3][3]; /* [count] by component and direction; 1 + axis: to be differentiated along it */
     double *row[2];        /* [largest count] work */
 };

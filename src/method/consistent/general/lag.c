@@ -143,6 +143,8 @@ static double find_stay(const struct glut *glut, const struct column *column, co
         got += share * stress[k];
         parts += share;
     }
+    if (glut->beneath)
+        return (got - integral(along, column->here)) * glut->spacing; /* both from 0 at the face */
     return (got / parts + gsl_stats_median(ahead, 1, column->knots) - integral(along, column->here)) *
            glut->spacing;
 }

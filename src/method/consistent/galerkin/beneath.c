@@ -1,0 +1,175 @@
+/* Moment tensors right below a free face. What pulls across the face there does nothing at it: the traction T is 0. The
+ * splines' strain does not know this, but the moments of T about the hats at the knots do, as these are what balances
+ * inertia. So this part acts through the hats (doc/theory/consistent-splines.md, section 15). */
+#include "method/consistent/galerkin/galerkin.h"
+
+#include "base/memory.h"
+#include "method/consistent/galerkin/surface.h"
+#include "method/spline/source.h"
+#include "scene/ground.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { HATS = SOURCE_WIDE };
+
+struct beneath {
+    const struct consistent *c;
+    double centre[3]; /* by axis, of the lattice */
+    struct consistent_face face;
+    int across;               /* its axis */
+    double strain[3][3];      /* by slot */
+    double *line[3][3], *row; /* [count] by component and direction; work */
+};
+
+void consistent_part_moment(const double n[3], double lambda, double mu, double moment[3][3],
+                            double strain[3][3], double slip[3])
+{
+    const double bulk = lambda + 2 * mu;
+    double pull[3] = {0}, along = 0, trace = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            pull[i] += moment[i][j] * n[j];
+    for (int i = 0; i < 3; i++)
+        along += pull[i] * n[i];
+    for (int i = 0; i < 3; i++) {
+        slip[i] = (pull[i] - along * n[i]) / mu;
+        pull[i] = along * n[i] / bulk + slip[i];
+        trace += n[i] * pull[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            strain[i][j] = (n[i] * pull[j] + n[j] * pull[i]) / 2;
+            moment[i][j] -= 2 * mu * strain[i][j] + (i == j ? lambda * trace : 0);
+        }
+}
+
+/* Is x right below a free face, so many spacings? */
+static bool below(const struct consistent *c, int face, double x, double *depth)
+{
+    const struct spline *spline = c->spline[face / 2];
+    const double spacing = (spline->high - spline->low) / (double)spline->cells;
+    *depth = (face % 2 == 0 ? x - spline->low : spline->high - x) / spacing;
+    return spline->degree == 2 && !c->options.mapped && !spline->mirror[face % 2] && spline->cells >= HATS &&
+           boundary_is_free(&c->model.scene->boundary[face]) && *depth >= -1e-9 && *depth <= HATS / 2.;
+}
+
+static void find_normal(struct consistent_face *face, const struct consistent *c, const double centre[3])
+{
+    const int across = face->face / 2;
+    double place[3] = {centre[0], centre[1], centre[2]}, *n = face->normal;
+    place[across] = face->face % 2 == 0 ? c->spline[across]->low : c->spline[across]->high;
+    const struct metric metric = consistent_metric(c, place);
+    n[0] = n[1] = n[2] = 0;
+    n[c->slot[across]] = 1;
+    if (c->slot[across] == DEPTH) metric_tilt(&metric, n);
+    const double length = hypot(hypot(n[0], n[1]), n[2]);
+    for (int i = 0; i < 3; i++)
+        n[i] /= length;
+}
+
+bool consistent_face_above(const struct consistent *c, const double centre[3], struct consistent_face *face)
+{
+    double depth;
+    face->face = -1;
+    for (int f = 0; f < 2 * c->dimension; f++) {
+        if (!below(c, f, centre[f / 2], &depth) || (face->face >= 0 && depth >= face->depth)) continue;
+        face->face = f;
+        face->depth = fmax(0, depth);
+    }
+    if (face->face >= 0) find_normal(face, c, centre);
+    return face->face >= 0;
+}
+
+static struct rock rock_at(const struct consistent *c, const double place[3])
+{
+    double real[3] = {place[0], place[1], place[2]};
+    consistent_to_ground(c, real);
+    return ground_at(c->model.scene, real);
+}
+
+/* Mean rock over half a cell of the axis across about a place. */
+static struct rock mean_rock(const struct beneath *b, const double place[3], double cell)
+{
+    enum { SAMPLES = 8 };
+    struct rock mean = {0};
+    for (int n = 0; n < SAMPLES; n++) {
+        double at[3] = {place[0], place[1], place[2]};
+        at[b->across] += cell * ((n + .5) / SAMPLES - .5) / 2;
+        const struct rock rock = rock_at(b->c, at);
+        mean.lambda += rock.lambda / SAMPLES;
+        mean.mu += rock.mu / SAMPLES;
+    }
+    return mean;
+}
+
+/* Adds `share` of the stress of the strain, so many halves of a cell from the face. */
+static void add_stress(struct beneath *b, int halves, double share)
+{
+    const struct consistent *c = b->c;
+    const struct spline *spline = c->spline[b->across];
+    const double trace = b->strain[0][0] + b->strain[1][1] + b->strain[2][2],
+                 cell = (spline->high - spline->low) / (double)spline->cells;
+    double place[3] = {b->centre[0], b->centre[1], b->centre[2]}, stress[3][3];
+    place[b->across] =
+        b->face.face % 2 == 0 ? spline->low + halves * cell / 2 : spline->high - halves * cell / 2;
+    const struct rock rock = mean_rock(b, place, cell);
+    const struct metric metric = consistent_metric(c, place);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            stress[i][j] = 2 * rock.mu * b->strain[i][j] + (i == j ? rock.lambda * trace : 0);
+        stress[i][DEPTH] = metric_pull(&metric, stress[i]);
+    }
+    for (int component = 0; component < c->dimension; component++)
+        for (int direction = 0; direction < c->dimension; direction++) {
+            const double factor = share * stress[c->slot[component]][c->slot[direction]];
+            consistent_point_line(c, b->across, b->across == component, b->across == direction, false,
+                                  place[b->across], b->row);
+            for (size_t i = 0; i < spline->count; i++)
+                b->line[component][direction][i] += factor * b->row[i];
+        }
+}
+
+/* Products of these lines with those along the face. */
+static void add_lines(const struct beneath *b, double *const work[3], double *field)
+{
+    const struct consistent *c = b->c;
+    for (int component = 0; component < c->dimension; component++)
+        for (int direction = 0; direction < c->dimension; direction++) {
+            double *line[3] = {work[0], work[1], work[2]};
+            line[b->across] = b->line[component][direction];
+            for (int axis = 0; axis < c->dimension; axis++)
+                if (axis != b->across)
+                    consistent_source_line(c, axis, axis == component, axis == direction, b->centre[axis],
+                                           line[axis]);
+            consistent_add_product(c, line, component, 1, field);
+        }
+}
+
+bool consistent_beneath(const struct consistent *c, const double centre[3], double moment[3][3],
+                        double *field)
+{
+    enum { ALL = 9 + 4 };
+    struct beneath b = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
+    double share[HATS + 1] = {0}, slip[3];
+    size_t most = 0;
+    if (!consistent_face_above(c, centre, &b.face)) return true;
+    b.across = b.face.face / 2;
+    for (int axis = 0; axis < c->dimension; axis++)
+        most = c->spline[axis]->count > most ? c->spline[axis]->count : most;
+    double *room = array_new(ALL * most, sizeof *room);
+    if (room == NULL) return false;
+    for (size_t n = 0; n < 9; n++)
+        b.line[n / 3][n % 3] = room + n * most;
+    b.row = room + 9 * most;
+    const struct rock rock = rock_at(c, centre);
+    consistent_part_moment(b.face.normal, rock.lambda, rock.mu, moment, b.strain, slip);
+    source_hats(b.face.depth, share);
+    for (int j = 0; j < HATS; j++) {
+        add_stress(&b, 2 * j, share[j] / (j == 0 ? 6 : 3));
+        add_stress(&b, 2 * j + 1, (share[j] + share[j + 1]) / 3);
+    }
+    add_lines(&b, (double *const[3]){b.row + most, b.row + 2 * most, b.row + 3 * most}, field);
+    array_free(room);
+    return true;
+}
