@@ -46,6 +46,22 @@ ok "an even model: the histories of an even body" test $? = 0
 ok "a run on ground from a file draws it" test -s "$out/model/ground.png"
 ok "the plan says how depth is taken" says "$out/model/report.txt" "depth 0 is its elevation 0"
 
+# what a file holds above the surface is not there, as with layers
+for top in 3000 900; do
+    awk -v top=$top 'BEGIN {
+        print "0 0 -1000 2000 2000 0"; print "1000 1000 125"; print "3 3 9"; print "100 9000 100 9000 100 9000"
+        for (k = 0; k < 9; k++) for (j = 0; j < 3; j++) for (i = 0; i < 3; i++) {
+            speed = k == 8 ? top : 3000
+            print 1000 * i, 1000 * j, 125 * k - 1000, speed, speed * 17 / 30, 2500
+        }
+    }' >"$out/$top.xyz"
+    printf '0 0 -130\n2000 0 -130\n0 2000 -130\n2000 2000 -130\n' >"$out/heights.txt"
+    "$build/selas" -q "$out/d.nml" model%file="$top.xyz" topography%file=heights.txt receiver%position=1400,1200 receiver%depth=0 load%depth=0 \
+        load%centre=1000,1000 output%plots=F output%directory="$out/cut$top" >"$out/log" 2>&1
+done
+"$build/selas" diff "$out/cut3000/r.dat" "$out/cut900/r.dat" --rtol=1e-9 >>"$out/log" 2>&1
+ok "what a model holds above the surface is not seen" test $? = 0
+
 # the same with Q in columns 7 and 8
 model ""
 sed '5,$s/$/ 40 20/' "$out/m.xyz" >"$out/q.xyz" && sed '/^&model/d; s/&method /\&method mechanisms = 2, /' "$out/d.nml" >"$out/dq.nml"

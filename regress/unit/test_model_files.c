@@ -167,11 +167,11 @@ static void test_blocks_alone(void **state)
     assert_refused(DECK("800, 300, 1550", ""), "t.nml:4:", (const char *[]){"from 0 to 1500 along z", NULL});
 }
 
-/* Depths below an elevation of 20, whatever the ground. */
+/* Depths below an elevation of 20, whatever the ground; above the face is what lies at it. */
 static void test_sea(void **state)
 {
     (void)state;
-    static const double place[][3] = {{0, 0, 0}, {600, 300, 900}, {523, 56, 78}, {600, 100, -70}};
+    static const double place[][3] = {{0, 0, 0}, {600, 300, 900}, {523, 56, 78}, {600, 100, 0}};
     for (int form = 0; form < 3; form++) {
         if (form == 0) write_rfile(stored, 0, 0, 0);
         if (form == 1) write_sfile(stored, 0);
@@ -185,6 +185,8 @@ static void test_sea(void **state)
             const double x = place[i][1], y = place[i][0], top = water_of(x, y);
             if (form == 2) assert_field(made.scene, place[i], x, y, 1500 * (top + z) / (top + 1500), 1e-12);
         }
+        assert_near(ground_at(made.scene, (double[]){600, 100, -70}).mu / ground_at(made.scene, place[3]).mu,
+                    1, 1e-12);
         assert_text(&made, form < 2 ? "depth 0 is its elevation 20" : "depth 0 is its elevation 0", NULL);
         from_deck_free(&made);
     }

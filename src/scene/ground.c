@@ -96,7 +96,8 @@ static size_t layer_at(const struct body *body, const double place[3], double de
 struct found {
     size_t material, bottom;
     double part;
-    bool of_model; /* the ground is that of the model instead */
+    bool of_model;   /* the ground is that of the model instead ... */
+    double place[3]; /* ... here */
 };
 
 static struct found find(const struct scene *scene, const double place[3])
@@ -116,6 +117,9 @@ static struct found find(const struct scene *scene, const double place[3])
         }
     found.of_model = body->model != NULL && !in_block;
     found.bottom = found.material;
+    for (int axis = 0; axis < 3; axis++)
+        found.place[axis] = place[axis];
+    found.place[scene->dimension - 1] += depth - own;
     if (in_block || layer + 1 >= body->layers || !body->layer[layer].graded) return found;
     const double top = top_at(&body->layer[layer], place), end = top_at(&body->layer[layer + 1], place);
     const double part = end > top ? (depth - top) / (end - top) : 0;
@@ -135,7 +139,7 @@ struct rock ground_at(const struct scene *scene, const double place[3])
     const struct found found = find(scene, place);
     const struct material *list = scene->whole != NULL ? scene->whole : scene->material;
     const struct material *material = &list[found.material];
-    if (found.of_model) return ground_model_at(scene->body.model, place);
+    if (found.of_model) return ground_model_at(scene->body.model, found.place);
     if (found.bottom != found.material) return between(material, &list[found.bottom], found.part);
     return (struct rock){material->density, material->plane_lambda, material->mu};
 }
@@ -146,7 +150,7 @@ struct shares ground_shares_at(const struct scene *scene, const double place[3])
     const size_t index[2] = {found.material, found.bottom};
     const double weight[2] = {1 - found.part, found.part};
     struct shares sum = {0, 0};
-    if (found.of_model) return ground_model_shares(scene->body.model, place);
+    if (found.of_model) return ground_model_shares(scene->body.model, found.place);
     for (int i = 0; i < 2; i++) {
         const struct material *whole = &scene->whole[index[i]], *part = &scene->material[index[i]];
         sum.bulk += weight[i] * bulk_of(part) / bulk_of(whole);
@@ -177,8 +181,9 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
         speed[1] = one->s_speed + found.part * (other->s_speed - one->s_speed);
         return;
     }
-    const struct rock rock = found.of_model && model->given != NULL ? ground_model_at(model->given, place)
-                                                                    : ground_at(scene, place);
+    const struct rock rock = found.of_model && model->given != NULL
+                                 ? ground_model_at(model->given, found.place)
+                                 : ground_at(scene, place);
     speed[0] = sqrt((rock.lambda + 2 * rock.mu) / rock.density);
     speed[1] = sqrt(rock.mu / rock.density);
 }
