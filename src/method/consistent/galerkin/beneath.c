@@ -51,7 +51,7 @@ static bool below(const struct consistent *c, int face, double x, double *depth)
     const double spacing = (spline->high - spline->low) / (double)spline->cells;
     *depth = (face % 2 == 0 ? x - spline->low : spline->high - x) / spacing;
     return spline->degree == 2 && !c->options.mapped && !spline->mirror[face % 2] && spline->cells >= HATS &&
-           boundary_is_free(&c->model.scene->boundary[face]) && *depth >= -1e-9 && *depth <= HATS / 2.;
+           boundary_is_free(&c->model.scene->boundary[face]) && *depth >= -1e-9 && *depth <= 1;
 }
 
 static void find_normal(struct consistent_face *face, const struct consistent *c, const double centre[3])
