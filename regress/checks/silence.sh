@@ -156,6 +156,22 @@ END
 awk '$2 ~ /^v[xy]$/ {found++; good += $3 < .2} END {exit !(found == 2 && good == 2)}' said
 verdict "a dip-slip source in graded ground, .02 and .1 spacings deep" $?
 
+# --- A wall of rock between soft blocks, thinner than a spacing ---
+cat >wall.nml <<'END'
+&scene dimension = 2, end_time = 9.0 /
+&material name = 'rock', density = 1.0, lambda = 4.0, mu = 4.0 /
+&material name = 'soil', density = 0.8, lambda = 0.8, mu = 0.4 /
+&body material = 'rock', low = -4, 0, high = 4, 4, spacing = 0.25 /
+&block material = 'soil', centre = -1.075, 0.55, size = 2, 1.1 /
+&block material = 'soil', centre = 1.075, 0.55, size = 2, 1.1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting' /
+&load kind = 'body-force', shape = 'point', direction = 0.3, 1, centre = -1, 2.5, history = 'gaussian', width = 0.8, delay = 3.6 /
+&receiver name = 'r', position = 0.9, 0 /
+END
+told "a thin wall between soft blocks" "blocks 1 and 2 leave a wall of rock of 0.15 .*spacing = 0.0937" check wall.nml
+untold "a thicker one" check wall.nml 'block(2)%centre=1.275,.55'
+untold "blocks that meet" check wall.nml 'block(2)%centre=.925,.55'
+
 # --- Energy from nowhere: updated-Lagrangian points beside the edges of a patch, in runs shorter than a look ---
 cat >grows.nml <<'END'
 &scene dimension = 2, end_time = 7.71 /

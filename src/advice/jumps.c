@@ -240,3 +240,50 @@ void look_at_weights(struct adviser *adviser)
            "about %.2g; body%%spacing = %.3g would be right",
            most / least, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
 }
+
+/* The middle of what stands between two blocks along an axis, if it is thinner than `most`. */
+static bool wall_between(const struct scene *scene, const struct ground_block *one,
+                         const struct ground_block *other, int along, double most, double middle[3])
+{
+    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
+        const double from =
+                         fmax(one->centre[axis] - one->half[axis], other->centre[axis] - other->half[axis]),
+                     to = fmin(one->centre[axis] + one->half[axis], other->centre[axis] + other->half[axis]);
+        if (axis == along ? from <= to || from - to >= most : from >= to) return false;
+        middle[axis] = (from + to) / 2;
+    }
+    return true;
+}
+
+/* Walls between soft blocks. Measured in the plane, moduli 10 : 1, at 5.8 points a wavelength: .6 spacings thick .07 to
+ * .29, thicker ones and thin plates in soft ground .01 to .14 (doc/theory/general-ground.md, section 7). */
+void look_at_walls(struct adviser *adviser)
+{
+    static const double thin = .9, softer = 3;
+    const struct scene *scene = adviser->scene;
+    const struct ground_block *block = scene->body.block;
+    for (size_t i = 0; i < scene->body.blocks; i++)
+        for (size_t j = 0; j < i; j++)
+            for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
+                const double spacing = scene->body.spacing;
+                double middle[3] = {0, 0, 0}, side[2][3], away = 0;
+                if (!wall_between(scene, &block[i], &block[j], axis, thin * spacing, middle)) continue;
+                for (int end = 0; end < 2; end++) {
+                    memcpy(side[end], middle, sizeof middle);
+                    side[end][axis] += (2 * end - 1) * spacing;
+                }
+                const double wall = ground_at(scene, middle).mu;
+                if (wall < softer * fmax(ground_at(scene, side[0]).mu, ground_at(scene, side[1]).mu))
+                    continue;
+                away = fabs(block[i].centre[axis] - block[j].centre[axis]) - block[i].half[axis] -
+                       block[j].half[axis];
+                advise(
+                    adviser,
+                    "blocks %zu and %zu leave a wall of rock of %.3g between them, %.2g spacings: beside and "
+                    "below such "
+                    "walls velocities were up to .3 wrong, twice as much as beside thicker ones; "
+                    "body%%spacing = %.3g would be right",
+                    j + 1, i + 1, away, away / spacing, away / 1.6);
+                return;
+            }
+}

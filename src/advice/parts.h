@@ -68,6 +68,7 @@ void look_at_interfaces(struct adviser *adviser);
 void look_at_fields(struct adviser *adviser);
 /* Densities that jump in general ground (jumps.c). */
 void look_at_weights(struct adviser *adviser);
+void look_at_walls(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
 /* Dampers where an absorbing layer cannot be, and nobody asked for them. */
