@@ -16,7 +16,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
             "reference 'uniform-motion' needs &initial kind = 'uniform-velocity', free faces and no loads");
     struct exact *solution = array_new(1, sizeof *solution);
     if (solution == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the exact solution");
-    *solution = (struct exact){&exact_uniform_motion, scene};
+    *solution = (struct exact){.class = &exact_uniform_motion, .scene = scene};
     *exact = solution;
     return SELAS_OK;
 }

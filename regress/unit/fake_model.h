@@ -183,7 +183,7 @@ static void fake_build(struct fake *fake, int dimension, const size_t n[3], doub
     snprintf(fake->stepper.dt_reason, sizeof fake->stepper.dt_reason, "given");
     fake->state.y = array_new(6 * points, sizeof(double));
     fake->state.a = array_new(3 * points, sizeof(double));
-    fake->exact = (struct exact){&fake_exact_class, scene};
+    fake->exact = (struct exact){.class = &fake_exact_class, .scene = scene};
 }
 
 /* Shows the recorder every state; stops where it fails. */

@@ -72,7 +72,7 @@ static void compare(double nu, const double velocity[2], const double position[2
     struct lamb_signal signal = {.position = {position[0], position[1], 0}};
     half_space_set(&problem.ground, 1, lambda, 1);
     assert_int_equal(lamb_closed_set(&closed, 1, lambda, 1, &messages), SELAS_OK);
-    assert_int_equal(lamb_moving(&problem, 1, &patch, end, 1, &signal, &messages), SELAS_OK);
+    assert_int_equal(lamb_moving(&problem, 1, &patch, end, 1, &signal, true, &messages), SELAS_OK);
     gsl_integration_cquad_workspace *space = gsl_integration_cquad_workspace_alloc(1000);
     assert_non_null(space);
     struct push push = {&closed, &patch, {position[0], position[1]}, 0, component};

@@ -41,7 +41,7 @@ static void moving(const struct layered *layers, const struct moving_patch *patc
     memset(value, 0, sizeof(double) * 6 * ROWS * PLACES);
     for (int r = 0; r < PLACES; r++)
         memcpy(signal[r].position, places[depth][r], sizeof signal[r].position);
-    assert_int_equal(lamb_moving(&problem, patches, patch, end, PLACES, signal, &messages), SELAS_OK);
+    assert_int_equal(lamb_moving(&problem, patches, patch, end, PLACES, signal, true, &messages), SELAS_OK);
     read(&problem, signal, end, value);
 }
 
@@ -155,7 +155,7 @@ static void convolve(const struct moving_patch *patch, int depth, double end, do
     memset(value, 0, sizeof(double) * 6 * ROWS * PLACES);
     for (int r = 0; r < PLACES; r++)
         memcpy(signal[r].position, places[depth][r], sizeof signal[r].position);
-    assert_int_equal(lamb_moving(&problem, 1, patch, end, PLACES, signal, &messages), SELAS_OK);
+    assert_int_equal(lamb_moving(&problem, 1, patch, end, PLACES, signal, true, &messages), SELAS_OK);
     for (int i = 0; i < PLACES * ROWS; i++)
         for (int j = 0; j < MOST_STEPS; j++) {
             double more[6];
@@ -233,7 +233,8 @@ static void fast_points_and_kinked_patches_are_refused(void **state)
     for (int i = 0; i < 3; i++) {
         const struct lamb_problem problem = ground(i == 2 ? layers : NULL);
         struct lamb_signal signal = {.position = {1, 1, 0}};
-        assert_int_equal(lamb_moving(&problem, 1, &patch[i], 2, 1, &signal, &messages), SELAS_BAD_SCENE);
+        assert_int_equal(lamb_moving(&problem, 1, &patch[i], 2, 1, &signal, true, &messages),
+                         SELAS_BAD_SCENE);
         assert_null(signal.value);
         messages_free(&messages);
     }

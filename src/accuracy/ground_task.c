@@ -115,6 +115,7 @@ selas_status begin_task(const struct scene *scene, struct task *task, struct mes
     if (task->place == NULL || task->power == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the spectra at receivers");
     selas_status status = exact_find(exact_of_ground(scene))->create(&task->longer, &task->exact, messages);
+    if (status == SELAS_OK) status = exact_compute(task->exact, messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++) {
         struct surface_place *place = &task->place[i];
         place->power = task->power + i * (ROWS / 2 + 1);
@@ -134,6 +135,7 @@ static selas_status mechanisms_off(const struct task *task, size_t mechanisms, c
     scene.method.mechanisms = mechanisms;
     scene.reference.scheme = true;
     selas_status status = exact_find("layered")->create(&scene, &exact, messages);
+    if (status == SELAS_OK) status = exact_compute(exact, messages);
     *off = 0;
     for (size_t i = 0; i < scene.receivers && status == SELAS_OK; i++) {
         const double *place = scene.receiver[i].position;

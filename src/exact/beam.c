@@ -165,7 +165,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     struct solution *solution = array_new(1, sizeof *solution);
     if (solution == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the reference");
     const struct material *material = &scene->material[scene->body.material];
-    solution->exact = (struct exact){&exact_beam, scene};
+    solution->exact = (struct exact){.class = &exact_beam, .scene = scene};
     solution->beam = beam_of(scene);
     solution->speed = scene->initial.amplitude * sqrt(material->young / material->density);
     solution->frequency = beam_plane(scene);

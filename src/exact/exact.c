@@ -38,6 +38,14 @@ selas_status exact_create(const struct scene *scene, struct exact **exact, struc
     return class->create(scene, exact, messages);
 }
 
+selas_status exact_compute(struct exact *exact, struct messages *messages)
+{
+    if (exact->computed || exact->class->compute == NULL) return SELAS_OK;
+    const selas_status status = exact->class->compute(exact, messages);
+    exact->computed = status == SELAS_OK;
+    return status;
+}
+
 void exact_free(struct exact **exact)
 {
     if (exact == NULL || *exact == NULL) return;

@@ -11,9 +11,11 @@ struct exact_class {
     const char *kind; /* as in &reference */
     bool any_ground;  /* takes blocks, tilted and graded layers */
     bool damped;      /* takes materials with q_p and q_s */
-    /* Says in messages why a scene has no such solution (SELAS_BAD_SCENE). May compute tables shared by all
-     * positions. */
+    /* Says in messages why a scene has no such solution (SELAS_BAD_SCENE), in no time. */
     selas_status (*create)(const struct scene *scene, struct exact **exact, struct messages *messages);
+    /* What the scene's receivers share, which makes their histories cheaper: for who will ask for them; NULL: nothing.
+     * At most once. */
+    selas_status (*compute)(struct exact *exact, struct messages *messages);
     void (*destroy)(struct exact *exact);
     /* Displacement and velocity at `position` (deck coordinates) at n ascending times: value[6 * i] = ux uy
      * uz vx vy vz. Must be safe to call from several threads. */
@@ -35,11 +37,14 @@ struct exact_class {
 struct exact {
     const struct exact_class *class;
     const struct scene *scene;
+    bool computed; /* what its receivers share */
 };
 
 const struct exact_class *exact_find(const char *kind);
 /* Solution named by scene->reference; SELAS_BAD_SCENE if there is none. */
 selas_status exact_create(const struct scene *scene, struct exact **exact, struct messages *messages);
+/* What its receivers share, once. */
+selas_status exact_compute(struct exact *exact, struct messages *messages);
 void exact_free(struct exact **exact);
 
 #endif

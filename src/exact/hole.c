@@ -69,7 +69,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     *exact = NULL;
     struct solution *solution = array_new(1, sizeof *solution);
     if (solution == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the reference");
-    solution->exact = (struct exact){&exact_hole, scene};
+    solution->exact = (struct exact){.class = &exact_hole, .scene = scene};
     if (scene->body.shape != BODY_PLATE_WITH_HOLE || scene->body.rotated || !find_tension(solution, scene)) {
         array_free(solution);
         return fail(messages, SELAS_BAD_SCENE,

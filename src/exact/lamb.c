@@ -156,7 +156,7 @@ static selas_status compute(const struct lamb *lamb, double end_time, size_t n, 
     if (status == SELAS_OK && lamb->patches > 0) {
         for (size_t i = 0; i < n; i++)
             memcpy(moved[i].position, signal[i].position, sizeof moved[i].position);
-        status = lamb_moving(&lamb->unloaded, lamb->patches, lamb->patch, end_time, n, moved, messages);
+        status = lamb_moving(&lamb->unloaded, lamb->patches, lamb->patch, end_time, n, moved, true, messages);
         for (size_t i = 0; i < n && status != SELAS_OK; i++)
             lamb_signal_free(&signal[i]);
         for (size_t i = 0; i < n && status == SELAS_OK; i++)
@@ -165,7 +165,7 @@ static selas_status compute(const struct lamb *lamb, double end_time, size_t n, 
     return status;
 }
 
-static selas_status compute_receivers(struct lamb *lamb, const struct scene *scene, struct messages *messages)
+static selas_status set_receivers(struct lamb *lamb, const struct scene *scene, struct messages *messages)
 {
     lamb->signal = array_new(scene->receivers, sizeof *lamb->signal);
     lamb->moved = array_new(scene->receivers, sizeof *lamb->moved);
@@ -176,6 +176,14 @@ static selas_status compute_receivers(struct lamb *lamb, const struct scene *sce
         const selas_status status = check_position(lamb, lamb->signal[i].position, messages);
         if (status != SELAS_OK) return status;
     }
+    return lamb_moving(&lamb->unloaded, lamb->patches, lamb->patch, scene->end_time, scene->receivers,
+                       lamb->signal, false, messages);
+}
+
+static selas_status compute_receivers(struct exact *exact, struct messages *messages)
+{
+    struct lamb *lamb = (struct lamb *)exact;
+    const struct scene *scene = exact->scene;
     if (scene->receivers == 0) return SELAS_OK;
     const selas_status status =
         compute(lamb, scene->end_time, scene->receivers, lamb->signal, lamb->moved, messages);
@@ -214,7 +222,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     if (scene->body.layers > 0) status = layered_create(scene, &lamb->layers, messages);
     lamb->problem.layers = lamb->layers;
     if (status == SELAS_OK) status = set_loads(lamb, scene, messages);
-    if (status == SELAS_OK) status = compute_receivers(lamb, scene, messages);
+    if (status == SELAS_OK) status = set_receivers(lamb, scene, messages);
     if (status != SELAS_OK) {
         destroy(&lamb->exact);
         return status;
@@ -308,6 +316,7 @@ static void describe(const struct exact *exact,
 const struct exact_class exact_lamb = {
     .kind = "lamb",
     .create = create,
+    .compute = compute_receivers,
     .destroy = destroy,
     .history = history,
     .describe = describe,

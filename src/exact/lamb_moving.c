@@ -347,10 +347,10 @@ static bool to_time(const struct job *job, double end_time, const double complex
     return room;
 }
 
-/* Receivers that share their compliances and the memory for them. */
+/* Receivers that share their compliances and the memory for them; without `compute` what is refused is all. */
 static selas_status one_group(const struct lamb_problem *ground, size_t patches,
                               const struct moving_patch *patch, double end_time, size_t n,
-                              struct lamb_signal *signal, struct messages *messages)
+                              struct lamb_signal *signal, bool compute, struct messages *messages)
 {
     struct job job = {.ground = ground, .receivers = n, .signal = signal, .period = 2.2 * end_time};
     selas_status status = SELAS_OK;
@@ -361,7 +361,7 @@ static selas_status one_group(const struct lamb_problem *ground, size_t patches,
         status = prepare(&job, messages);
         highest = fmax(highest, job.table.cutoff + speed_of(job.patch) * job.end);
     }
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || !compute) return status;
     job.frequencies = (size_t)ceil(highest * job.period / (2 * M_PI)) + 1;
     double complex *spectrum = array_new(n * 3 * job.frequencies, sizeof *spectrum);
     bool room = spectrum != NULL;
@@ -379,15 +379,16 @@ static selas_status one_group(const struct lamb_problem *ground, size_t patches,
 }
 
 selas_status lamb_moving(const struct lamb_problem *ground, size_t patches, const struct moving_patch *patch,
-                         double end_time, size_t n, struct lamb_signal *signal, struct messages *messages)
+                         double end_time, size_t n, struct lamb_signal *signal, bool compute,
+                         struct messages *messages)
 {
     enum { GROUP = 16 };
     selas_status status = SELAS_OK;
     for (size_t r = 0; r < n; r++)
         signal[r].value = signal[r].statics = signal[r].front = NULL;
     for (size_t r = 0; r < n && status == SELAS_OK; r += GROUP)
-        status =
-            one_group(ground, patches, patch, end_time, n - r < GROUP ? n - r : GROUP, signal + r, messages);
+        status = one_group(ground, patches, patch, end_time, n - r < GROUP ? n - r : GROUP, signal + r,
+                           compute, messages);
     for (size_t r = 0; r < n && status != SELAS_OK; r++)
         lamb_signal_free(&signal[r]);
     return status;

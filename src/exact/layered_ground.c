@@ -198,17 +198,15 @@ static void destroy(struct exact *exact)
     array_free(ground);
 }
 
-static selas_status compute_receivers(struct layered_ground *ground, const struct scene *scene,
-                                      struct messages *messages)
+static selas_status set_receivers(struct layered_ground *ground, const struct scene *scene,
+                                  struct messages *messages)
 {
     ground->seismogram = array_new(scene->receivers, sizeof *ground->seismogram);
     if (ground->seismogram == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu seismograms", scene->receivers);
     for (size_t i = 0; i < scene->receivers; i++)
         ground_position(scene, scene->receiver[i].position, ground->seismogram[i].position);
-    const selas_status status = seismograms(&ground->problem, scene->receivers, ground->seismogram, messages);
-    if (status == SELAS_OK) ground->seismograms = scene->receivers;
-    return status;
+    return seismograms_check(&ground->problem, scene->receivers, ground->seismogram, messages);
 }
 
 static void warn_of_miss(const struct layered_ground *ground, struct messages *messages)
@@ -228,6 +226,17 @@ static void warn_of_miss(const struct layered_ground *ground, struct messages *m
             worst, wanted);
 }
 
+static selas_status compute(struct exact *exact, struct messages *messages)
+{
+    struct layered_ground *ground = (struct layered_ground *)exact;
+    const size_t receivers = exact->scene->receivers;
+    const selas_status status = seismograms(&ground->problem, receivers, ground->seismogram, messages);
+    if (status != SELAS_OK) return status;
+    ground->seismograms = receivers;
+    warn_of_miss(ground, messages);
+    return status;
+}
+
 static selas_status create(const struct scene *scene, struct exact **exact, struct messages *messages)
 {
     *exact = NULL;
@@ -235,15 +244,14 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     if (status != SELAS_OK) return status;
     struct layered_ground *ground = array_new(1, sizeof *ground);
     if (ground == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the reference 'layered'");
-    ground->exact = (struct exact){&exact_layered, scene};
+    ground->exact = (struct exact){.class = &exact_layered, .scene = scene};
     ground->problem.end_time = scene->end_time;
     ground->problem.tolerance = scene->reference.tolerance;
     ground->problem.stress = scene->reference.stress;
     status = ground_damping_new(scene, scene->reference.scheme, &ground->damping, messages);
     if (status == SELAS_OK) status = set_rocks(ground, scene, messages);
     if (status == SELAS_OK) status = set_sources(ground, scene, messages);
-    if (status == SELAS_OK) status = compute_receivers(ground, scene, messages);
-    if (status == SELAS_OK) warn_of_miss(ground, messages);
+    if (status == SELAS_OK) status = set_receivers(ground, scene, messages);
     if (status != SELAS_OK) {
         destroy(&ground->exact);
         return status;
@@ -360,6 +368,7 @@ const struct exact_class exact_layered = {
     .kind = "layered",
     .damped = true,
     .create = create,
+    .compute = compute,
     .destroy = destroy,
     .history = history,
     .stress = stress,

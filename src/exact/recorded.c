@@ -79,7 +79,7 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
             scene->receivers);
     struct recorded *recorded = array_new(1, sizeof *recorded);
     if (recorded == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for histories");
-    recorded->exact = (struct exact){&exact_recorded, scene};
+    recorded->exact = (struct exact){.class = &exact_recorded, .scene = scene};
     recorded->receiver = array_new(scene->receivers, sizeof *recorded->receiver);
     selas_status status = SELAS_OK;
     if (recorded->receiver == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for histories");

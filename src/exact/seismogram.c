@@ -268,15 +268,19 @@ static bool work_off_bands(struct work *work)
     return keep(work, complete);
 }
 
-static selas_status check(const struct work *work, struct messages *messages)
+selas_status seismograms_check(const struct seismogram_problem *problem, size_t n,
+                               const struct seismogram *seismogram, struct messages *messages)
 {
-    for (size_t p = 0; p < work->sums.paths; p++) {
-        const struct path *path = &work->sums.path[p];
-        const double *place = work->seismogram[path->receiver_index].position;
+    for (size_t r = 0; r < n; r++) {
+        const double *place = seismogram[r].position;
         if (place[2] < 0) return fail(messages, SELAS_BAD_SCENE, "a receiver lies above the ground");
-        if (!path->patch && path->distance == 0 && place[2] == path->source->position[2])
-            return fail(messages, SELAS_BAD_SCENE,
-                        "a receiver lies at a point source, where all is infinite");
+        for (size_t i = 0; i < problem->sources; i++) {
+            const struct seismogram_source *source = &problem->source[i];
+            if (source->patch.shape == PATCH_POINT && place[0] == source->position[0] &&
+                place[1] == source->position[1] && place[2] == source->position[2])
+                return fail(messages, SELAS_BAD_SCENE,
+                            "a receiver lies at a point source, where all is infinite");
+        }
     }
     return SELAS_OK;
 }
@@ -298,7 +302,7 @@ static selas_status prepare(struct work *work, struct messages *messages)
     work->least = array_new(work->receivers, sizeof *work->least);
     work->last = array_new(work->receivers, sizeof *work->last);
     if (work->missed == NULL || work->least == NULL || work->last == NULL) return no_memory(messages);
-    return check(work, messages);
+    return seismograms_check(problem, work->receivers, work->seismogram, messages);
 }
 
 static void work_free(struct work *work)

@@ -55,6 +55,9 @@ struct seismogram {
     struct seismogram_effort effort;
 };
 
+/* Whether there are such seismograms: SELAS_BAD_SCENE, with the reason. */
+selas_status seismograms_check(const struct seismogram_problem *problem, size_t n,
+                               const struct seismogram *seismogram, struct messages *messages);
 /* n receivers; seismogram[i].position is given, the rest is set. SELAS_BAD_SCENE (with the reason),
  * SELAS_NO_MEMORY; then no value is kept. */
 selas_status seismograms(const struct seismogram_problem *problem, size_t n, struct seismogram *seismogram,

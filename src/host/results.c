@@ -67,11 +67,15 @@ selas_status selas_record(selas_simulation *simulation)
     return SELAS_OK;
 }
 
-static selas_status make_exact(selas_simulation *simulation)
+/* Refuses what has none; `compute`: histories will be asked of it. */
+static selas_status make_exact(selas_simulation *simulation, bool compute)
 {
-    if (simulation->exact != NULL || simulation->scene->reference.kind[0] == '\0') return SELAS_OK;
+    if (simulation->scene->reference.kind[0] == '\0') return SELAS_OK;
     const double begin = cpu_seconds();
-    const selas_status status = exact_create(simulation->scene, &simulation->exact, &simulation->messages);
+    selas_status status = SELAS_OK;
+    if (simulation->exact == NULL)
+        status = exact_create(simulation->scene, &simulation->exact, &simulation->messages);
+    if (status == SELAS_OK && compute) status = exact_compute(simulation->exact, &simulation->messages);
     simulation->figures.exact_cpu_seconds += cpu_seconds() - begin;
     return status;
 }
@@ -88,7 +92,7 @@ selas_status selas_write(selas_simulation *simulation)
     status = simulation_finish(simulation);
     if (status != SELAS_OK) return status;
     /* what was computed is written, whether there is something to compare it with or not */
-    const selas_status compared = ranks_first(simulation->ranks) ? make_exact(simulation) : SELAS_OK;
+    const selas_status compared = ranks_first(simulation->ranks) ? make_exact(simulation, true) : SELAS_OK;
     status =
         recorder_write(simulation->recorder, simulation->exact, &simulation->figures, &simulation->messages);
     return status == SELAS_OK ? compared : status;
@@ -102,7 +106,7 @@ selas_status selas_write_exact(selas_simulation *simulation)
     if (status != SELAS_OK) return status;
     if (simulation->scene->reference.kind[0] == '\0')
         return fail(&simulation->messages, SELAS_BAD_SCENE, "the deck has no &reference");
-    status = make_exact(simulation);
+    status = make_exact(simulation, true);
     if (status == SELAS_OK)
         status = record_exact(simulation->scene, simulation->exact, &simulation->messages);
     return status;
@@ -121,5 +125,5 @@ selas_status selas_plan(selas_simulation *simulation,
     recorder_plan(simulation->recorder, simulation->state.y == NULL ? simulation->stepper : NULL, tell,
                   context);
     if (!ranks_first(simulation->ranks)) return SELAS_OK;
-    return make_exact(simulation); /* what the run would refuse when it is over */
+    return make_exact(simulation, false); /* what the run would refuse when it is over */
 }
