@@ -237,6 +237,21 @@ static void extents(void **unused)
     from_deck_free(&d);
 }
 
+/* Pieces of a load that a host drives stand behind all loads, with the group of their own: each load is an extent still. */
+static void extents_of_driven_loads(void **unused)
+{
+    (void)unused;
+    struct from_deck d = right_scene(GROUND("4", ".5") PATCH PULSE PATCH RECEIVER);
+    struct extent found;
+    size_t loads = 0;
+    d.scene->load[2].group = 0;
+    d.scene->load[2].driven = BY_HOST;
+    for (size_t i = 0; scene_extent(d.scene, i, &found); i++)
+        loads += found.role == EXTENT_ACTS;
+    assert_int_equal(loads, 2);
+    from_deck_free(&d);
+}
+
 /* Half the spacing: a layer has more points, however far the receiver, and is expected to send back less. */
 static void layers_follow_the_spacing(void **unused)
 {
@@ -268,6 +283,7 @@ int main(void)
         cmocka_unit_test(named_sides_are_kept),
         cmocka_unit_test(all_groups_are_stated),
         cmocka_unit_test(extents),
+        cmocka_unit_test(extents_of_driven_loads),
         cmocka_unit_test(layers_follow_the_spacing),
         cmocka_unit_test(mirror_planes),
         cmocka_unit_test(odd_numbers_of_cells_have_no_mirror),
