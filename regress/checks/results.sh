@@ -56,6 +56,16 @@ in_the_file() { # every data set that run.xdmf names is in run.h5
     while read -r set; do h5dump -H -d "$set" out/run.h5 >/dev/null || return 1; done <named
 }
 check "run.xdmf and run_2.xdmf name data sets that are there" in_the_file
+# What gnuplot is told, by one that only listens.
+mkdir listens && printf '#!/bin/sh\ncat >>"%s/script"\n' "$work" >listens/gnuplot && chmod +x listens/gnuplot
+axes() { # axes ROTATION WORDS: the maps name their axes so
+    rm -f script
+    PATH="$work/listens:$PATH" "$selas" small.nml output%directory=turned output%plots=T body%rotation="$1" scene%end_time=1 \
+        'snapshot(1)%every=1' 'snapshot(2)%times=1' profile%times=1
+    grep -q "set xlabel 'x$2'" script && grep -q "set ylabel 'z$2'" script && grep -q "title .*surface z$2 = " script
+}
+check "maps name the deck's axes" axes 0,0,0 ""
+check "maps of a turned body name its own" axes 0,0,90 " of the body"
 check "run.xdmf closes what it opens" awk '
     { while (match($0, /<\/?[A-Za-z]+[^>]*>/)) {
           tag = substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH)

@@ -323,6 +323,11 @@ static inline bool body_is_box(const struct body *body)
 {
     return body->shape == BODY_BOX || body->shape == BODY_HALF_SPACE;
 }
+/* Behind the names of axes of the body's own frame, where they are not the deck's. */
+static inline const char *own_axes(const struct body *body)
+{
+    return body->rotated ? " of the body" : "";
+}
 /* More than one material over the depth. */
 static inline bool body_is_layered(const struct body *body)
 {

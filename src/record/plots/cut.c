@@ -52,7 +52,7 @@ static void set_axis(const struct scene *scene, struct cut *cut, int side, int a
 {
     double thickness[BOX_FACES];
     cut_layers(scene, thickness);
-    snprintf(cut->name[side], sizeof cut->name[side], "%c", "xyz"[axis]);
+    snprintf(cut->name[side], sizeof cut->name[side], "%c%s", "xyz"[axis], own_axes(&scene->body));
     (side == 0 ? cut->along : cut->across)[axis] = 1;
     cut->body_low[side] = scene->body.low[axis];
     cut->body_high[side] = scene->body.high[axis];

@@ -125,7 +125,8 @@ static bool surface_section(const struct recorder *recorder, const struct snapsh
     if (recorder->scene->body.topography != NULL)
         snprintf(section->title, sizeof section->title, "surface, seen from above");
     else
-        snprintf(section->title, sizeof section->title, "surface z = %.4g", low[2]);
+        snprintf(section->title, sizeof section->title, "surface z%s = %.4g",
+                 own_axes(&recorder->scene->body), low[2]);
     const size_t *grid = record->grid;
     if (grid[0] == 0)
         return pick_near(recorder, record, section, 2, low[2], 0.55 * spacing_of(recorder, low, high)) &&
@@ -141,9 +142,10 @@ static bool cut_section(const struct recorder *recorder, const struct snapshot_r
                         const double low[3], const double high[3], struct section *section)
 {
     *section = (struct section){.axis = {0, 2}, .downwards = true};
+    const char *axes = own_axes(&recorder->scene->body);
     const double place = cut_place(recorder, low, high);
     const size_t *grid = record->grid;
-    snprintf(section->title, sizeof section->title, "cut at y = %.4g", place);
+    snprintf(section->title, sizeof section->title, "cut at y%s = %.4g", axes, place);
     if (grid[0] == 0)
         return pick_near(recorder, record, section, 1, place, 0.55 * spacing_of(recorder, low, high)) &&
                place_points(recorder, record, section);
@@ -155,7 +157,7 @@ static bool cut_section(const struct recorder *recorder, const struct snapshot_r
         if (fabs(x[1] - place) >= least) continue;
         least = fabs(x[1] - place);
         nearest = j;
-        snprintf(section->title, sizeof section->title, "cut at y = %.4g", x[1]);
+        snprintf(section->title, sizeof section->title, "cut at y%s = %.4g", axes, x[1]);
     }
     section->along = grid[0];
     section->across = grid[2];
@@ -261,7 +263,8 @@ static bool make_room(struct film *film)
 
 bool film_create(const struct recorder *recorder, size_t group, struct film *film, struct messages *messages)
 {
-    *film = (struct film){.group = group, .output = &recorder->scene->output};
+    *film = (struct film){
+        .group = group, .output = &recorder->scene->output, .axes = own_axes(&recorder->scene->body)};
     if (!choose_field(recorder->scene->snapshot[group].fields, &film->field)) return false;
     film->frame = array_new(recorder->entries, sizeof *film->frame);
     for (size_t k = 0; film->frame != NULL && k < recorder->entries; k++)

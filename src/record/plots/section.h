@@ -30,6 +30,7 @@ struct frame {
 /* All snapshots of one group. */
 struct film {
     const struct output_choice *output; /* the scene's, for names of units */
+    const char *axes;                   /* behind names of axes: whose they are */
     size_t group;
     selas_field field;
     size_t component;

@@ -111,8 +111,8 @@ static void draw_map(FILE *script, const struct film *film, size_t s, size_t sec
     char label[64], unit[UNIT_TEXT];
     label_of(film, label, sizeof label);
     unit_text(film->output, 1, 0, "", unit);
-    fprintf(script, "set xlabel '%c%s'\nset ylabel '%c%s'\n", axis_name[section->axis[0]], unit,
-            axis_name[section->axis[1]], unit);
+    fprintf(script, "set xlabel '%c%s%s'\nset ylabel '%c%s%s'\n", axis_name[section->axis[0]], film->axes,
+            unit, axis_name[section->axis[1]], film->axes, unit);
     fprintf(script, "set title '%s%s%s%s'\n", label, section->title[0] != '\0' ? ", " : "", section->title,
             unit_of(film, unit));
     set_range(script, "x", section->low[0], section->high[0], false);
@@ -149,7 +149,7 @@ static void draw_curve(FILE *script, const struct film *film, const struct frame
     char label[64], unit[UNIT_TEXT], along[UNIT_TEXT];
     label_of(film, label, sizeof label);
     const double size = largest > 0.0 ? 1.08 * largest : 1.0;
-    fprintf(script, "unset colorbox\nset xlabel 'x%s'\nset ylabel '%s%s'\nset grid\n",
+    fprintf(script, "unset colorbox\nset xlabel 'x%s%s'\nset ylabel '%s%s'\nset grid\n", film->axes,
             unit_text(film->output, 1, 0, "", along), label, unit_of(film, unit));
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", film->field == SELAS_ENERGY ? 0.0 : -size, size, false);
