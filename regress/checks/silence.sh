@@ -322,7 +322,7 @@ told "a table that ends with a rest" "ends at t = 2 with 0.05, which holds" chec
 # shellcheck disable=SC2086
 told "a table that begins late with a jump" "begins at t = 1 with 0.5; before that the history is 0" check pulse.nml $table load%file=late.txt
 cat >moment.nml <<'END'
-&scene dimension = 3, end_time = 1.0 /
+&scene dimension = 3, end_time = 3.0 /
 &method name = 'sph', gradient = 'central' /
 &material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
 &body material = 'rock', shape = 'box', low = 0, 0, 0, high = 2, 2, 2, spacing = 0.2 /
@@ -373,6 +373,10 @@ END
 untold "hill, block and load in their places" check nothing.nml
 told "a load of amplitude 0 alone" "nothing acts" check nothing.nml load%amplitude=0
 told "a load that begins behind the end" "begins at t = 3 and the run ends at 2: it does nothing" check nothing.nml load%start=3
+told "a load whose peak comes behind the end" "load 1 has come to less than 0.001 of its largest value when the run ends at 2: it does nothing" check nothing.nml load%delay=5
+untold "one whose first quarter is in the run" check nothing.nml load%delay=2.8 load%start=.2
+printf '0 0\n3 0\n4 1\n5 0\n' >late.txt
+told "a table that begins behind the end" "load 1 has come to less than" check nothing.nml load%history=table load%width= load%delay= load%file=late.txt
 told "rows farther apart than the run is long" "have the row t = 0 alone" check nothing.nml output%history_step=9
 told "a block beside the body" "&block 1 lies outside the body: along x" check nothing.nml block%centre=9,2
 untold "a block inside the hill" check nothing.nml block%centre=1,-.1 block%size=1,.2 topography%height=.4
@@ -386,7 +390,10 @@ echo "&initial kind = 'gaussian', centre = 9, 1, width = 0.5, amplitude = 1, dir
 told "a state at t = 0 beside the body" "lies outside the body, 10 widths beyond face x\\+" check outside.nml
 grep -v -e '&topography' -e '&block' -e soft nothing.nml >thick.nml
 echo "&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'pml', layer_points = 1000, always = .true. /" >>thick.nml
-untold "absorbing layers of a thousand points" thick.nml scene%end_time=0.2 output%plots=F
+untold "absorbing layers of a thousand points" thick.nml scene%end_time=0.55 load%delay=2.4 output%plots=F
+grep -v '&boundary' thick.nml >moves.nml
+echo "&boundary face = 'x-', kind = 'velocity', direction = 1, 0, history = 'gaussian', width = 0.3, delay = 6 /" >>moves.nml
+told "a face that moves behind the end" "&boundary 1 has come to less than .* does nothing" check moves.nml
 "$selas" nothing.nml scene%end_time=1e-12 output%plots=F >said 2>&1
 verdict "a run much shorter than a step" $?
 # --- Ground ---
@@ -524,7 +531,7 @@ echo "&boundary face = 'x-', kind = 'velocity', direction = 1, history = 'gaussi
 alike "damped, moved by velocities and by their integral" 1e-5 a rate way
 # --- Fields and states where the rock jumps ---
 cat >jump.nml <<'END'
-&scene dimension = 2, end_time = 1 /
+&scene dimension = 2, end_time = 2 /
 &material name = 'rock', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
 &material name = 'soft', density = 0.8, p_speed = 1.2, s_speed = 0.6 /
 &body material = 'rock', low = -4, 0, high = 4, 4, spacing = 0.1 /
@@ -588,7 +595,7 @@ told "stress of a region that cuts the block" "&snapshot 1 has stress.*$smooth" 
 told "stress of one whose depth in the hill is that of the block" "&snapshot 1 has stress.*$smooth" check hill.nml snapshot%region=-.2,.3,.2,.4
 untold "stress of a region within the block" check hill.nml snapshot%region=-.05,.15,.05,.205
 cat >small.nml <<'END'
-&scene dimension = 3, end_time = 1 /
+&scene dimension = 3, end_time = 5 /
 &material name = 'rock', density = 1.0, p_speed = 1.9, s_speed = 1.0 /
 &material name = 'soft', density = 0.6, p_speed = 1.0, s_speed = 0.5 /
 &body material = 'rock', low = -4.5, -4.5, 0, high = 4.5, 4.5, 4.5, spacing = 0.5 /

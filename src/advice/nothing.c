@@ -7,20 +7,65 @@
 
 #include <math.h>
 
+/* A share of the largest value of a time function below which it is nothing. */
+static const double hardly = 1e-3;
+
+/* Does a time function come to more than hardly anything by `until`? Looked at by golden sections, which no sine keeps
+ * step with, and at its peak. */
+static bool begins(const struct history *history, double until)
+{
+    enum { LOOKS = 100 };
+    static const double golden = .6180339887498949;
+    const double from = history->start, to = fmin(until, history_end(history));
+    double largest =
+        fabs(history_value(history, fmin(until, from + history->delay + history->smoothing / 2), 0));
+    double most = history->rows > 0 ? 0 : 1; /* of the kinds that have a formula */
+    for (size_t row = 0; row < history->rows; row++) {
+        const double value = fabs(history->table_value[row]);
+        most = fmax(most, value);
+        if (from + history->table_time[row] + history->smoothing / 2 <= until) largest = fmax(largest, value);
+    }
+    for (int i = 1; i <= LOOKS && from < until; i++)
+        largest = fmax(largest, fabs(history_value(history, from + (to - from) * fmod(i * golden, 1), 0)));
+    return most == 0 || largest > hardly * most;
+}
+
+static void tell_of_late(struct adviser *adviser, const char *what, size_t number,
+                         const struct history *history)
+{
+    const double end = adviser->scene->end_time;
+    if (history->start >= end)
+        advise(adviser, "%s %zu begins at t = %g and the run ends at %g: it does nothing", what, number + 1,
+               history->start, end);
+    else
+        advise(adviser,
+               "%s %zu has come to less than %g of its largest value when the run ends at %g: it does "
+               "nothing; a "
+               "later end_time or an earlier peak would be right",
+               what, number + 1, hardly, end);
+}
+
+/* Of several sources in one &load the last one says whether any begins. */
 static void look_at_rest(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
-    bool acts = scene_driven(scene) || scene->initial.kind != INITIAL_REST;
+    bool acts = scene_driven(scene) || scene->initial.kind != INITIAL_REST, any = false;
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
-        if (load->amplitude == 0) continue;
-        acts = true;
-        if (load->driven == BY_HISTORY && load->history.start >= scene->end_time)
-            advise(adviser, "load %zu begins at t = %g and the run ends at %g: it does nothing",
-                   scene->load[k].group + 1, load->history.start, scene->end_time);
+        const bool last = k + 1 == scene->loads || load[1].group != load->group;
+        any = any || load->amplitude == 0 || load->driven != BY_HISTORY ||
+              begins(&load->history, scene->end_time);
+        acts = acts || load->amplitude != 0;
+        if (last && !any) tell_of_late(adviser, "load", load->group, &load->history);
+        if (last) any = false;
     }
-    for (int face = 0; face < FACES; face++)
-        acts = acts || boundary_acts(&scene->boundary[face]);
+    for (int face = 0; face < FACES; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        if (!boundary_acts(boundary)) continue;
+        acts = true;
+        if (boundary->driven == BY_HISTORY && !begins(&boundary->history, scene->end_time))
+            tell_of_late(adviser, "&boundary", boundary->group, &boundary->history);
+    }
     if (!acts)
         advise(adviser, "nothing acts: no load, no face that moves, no state at t = 0; all results are 0");
 }
