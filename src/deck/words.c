@@ -335,7 +335,7 @@ static const struct word reference_words[] = {
     {"spectrum", WORD_CHOICE, 1, NULL, "constant-q|scheme", OPTIONAL,
      "constant Q (default), or the relaxation mechanisms of a run (layered)"},
     {"stress", WORD_LOGICAL, 1, NULL, NULL, OPTIONAL,
-     "selas exact writes histories of stress, too (layered, point sources)"},
+     "exact histories of stress, too (layered, point sources)"},
 };
 
 /* doc/NEWS.md: a word that goes has a line here, {group, old, now, version}. */

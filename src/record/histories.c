@@ -57,19 +57,34 @@ static selas_status write_history(const struct scene *scene, const struct record
     return safe_file_close(&file, SELAS_OK, messages);
 }
 
+/* Does the deck ask for exact stresses? Then the reference has them. */
+static bool with_stress(const struct scene *scene, const struct exact *exact)
+{
+    return scene->reference.stress && exact->class->stress != NULL;
+}
+
 selas_status histories_compare(struct recorder *recorder, struct exact *exact, struct messages *messages)
 {
     const struct scene *scene = recorder->scene;
+    const size_t room = scene->receivers * recorder->rows * 6;
+    const bool stress = with_stress(scene, exact);
     if (recorder->exact != NULL) return SELAS_OK;
-    recorder->exact = array_new(scene->receivers * recorder->rows * 6, sizeof *recorder->exact);
+    recorder->exact = array_new(stress ? 2 * room : room, sizeof *recorder->exact);
+    recorder->stress = stress && recorder->exact != NULL ? recorder->exact + room : NULL;
     if (recorder->exact == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the exact histories");
     selas_status status = SELAS_OK;
-    for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++)
-        status = exact->class->history(exact, scene->receiver[r].position, recorder->rows, recorder->time,
-                                       recorder->exact + r * recorder->rows * 6, messages);
+    for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++) {
+        const double *place = scene->receiver[r].position;
+        const size_t rows = recorder->rows;
+        status = exact->class->history(exact, place, rows, recorder->time, recorder->exact + r * rows * 6,
+                                       messages);
+        if (status == SELAS_OK && stress)
+            status = exact->class->stress(exact, place, rows, recorder->time, recorder->stress + r * rows * 6,
+                                          messages);
+    }
     if (status != SELAS_OK) {
         array_free(recorder->exact);
-        recorder->exact = NULL;
+        recorder->exact = recorder->stress = NULL;
     }
     char missed[MISSED_TEXT];
     if (histories_missed(recorder, missed)) warn(messages, "%s", missed);
@@ -110,6 +125,9 @@ selas_status histories_write(struct recorder *recorder, struct messages *message
         if (status != SELAS_OK || recorder->exact == NULL) continue;
         history.value = recorder->exact + r * recorder->rows * 6;
         status = write_history(recorder->scene, recorder, r, EXACT, &history, messages);
+        if (status != SELAS_OK || recorder->stress == NULL) continue;
+        history.value = recorder->stress + r * recorder->rows * 6;
+        status = write_history(recorder->scene, recorder, r, EXACT_STRESS, &history, messages);
     }
     return status;
 }
@@ -140,7 +158,7 @@ selas_status record_exact(const struct scene *scene, struct exact *exact, struct
     for (size_t r = 0; r < scene->receivers && status == SELAS_OK; r++) {
         status = exact->class->history(exact, scene->receiver[r].position, rows, time, value, messages);
         if (status == SELAS_OK) status = write_history(scene, NULL, r, EXACT, &history, messages);
-        if (status != SELAS_OK || !scene->reference.stress || exact->class->stress == NULL) continue;
+        if (status != SELAS_OK || !with_stress(scene, exact)) continue;
         status = exact->class->stress(exact, scene->receiver[r].position, rows, time, value, messages);
         if (status == SELAS_OK) status = write_history(scene, NULL, r, EXACT_STRESS, &history, messages);
     }

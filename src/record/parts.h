@@ -83,6 +83,7 @@ struct recorder {
     size_t rows;         /* finished */
     double *time;        /* [rows] */
     double *exact;       /* [receivers * rows * 6] or NULL */
+    double *stress;      /* the same of exact stresses, behind it; NULL: not asked for */
     bool finished, written;
     const char *folder; /* of text results and their plots: that of the results or of what is unfinished */
     bool so_far;        /* these are of a run that goes on later */

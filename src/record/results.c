@@ -76,7 +76,7 @@ char *results_names(const struct scene *scene, const struct recorder *recorder, 
     const bool exact = recorder != NULL && done ? recorder->exact != NULL : scene->reference.kind[0] != '\0';
     for (size_t r = 0; exact && r < scene->receivers; r++)
         put(list, scene->receiver[r].name, ".exact.dat");
-    for (size_t r = 0; recorder == NULL && scene->reference.stress && r < scene->receivers; r++)
+    for (size_t r = 0; exact && scene->reference.stress && r < scene->receivers; r++)
         put(list, scene->receiver[r].name, ".exact.stress.dat");
     if (fclose(list) == 0) return names;
     free(names);
