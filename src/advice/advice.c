@@ -21,13 +21,29 @@ void advise(struct adviser *adviser, const char *format, ...)
     adviser->count++;
 }
 
+/* Does a velocity or a traction jump? A force all over the body lets accelerations jump and velocities go on. */
+static bool front_jumps(const struct scene *scene)
+{
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        const bool all_over = load->kind == LOAD_BODY_FORCE && load->shape == LOAD_FACE;
+        if (load->amplitude != 0 && !all_over && isinf(history_cutoff(&load->history, SOURCE_COUNTS)))
+            return true;
+    }
+    for (int face = 0; face < FACES; face++)
+        if (boundary_acts(&scene->boundary[face]) &&
+            isinf(history_cutoff(&scene->boundary[face].history, SOURCE_COUNTS)))
+            return true;
+    return false;
+}
+
 static void look_at_resolution(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     const double spacing = scene->body.spacing, points = points_per_wavelength(scene);
     const double slowest = slowest_speed(scene);
     const bool told = scene->reference.kind[0] != '\0'; /* by the exact solution */
-    if (isinf(source_cutoff(scene)) && !scene_driven(scene) && !told && isfinite(slowest) && spacing > 0)
+    if (front_jumps(scene) && !scene_driven(scene) && !told && isfinite(slowest) && spacing > 0)
         advise(
             adviser,
             "a history jumps, into waves of all lengths that the points do not carry: velocities ring behind "
