@@ -163,13 +163,12 @@ static bool grown(const struct recorder *recorder, const struct state *state, do
                   char *what)
 {
     const struct watch *watch = &recorder->watch;
-    const double later = 1.0 + watch->face_rate * state->time;
-    const double faces = watch->face_energy * later * later, given = watch->initial + watch->gross + faces;
+    const double given = watch_given(watch, state->time);
     const bool last = watch->by_work && state->step == recorder->stepper->steps;
     if (state->step < (last ? NOTED_STEPS : WATCH_EVERY)) return false;
     if (watch->by_work && waves > growth_allowed * given)
         snprintf(what, size, "the body has the energy %.3g, but was given only %.3g", waves, given);
-    else if (!watch->by_work && faces > 0.0 && waves > growth_of_faces * given)
+    else if (!watch->by_work && watch->face_energy > 0.0 && waves > growth_of_faces * given)
         snprintf(what, size,
                  "the body has the energy %.3g, but loads and moved faces can have given only some %.3g",
                  waves, given);
@@ -186,6 +185,7 @@ static void keep_energy(struct recorder *recorder, const struct state *state, co
 {
     struct watch *watch = &recorder->watch;
     const double total = energy->kinetic + energy->strain, waves = energy_of_waves(recorder, state, energy);
+    const bool last = state->step == recorder->stepper->steps && state->step >= NOTED_STEPS;
     if (!recorder->started) watch->initial = total;
     watch->largest = fmax(watch->largest, total);
     watch->last = *energy;
@@ -196,11 +196,11 @@ static void keep_energy(struct recorder *recorder, const struct state *state, co
     if (watch->by_work) {
         const double defect = fabs(total - watch->initial - watch->work + watch->absorbed + watch->damped);
         watch->largest_defect = fmax(watch->largest_defect, defect);
-        if (state->step == recorder->stepper->steps && state->step >= NOTED_STEPS)
-            watch->gained = waves - watch->initial - watch->work + watch->absorbed + watch->damped;
+        if (last) watch->gained = waves - watch->initial - watch->work + watch->absorbed + watch->damped;
     } else if (state->time <= watch->reference_until) {
         watch->reference = fmax(watch->reference, waves);
     }
+    if (last && watch->face_energy > 0.0) watch->gained = fmax(0.0, waves - watch_given(watch, state->time));
 }
 
 /* Energy of a settled state; kept for the report if it is one of those looked at regularly. */

@@ -11,6 +11,13 @@ static inline unsigned long watch_every(const struct model *model)
     return WATCH_EVERY * (unsigned long)(model->energy_calls > 1 ? model->energy_calls : 1);
 }
 
+/* Energy that can have been given by a time: at the start, by loads, and by moved faces (of that order). */
+static inline double watch_given(const struct watch *watch, double time)
+{
+    const double later = 1.0 + watch->face_rate * time;
+    return watch->initial + watch->gross + watch->face_energy * later * later;
+}
+
 /* Fails with time, place and likely cause; `what` is wrong: "the state is not finite". */
 selas_status watch_tell(const struct recorder *recorder, const struct state *state, const char *what,
                         struct messages *messages);
