@@ -90,7 +90,7 @@ static double error_of_state(const struct scene *scene, const struct wave_law *l
 {
     const bool plane = scene->initial.kind == INITIAL_PLANE_WAVE;
     const double speed = slower ? slowest_speed(scene) : plane_wave_speed(scene);
-    const double way = slower ? speed * scene->end_time : longest_way(scene, speed);
+    const double way = longest_way(scene, speed);
     const double k = typical_number(scene) * (slower ? plane_wave_speed(scene) / speed : 1);
     return (plane ? 1 : slower ? law->turned : law->spread) * error_of_waves(scene, law, k, way);
 }
@@ -263,11 +263,44 @@ void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
                sqrt(seen / 2 / phase) * stepper->dt / stepper->limit, better ? "," : "");
 }
 
+static bool along(const struct scene *scene, const double direction[3], int axis)
+{
+    double own[3];
+    body_direction_from_deck(&scene->body, direction, own);
+    return fabs(own[axis]) > 1 - 1e-9;
+}
+
+/* Do loads and moved faces send plane P waves along an axis alone, between sides that leave them as they are? */
+static bool sends_plane_p(const struct scene *scene, int axis)
+{
+    bool plane = body_is_box(&scene->body) && scene->materials == 1;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        if (face / 2 != axis)
+            plane = plane && boundary_slides(boundary) && !boundary_moves(boundary);
+        else if (boundary_acts(boundary))
+            plane = plane && along(scene, boundary->direction, axis);
+    }
+    for (size_t k = 0; k < scene->loads && plane; k++)
+        plane = scene->load[k].amplitude == 0 ||
+                (scene->load[k].shape == LOAD_FACE && along(scene, scene->load[k].direction, axis) &&
+                 (scene->load[k].kind != LOAD_TRACTION || face_axis(scene->load[k].face) == axis));
+    return plane;
+}
+
+/* Speed of the slowest waves that loads send. */
+static double slowest_sent(const struct scene *scene)
+{
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (sends_plane_p(scene, axis)) return scene->material[0].p_speed;
+    return slowest_speed(scene);
+}
+
 void look_at_method(struct adviser *adviser, const struct model *model)
 {
     static const double seen = .1;
     const struct scene *scene = adviser->scene;
-    const double slowest = slowest_speed(scene), omega = typical_frequency(scene);
+    const double slowest = slowest_sent(scene), omega = typical_frequency(scene);
     if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
     const double start = error_of_waves(scene, &model->waves, typical_number(scene),
                                         plane_wave_speed(scene) * scene->end_time);
