@@ -172,6 +172,10 @@ told "a thin wall between soft blocks" "blocks 1 and 2 leave a wall of rock of 0
 untold "a thicker one" check wall.nml 'block(2)%centre=1.275,.55'
 untold "blocks that meet" check wall.nml 'block(2)%centre=.925,.55'
 
+told "pressed faces to order 0" "variant 'paper' carries what acts on faces to order 0" check paper.nml method%row_sums=zero
+told "and moved ones" "variant 'paper' carries what acts on faces to order 0" check paper.nml method%row_sums=zero load%amplitude=0 \
+    'boundary(2)%face=y-' 'boundary(2)%kind=velocity' 'boundary(2)%direction=0,1' 'boundary(2)%history=gaussian' 'boundary(2)%width=.5' 'boundary(2)%delay=2'
+
 # --- Energy from nowhere: updated-Lagrangian points beside the edges of a patch, in runs shorter than a look ---
 cat >grows.nml <<'END'
 &scene dimension = 2, end_time = 7.71 /
@@ -323,7 +327,8 @@ told "also for the paper's method" "points 6 and 442 coincide" check points.nml 
 # shellcheck disable=SC2086
 told "a gap between points on faces" "no point lies within a spacing of .2, 2, 0., nor of 0 more" check points.nml $paper body%file=hollow.txt
 # shellcheck disable=SC2086
-untold "no gap" check points.nml $paper method%row_sums=zero scene%end_time=.5 body%file=faces.txt
+untold "no gap" check points.nml $paper method%row_sums=zero scene%end_time=.2 body%file=faces.txt load%amplitude=0 \
+    initial%kind=gaussian initial%centre=2,2 initial%width=.55 initial%direction=1,0 initial%amplitude=.01
 
 # --- Loads and histories ---
 cat >plate.nml <<'END'
