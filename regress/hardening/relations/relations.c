@@ -15,7 +15,7 @@
  *   linear     four times the amplitude gives four times the histories, bit by bit
  *
  * Arguments: first number, how many. Prints a TAP line a scene; exit status 1 if a relation is broken, whose
- * deck is printed as a comment. */
+ * deck is printed as a comment. With a third one, a folder: the decks, as NUMBER.nml in there, no relations. */
 #include "selas.h"
 
 #include "method/methods.h"
@@ -644,8 +644,20 @@ static void show(const struct drawn *s)
     }
 }
 
-/* Tries all relations on a scene; 1 if it is none that can be run. */
-static int hold(unsigned long number, struct drawn *s, bool *good)
+static bool keep(const struct drawn *s, const char *folder, unsigned long number)
+{
+    static char text[TEXT];
+    char name[1000];
+    snprintf(name, sizeof name, "%s/%lu.nml", folder, number);
+    write_deck(s, &plainly, text);
+    FILE *file = fopen(name, "w");
+    if (file == NULL) return false;
+    const bool written = fputs(text, file) >= 0;
+    return fclose(file) == 0 && written;
+}
+
+/* Tries all relations on a scene, or keeps it in the folder; 1 if it is none that can be run. */
+static int hold(unsigned long number, struct drawn *s, const char *folder, bool *good)
 {
     struct outcome base = run(s, &plainly, 1, 0);
     if (base.status != SELAS_OK || !(base.step > 0)) return 1;
@@ -664,6 +676,11 @@ static int hold(unsigned long number, struct drawn *s, bool *good)
     if (!(base.largest[0] > 0 && base.largest[1] > 0)) {
         outcome_free(&base);
         return 1;
+    }
+    if (folder != NULL) {
+        *good = keep(s, folder, number);
+        outcome_free(&base);
+        return 0;
     }
     for (size_t k = 0; k < sizeof relations / sizeof *relations; k++) {
         const struct relation *relation = &relations[k];
@@ -708,7 +725,7 @@ int main(int count, char **word)
             chance(2);
             struct drawn s = draw();
             s.end_time = 1;
-            none = hold(number, &s, &good);
+            none = hold(number, &s, count > 3 ? word[3] : NULL, &good);
             refused += none != 0;
         }
         bad += good ? 0 : 1;
