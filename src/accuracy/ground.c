@@ -170,12 +170,14 @@ static void set_choice(const struct task *task, const struct surface_ground *gro
     const double wavelength = mean_wavelength(task->scene, task->place, ground->p_speed);
     choice->spacing = h;
     choice->layer_points = enough_layer_points(task->accuracy, h, wavelength);
+    choice->large = ground->tuned ? "absorbing layers need splines that are not tuned" : NULL;
     if (ground->layers < 2) return;
     choice->degree = ground->tuned ? 4 : 2;
     choice->sweeps = ground->tuned ? 0 : 3;
 }
 
-/* True if the box that fits this spacing has absorbing layers, beside which splines are not tuned: another law. */
+/* True if the box that fits this spacing has absorbing layers, beside which splines are not tuned: another law. Else the
+ * box stays without, whatever spacing trials lead to. */
 static bool layers_fit(const struct task *task, const struct surface_ground *ground, double h,
                        const struct trial *trial, const struct scene_choice *choice)
 {
@@ -183,6 +185,7 @@ static bool layers_fit(const struct task *task, const struct surface_ground *gro
     struct messages unsaid = {0};
     struct scene *scene = NULL;
     set_choice(task, ground, h, &fitted);
+    fitted.large = NULL;
     const bool layers =
         scene_build(trial->deck, &fitted, &scene, &unsaid) == SELAS_OK && scene->body.absorbing;
     scene_free(&scene);

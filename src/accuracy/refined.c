@@ -169,12 +169,13 @@ static selas_status choose_box(const struct scene *scene, double accuracy, const
 {
     enum { THICKER = 2 };
     static const double share = .3;
+    static const char *const why = "layers sent back too much in a trial";
     const size_t receivers = scene->receivers;
     struct history_file *kept = trials->kept;
     struct scene_choice tried = *choice, large = *choice;
     long points = 0;
     tried.spacing = large.spacing = trials->spacing[0];
-    large.large = true;
+    large.large = why;
     if (!absorbs(trial, &tried, &points)) return SELAS_OK;
     trials->box = INFINITY;
     if (accuracy_work_of(trial, &large) > ACCURACY_TRIAL_WORK) return SELAS_OK;
@@ -187,8 +188,8 @@ static selas_status choose_box(const struct scene *scene, double accuracy, const
         status = run(trial, &tried, &trials->work, kept, messages);
         if (status == SELAS_OK) trials->box = difference(kept, kept + receivers, receivers);
     }
-    choice->large = trials->box > share * accuracy;
-    if (choice->large) trials->box = 0;
+    choice->large = trials->box > share * accuracy ? why : NULL;
+    if (choice->large != NULL) trials->box = 0;
     choice->layer_points = (long)ceil((double)points * tried.spacing / choice->spacing);
     return status;
 }

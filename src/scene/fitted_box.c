@@ -300,7 +300,7 @@ static bool choose(struct builder *builder, const struct deck_group *group, stru
     if (!level && heights_reach(&large) && large_cost < worth * small_cost)
         why = tilted(builder) ? "tilted layers send waves back from beyond smaller ones"
                               : "absorbing layers would make a surface level that is not";
-    if (builder->large && isfinite(large_cost) && why == NULL) why = "layers sent back too much in a trial";
+    if (builder->large != NULL && isfinite(large_cost) && why == NULL) why = builder->large;
     if (isinf(small_cost) && isinf(large_cost)) {
         char text[200];
         snprintf(text, sizeof text,

@@ -266,15 +266,15 @@ struct scene {
 /* What the program chooses in place of the deck (scene%accuracy). */
 struct builder;
 struct scene_choice {
-    double spacing;           /* 0: a first guess */
-    double grading;           /* where the deck says none; 0: even */
-    bool large;               /* the box that the program fits is the one from which nothing returns */
-    long layer_points;        /* of absorbing layers at least, where there are any; 0: the default */
-    int degree, sweeps;       /* of the consistent method; degree 0: as without a choice */
-    size_t mechanisms;        /* of damped materials; 0: as without */
-    const char *scheme;       /* NULL: as without */
-    double courant;           /* 0: the default step */
-    const char *exact;        /* reference that a deck without one gets; NULL: none */
+    double spacing;     /* 0: a first guess */
+    double grading;     /* where the deck says none; 0: even */
+    const char *large;  /* why the fitted box is the one from which nothing returns; NULL: the cheaper one */
+    long layer_points;  /* of absorbing layers at least, where there are any; 0: the default */
+    int degree, sweeps; /* of the consistent method; degree 0: as without a choice */
+    size_t mechanisms;  /* of damped materials; 0: as without */
+    const char *scheme; /* NULL: as without */
+    double courant;     /* 0: the default step */
+    const char *exact;  /* reference that a deck without one gets; NULL: none */
     char text[ACCURACY_TEXT]; /* for the plan */
     /* Refuses what cannot be served or leaves no choice (complain()); called when all else is built. */
     void (*check)(struct builder *builder);
