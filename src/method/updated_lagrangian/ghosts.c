@@ -15,7 +15,9 @@
  * The ghosts of a traction carry stress but do not deform: they count in the momentum equation (with its own
  * L) and not in the velocity gradient, nor in the viscosity. A copied velocity there is an even continuation, which
  * leaves the first particles of the bar with stresses of 3.2, 1.1, .7, 1.3 ... times the applied one (without it
- * they are right to 1e-3), and brakes a body that turns. */
+ * they are right to 1e-3), and brakes a body that turns. Their artificial stress is that of the particle: it acts
+ * between particles and is no traction. That of s_g, tension where the particle is pressed, would push in both cases
+ * the same way, and displacements that alternate along the face grow. */
 #include "base/memory.h"
 #include "base/vectors.h"
 #include "method/updated_lagrangian/updated_lagrangian.h"
@@ -195,8 +197,7 @@ static void pack(const struct updated *updated, size_t place, size_t source, con
         packed[step * (layout.tension + s)] = image->stress[s] * inverse;
 }
 
-/* Artificial stress of the UPDATED_TENSORS packed particles from `place` on, or those of them that there are.
- */
+/* Artificial stress of the UPDATED_TENSORS packed particles from `place` on, or those of them that there are. */
 static void repel(const struct updated *updated, size_t place)
 {
     const struct updated_layout layout = updated->layout;
@@ -217,6 +218,22 @@ static void repel(const struct updated *updated, size_t place)
     for (size_t n = 0; n < UPDATED_TENSORS && place + n < places; n++)
         for (size_t s = 0; s < stresses; s++)
             packed[layout.size * n + layout.repulsion + s] = repulsion[UPDATED_TENSORS * s + n];
+}
+
+/* A ghost's is that of its source, seen in the walls that slide. */
+static void repel_ghost(const struct updated *updated, size_t g)
+{
+    const struct updated_ghost *ghost = &updated->ghost[g];
+    const size_t step = updated_step(updated), repulsion = updated->layout.repulsion;
+    const double *own = updated_packed(updated, ghost->source) + step * repulsion;
+    double *image = updated_packed(updated, updated->cloud->points + g) + step * repulsion;
+    for (size_t s = 0; s < (size_t)updated->stresses; s++)
+        image[step * s] = own[step * s];
+    for (int f = 0; f < ghost->count; f++) {
+        const int axis = face_axis((enum face)ghost->face[f]);
+        for (int a = 0; a < updated->dimension && updated->wall[ghost->face[f]] == WALL_SLIP; a++)
+            if (a != axis) image[step * (size_t)updated_component[updated->dimension][axis][a]] *= -1;
+    }
 }
 
 static void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
@@ -283,12 +300,14 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
     const size_t places = points + updated->ghosts, step = updated_step(updated);
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t place = 0; place < places; place += UPDATED_TENSORS) {
-        if (updated->repulsive) repel(updated, place);
+        if (updated->repulsive && place < points) repel(updated, place);
         /* hourglass.c adds their force */
         for (size_t i = place; updated->options.adjoint && i < place + UPDATED_TENSORS && i < places; i++)
             for (size_t s = 0; s < (size_t)updated->stresses; s++)
                 updated_packed(updated, i)[step * (updated->layout.tension + s)] = 0;
     }
+    for (size_t g = 0; g < updated->ghosts && updated->repulsive; g++)
+        repel_ghost(updated, g);
     search_if_needed(updated);
 }
 
