@@ -113,7 +113,7 @@ cat >paper.nml <<'END'
 END
 told "springs to the ground" "only [0-9]* % was in the body.*row_sums = 'zero'" -q paper.nml
 # (measured there: .1 to .7, at spacings .25, .125 and .0625)
-told "without them its waves are slow" "waves on the points of variant 'paper' err by up to 0.3.*whatever the spacing; variant = 'consistent'" check paper.nml method%row_sums=zero
+told "without them its waves are slow" "waves on the points of variant 'paper' err by up to 0.[4-9].*whatever the spacing; variant = 'consistent'" check paper.nml method%row_sums=zero
 untold "and nothing of springs" -q paper.nml method%row_sums=zero
 blob="initial%kind=gaussian initial%centre=4,2 initial%width=.5 initial%direction=1,0 initial%amplitude=.01 load%amplitude=0"
 # shellcheck disable=SC2086
@@ -171,6 +171,23 @@ END
 told "a thin wall between soft blocks" "blocks 1 and 2 leave a wall of rock of 0.15 .*spacing = 0.0937" check wall.nml
 untold "a thicker one" check wall.nml 'block(2)%centre=1.275,.55'
 untold "blocks that meet" check wall.nml 'block(2)%centre=.925,.55'
+
+cat >inner.nml <<'END'
+&scene dimension = 2, end_time = 9 /
+&method variant = 'paper', row_sums = 'zero' /
+&material name = 'rock', density = 1.2, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', low = 0, 0, high = 5, 4, spacing = 0.2 /
+&load kind = 'body-force', shape = 'point', centre = 1.2, 1.6, direction = 1, 0, history = 'gaussian', width = .8, delay = 4.8 /
+&receiver name = 'r', position = 3.2, 2.4 /
+&output plots = .false., directory = 'out' /
+END
+# (measured there: .23 at spacings .2 and .1; until the waves meet faces .05)
+told "free faces to order 0" "waves on the points of variant 'paper' err by up to 0.[3-7]" check inner.nml
+told "dampers, too" "waves on the points of variant 'paper' err by up to 0.[3-6]" check inner.nml \
+    boundary%face=x-,x+,y-,y+ boundary%kind=transmitting boundary%layer=lysmer
+told "waves that meet no face" "waves on the points of variant 'paper' err by up to 0.[12]" check inner.nml body%low=-5,-5 body%high=11,11
+untold "no springs in space" -q inner.nml scene%dimension=3 body%low=0,0,0 body%high=3,2.5,2 body%spacing=.25 load%centre=1,1,1 \
+    load%direction=1,0,0 receiver%position=2,1.5,1 scene%end_time=6
 
 told "pressed faces to order 0" "variant 'paper' carries what acts on faces to order 0" check paper.nml method%row_sums=zero
 told "and moved ones" "variant 'paper' carries what acts on faces to order 0" check paper.nml method%row_sums=zero load%amplitude=0 \

@@ -218,7 +218,9 @@ void hindsight_observe(struct recorder *recorder, const struct state *state, boo
     const struct stepper *stepper = recorder->stepper;
     if (settled || (!stepper->one_pass && state->step % (1 + stepper->steps / LOOKS) == 0))
         look_at_rotation(recorder, state->y);
-    if (recorder->model->leaks && recorder->watch.by_work) look_at_arrival(recorder, state);
+    const bool springs =
+        recorder->model->leaks && !deck_chosen(recorder->scene->method.group, "row_sums", "zero");
+    if (springs && recorder->watch.by_work) look_at_arrival(recorder, state);
     if (state->step != stepper->steps || recorder->looked_back) return;
     recorder->looked_back = true;
     double largest[2] = {recorder->watch.turn, recorder->watch.strain};
