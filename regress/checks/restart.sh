@@ -224,6 +224,8 @@ awk 'BEGIN { for (t = 0; t < 21; t++) print t * 1e-5, t % 2 }' >table.dat
 check "rerun: nothing to tell of files that are the same" sh -c "'$selas' -q rerun tabled/run.h5 2>err && ! grep 'has changed' err"
 echo "1 0" >>table.dat
 check "rerun: a file that has changed is told" sh -c "'$selas' -q rerun tabled/run.h5 2>err && grep -q 'names has changed since' err"
+check "rerun: told beside the override of a profile, too" sh -c "
+    '$selas' -q rerun tabled/run.h5 'profile(1)%points=7' 2>err && grep -q 'names has changed since' err"
 check "rerun: not where another one is asked for" sh -c "
     '$selas' -q rerun tabled/run.h5 load%file=table.dat 2>err && ! grep 'has changed' err"
 check "rerun: no run.h5" sh -c "! '$selas' rerun cut_paper/p.dat 2>err && grep -q 'p.dat' err"

@@ -171,6 +171,10 @@ END
 told "a thin wall between soft blocks" "blocks 1 and 2 leave a wall of rock of 0.15 .*spacing = 0.0937" check wall.nml
 untold "a thicker one" check wall.nml 'block(2)%centre=1.275,.55'
 untold "blocks that meet" check wall.nml 'block(2)%centre=.925,.55'
+untold "blocks that meet but for rounding" check wall.nml 'block(1)%centre=.3,.55' 'block(1)%size=1.2,1.1' \
+    'block(2)%centre=1.55,.55' 'block(2)%size=1.3,1.1'
+untold "ellipsoids askew, whose boxes alone are near" check wall.nml 'block(1)%shape=ellipsoid' 'block(2)%shape=ellipsoid' \
+    'block(1)%centre=-1,2' 'block(1)%size=2,2' 'block(2)%centre=1.1,2.9' 'block(2)%size=2,2' load%centre=-2.5,2.5
 
 cat >inner.nml <<'END'
 &scene dimension = 2, end_time = 9 /

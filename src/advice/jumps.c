@@ -249,7 +249,8 @@ static bool wall_between(const struct scene *scene, const struct ground_block *o
         const double from =
                          fmax(one->centre[axis] - one->half[axis], other->centre[axis] - other->half[axis]),
                      to = fmin(one->centre[axis] + one->half[axis], other->centre[axis] + other->half[axis]);
-        if (axis == along ? from <= to || from - to >= most : from >= to) return false;
+        const double apart = from - to, touching = 1e-9 * most;
+        if (axis == along ? apart < touching || apart >= most : apart >= 0) return false;
         middle[axis] = (from + to) / 2;
     }
     return true;
@@ -270,7 +271,7 @@ void look_at_walls(struct adviser *adviser)
                 if (!wall_between(scene, &block[i], &block[j], axis, thin * spacing, middle)) continue;
                 for (int end = 0; end < 2; end++) {
                     memcpy(side[end], middle, sizeof middle);
-                    side[end][axis] += (2 * end - 1) * spacing;
+                    side[end][axis] += (2 * end - 1) * thin * spacing / 2;
                 }
                 const double wall = ground_at(scene, middle).mu;
                 if (wall < softer * fmax(ground_at(scene, side[0]).mu, ground_at(scene, side[1]).mu))

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static selas_status check_path(selas_simulation *simulation, const char *path)
 {
@@ -158,17 +159,21 @@ static selas_status place_rerun(selas_simulation *simulation)
     return SELAS_OK;
 }
 
+static bool names_file(const char *override)
+{
+    const char *word = strchr(override, '%');
+    return word != NULL &&
+           (strncasecmp(word + 1, "file", 4) == 0 || strncasecmp(word + 1, "sources", 7) == 0);
+}
+
 /* The deck only names its files, and nothing keeps what a host gave; overrides that name files mean others. */
 static void warn_of_change(selas_simulation *simulation, const char *path, const char *files, size_t count,
                            const char *const *overrides)
 {
     char text[KEPT_CHECKSUM];
     if (files == NULL || !kept_files_text(simulation->scene, text) || strcmp(files, text) == 0) return;
-    for (size_t i = 0; i < count; i++) {
-        const size_t name = strcspn(overrides[i], "=");
-        if (memmem(overrides[i], name, "file", 4) != NULL || memmem(overrides[i], name, "sources", 7) != NULL)
-            return;
-    }
+    for (size_t i = 0; i < count; i++)
+        if (names_file(overrides[i])) return;
     warn(&simulation->messages,
          "a file that the deck of '%s' names has changed since, or a host gave that run its points or drove "
          "its loads: "
