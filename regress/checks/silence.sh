@@ -137,6 +137,10 @@ for operator in layered general; do
     awk '$1 " " $2 == "error largest:" {good = $3 < .1} END {exit !good}' out/report.txt
     verdict "its error is that of the waves" $?
 done
+grep -v reference slip.nml >degree.nml
+told "a dip-slip source right below the surface, degree 3 (2.7 wrong)" "load 1 pulls across the free face z-, 0.02 spacings" check degree.nml method%degree=3
+untold "strike slip there" check degree.nml method%degree=3 load%moment=0,0,0,1,0,0
+untold "dip slip there, degree 2" check degree.nml
 # In graded ground it is as much weaker as it is shallower
 cat >graded.nml <<'END'
 &scene dimension = 2, end_time = 4.5 /

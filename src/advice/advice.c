@@ -217,6 +217,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_ringing_body(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
+    look_at_shallow(&adviser, stepper->model);
     look_at_beyond(&adviser);
     look_at_rests(&adviser);
     look_at_weights(&adviser);
