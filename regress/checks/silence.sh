@@ -159,6 +159,16 @@ END
 "$selas" diff out five >>said 2>&1
 awk '$2 ~ /^v[xy]$/ {found++; good += $3 < .2} END {exit !(found == 2 && good == 2)}' said
 verdict "a dip-slip source in graded ground, .02 and .1 spacings deep" $?
+# Hats beyond an interface do not know its traction: three spacings above one, and six
+level="layer(1)%bottom= layer(2)%top=.6 load%centre=.03,.02 method%degree=2 method%mass=vc3 load%width=.6 load%delay=3 scene%end_time=6"
+for operator in layered general; do
+    # shellcheck disable=SC2086
+    "$selas" -q graded.nml $level method%operator=$operator body%spacing=.1 output%directory=fine >said 2>&1 &&
+        "$selas" -q graded.nml $level method%operator=$operator reference%kind=file reference%file=fine >>said 2>&1 &&
+        grep '^error' out/report.txt >>said
+    awk '$1 " " $2 == "error largest:" {good = $3 < .1} END {exit !good}' said
+    verdict "a dip-slip source three spacings above an interface, operator $operator" $?
+done
 
 # --- A wall of rock between soft blocks, thinner than a spacing ---
 cat >wall.nml <<'END'

@@ -77,21 +77,22 @@ void source_weights(int degree, bool slope, const double away[SOURCE_WIDE], doub
     solve(bell, value, MOMENTS, wanted, weight);
 }
 
-void source_hats(double depth, double share[SOURCE_WIDE])
+void source_hats(double depth, int hats, double share[SOURCE_WIDE])
 {
     const double reach = fmax(depth, WIDE - 1 - depth) + .5;
+    const int moments = hats < MOMENTS ? hats : MOMENTS;
     double bell[WIDE], value[WIDE][MOMENTS], wanted[MOMENTS];
-    for (int m = 1; m <= MOMENTS; m++)
+    for (int m = 1; m <= moments; m++)
         wanted[m - 1] = pow(depth / WIDE, m);
     for (int j = 0; j < WIDE; j++) {
-        bell[j] = bell_at((j - depth) / reach);
-        for (int m = 1; m <= MOMENTS; m++) {
+        bell[j] = j < hats ? bell_at((j - depth) / reach) : 0;
+        for (int m = 1; m <= moments; m++) {
             const double beyond = pow(j + 1, m + 2) - pow(j, m + 2),
                          before = pow(j, m + 2) - pow(j - 1, m + 2);
             value[j][m - 1] = (j > 0 ? beyond - before : beyond) / ((m + 1) * (m + 2) * pow(WIDE, m));
         }
     }
-    solve(bell, value, MOMENTS, wanted, share);
+    solve(bell, value, (size_t)moments, wanted, share);
 }
 
 /* The seven control values of the unclamped spline next to an open end, where x is too near for as many on either side;

@@ -19,8 +19,8 @@ bool source_at(const struct spline *spline, bool odd, enum source_kind kind, boo
 enum { SOURCE_WIDE = 7 };
 void source_weights(int degree, bool slope, const double away[SOURCE_WIDE], double reach,
                     double weight[SOURCE_WIDE]);
-/* Shares of the hats at the knots 0 .. 6 from an end, in a density with the moments 1 to 6 about it of a unit at
- * `depth` (in cells). */
-void source_hats(double depth, double share[SOURCE_WIDE]);
+/* Shares of the first `hats` hats at the knots 0 .. 6 from an end, the others being 0, in a density with the moments 1
+ * to `hats`, at most 6, about it of a unit at `depth` (in cells). */
+void source_hats(double depth, int hats, double share[SOURCE_WIDE]);
 
 #endif

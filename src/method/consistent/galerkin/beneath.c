@@ -68,6 +68,39 @@ static void find_normal(struct consistent_face *face, const struct consistent *c
         n[i] /= length;
 }
 
+static struct rock rock_at(const struct consistent *c, const double place[3])
+{
+    double real[3] = {place[0], place[1], place[2]};
+    consistent_to_ground(c, real);
+    return ground_at(c->model.scene, real);
+}
+
+/* Does the rock change by more than a twentieth? */
+static bool differs(struct rock one, struct rock other)
+{
+    static const double slight = .05;
+    return fabs(log(one.density / other.density)) > slight || fabs(log(one.mu / other.mu)) > slight ||
+           fabs(log((one.lambda + 2 * one.mu) / (other.lambda + 2 * other.mu))) > slight;
+}
+
+/* T has kinks at interfaces, so that no hats beyond the first one count; one at least does. */
+static int hats_above(const struct consistent *c, const double centre[3], int face)
+{
+    enum { SAMPLES = 8 }; /* in a cell, between them where an interface may lie on a knot */
+    const struct spline *spline = c->spline[face / 2];
+    const double step = (spline->high - spline->low) / (double)spline->cells / SAMPLES;
+    struct rock last;
+    for (int n = 0; n < HATS * SAMPLES; n++) {
+        const double away = (n + .5) * step;
+        double place[3] = {centre[0], centre[1], centre[2]};
+        place[face / 2] = face % 2 == 0 ? spline->low + away : spline->high - away;
+        const struct rock rock = rock_at(c, place);
+        if (n > 0 && differs(rock, last)) return n < SAMPLES ? 1 : n / SAMPLES;
+        last = rock;
+    }
+    return HATS;
+}
+
 bool consistent_face_above(const struct consistent *c, const double centre[3], struct consistent_face *face)
 {
     double depth;
@@ -77,15 +110,10 @@ bool consistent_face_above(const struct consistent *c, const double centre[3], s
         face->face = f;
         face->depth = fmax(0, depth);
     }
-    if (face->face >= 0) find_normal(face, c, centre);
-    return face->face >= 0;
-}
-
-static struct rock rock_at(const struct consistent *c, const double place[3])
-{
-    double real[3] = {place[0], place[1], place[2]};
-    consistent_to_ground(c, real);
-    return ground_at(c->model.scene, real);
+    if (face->face < 0) return false;
+    find_normal(face, c, centre);
+    face->hats = hats_above(c, centre, face->face);
+    return true;
 }
 
 /* Mean rock over half a cell of the axis across about a place. */
@@ -164,7 +192,7 @@ bool consistent_beneath(const struct consistent *c, const double centre[3], doub
     b.row = room + 9 * most;
     const struct rock rock = rock_at(c, centre);
     consistent_part_moment(b.face.normal, rock.lambda, rock.mu, moment, b.strain, slip);
-    source_hats(b.face.depth, share);
+    source_hats(b.face.depth, b.face.hats, share);
     for (int j = 0; j < HATS; j++) {
         add_stress(&b, 2 * j, share[j] / (j == 0 ? 6 : 3));
         add_stress(&b, 2 * j + 1, (share[j] + share[j + 1]) / 3);

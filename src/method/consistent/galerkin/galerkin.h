@@ -174,9 +174,10 @@ void consistent_source_line(const struct consistent *c, int axis, bool odd, bool
  * the rest. False: no memory. */
 bool consistent_beneath(const struct consistent *c, const double centre[3], double moment[3][3],
                         double *field);
-/* The free face that a source is right below: spacings, its normal there by slot. False: below none. */
+/* The free face that a source is right below: spacings, its normal there by slot, the hats between it and the next
+ * interface. False: below none. */
 struct consistent_face {
-    int face;
+    int face, hats;
     double depth, normal[3];
 };
 bool consistent_face_above(const struct consistent *c, const double centre[3], struct consistent_face *face);

@@ -31,7 +31,7 @@ static void find_share(struct glut *g)
     const size_t last = g->c->spline[g->across]->cells;
     double sum = 0, *share = g->share, *upper = g->row[0];
     if (g->beneath) {
-        source_hats(g->face.depth, share);
+        source_hats(g->face.depth, g->face.hats, share);
         return;
     }
     consistent_source_line(g->c, g->across, true, true, g->centre[g->across], share);
