@@ -15,8 +15,7 @@ struct builder {
     bool accurate;       /* scene%accuracy: the spacing is not the deck's ... */
     double spacing;      /* ... but this one, or 0 for a first guess ... */
     double grading;      /* ... graded so where the deck says none; 0: even ... */
-    const char
-        *large; /* ... why in a box from which nothing returns, if it is fitted; NULL: the cheaper ... */
+    const char *large;   /* ... why in a box from which nothing returns; NULL: where that is cheaper ... */
     long layer_points; /* ... with absorbing layers of at least so many points, where the program adds them */
 };
 

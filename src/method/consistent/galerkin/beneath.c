@@ -83,8 +83,9 @@ static bool differs(struct rock one, struct rock other)
            fabs(log((one.lambda + 2 * one.mu) / (other.lambda + 2 * other.mu))) > slight;
 }
 
-/* T has kinks at interfaces, so that no hats beyond the first one count; one at least does. */
-static int hats_above(const struct consistent *c, const double centre[3], int face)
+/* T has kinks at interfaces, so that no hats beyond the first one count. All do where it is nearer to the face than a
+ * cell or the source is nearer to it than to the face: too few hats are left. */
+static int hats_above(const struct consistent *c, const double centre[3], int face, double depth)
 {
     enum { SAMPLES = 8 }; /* in a cell, between them where an interface may lie on a knot */
     const struct spline *spline = c->spline[face / 2];
@@ -95,7 +96,7 @@ static int hats_above(const struct consistent *c, const double centre[3], int fa
         double place[3] = {centre[0], centre[1], centre[2]};
         place[face / 2] = face % 2 == 0 ? spline->low + away : spline->high - away;
         const struct rock rock = rock_at(c, place);
-        if (n > 0 && differs(rock, last)) return n < SAMPLES ? 1 : n / SAMPLES;
+        if (n > 0 && differs(rock, last)) return n < SAMPLES || 2 * SAMPLES * depth > n ? HATS : n / SAMPLES;
         last = rock;
     }
     return HATS;
@@ -112,7 +113,7 @@ bool consistent_face_above(const struct consistent *c, const double centre[3], s
     }
     if (face->face < 0) return false;
     find_normal(face, c, centre);
-    face->hats = hats_above(c, centre, face->face);
+    face->hats = hats_above(c, centre, face->face, face->depth);
     return true;
 }
 
