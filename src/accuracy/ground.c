@@ -176,8 +176,8 @@ static void set_choice(const struct task *task, const struct surface_ground *gro
     choice->sweeps = ground->tuned ? 0 : 3;
 }
 
-/* True if the box that fits this spacing has absorbing layers, beside which splines are not tuned: another law. Else the
- * box stays without, whatever spacing trials lead to. */
+/* True if the box that fits this spacing has absorbing layers, beside which splines are not tuned: another law.
+ * Else the box stays without, whatever spacing trials lead to. */
 static bool layers_fit(const struct task *task, const struct surface_ground *ground, double h,
                        const struct trial *trial, const struct scene_choice *choice)
 {
