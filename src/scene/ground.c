@@ -44,16 +44,17 @@ static bool inside(const struct scene *scene, const struct ground_block *block, 
                    double surface)
 {
     const struct body *body = &scene->body;
-    double square = 0, most = 0;
+    double square = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
         const double top = axis == scene->dimension - 1 ? surface : 0;
         const double low = body->low[axis] + top + film * body->spacing;
-        const double held = fmax(low, fmin(place[axis], body->high[axis] - film * body->spacing));
+        const double high = body->high[axis] - film * body->spacing;
+        const double below = place[axis] < high ? place[axis] : high, held = below > low ? below : low;
         const double part = fabs(held - block->centre[axis]) / block->half[axis];
+        if (part >= 1) return false;
         square += part * part;
-        most = fmax(most, part);
     }
-    return (block->shape == BLOCK_BOX ? most : square) < 1;
+    return block->shape == BLOCK_BOX || square < 1;
 }
 
 /* From the moduli: speeds of damped materials are those at one frequency. */
