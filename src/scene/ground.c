@@ -118,9 +118,9 @@ static struct found find(const struct scene *scene, const double place[3])
         }
     found.of_model = body->model != NULL && !in_block;
     found.bottom = found.material;
-    for (int axis = 0; axis < 3; axis++)
+    for (int axis = 0; axis < 3 && found.of_model; axis++)
         found.place[axis] = place[axis];
-    found.place[scene->dimension - 1] += depth - own;
+    if (found.of_model) found.place[scene->dimension - 1] += depth - own;
     if (in_block || layer + 1 >= body->layers || !body->layer[layer].graded) return found;
     const double top = top_at(&body->layer[layer], place), end = top_at(&body->layer[layer + 1], place);
     const double part = end > top ? (depth - top) / (end - top) : 0;
