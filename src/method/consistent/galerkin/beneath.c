@@ -90,7 +90,7 @@ static int hats_above(const struct consistent *c, const double centre[3], int fa
     enum { SAMPLES = 8 }; /* in a cell, between them where an interface may lie on a knot */
     const struct spline *spline = c->spline[face / 2];
     const double step = (spline->high - spline->low) / (double)spline->cells / SAMPLES;
-    struct rock last;
+    struct rock last = {0, 0, 0};
     for (int n = 0; n < HATS * SAMPLES; n++) {
         const double away = (n + .5) * step;
         double place[3] = {centre[0], centre[1], centre[2]};
