@@ -58,7 +58,7 @@ void look_at_rests(struct adviser *adviser);
 void look_at_beyond(struct adviser *adviser);
 /* Moment tensors too near to layers. */
 void look_at_clearance(struct adviser *adviser);
-/* Moment tensors right below free faces, of other degrees than 2. */
+/* Moment tensors right below free faces, of other splines than those of degree 2 with open ends. */
 void look_at_shallow(struct adviser *adviser, const struct model *model);
 /* Receivers in the midst of a point source. */
 void look_at_nearness(struct adviser *adviser);

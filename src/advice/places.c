@@ -287,19 +287,12 @@ static bool pulls_across(const struct scene *scene, const struct load *load, int
     return pulls;
 }
 
-/* Moment tensors right below free faces, whose tractions the hats of degree 2 alone know. Measured: dip slip .02 to .5
- * spacings deep at 5.1 points a wavelength, degree 1 20 to .3, degree 3 2.7 to .08, degree 4 6 to .3. */
+/* Moment tensors right below free faces, whose tractions the hats of degree 2 alone know. */
 void look_at_shallow(struct adviser *adviser, const struct model *model)
 {
-    static const double near[] = {.5, .5, 0, .25, .5};
     const struct scene *scene = adviser->scene;
     const struct body *body = &scene->body;
-    const struct deck_group *group = scene->method.group;
-    const bool given = group != NULL && deck_given(group, "degree");
-    const long degree = scene->method.degree > 0 ? scene->method.degree
-                        : given                  ? deck_integer(group, "degree", 0)
-                                                 : 2;
-    if (strcmp(model->method->variant, "consistent") != 0 || body->topography != NULL) return;
+    if (!(model->shallow > 0) || body->topography != NULL) return;
     for (size_t k = 0; k < scene->loads; k++)
         for (int face = 0; face < 2 * scene->dimension; face++) {
             const struct load *load = &scene->load[k];
@@ -307,14 +300,15 @@ void look_at_shallow(struct adviser *adviser, const struct model *model)
             double own[3];
             body_from_deck(body, load->centre, own);
             const double depth = face % 2 == 0 ? own[axis] - body->low[axis] : body->high[axis] - own[axis];
-            if (load->kind != LOAD_MOMENT_TENSOR || !(depth < near[degree] * body->spacing) ||
+            if (load->kind != LOAD_MOMENT_TENSOR || !(depth < model->shallow * body->spacing) ||
                 !boundary_is_free(&scene->boundary[face]) || !pulls_across(scene, load, axis))
                 continue;
             advise(
                 adviser,
-                "the moment tensor of load %zu pulls across the free face %s, %.2g spacings from it, which "
-                "degree %ld errs by: velocities were .3 to 20 wrong; degree = 2 would be right",
-                load->group + 1, face_name((enum face)face), depth / body->spacing, degree);
+                "the moment tensor of load %zu pulls across the free face %s, %.2g spacings from it, where "
+                "these splines do not know the face: velocities were .1 to 20 wrong; degree = 2 with open "
+                "ends would be right",
+                load->group + 1, face_name((enum face)face), depth / body->spacing);
             return;
         }
 }

@@ -256,6 +256,7 @@ struct model {
     unsigned parts;        /* operators whose sum a step takes, each rounded, if more than one */
     enum patch_sight patch;
     struct wave_law waves;
+    double shallow;    /* moment tensors that pull across a free face err nearer to it than this [spacings] */
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (
         *frame)[3]; /* unknowns are in the body's frame: rotate to deck coordinates; NULL: they are not */

@@ -137,12 +137,17 @@ static selas_status check(const struct scene *scene, struct messages *messages)
     return SELAS_OK;
 }
 
-double cloud_filling(const struct cloud *cloud, const struct body *body)
+double cloud_volume(const struct cloud *cloud)
 {
     double volume = 0;
     for (size_t i = 0; i < cloud->points; i++)
         volume += cloud->volume[i];
-    return volume / body_volume(body, cloud->dimension);
+    return volume;
+}
+
+double cloud_filling(const struct cloud *cloud, const struct body *body)
+{
+    return cloud_volume(cloud) / body_volume(body, cloud->dimension);
 }
 
 /* No place of a box with jitter is further than D = sqrt(dimension) (step / 2 + jitter spacing) from a point. So those

@@ -50,7 +50,8 @@ size_t cloud_margin(const struct scene *scene);
 void cloud_place(const struct scene *scene, size_t point, double position[3]);
 void cloud_free(struct cloud **cloud);
 
-/* The points' volumes over that of the body's box. */
+double cloud_volume(const struct cloud *cloud); /* of all points */
+/* The same over the volume of the body's box. */
 double cloud_filling(const struct cloud *cloud, const struct body *body);
 /* Volume (area, length) of the body: box minus hole. */
 double body_volume(const struct body *body, int dimension);

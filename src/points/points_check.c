@@ -55,9 +55,7 @@ selas_status points_check_apart(size_t points, const double *position, double sp
  * points with one normal each, cut off at corners, 3 % less with five points across. */
 void points_warn_of_volumes(const struct cloud *cloud, const struct body *body, struct messages *messages)
 {
-    double volume = 0, enclosed = 0, area = 0, open[3] = {0};
-    for (size_t i = 0; i < cloud->points; i++)
-        volume += cloud->volume[i];
+    double enclosed = 0, area = 0, open[3] = {0};
     for (size_t e = 0; e < cloud->elements; e++) {
         const struct face_element *element = &cloud->element[e];
         area += element->area;
@@ -67,7 +65,7 @@ void points_warn_of_volumes(const struct cloud *cloud, const struct body *body, 
             enclosed += element->area * element->normal[c] * place / cloud->dimension;
         }
     }
-    const double share = volume / enclosed;
+    const double volume = cloud_volume(cloud), share = volume / enclosed;
     if (fmax(fmax(fabs(open[0]), fabs(open[1])), fabs(open[2])) > 0.02 * area ||
         (share > 0.75 && share < 1.33))
         return;
@@ -79,10 +77,7 @@ void points_warn_of_volumes(const struct cloud *cloud, const struct body *body, 
 
 void points_warn_of_spacing(const struct cloud *cloud, const struct body *body, struct messages *messages)
 {
-    double volume = 0;
-    for (size_t i = 0; i < cloud->points; i++)
-        volume += cloud->volume[i];
-    const double apart = pow(volume / (double)cloud->points, 1.0 / cloud->dimension);
+    const double apart = pow(cloud_volume(cloud) / (double)cloud->points, 1.0 / cloud->dimension);
     if (apart > 0.7 * body->spacing && apart < 1.4 * body->spacing) return;
     warn(messages,
          "%s: by their volumes the points are %.3g apart, not body%%spacing = %.3g, by which the program "

@@ -343,6 +343,7 @@ selas_status consistent_create_with(const struct scene *scene, const struct cons
     status = build(c, messages);
     if (c->pml != NULL) c->model.memory = &memory;
     c->model.layers = c->pml != NULL;
+    if (status == SELAS_OK) c->model.shallow = consistent_shallow(c);
     c->model.state_size = 2 * c->model.unknowns + (c->pml != NULL ? c->pml->extra : 0);
     if (status == SELAS_OK)
         status = (c->general != NULL ? general_steps_create : fused_steps_create)(c, messages);

@@ -184,6 +184,10 @@ bool consistent_face_above(const struct consistent *c, const double centre[3], s
 /* (G21): the strain across n, and the part of M n along it over mu; `moment` keeps the rest. */
 void consistent_part_moment(const double n[3], double lambda, double mu, double moment[3][3],
                             double strain[3][3], double slip[3]);
+/* Spacings from a free face within which moment tensors that pull across it err; 0: none do. */
+double consistent_shallow(const struct consistent *c);
+/* Rock at a place of the lattice, by axis. */
+struct rock consistent_rock_at(const struct consistent *c, const double place[3]);
 /* field += factor * product of the lines, by axis. */
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
                             double *field);

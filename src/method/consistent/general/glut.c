@@ -11,13 +11,6 @@
 
 static const int pair[STRESSES][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
 
-struct rock general_rock_at(const struct consistent *c, const double place[3])
-{
-    double real[3] = {place[0], place[1], place[2]};
-    consistent_to_ground(c, real);
-    return ground_at(c->model.scene, real);
-}
-
 /* Does the rock change along the normal of the face above alone? */
 static bool along_face(const struct glut *g)
 {
@@ -241,7 +234,7 @@ bool general_add_glut(const struct consistent *c, const struct load *load, const
     struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
     size_t most = 0;
     if (general_is_part(c->model.scene) || !general_find_normal(&g)) return true;
-    const struct rock rock = general_rock_at(c, centre);
+    const struct rock rock = consistent_rock_at(c, centre);
     g.lambda = rock.lambda;
     g.mu = rock.mu;
     g.spacing = glut_spacing(c->spline[g.across]);

@@ -42,7 +42,5 @@ bool general_find_normal(struct glut *glut);
 bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3], double *field);
 /* lag.c: sets lag and stay. */
 void general_find_lag(struct glut *glut);
-/* Rock at a place of the lattice, by axis. */
-struct rock general_rock_at(const struct consistent *c, const double place[3]);
 
 #endif

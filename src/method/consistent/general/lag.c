@@ -98,7 +98,7 @@ static void sample(const struct glut *glut, const struct column *column, double 
     for (size_t n = 0; n < samples(column); n++) {
         const double cells = (double)column->first - BEFORE + ((double)n + .5) / MANY;
         place[glut->across] = fmin(fmax(spline->low + cells * glut->spacing, spline->low), spline->high);
-        const struct rock rock = general_rock_at(glut->c, place);
+        const struct rock rock = consistent_rock_at(glut->c, place);
         soft[n] = 1 / rock.mu;
         along[ALONG_SHEAR][n] = 2 * rock.mu;
         along[ALONG_RATIO][n] = rock.lambda / (rock.lambda + 2 * rock.mu);

@@ -26,7 +26,7 @@ static bool find_rise(struct glut *g)
                 double place[3] = {0};
                 for (int axis = 0; axis < c->dimension; axis++)
                     place[axis] = g->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
-                const struct rock rock = general_rock_at(c, place);
+                const struct rock rock = consistent_rock_at(c, place);
                 const double away = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
                 const double level = level_of(&rock) * exp(-away / 8);
                 for (int slot = 0; slot < 3; slot++)
