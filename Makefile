@@ -11,7 +11,7 @@ PKGS    := gsl fftw3 $(shell pkg-config --exists hdf5-serial 2>/dev/null && echo
 Q        = $(if $(V),,@)
 # errno of libm and floating-point traps are not used: without them loops with sqrt and choices run in vectors
 ALL_C    = -std=c17 -D_GNU_SOURCE -Isrc -fopenmp -fPIC -fvisibility=hidden -fno-math-errno -fno-trapping-math \
-           $(WARNINGS) $(CFLAGS) \
+           $(WARNINGS) $(CFLAGS) $(if $(filter plain,$(KINDS)),-DSELAS_ONE_KIND) \
            $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 LIBS     = $(shell pkg-config --libs $(PKGS) 2>/dev/null) -lm
 
@@ -132,7 +132,7 @@ $(PROVENANCE): ALL_C += -DSELAS_FLAGS='"$(subst ",,$(CFLAGS))"' -DSELAS_COMMIT='
 
 # Kernels: a multiplication and an addition in one instruction where the kind has it, but for what is no sum over neighbours
 define kernels_of_kind
-$(BUILD)/obj/$(1)/%.o: ALL_C += $(2) -ffp-contract=fast
+$(BUILD)/obj/$(1)/%.o: ALL_C += $(2) -ffp-contract=fast $(KERNEL_FLAGS)
 $(BUILD)/obj/$(1)/%.o: src/%.c
 	$$(compile)
 endef

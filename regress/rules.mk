@@ -142,11 +142,12 @@ check-leaks: ## wrong calls and checkpoints under valgrind (two minutes; install
 check-threads: ## all unit tests under ThreadSanitizer (ten minutes; clang, libomp with Archer)
 	@$(ALONE) regress/hardening/threads $(BUILD)/threads
 
-# Readers under libFuzzer with AddressSanitizer and UBSan: clang, in a folder of its own (doc/developers/robustness.md)
+# Readers under libFuzzer with AddressSanitizer and UBSan (kernels of one kind without): clang, in a folder of its own
+# (doc/developers/robustness.md)
 SECONDS     ?= 30
 SANITIZED    = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 fuzz: ## fuzz the readers of decks, tables, points, checkpoints and results, SECONDS=30 of CPU each (clang)
-	@$(MAKE) --no-print-directory fuzz-build CC=clang BUILD=$(BUILD)/sanitized \
+	@$(MAKE) --no-print-directory fuzz-build CC=clang KINDS=plain KERNEL_FLAGS='-O0 -fno-sanitize=all' BUILD=$(BUILD)/sanitized \
 	    CFLAGS='$(SANITIZED) -fsanitize=fuzzer-no-link' LDFLAGS='-fsanitize=address,undefined'
 	@regress/hardening/fuzz/run $(BUILD)/sanitized/fuzz $(SECONDS)
 

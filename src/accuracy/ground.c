@@ -19,7 +19,7 @@ static const double SLOWLY = 1.1;
 /* A trial's spacing over the chosen one, at most: a fifth of the run's work, or half of it where errors do not fall
  * evenly; from where on another trial is made; share of the wanted error that is aimed at after a trial, and that is
  * good enough in one. */
-static const double TRIAL_RATIO = 1.5, CLOSE_RATIO = 1.2, FAR_RATIO = 2, MEASURED_AIM = .55,
+static const double TRIAL_RATIO = 1.5, CLOSE_RATIO = 1.2, FAR_RATIO = 1.6, MEASURED_AIM = .55,
                     MEASURED_MOST = .85;
 enum { ROWS = SURFACE_ROWS };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#if defined(__x86_64__)
+#ifdef PROCESSOR_CHOICE
 #define PLAIN "x86-64"
 #define NAMES "'x86-64', 'x86-64-v3' or 'x86-64-v4'"
 #else
@@ -20,7 +20,7 @@ static const struct {
 bool processor_there(enum processor kind)
 {
     if (kind == PROCESSOR_PLAIN) return true;
-#if defined(__x86_64__)
+#ifdef PROCESSOR_CHOICE
     /* all processors that have these have the rest of their level (BMI, F16C, LZCNT, MOVBE) */
     const bool v3 =
         __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");

@@ -22,6 +22,11 @@
 
 enum processor { PROCESSOR_PLAIN, PROCESSOR_V3, PROCESSOR_V4, PROCESSORS };
 
+/* The plain kind alone: `make KINDS=plain`, and other architectures. */
+#if defined(__x86_64__) && !defined(SELAS_ONE_KIND)
+#define PROCESSOR_CHOICE
+#endif
+
 /* The kind taken. Where SELAS_PROCESSOR cannot be met, the best that the machine has. */
 enum processor processor_taken(void);
 /* Does the machine have it? */
@@ -48,7 +53,7 @@ selas_status processor_check(struct messages *messages);
 #define PROCESSOR_JOINED(name, suffix) PROCESSOR_PASTED(name, suffix)
 #define PROCESSOR_PASTED(name, suffix) name##_##suffix
 
-#if defined(__x86_64__)
+#ifdef PROCESSOR_CHOICE
 #define EACH_PROCESSOR(type, table)                                                                          \
     extern const type table##_plain, table##_v3, table##_v4;                                                 \
     static inline const type *taken_##table(void)                                                            \
