@@ -237,20 +237,26 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
     for (int i = 0; i < TRIALS && next < most; i++) {
         bool made = false;
         selas_status status = make_trial(task, ground, next, trial, choice, &made, messages);
+        if (!made) task->expected = 0;
         if (!made || status != SELAS_OK) return status;
         const double error = worst(task->scene, task->place, next, ground) / task->accuracy;
         *tried = next;
         task->aim = MEASURED_AIM;
-        if (error <= MEASURED_MOST)
-            proven = next;
-        else
-            most = .98 * next;
         *h = next;
+        if (error <= MEASURED_MOST) {
+            proven = next;
+            task->expected = error * task->accuracy;
+        } else {
+            most = .98 * next;
+        }
         if (error <= MEASURED_MOST && error >= good) return SELAS_OK;
         status = find_spacing(task, ground, most, h, messages);
         if (status != SELAS_OK) return status;
         const bool close = rings(task->scene, *h);
-        if (*h < next && next < (close ? CLOSE_RATIO : FAR_RATIO) * *h) return SELAS_OK;
+        if (*h < next && next < (close ? CLOSE_RATIO : FAR_RATIO) * *h) {
+            task->expected = 0;
+            return SELAS_OK;
+        }
         if (*h < next && proven > *h) break;
         next =
             *h > next ? *h : trial_spacing(task, ground, *h, close ? CLOSE_RATIO : TRIAL_RATIO, .98 * next);
@@ -286,12 +292,13 @@ static selas_status choose(struct task *task, const struct trial *trial, struct 
     if (status != SELAS_OK) return status;
     set_choice(task, &ground, h, choice);
     choice->exact = exact_of_ground(scene);
+    const double expected = task->expected > 0 ? task->expected : worst(scene, task->place, h, &ground);
     char how[48] = "predicted";
     if (tried > 0) snprintf(how, sizeof how, "after a trial with %.6g: expected", tried);
     snprintf(choice->text, sizeof choice->text,
              "%g wanted: spacing %.6g, %s, leapfrog with the time-dispersion transform%s; %s error %.2g",
              task->accuracy, h, ground.tuned ? "degree 4, mass exact, tuned" : "degree 2, mass vc3", graded,
-             how, worst(scene, task->place, h, &ground));
+             how, expected);
     return SELAS_OK;
 }
 

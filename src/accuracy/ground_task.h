@@ -13,6 +13,7 @@ struct task {
     struct surface_place *place; /* [receivers] */
     double *power;
     double accuracy, aim;
+    double expected; /* of the choice, where an earlier trial than the last says it; else 0 */
 };
 
 /* Does a force or a moment tensor act at a point? */
