@@ -504,6 +504,15 @@ told "a load whose peak comes behind the end" "load 1 has come to less than 0.00
 untold "one whose first quarter is in the run" check nothing.nml load%delay=2.8 load%start=.2
 printf '0 0\n3 0\n4 1\n5 0\n' >late.txt
 told "a table that begins behind the end" "load 1 has come to less than" check nothing.nml load%history=table load%width= load%delay= load%file=late.txt
+cat >sources.nml <<'END'
+&scene dimension = 3, end_time = 2.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', low = 0, 0, 0, high = 4, 4, 4, spacing = 0.25 /
+&load kind = 'body-force', sources = 'sources.txt', history = 'gaussian', width = 0.6, delay = 3 /
+&receiver name = 'r', position = 3, 1, 1 /
+END
+printf '2 2 2 0 1 0 0 0\n2 2 2 0 1 0 1 5\n' >sources.txt
+told "two sources: one is 0, the other begins behind the end" "load 1 begins at t = 5 and the run ends at 2" check sources.nml
 told "rows farther apart than the run is long" "have the row t = 0 alone" check nothing.nml output%history_step=9
 told "a block beside the body" "&block 1 lies outside the body: along x" check nothing.nml block%centre=9,2
 untold "a block inside the hill" check nothing.nml block%centre=1,-.1 block%size=1,.2 topography%height=.4

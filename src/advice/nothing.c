@@ -45,19 +45,22 @@ static void tell_of_late(struct adviser *adviser, const char *what, size_t numbe
                what, number + 1, hardly, end);
 }
 
-/* Of several sources in one &load the last one says whether any begins. */
+/* Of several sources in one &load the last one says whether any that is not 0 begins. */
 static void look_at_rest(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
-    bool acts = scene_driven(scene) || scene->initial.kind != INITIAL_REST, any = false;
+    bool acts = scene_driven(scene) || scene->initial.kind != INITIAL_REST;
+    bool some = false, any = false; /* of the group: has an amplitude; begins, too */
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
         const bool last = k + 1 == scene->loads || load[1].group != load->group;
-        any = any || load->amplitude == 0 || load->driven != BY_HISTORY ||
-              begins(&load->history, scene->end_time);
-        acts = acts || load->amplitude != 0;
-        if (last && !any) tell_of_late(adviser, "load", load->group, &load->history);
-        if (last) any = false;
+        some = some || load->amplitude != 0;
+        any = any || (load->amplitude != 0 &&
+                      (load->driven != BY_HISTORY || begins(&load->history, scene->end_time)));
+        acts = acts || some;
+        if (!last) continue;
+        if (some && !any) tell_of_late(adviser, "load", load->group, &load->history);
+        some = any = false;
     }
     for (int face = 0; face < FACES; face++) {
         const struct boundary *boundary = &scene->boundary[face];
