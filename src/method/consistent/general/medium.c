@@ -127,11 +127,8 @@ static void average_along(const struct medium *medium, int slot, enum at at, siz
     const size_t first =
         (i + BEYOND) * columns->a_cell + (at == AT_MIDDLES ? columns->a_cell / 2 : 0) - width / 2;
     const struct piece *from = column + first * stride;
-    bool same = true;
-    for (size_t n = 1; n < width && same; n++)
-        same = piece_alike(from, from + n * stride);
     *sum = *from;
-    if (same) return;
+    if (from[(width - 1) * stride].alike + 1 >= width) return;
     *sum = (struct piece){.level = 0};
     memcpy(sum->least, from->least, sizeof sum->least);
     memcpy(sum->least_by_bulk, from->least_by_bulk, sizeof sum->least_by_bulk);
@@ -148,19 +145,16 @@ static void average_depth(const struct piece *ring, size_t plane, enum at at, pt
                           struct averaged *sum)
 {
     const struct piece *piece[PIECES];
-    bool same = true;
-    for (int n = 0; n < PIECES; n++) {
+    for (int n = 0; n < PIECES; n++)
         piece[n] = ring + plane * (size_t)((first + n + RING) % RING);
-        same = same && piece_alike(piece[0], piece[n]);
-    }
     *sum = (struct averaged){.level = 0};
     memcpy(sum->least, piece[0]->least, sizeof sum->least);
     memcpy(sum->least_by_bulk, piece[0]->least_by_bulk, sizeof sum->least_by_bulk);
     memcpy(sum->mean, piece[0]->mean[0], sizeof sum->mean);
     memcpy(sum->by_bulk, piece[0]->by_bulk[0], sizeof sum->by_bulk);
     sum->level = piece[0]->level;
-    sum->even = same;
-    if (same) return;
+    sum->even = piece[PIECES - 1]->alike + 1 >= PIECES;
+    if (sum->even) return;
     memset(sum->mean, 0, sizeof sum->mean);
     memset(sum->by_bulk, 0, sizeof sum->by_bulk);
     sum->level = 0;
@@ -312,19 +306,31 @@ static void advance(struct medium *medium)
             if (c->dimension == 3) place[1] = column_place(medium, 1, j);
             const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
             average_piece(medium, place, drop, number, medium->jump + thread * medium->room, &column[i]);
+            piece_follow(i > 0 ? &column[i - 1] : NULL, &column[i]);
         }
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
             for (size_t i = 0; i < x->points - (at == AT_MIDDLES ? 1 : 0); i++)
                 average_along(medium, 0, (enum at)at, i, column, 1, &medium->row[at][j * x->points + i]);
     }
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t i = 0; i < x->points; i++)
+        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
+            for (size_t j = 0; j < y->count; j++) {
+                struct piece *piece = &medium->row[at][j * x->points + i];
+                piece_follow(j > 0 ? piece - x->points : NULL, piece);
+            }
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
         const struct piece *row = medium->row[family->at[0]];
         struct piece *point = medium->ring[f] + plane * (size_t)((number + RING) % RING);
+        const struct piece *before = medium->ring[f] + plane * (size_t)((number - 1 + RING) % RING);
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
         for (size_t j = 0; j < family->n[1]; j++)
-            for (size_t i = 0; i < family->n[0]; i++)
-                average_along(medium, 1, family->at[1], j, &row[i], x->points, &point[j * x->points + i]);
+            for (size_t i = 0; i < family->n[0]; i++) {
+                const size_t at = j * x->points + i;
+                average_along(medium, 1, family->at[1], j, &row[i], x->points, &point[at]);
+                piece_follow(&before[at], &point[at]);
+            }
     }
 }
 

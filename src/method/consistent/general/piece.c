@@ -63,11 +63,16 @@ void piece_sample(const struct rock *rock, double height, double part, bool deri
     piece->level += part * log(rock->lambda + 2 * rock->mu);
 }
 
-bool piece_alike(const struct piece *one, const struct piece *other)
+static bool same_rock(const struct piece *one, const struct piece *other)
 {
     return one->even && other->even && one->mean[0][MEAN_DENSITY] == other->mean[0][MEAN_DENSITY] &&
            one->mean[0][MEAN_SHEAR] == other->mean[0][MEAN_SHEAR] &&
            one->mean[0][MEAN_SOFTNESS] == other->mean[0][MEAN_SOFTNESS];
+}
+
+void piece_follow(const struct piece *before, struct piece *piece)
+{
+    piece->alike = before != NULL && same_rock(before, piece) ? before->alike + 1 : 0;
 }
 
 void piece_add(const struct piece *one, double weight, double even, bool derivatives, struct piece *sum)

@@ -10,14 +10,15 @@ struct piece {
     double mean[2][AVERAGES], least[POSITIVE], level, rise[2];
     double by_bulk[2][AVERAGES], least_by_bulk[POSITIVE];
     bool even;
+    unsigned alike; /* so many before it, one after the other, are the same rock */
 };
 
 /* (G11): t in cells from the point. */
 double piece_kernel(enum at at, double t);
 /* One sample of the rock, `height` cells over the middle of the piece, of which it is `part`. */
 void piece_sample(const struct rock *rock, double height, double part, bool derivatives, struct piece *piece);
-/* One and the same rock. */
-bool piece_alike(const struct piece *one, const struct piece *other);
+/* Counts those that are the same rock, from the one before it; NULL: it is the first. */
+void piece_follow(const struct piece *before, struct piece *piece);
 /* sum += weight * one; `even`: the weight of its level. */
 void piece_add(const struct piece *one, double weight, double even, bool derivatives, struct piece *sum);
 
