@@ -83,7 +83,7 @@ cat >"$out/general.nml" <<END
 &load face = 'z-', shape = 'square', centre = 3*0.0, size = 1.0, 1.0, direction = 0.0, 0.0, 1.0, history = 'gaussian', width = 0.6, delay = 2.4 /
 &receiver name = 'r', position = 0.6, 0.4, 0.0 /
 &receiver name = 'd', position = 0.6, 0.4, 1.0 /
-&reference kind = 'layered', spectrum = 'scheme' /
+&reference kind = 'layered', spectrum = 'scheme', tolerance = 1e-4 /
 &output plots = .false. /
 END
 "$selas" -q "$out/general.nml" output%directory="$out/general" >"$out/log" 2>&1 || cat "$out/log"
