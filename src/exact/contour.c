@@ -43,15 +43,22 @@ bool contour_grid(struct contour *contour, size_t frequencies)
     return room;
 }
 
+/* Weight of index j in [0, until), of which a share fades out. */
+static double weight(size_t j, size_t until, double faded)
+{
+    if (j >= until) return 0;
+    const double left = (double)(until - j), fade = floor(faded * (double)until);
+    return left <= fade ? .5 - .5 * cos(M_PI * left / (fade + 1)) : 1;
+}
+
 void contour_transform(struct contour *contour, const double complex *line, size_t from, size_t until,
-                       bool rate, size_t fade)
+                       bool rate, double faded)
 {
     memset(contour->in, 0, (contour->rows / 2 + 1) * sizeof *contour->in);
-    for (size_t j = from; j < until; j++) {
-        const size_t left = until - j;
-        contour->in[j] = line[j] * (rate ? contour_frequency(contour, j) : 1) / contour->period;
-        if (left <= fade) contour->in[j] *= .5 - .5 * cos(M_PI * (double)left / (double)(fade + 1));
-    }
+    const size_t first = from - (size_t)(faded * (double)from);
+    for (size_t j = first; j < until; j++)
+        contour->in[j] = line[j] * (rate ? contour_frequency(contour, j) : 1) *
+                         (weight(j, until, faded) - weight(j, from, faded)) / contour->period;
     fftw_execute(contour->plan);
 }
 

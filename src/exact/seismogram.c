@@ -32,7 +32,9 @@ struct work {
     double complex *spectrum; /* [receivers * components][room]: displacement (and stress) */
     double *missed;           /* [receivers]: squares of the sums' errors of velocity */
     double *least;            /* [receivers]: norm of velocity below which nothing is judged */
-    double *last;             /* [receivers]: norm of the last band */
+    double *last;             /* [receivers][2]: norm of the last band, cut off or faded out at its end */
+    double *left;             /* [receivers][2]: and of what is above it, estimated, relative */
+    bool faded;               /* which of the two leaves less */
 };
 
 static selas_status no_memory(struct messages *messages)
@@ -149,55 +151,72 @@ static bool add_band(struct work *work, double cutoff)
 
 /* --- To time ------------------------------------------------------------------------------------------ */
 
-/* Frequencies [from, end) of one line of a receiver, the last `fade` of them fading out. */
-static void transform(struct work *work, size_t receiver, size_t line, size_t from, size_t fade)
+/* Share of the frequencies that is faded out where histories go on above the last one: an edge rings, and what
+ * rings grows by exp(decay t). */
+static const double FADED = 1.0 / 3;
+
+/* Frequencies [from, end) of one line of a receiver. */
+static void transform(struct work *work, size_t receiver, size_t line, size_t from, bool faded)
 {
     const size_t component = line < SEISMOGRAM_VELOCITY ? line : line - 3;
     contour_transform(&work->contour, work->spectrum + (receiver * work->components + component) * work->room,
-                      from, work->frequencies, line >= SEISMOGRAM_VELOCITY && line < SEISMOGRAM_STRESS, fade);
+                      from, work->frequencies, line >= SEISMOGRAM_VELOCITY && line < SEISMOGRAM_STRESS,
+                      faded ? FADED : 0);
 }
 
 /* Largest L2 norm over [0, end] among the velocity components of the frequencies from `from` on. */
-static double norm_from(struct work *work, size_t receiver, size_t from)
+static double norm_from(struct work *work, size_t receiver, size_t from, bool faded)
 {
     double largest = 0;
     for (size_t c = 0; c < 3; c++) {
-        transform(work, receiver, SEISMOGRAM_VELOCITY + c, from, 0);
+        transform(work, receiver, SEISMOGRAM_VELOCITY + c, from, faded);
         largest = fmax(largest, contour_norm(&work->contour, work->problem->end_time));
     }
     return largest;
 }
 
-/* Notes what was reached with the band from `from` on; the worst of the receivers. What is above the last
- * band is taken to fall on as the bands fell, or to be less than an eighth of the last band where the
- * histories end there. */
+/* What is above the band from `from` on, relative to the history: as the bands fell, or less than an eighth of the
+ * last band where the histories end there. */
+static double left_above(struct work *work, size_t receiver, size_t from, bool end, bool faded)
+{
+    const size_t tail = work->frequencies - (work->frequencies - from) / 8;
+    double *last = &work->last[2 * receiver + faded];
+    const double part = norm_from(work, receiver, from, faded);
+    const double norm = fmax(norm_from(work, receiver, 0, faded), work->least[receiver]);
+    const double ratio = fmin(.8, fmax(.3, *last > 0 ? part / *last : .8));
+    const double left = end ? norm_from(work, receiver, tail, false) : part * ratio / (1 - ratio);
+    *last = part;
+    return norm > 0 ? left / norm : 0;
+}
+
+/* Notes what was reached with the band from `from` on, cut off or faded out at its end, whichever leaves less; the
+ * worst of the receivers. */
 static double judge(struct work *work, size_t from, double cutoff, bool end)
 {
-    double worst = 0;
-    const size_t tail = work->frequencies - (work->frequencies - from) / 8;
+    double worst[2] = {0, 0};
+    for (size_t r = 0; r < work->receivers; r++)
+        for (size_t faded = 0; faded < 2; faded++) {
+            work->left[2 * r + faded] = left_above(work, r, from, end, faded);
+            worst[faded] = fmax(worst[faded], work->left[2 * r + faded]);
+        }
+    work->faded = !end && worst[1] < worst[0];
     for (size_t r = 0; r < work->receivers; r++) {
         struct seismogram_effort *effort = &work->seismogram[r].effort;
-        const double part = norm_from(work, r, from);
-        const double norm = fmax(norm_from(work, r, 0), work->least[r]);
-        const double ratio = fmin(.8, fmax(.3, work->last[r] > 0 ? part / work->last[r] : .8));
+        const double norm = fmax(norm_from(work, r, 0, work->faded), work->least[r]);
         effort->cutoff = cutoff;
         effort->period = work->contour.period;
         effort->decay = work->contour.decay;
         effort->evaluations = work->sums.evaluations;
         effort->of_wavenumbers = norm > 0 ? work->growth * sqrt(work->missed[r]) / norm : 0;
-        const double left = end ? norm_from(work, r, tail) : part * ratio / (1 - ratio);
-        effort->of_frequencies = norm > 0 ? left / norm : 0;
+        effort->of_frequencies = work->left[2 * r + work->faded];
         effort->of_period = LOUDER * exp(-work->contour.decay * work->contour.period);
         effort->reached = effort->of_wavenumbers + effort->of_frequencies + effort->of_period;
-        work->last[r] = part;
-        worst = fmax(worst, effort->of_frequencies);
     }
-    return worst;
+    return worst[work->faded];
 }
 
-static bool keep(struct work *work, bool complete)
+static bool keep(struct work *work)
 {
-    const size_t fade = complete ? 0 : work->frequencies / 3;
     for (size_t r = 0; r < work->receivers; r++) {
         struct seismogram *seismogram = &work->seismogram[r];
         seismogram->end_time = work->problem->end_time;
@@ -209,7 +228,7 @@ static bool keep(struct work *work, bool complete)
         seismogram->value = array_new(seismogram->lines * seismogram->rows, sizeof *seismogram->value);
         if (seismogram->value == NULL) return false;
         for (size_t line = 0; line < seismogram->lines; line++) {
-            transform(work, r, line, 0, fade);
+            transform(work, r, line, 0, work->faded);
             memcpy(seismogram->value + line * seismogram->rows, work->contour.out,
                    seismogram->rows * sizeof *seismogram->value);
         }
@@ -254,18 +273,17 @@ static bool work_off_bands(struct work *work)
         if (isfinite(rough)) least = fmax(least, rough);
         most = fmax(most, history_cutoff(history, 1e-12));
     }
-    double cutoff = fmin(most, fmax(8 * work->contour.decay, least / 16)), worst = 0;
-    bool complete = false;
+    double cutoff = fmin(most, fmax(8 * work->contour.decay, least / 16));
     for (int band = 0; band < MOST_BANDS; band++) {
         const size_t from = work->frequencies;
         if (!add_band(work, cutoff) || !contour_grid(&work->contour, work->frequencies)) return false;
-        worst = judge(work, from, cutoff, cutoff >= most);
-        complete = cutoff >= most || (band > 1 && cutoff >= least && worst < .3 * work->tolerance);
-        const double spent = work->sums.evaluations * (double)work->sums.strata.levels;
-        if (complete || (cutoff >= least && spent > .5 * MOST_EVALUATIONS)) break;
+        const double worst = judge(work, from, cutoff, cutoff >= most),
+                     spent = work->sums.evaluations * (double)work->sums.strata.levels;
+        const bool enough = (band > 1 && worst < .3 * work->tolerance) || spent > .5 * MOST_EVALUATIONS;
+        if (cutoff >= most || (cutoff >= least && enough)) break;
         cutoff = fmin(cutoff * M_SQRT2, most);
     }
-    return keep(work, complete);
+    return keep(work);
 }
 
 selas_status seismograms_check(const struct seismogram_problem *problem, size_t n,
@@ -300,8 +318,10 @@ static selas_status prepare(struct work *work, struct messages *messages)
     work->components = problem->stress ? COMPONENTS : 3;
     work->missed = array_new(work->receivers, sizeof *work->missed);
     work->least = array_new(work->receivers, sizeof *work->least);
-    work->last = array_new(work->receivers, sizeof *work->last);
-    if (work->missed == NULL || work->least == NULL || work->last == NULL) return no_memory(messages);
+    work->last = array_new(2 * work->receivers, sizeof *work->last);
+    work->left = array_new(2 * work->receivers, sizeof *work->left);
+    if (work->missed == NULL || work->least == NULL || work->last == NULL || work->left == NULL)
+        return no_memory(messages);
     return seismograms_check(problem, work->receivers, work->seismogram, messages);
 }
 
@@ -312,6 +332,7 @@ static void work_free(struct work *work)
     array_free(work->missed);
     array_free(work->least);
     array_free(work->last);
+    array_free(work->left);
     contour_free(&work->contour);
 }
 
