@@ -259,6 +259,17 @@ static inline void write_blocks(const char *path, int floor, const char *unit, d
     H5Fclose(file);
 }
 
+/* The same with the places along x of the upper block in the other order. */
+static inline void turn_places(const char *path)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT),
+                set = H5Dopen2(file, "blocks/upper", H5P_DEFAULT);
+    H5Adelete(set, "x_coordinates");
+    put_numbers(set, "x_coordinates", 4, (const double[]){1000, 500, 200, 0});
+    H5Dclose(set);
+    H5Fclose(file);
+}
+
 /* --- tomography_model.xyz --- */
 
 /* 3 x 4 x 5 values, 500 x 300 x 200 apart from (1000, 2000, -700) on, or downward from 100; line `wrong` (of the

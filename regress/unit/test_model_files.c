@@ -165,6 +165,12 @@ static void test_blocks_alone(void **state)
     write_blocks(stored, 0, "m/s", 0);
     put_other(stored, NULL, "dim_z", 1600);
     assert_refused(DECK("800, 300, 1550", ""), "t.nml:4:", (const char *[]){"from 0 to 1500 along z", NULL});
+    write_blocks(stored, 0, "m/s", 0);
+    assert_refused(DECK("200, 300, 900", "origin = 499990, 4000000"),
+                   "t.nml:4:", (const char *[]){"to 1000 along x", NULL});
+    turn_places(stored);
+    assert_refused(DECK("800, 300, 900", ""),
+                   "t.nml:4:", (const char *[]){"along x coincide or go back", NULL});
 }
 
 /* Depths below an elevation of 20, whatever the ground; above the face is what lies at it. */

@@ -147,7 +147,8 @@ static bool lay_axis(const struct blocks *blocks, hid_t set, const char *name, i
         good = model_fault(blocks->source, "'%s' has neither %s nor %zu %s", name, even, count, listed);
     for (size_t i = 0; good && i < count && axis == 2; i++)
         place[i] = -place[i];
-    if (good) qsort(place, count, sizeof *place, rising); /* in any order in the file, values top down */
+    /* over depth in any order in the file, values top down */
+    if (good && axis == 2) qsort(place, count, sizeof *place, rising);
     good = good && model_part(blocks->source, grid, axis, place, count, first);
     array_free(place);
     return good;
@@ -166,9 +167,8 @@ static bool lay_grid(const struct blocks *blocks, hid_t set, const char *name, i
                                    name, extent[3]);
     for (int axis = 0; axis < axes; axis++) {
         if (!lay_axis(blocks, set, name, axis, extent[axis], top, grid, &first[axis])) return false;
-        if (axis < 2 &&
-            !model_covers(blocks->source, axis, grid->at[axis][0], grid->at[axis][grid->n[axis] - 1]))
-            return false;
+        const double *whole = blocks->source->whole[axis];
+        if (axis < 2 && !model_covers(blocks->source, axis, whole[0], whole[1])) return false;
     }
     return model_room(blocks->source, grid, axes == 3 ? blocks->sets : 1);
 }
