@@ -3,6 +3,7 @@
 #include "from_deck.h"
 
 #include "method/methods.h"
+#include "record/plots/cut.h"
 #include "scene/symmetry.h"
 #include "scene/topography.h"
 
@@ -77,6 +78,52 @@ static void test_heights(void **state)
         assert_near(topography_drop(topography, (double[]){0, 0}), 0, 1e-3);
         from_deck_free(&made);
     }
+}
+
+/* Heights with gaps along x: told; those of a parabola are what they are all the same. */
+static void test_gaps(void **state)
+{
+    (void)state;
+    static const double place[][10] = {{0, .1, .2, .3, .4, .5, 3, 3.4, 3.8, 4},
+                                       {0, .6, 3, 3.1, 3.2, 3.3, 3.4, 3.5, 3.6, 4},
+                                       {0, .1, .2, .3, .4, 3.4, 3.5, 3.6, 3.7, 4}};
+    for (int n = 0; n < 3; n++) {
+        FILE *file = fopen(stored, "w");
+        for (int i = 0; i < 10; i++)
+            for (int j = 0; j < 9; j++)
+                fprintf(file, "%.17g %.17g %.17g\n", place[n][i], .5 * j,
+                        100 + .02 * pow(place[n][i] - 1, 2));
+        fclose(file);
+        struct from_deck made = right_scene(HEAD BOX HEIGHTS);
+        assert_non_null(strstr(made.messages.text, "the heights have gaps along x, of up to"));
+        for (double x = 0; x <= 4; x += .25)
+            assert_near(topography_drop(made.scene->body.topography, (double[]){x, 2.2}),
+                        -.02 * pow(x - 1, 2), 1e-12);
+        from_deck_free(&made);
+    }
+}
+
+/* The map of a plot shows where rocks meet at the surface. */
+static void test_map(void **state)
+{
+    (void)state;
+    struct from_deck made =
+        right_scene(HEAD "&material name = 'rock', density = 2.0, p_speed = 4.0, s_speed = 2.0 /\n" BOX HILL
+                         "&layer material = 'soil', top = 0 /\n&block material = 'rock', centre = 2, 2, 0, "
+                         "size = 9, 9, .6 /\n");
+    const struct scene *scene = made.scene;
+    struct cut cut;
+    cut_map(scene, &cut);
+    assert_true(cut_fill(scene, &cut));
+    FILE *file = fopen(stored, "w+");
+    assert_true(cut_write_jumps(scene, &cut, file));
+    rewind(file);
+    double x, y;
+    for (int count = 0; fscanf(file, "%lf %lf", &x, &y) == 2 || (assert_true(count > 100), false); count++)
+        assert_near(topography_drop(scene->body.topography, (double[]){x, y}), -.3, .008);
+    fclose(file);
+    cut_free(&cut);
+    from_deck_free(&made);
 }
 
 static void write_set(hid_t file, const char *name, int axes, const hsize_t *extent, const double *value)
@@ -268,10 +315,15 @@ static void test_who_takes_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stored_heights), cmocka_unit_test(test_attributes_of_heights),
-        cmocka_unit_test(test_shapes),         cmocka_unit_test(test_heights),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_fitted),
+        cmocka_unit_test(test_stored_heights),
+        cmocka_unit_test(test_attributes_of_heights),
+        cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_heights),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_fitted),
         cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_gaps),
+        cmocka_unit_test(test_map),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

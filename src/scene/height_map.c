@@ -19,7 +19,10 @@ static const double values_a_piece = 1.5;
 struct axis_map {
     size_t values, order, count; /* of the grid; of the splines: order, coefficients */
     double *place;               /* [values] */
-    size_t pieces;               /* of the splines; 0: no such axis */
+    size_t pieces, parts;        /* of the splines; 0: no such axis; even parts, one or several to a piece */
+    double *knot;                /* [pieces + 1] ends of the pieces, in parts */
+    size_t *piece_of;            /* [parts] */
+    bool gaps;                   /* between the values, beyond what the parts could have */
 };
 
 struct height_map {
@@ -103,35 +106,78 @@ static selas_status lay_grid(const char *path, const struct height_rows *rows, d
     return SELAS_OK;
 }
 
+/* Place along an axis in its even parts. */
+static double in_parts(const struct axis_map *along, double x)
+{
+    const double low = along->place[0], high = along->place[along->values - 1];
+    return fmin(fmax((x - low) / (high - low), 0), 1) * (double)along->parts;
+}
+
+/* Do the values tell all splines on the even parts: each has one of its own well within its support (I. J. Schoenberg,
+ * A. Whitney, Trans. Am. Math. Soc. 74 (1953) 246)? */
+static bool told(const struct axis_map *along)
+{
+    static const double within = .05;
+    const size_t count = along->parts + along->order - 1;
+    size_t next = 1;
+    for (size_t i = 1; i + 1 < count; i++, next++) { /* the ends tell the first and the last */
+        const double low = i < along->order ? 0 : (double)(i + 1 - along->order),
+                     high = fmin((double)i + 1, (double)along->parts);
+        while (next < along->values && in_parts(along, along->place[next]) < low + within)
+            next++;
+        if (next >= along->values || in_parts(along, along->place[next]) > high - within) return false;
+    }
+    return true;
+}
+
+/* Pieces of a part each or, where gaps between the values leave splines untold, of two values at least. */
+static void lay_knots(struct axis_map *along)
+{
+    along->gaps = !told(along);
+    size_t next = 0, taken = 0; /* values before the part's end, before the piece */
+    for (size_t part = 0; part < along->parts; part++) {
+        along->piece_of[part] = along->pieces;
+        while (next < along->values && in_parts(along, along->place[next]) < (double)part + 1)
+            next++;
+        const bool few = along->gaps && (next < taken + 2 || along->values < next + 2);
+        if (few && part + 1 < along->parts) continue;
+        along->knot[++along->pieces] = (double)part + 1;
+        taken = next;
+    }
+}
+
 /* Splines of an axis whose pieces are no shorter than `piece` nor than so many values. */
-static void lay_splines(struct axis_map *along, double piece)
+static bool lay_splines(struct axis_map *along, double piece)
 {
     along->count = 1;
-    if (along->values < 2) return; /* no such axis */
+    if (along->values < 2) return true; /* no such axis */
     const double low = along->place[0], high = along->place[along->values - 1];
     along->order = along->values < ORDER ? along->values : ORDER;
     const double most = fmin((high - low) / piece, (double)(along->values - 1) / values_a_piece);
-    size_t pieces = most > 1 ? (size_t)most : 1;
-    if (pieces > along->values - along->order + 1) pieces = along->values - along->order + 1;
-    along->pieces = pieces;
-    along->count = pieces + along->order - 1;
+    along->parts = most > 1 ? (size_t)most : 1;
+    if (along->parts > along->values - along->order + 1) along->parts = along->values - along->order + 1;
+    along->knot = array_new(along->parts + 1, sizeof *along->knot);
+    along->piece_of = array_new(along->parts, sizeof *along->piece_of);
+    if (along->knot == NULL || along->piece_of == NULL) return false;
+    lay_knots(along);
+    along->count = along->pieces + along->order - 1;
+    return true;
 }
 
-/* Values of the splines that are not 0 at x, from *first on, of even knots, those at the ends as many times as the
- * order (L. Piegl, W. Tiller, The NURBS Book, 1997, A2.2). */
+/* Values of the splines that are not 0 at x, from *first on; the knots at the ends count as many times as the order
+ * (L. Piegl, W. Tiller, The NURBS Book, 1997, A2.2). */
 static size_t basis_at(const struct axis_map *along, double x, double basis[ORDER], size_t *first)
 {
     basis[0] = 1;
     *first = 0;
     if (along->pieces == 0) return 1;
-    const double low = along->place[0], high = along->place[along->values - 1];
-    const double pieces = (double)along->pieces, t = fmin(fmax((x - low) / (high - low), 0), 1) * pieces;
-    const double at = fmin(floor(t), pieces - 1);
+    const double t = in_parts(along, x);
+    const size_t at = along->piece_of[(size_t)fmin(floor(t), (double)along->parts - 1)];
     double left[ORDER], right[ORDER];
-    *first = (size_t)at;
+    *first = at;
     for (size_t j = 1; j < along->order; j++) {
-        left[j] = t - fmax(at + 1 - (double)j, 0);
-        right[j] = fmin(at + (double)j, pieces) - t;
+        left[j] = t - along->knot[at + 1 > j ? at + 1 - j : 0];
+        right[j] = along->knot[at + j < along->pieces ? at + j : along->pieces] - t;
         double saved = 0;
         for (size_t r = 0; r < j; r++) {
             const double part = basis[r] / (right[r + 1] + left[j - r]);
@@ -214,10 +260,9 @@ static struct height_map *map_of(const struct height_rows *rows, const char *pat
         status = found ? lay_grid(path, rows, datum, map, messages) : SELAS_NO_MEMORY;
     }
     if (status == SELAS_OK) {
-        lay_splines(&map->along[0], piece);
-        lay_splines(&map->along[1], piece);
+        const bool laid = lay_splines(&map->along[0], piece) && lay_splines(&map->along[1], piece);
         gsl_errors_returned();
-        if (!fit_all(map)) status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
+        if (!laid || !fit_all(map)) status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
         gsl_errors_as_before();
     }
     if (status == SELAS_OK) return map;
@@ -266,8 +311,11 @@ struct height_map *height_map_sample(double (*height)(const struct ground_model 
 void height_map_free(struct height_map *map)
 {
     if (map == NULL) return;
-    for (int axis = 0; axis < 2; axis++)
+    for (int axis = 0; axis < 2; axis++) {
         array_free(map->along[axis].place);
+        array_free(map->along[axis].knot);
+        array_free(map->along[axis].piece_of);
+    }
     array_free(map->height);
     array_free(map->coefficient);
     array_free(map);
@@ -339,5 +387,13 @@ void height_map_cover(const struct height_map *map, struct builder *builder, con
             complain(builder, group, "file",
                      "the heights reach from %g to %g along %c, the body from %g to %g", low, high,
                      "xy"[axis], body -> low[axis], body -> high[axis]);
+        double most = 0;
+        for (size_t i = 0; i + 1 < map->along[axis].values; i++)
+            most = fmax(most, map->along[axis].place[i + 1] - map->along[axis].place[i]);
+        if (map->along[axis].gaps)
+            deck_warning(builder->deck, group, "file", builder->messages,
+                         "the heights have gaps along %c, of up to %.4g: splines go across, wherever the "
+                         "ground is; heights at even distances would be right",
+                         "xy"[axis], most);
     }
 }

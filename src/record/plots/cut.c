@@ -126,11 +126,18 @@ static double pixel_place(const struct cut *cut, int side, size_t i)
     return cut->low[side] + (cut->high[side] - cut->low[side]) * ((double)i + .5) / (double)cut->pixels[side];
 }
 
-static void pixel(const struct cut *cut, size_t i, double place[3])
+/* A map shows the surface. */
+static void to_surface(const struct scene *scene, const struct cut *cut, double place[3])
+{
+    if (scene->dimension == 3 && cut->across[2] == 0) place[2] = scene->body.low[2] + drop_at(scene, place);
+}
+
+static void pixel(const struct scene *scene, const struct cut *cut, size_t i, double place[3])
 {
     for (int axis = 0; axis < 3; axis++)
         place[axis] = cut->origin[axis] + pixel_place(cut, 0, i % cut->pixels[0]) * cut->along[axis] +
                       pixel_place(cut, 1, i / cut->pixels[0]) * cut->across[axis];
+    to_surface(scene, cut, place);
 }
 
 bool cut_fill(const struct scene *scene, struct cut *cut)
@@ -143,10 +150,9 @@ bool cut_fill(const struct scene *scene, struct cut *cut)
     }
     for (size_t i = 0; i < count; i++) {
         double place[3];
-        pixel(cut, i, place);
+        pixel(scene, cut, i, place);
         const double surface = scene->body.low[scene->dimension - 1] + drop_at(scene, place);
-        if (cut->across[2] == 0 && scene->dimension == 3) place[2] = surface; /* a map */
-        if (place[scene->dimension - 1] < surface) {                          /* air */
+        if (place[scene->dimension - 1] < surface) { /* air */
             cut->speed[0][i] = cut->speed[1][i] = (float)NAN;
             continue;
         }
@@ -197,12 +203,13 @@ static bool jumps(const struct scene *scene, const struct cut *cut, size_t one, 
         fabsf(cut->speed[1][one] - cut->speed[1][other]) <= (float)part / 4 * cut->speed[1][one])
         return false;
     double place[2][3], middle[3];
-    pixel(cut, one, place[0]);
-    pixel(cut, other, place[1]);
+    pixel(scene, cut, one, place[0]);
+    pixel(scene, cut, other, place[1]);
     struct rock rock[2] = {ground_at(scene, place[0]), ground_at(scene, place[1])};
     for (int n = 0; n < HALVINGS; n++) {
         for (int axis = 0; axis < 3; axis++)
             middle[axis] = (place[0][axis] + place[1][axis]) / 2;
+        to_surface(scene, cut, middle);
         const struct rock between = ground_at(scene, middle);
         const int end = contrast(&rock[0], &between) > contrast(&between, &rock[1]) ? 1 : 0;
         rock[end] = between;
