@@ -560,6 +560,14 @@ loads="&load face = 'y-', shape = 'square', centre = 1.5, 0, size = .5, directio
 "$selas" -q top.nml output%directory=top0 >said 2>&1
 "$selas" -q top.nml output%directory=top1 layer%top=1e-9 >said 2>&1
 alike "a tilted layer that begins at the surface at x = 0 and just below" 1e-6 "a b" top0 top1
+sed "s/low = -3, 0, high = 3, 3/low = 97, 0, high = 103, 3/; s/top = 0, dip = 20/top = 9.7488664, dip = 5, strike = 90/
+    s/centre = 1.5/centre = 101.5/; s/position = 2/position = 102/; s/position = -1/position = 99/" top.nml >away.nml
+"$selas" -q away.nml output%directory=away >said 2>&1
+"$selas" -q top.nml layer%top=1 layer%dip=5 layer%strike=90 output%directory=here >said 2>&1
+alike "a tilted layer whose top at x = 0 lies below a body far off" 1e-6 "a b" away here
+told "a tilted layer that passes below the body" "layer of 'rock' is nowhere in the body" check away.nml layer%top=13
+told "a tilted layer that hides another" "layer of 'soil' is nowhere in the body" check away.nml layer%top=8 \
+    "layer(2)%top=0" "layer(2)%material=soil"
 awk 'BEGIN { for (x = -5; x <= 5.001; x += .1) printf "%.4f %.15g\n", x, .3 - 1.1 * exp(-x * x / .98) }' >basin.txt
 for body in rock soil; do
     {

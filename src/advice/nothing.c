@@ -89,6 +89,44 @@ static void look_at_blocks(struct adviser *adviser)
         }
 }
 
+/* Is a layer above the next ones, below the surface and in the body at a place? */
+static bool has_layer(const struct scene *scene, size_t layer, const double place[3])
+{
+    const struct body *body = &scene->body;
+    const int last = scene->dimension - 1;
+    const double drop = body->topography != NULL ? topography_drop(body->topography, place) : 0;
+    const double top = layer_covers(&body->layer[layer]) ? drop : layer_top_at(&body->layer[layer], place);
+    double end = body->high[last] - body->low[last];
+    for (size_t k = layer + 1; k < body->layers; k++)
+        end = fmin(end, layer_top_at(&body->layer[k], place));
+    return fmax(top, drop) < end;
+}
+
+/* Tilted layers, and those of files, may miss the body or hide others. */
+static void look_at_layers_there(struct adviser *adviser)
+{
+    enum { LOOKS = 40 };
+    const struct scene *scene = adviser->scene;
+    const struct body *body = &scene->body;
+    const int rows = scene->dimension == 3 ? LOOKS : 0;
+    for (size_t k = 0; k < body->layers && body_is_box(body); k++) {
+        bool there = false;
+        for (int i = 0; i < (LOOKS + 1) * (rows + 1) && !there; i++) {
+            const int at[2] = {i % (LOOKS + 1), i / (LOOKS + 1)};
+            double place[3] = {0};
+            for (int axis = 0; axis < 2 && axis < scene->dimension - 1; axis++)
+                place[axis] = body->low[axis] + (body->high[axis] - body->low[axis]) * at[axis] / LOOKS;
+            there = has_layer(scene, k, place);
+        }
+        if (!there)
+            advise(adviser,
+                   "the layer of '%s' is nowhere in the body: it lies below it, or other layers hide it; the "
+                   "top of "
+                   "a tilted layer is its depth at x = y = 0",
+                   scene->material[body->layer[k].material].name);
+    }
+}
+
 /* A hill between two points is none, or a spike of one. */
 static void look_at_hill(struct adviser *adviser)
 {
@@ -115,5 +153,6 @@ void look_at_nothing(struct adviser *adviser)
     look_at_rows(adviser);
     look_at_rest(adviser);
     look_at_blocks(adviser);
+    look_at_layers_there(adviser);
     look_at_hill(adviser);
 }

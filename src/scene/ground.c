@@ -29,8 +29,7 @@ static double lowest(const struct topography *topography)
     return topography->map != NULL ? topography->depth : fmax(0, down);
 }
 
-/* Depth of a layer's upper face above or below a place. */
-static double top_at(const struct layer *layer, const double place[3])
+double layer_top_at(const struct layer *layer, const double place[3])
 {
     const double rise = layer->map != NULL ? height_map_at(layer->map, place) : 0;
     return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1] - rise;
@@ -89,7 +88,7 @@ static size_t layer_at(const struct body *body, const double place[3], double de
 {
     size_t found = body->layers;
     for (size_t i = 0; i < body->layers; i++)
-        if (top_at(&body->layer[i], place) <= depth || layer_covers(&body->layer[i])) found = i;
+        if (layer_top_at(&body->layer[i], place) <= depth || layer_covers(&body->layer[i])) found = i;
     return found;
 }
 
@@ -122,7 +121,8 @@ static struct found find(const struct scene *scene, const double place[3])
         found.place[axis] = place[axis];
     if (found.of_model) found.place[scene->dimension - 1] += depth - own;
     if (in_block || layer + 1 >= body->layers || !body->layer[layer].graded) return found;
-    const double top = top_at(&body->layer[layer], place), end = top_at(&body->layer[layer + 1], place);
+    const double top = layer_top_at(&body->layer[layer], place),
+                 end = layer_top_at(&body->layer[layer + 1], place);
     const double part = end > top ? (depth - top) / (end - top) : 0;
     found.bottom = body->layer[layer].bottom;
     found.part = fmin(fmax(part, 0), 1);
@@ -239,7 +239,7 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
     size_t count = 0;
     if (body->line != NULL) return ground_line_jumps(body->line, place, axis, from, to, at);
     for (size_t i = 0; i < body->layers && axis == scene->dimension - 1; i++) {
-        const double top = top_at(&body->layer[i], place), x = body->low[axis] + top;
+        const double top = layer_top_at(&body->layer[i], place), x = body->low[axis] + top;
         if (x > from && x < to && (top > 0 || top > fmin(0, surface_at(scene, place)))) at[count++] = x;
     }
     for (size_t i = 0; i < body->blocks; i++) {

@@ -45,6 +45,8 @@ bool ground_grades(const struct scene *scene);
 double ground_detail(const struct scene *scene, int axis);
 /* Does the layer begin at the surface, wherever that is? */
 bool layer_covers(const struct layer *layer);
+/* Depth of a layer's upper face above or below a place. */
+double layer_top_at(const struct layer *layer, const double place[3]);
 /* Can the rock be another one further along this axis? */
 bool ground_varies(const struct scene *scene, int axis);
 
