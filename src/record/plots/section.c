@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "scene/ground.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -122,11 +123,17 @@ static bool surface_section(const struct recorder *recorder, const struct snapsh
                             const double low[3], const double high[3], struct section *section)
 {
     *section = (struct section){.axis = {0, 1}};
-    if (recorder->scene->body.topography != NULL)
-        snprintf(section->title, sizeof section->title, "surface, seen from above");
+    const struct body *body = &recorder->scene->body;
+    double top[3];
+    body_position(recorder, record, 0, top);
+    const double drop = body->topography != NULL ? topography_drop(body->topography, top) : 0;
+    const bool below = body_is_box(body) && top[2] > body->low[2] + drop + .01 * body->spacing;
+    if (body->topography != NULL)
+        snprintf(section->title, sizeof section->title, "%s, seen from above",
+                 below ? "uppermost points of the region" : "surface");
     else
-        snprintf(section->title, sizeof section->title, "surface z%s = %.4g",
-                 own_axes(&recorder->scene->body), low[2]);
+        snprintf(section->title, sizeof section->title, "%s z%s = %.4g", below ? "cut at" : "surface",
+                 own_axes(body), low[2]);
     const size_t *grid = record->grid;
     if (grid[0] == 0)
         return pick_near(recorder, record, section, 2, low[2], 0.55 * spacing_of(recorder, low, high)) &&
