@@ -532,6 +532,19 @@ echo "&boundary face = 'x-', kind = 'velocity', direction = 1, 0, history = 'gau
 told "a face that moves behind the end" "&boundary 1 has come to less than .* does nothing" check moves.nml
 "$selas" nothing.nml scene%end_time=1e-12 output%plots=F >said 2>&1
 verdict "a run much shorter than a step" $?
+cat >jump.nml <<'END'
+&scene dimension = 2, end_time = 2 /
+&method operator = 'general' /
+&material name = 'rock', density = 2.5, p_speed = 4, s_speed = 2.3 /
+&body low = -2, 0, high = 2, 2, spacing = .04, material = 'rock' /
+&load kind = 'moment-tensor', centre = 0, 1, moment = 1, .5, 0, .3, 0, 0, history = 'gaussian', width = .25, delay = 1 /
+&receiver name = 'a', position = .8, 0 /
+&output plots = F /
+END
+told "a moment tensor that begins 4 widths before its peak, on fine points" "small jump at t = 0.*by some 0.01 of" check jump.nml
+untold "5 widths before" check jump.nml load%delay=1.25
+untold "4 widths before on points as fine as waves need" check jump.nml body%spacing=.1
+untold "4 widths before without the waves beyond the source" check jump.nml output%low_pass=20
 # --- Ground ---
 alike() { # alike WHAT MOST RECEIVERS ONE OTHER: velocities of two runs
     worst=$(for receiver in $3; do

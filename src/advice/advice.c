@@ -215,6 +215,7 @@ size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
     look_at_fields(&adviser);
     look_at_crossed_rock(&adviser);
     look_at_ringing_body(&adviser);
+    look_at_cut_moment(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_clearance(&adviser);
     look_at_shallow(&adviser, stepper->model);

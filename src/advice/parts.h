@@ -42,6 +42,8 @@ void look_at_impact(struct adviser *adviser);
 void look_at_crossed_rock(struct adviser *adviser);
 /* Damped bodies that ring below the source's band (ringing.c). */
 void look_at_ringing_body(struct adviser *adviser);
+/* Moment tensors that begin with a jump. */
+void look_at_cut_moment(struct adviser *adviser);
 /* Leapfrog's time error where it stays. */
 void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
 /* Waves that a method's points carry badly. */
