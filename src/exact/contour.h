@@ -20,8 +20,8 @@ double complex contour_frequency(const struct contour *contour, size_t j);
 /* Makes the time grid for `frequencies` of them, eight samples in the shortest period; false: no memory. */
 bool contour_grid(struct contour *contour, size_t frequencies);
 /* (1/T) sum over j in [from, until) of line[j] exp(2 pi i j t/T), negative j by conjugation, to out: without
- * exp(eta t). `rate`: of its derivative. `faded`: the share at the upper end of [0, until) that fades out, and less what
- * the same share of [0, from) does: what the band adds to histories faded out before it. */
+ * exp(eta t). `rate`: of its derivative. `faded`: the share at the upper end of [0, until) that fades out, less
+ * what the same share of [0, from) does: what the band adds to histories that were faded out before it. */
 void contour_transform(struct contour *contour, const double complex *line, size_t from, size_t until,
                        bool rate, double faded);
 /* L2 norm over [0, end] of what out holds, times exp(eta t). */
