@@ -1,9 +1,12 @@
 /* Held loads (stepping/held.h, Eq H1): a change at the time reached without the operator against one by it,
  * on bodies with dampers, layers, mirror planes, exact mass and ground that varies; operator calls counted;
- * responses. */
+ * responses; what profiles and snapshots show of it. */
 #include "host/simulation.h"
+#include "record/run_file.h"
 
 #include "api_scene.h"
+
+#include <stdlib.h>
 
 static const char rest[] =
     "&scene dimension = 3, end_time = 2.0 /\n"
@@ -129,8 +132,67 @@ static void test_response(void **state)
     }
 }
 
+static double bell(double time)
+{
+    return exp(-12.5 * (time - 1) * (time - 1));
+}
+
+/* Velocities and accelerations of a profile between steps and of a snapshot, by the deck's history or the same held
+ * step by step. */
+enum { PROFILE = 2 * 5 * 6, SHOWN = PROFILE + 3 * 125 };
+static void record_of(bool held, double shown[SHOWN])
+{
+    static const char words[] =
+        "&stepping unwarp = .false. /\n"
+        "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+        "&body material = 'rock', shape = 'box', low = 0, 0, 0, high = 4, 4, 4, spacing = 1 /\n"
+        "&load name = 'hammer', face = 'z-', shape = 'square', centre = 2, 2, 0, size = 2, 2, direction = 0, "
+        "0, 1\n"
+        "  history = 'gaussian', width = .2, delay = 1 /\n"
+        "&profile name = 'line', from = 0, 2, 0, to = 4, 2, 0, points = 5, times = .77, 1.2\n"
+        "  fields = 'velocity', 'acceleration' /\n&snapshot times = 1.1, fields = 'velocity' /\n";
+    char folder[] = "/tmp/selas-held-XXXXXX", text[1000], command[100];
+    assert_non_null(mkdtemp(folder));
+    snprintf(text, sizeof text,
+             "&scene end_time = 1.5 /\n&output directory = '%s/out', plots = .false. /\n%s", folder, words);
+    selas_simulation *simulation = NULL;
+    if (selas_open_text("held", text, &simulation) != SELAS_OK) fail_msg("%s", selas_message(simulation));
+    if (held) assert_int_equal(selas_set_load(simulation, "hammer", 0), SELAS_OK);
+    assert_int_equal(selas_record(simulation), SELAS_OK);
+    for (unsigned long n = selas_steps_needed(simulation); held && n > 0; n--) {
+        assert_int_equal(selas_set_load(simulation, "hammer", bell(selas_time(simulation))), SELAS_OK);
+        assert_int_equal(selas_step(simulation, 1), SELAS_OK);
+    }
+    if (selas_write(simulation) != SELAS_OK) fail_msg("%s", selas_message(simulation));
+    const struct recorder *recorder = simulation->recorder;
+    memcpy(shown, recorder->profile[0].value, PROFILE * sizeof *shown);
+    assert_int_equal(recorder->entries, 1);
+    snprintf(text, sizeof text, "%s/out/run.h5", folder);
+    const hid_t file = hdf_open_file(text), set = H5Dopen2(file, "/snapshots/0000/velocity", H5P_DEFAULT);
+    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, shown + PROFILE) >= 0);
+    H5Dclose(set);
+    H5Fclose(file);
+    selas_close(&simulation);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+/* They show the load as it was held at their time. */
+static void test_records(void **state)
+{
+    (void)state;
+    double by_deck[SHOWN], held[SHOWN];
+    record_of(false, by_deck);
+    record_of(true, held);
+    const double profile = furthest(PROFILE, held, by_deck),
+                 snapshot = furthest(SHOWN - PROFILE, held + PROFILE, by_deck + PROFILE);
+    print_message("# held against the deck: profile %.1e, snapshot %.1e\n", profile, snapshot);
+    assert_true(profile < 1e-12 && snapshot < 1e-6);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_changes), cmocka_unit_test(test_response)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_changes), cmocka_unit_test(test_response),
+                                       cmocka_unit_test(test_records)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

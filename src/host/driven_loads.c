@@ -261,6 +261,7 @@ selas_status host_refresh(selas_simulation *simulation)
     if (!simulation->dirty) return SELAS_OK;
     simulation->dirty = false;
     struct stepper *stepper = simulation->stepper;
+    recorder_forget(simulation->recorder, &simulation->state);
     driver_changed(&stepper->driver, simulation->state.step);
     stepper->scheme->again(stepper, &simulation->state);
     return recorder_observe_again(simulation->recorder, &simulation->state, &simulation->messages);

@@ -133,6 +133,8 @@ selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, siz
 /* profile.c */
 selas_status profile_create(struct recorder *recorder, struct messages *messages);
 void profile_observe(struct recorder *recorder, const struct state *state);
+/* Takes away what was seen of the state, which is as it was then. */
+void profile_forget(struct recorder *recorder, const struct state *state);
 /* Together: the first rank gets the values of others. */
 void profile_gather(struct recorder *recorder);
 selas_status profile_write(struct recorder *recorder, struct messages *messages);
@@ -142,6 +144,9 @@ void profile_free(struct recorder *recorder);
 selas_status snapshot_create(struct recorder *recorder, struct messages *messages);
 selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
+/* Writes those of the state's time again. */
+selas_status snapshot_observe_again(struct recorder *recorder, const struct state *state,
+                                    struct messages *messages);
 void snapshot_free(struct recorder *recorder);
 /* The k-th body point that is shown. */
 size_t snapshot_point(const struct model *model, const struct snapshot_record *record, size_t k);

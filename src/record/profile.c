@@ -94,22 +94,33 @@ static void add_point(struct model *model, const struct state *state, const stru
     }
 }
 
-void profile_observe(struct recorder *recorder, const struct state *state)
+/* Adds the state to the times that its step is one of, `sign` times: -1 takes away what was seen of it. */
+static void add_state(struct recorder *recorder, const struct state *state, int sign)
 {
     for (size_t p = 0; p < recorder->scene->profiles; p++) {
         struct profile_record *record = &recorder->profile[p];
         const size_t points = record->profile->points;
         for (size_t k = 0; k < record->profile->times; k++) {
             if (state->step < record->first[k] || state->step >= record->first[k] + NODES) continue;
-            const double weight = record->weight[NODES * k + (state->step - record->first[k])];
+            const double weight = sign * record->weight[NODES * k + (state->step - record->first[k])];
             double *value = record->value + k * points * record->columns;
             const int me = ranks_me(recorder->scene->ranks);
             for (size_t i = 0; i < points && weight != 0.0; i++)
                 if (record->probe[i].holder == me)
                     add_point(recorder->model, state, record, i, weight, value + i * record->columns);
-            record->seen[k]++;
+            record->seen[k] = (unsigned char)(record->seen[k] + sign);
         }
     }
+}
+
+void profile_observe(struct recorder *recorder, const struct state *state)
+{
+    add_state(recorder, state, 1);
+}
+
+void profile_forget(struct recorder *recorder, const struct state *state)
+{
+    add_state(recorder, state, -1);
 }
 
 void profile_gather(struct recorder *recorder)

@@ -45,8 +45,9 @@ selas_status recorder_open(struct recorder *recorder, const char *work, struct m
  */
 selas_status recorder_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
-/* The same step once more after a change of the loads at its time: takes the place of what was seen of it
- * (receivers, energy; snapshots and profiles keep what they saw). */
+/* Before and after a change of the loads at the time of the step that was seen last: that step once more, in place
+ * of what was seen of it. */
+void recorder_forget(struct recorder *recorder, const struct state *state);
 selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
                                     struct messages *messages);
 /* After the last step: corrects and resamples the histories. */

@@ -84,19 +84,26 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     return recorder->recording ? snapshot_observe(recorder, state, messages) : SELAS_OK;
 }
 
-selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
-                                    struct messages *messages)
+void recorder_forget(struct recorder *recorder, const struct state *state)
 {
     trace_forget(recorder);
+    profile_forget(recorder, state);
     recorder->watch = recorder->before;
     recorder->last_time = recorder->before_time;
     recorder->started = state->step > 0;
-    const selas_status status = trace_observe(recorder, state, messages);
+}
+
+selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
+                                    struct messages *messages)
+{
+    selas_status status = trace_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
-    const selas_status watched = watch_observe(recorder, state, messages);
+    profile_observe(recorder, state);
+    status = watch_observe(recorder, state, messages);
     recorder->started = true;
     recorder->last_time = state->time;
-    return watched;
+    return status == SELAS_OK && recorder->recording ? snapshot_observe_again(recorder, state, messages)
+                                                     : status;
 }
 
 bool recorder_gather(struct recorder *recorder)

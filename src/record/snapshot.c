@@ -253,6 +253,17 @@ selas_status snapshot_observe(struct recorder *recorder, const struct state *sta
     return status;
 }
 
+selas_status snapshot_observe_again(struct recorder *recorder, const struct state *state,
+                                    struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    for (size_t k = recorder->entries;
+         status == SELAS_OK && k-- > 0 && recorder->entry[k].time == state->time;)
+        status =
+            run_file_snapshot(recorder, &recorder->snapshot[recorder->entry[k].group], state, k, messages);
+    return status;
+}
+
 void snapshot_free(struct recorder *recorder)
 {
     for (size_t s = 0; recorder->snapshot != NULL && s < recorder->scene->snapshots; s++) {
