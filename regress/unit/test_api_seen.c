@@ -159,12 +159,37 @@ static void test_driven(void **state)
     }
 }
 
+/* What a function gives is one load, whatever its pieces are; beside it the deck's own loads are told of as ever. */
+static void test_advice_on_driven(void **state)
+{
+    (void)state;
+    static const char cut[] =
+        "&boundary face = 'x-', kind = 'symmetry' /\n&load face = 'y-', shape = 'square'\n"
+        "centre = -2, 0, size = 1, direction = 0, 1, history = 'step' /\n",
+                      sharp[] =
+                          "&load face = 'y+', shape = 'square', centre = 1, 3, size = 1, direction = 0, 1\n"
+                          "history = 'gaussian', width = .1, delay = .4 /\n";
+    for (int beside = 0; beside < 2; beside++) {
+        char more[sizeof cut + sizeof sharp];
+        snprintf(more, sizeof more, "%s%s", cut, beside ? sharp : "");
+        selas_simulation *s = open_with(plate, more);
+        assert_int_equal(selas_set_traction(s, "1", push, NULL), SELAS_OK);
+        assert_int_equal(selas_step(s, 1), SELAS_OK);
+        if (beside)
+            assert_non_null(strstr(selas_message(s), "points per wavelength of the slowest wave"));
+        else
+            assert_string_equal(selas_message(s), "");
+        selas_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_advice),
         cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_advice_on_driven),
         cmocka_unit_test(test_means_beyond_mirrors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

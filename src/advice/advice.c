@@ -191,10 +191,13 @@ static void look_at_speed(struct adviser *adviser, size_t k)
                scene->load[k].group + 1, speed, ground.rayleigh_speed);
 }
 
-size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
+size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context)
 {
+    struct scene deck = *whole; /* the pieces of a host's load are one load */
+    const struct scene *scene = &deck;
     struct adviser adviser = {scene, tell, context, 0};
+    deck.loads = scene_deck_loads(whole);
     look_at_resolution(&adviser);
     look_at_short_waves(&adviser, stepper->model);
     look_at_cut_start(&adviser);

@@ -35,8 +35,9 @@ static void say_resolution(const struct teller *teller, const struct scene *scen
 {
     const double points = points_per_wavelength(scene);
     if (!(points > 0.0)) return;
-    say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
-        source_cutoff(scene), 100.0 * SOURCE_COUNTS);
+    if (!scene_driven(scene))
+        say(teller, "source cutoff", "%.4g (angular frequency above which the spectrum is below %g %%)",
+            source_cutoff(scene), 100.0 * SOURCE_COUNTS);
     say(teller, "points per wavelength", "%.3g (slowest wave at the source's cutoff%s)", points,
         scene_loads_move(scene) ? ", ahead of what moves" : "");
 }

@@ -44,31 +44,17 @@ static double wavelength_of(const struct scene *scene, const struct history *his
 
 /* --- What acts ------------------------------------------------------------------------------------------ */
 
-/* The deck's loads, by their groups; behind them come the pieces of those that a host drives, each within its load. */
-static size_t deck_loads(const struct scene *scene)
-{
-    size_t first = 0, past = scene->loads;
-    while (first < past) {
-        const size_t middle = first + (past - first) / 2;
-        if (scene->load[middle].driven != BY_HOST)
-            first = middle + 1;
-        else
-            past = middle;
-    }
-    return first;
-}
-
 /* All loads of one &load (a file of sources has many) are one extent; they stand side by side. */
 static size_t count_loads(const struct scene *scene)
 {
-    const size_t loads = deck_loads(scene);
+    const size_t loads = scene_deck_loads(scene);
     return loads > 0 ? scene->load[loads - 1].group + 1 : 0;
 }
 
 /* The first load of a group or of one after it. */
 static size_t first_of_group(const struct scene *scene, size_t group)
 {
-    size_t first = 0, past = deck_loads(scene);
+    size_t first = 0, past = scene_deck_loads(scene);
     while (first < past) {
         const size_t middle = first + (past - first) / 2;
         if (scene->load[middle].group < group)

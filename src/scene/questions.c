@@ -111,6 +111,19 @@ double scene_first(const struct scene *scene)
     return speed;
 }
 
+size_t scene_deck_loads(const struct scene *scene)
+{
+    size_t first = 0, past = scene->loads;
+    while (first < past) {
+        const size_t middle = first + (past - first) / 2;
+        if (scene->load[middle].driven != BY_HOST)
+            first = middle + 1;
+        else
+            past = middle;
+    }
+    return first;
+}
+
 bool scene_driven(const struct scene *scene)
 {
     bool driven = false;

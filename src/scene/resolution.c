@@ -14,10 +14,10 @@ static bool as_before(const struct scene *scene, size_t k)
            history_alike(&scene->load[k - 1].history, &scene->load[k].history);
 }
 
-double source_cutoff_at(const struct scene *scene, double counts)
+/* Of the histories that the deck has; 0 if it has none. */
+static double cutoff_of_deck(const struct scene *scene, double counts)
 {
     double omega = 0.0;
-    if (scene_driven(scene)) return INFINITY;
     for (size_t k = 0; k < scene->loads; k++)
         if (scene->load[k].amplitude != 0 && !as_before(scene, k))
             omega = fmax(omega, history_cutoff(&scene->load[k].history, counts));
@@ -25,6 +25,11 @@ double source_cutoff_at(const struct scene *scene, double counts)
         if (boundary_acts(&scene->boundary[face]))
             omega = fmax(omega, history_cutoff(&scene->boundary[face].history, counts));
     return omega;
+}
+
+double source_cutoff_at(const struct scene *scene, double counts)
+{
+    return scene_driven(scene) ? INFINITY : cutoff_of_deck(scene, counts);
 }
 
 double slowest_speed(const struct scene *scene)
@@ -45,7 +50,7 @@ double jump_smoothing(double period)
  * for itself). */
 static double cutoff_ahead(const struct scene *scene, double speed)
 {
-    double omega = source_cutoff(scene);
+    double omega = cutoff_of_deck(scene, SOURCE_COUNTS);
     for (size_t k = 0; k < scene->loads; k++) {
         const double *velocity = scene->load[k].velocity;
         const double own =
@@ -58,7 +63,7 @@ static double cutoff_ahead(const struct scene *scene, double speed)
 
 double points_per_wavelength(const struct scene *scene)
 {
-    const double cutoff = source_cutoff(scene), slowest = slowest_speed(scene);
+    const double cutoff = cutoff_of_deck(scene, SOURCE_COUNTS), slowest = slowest_speed(scene);
     if (!(cutoff > 0.0) || !isfinite(cutoff) || !isfinite(slowest) || !(scene->body.spacing > 0.0))
         return 0.0;
     return 6.283185307179586477 * slowest / cutoff_ahead(scene, slowest) / scene->body.spacing;

@@ -348,7 +348,9 @@ selas_status scene_check_faces(const struct scene *scene, unsigned can, const ch
                                struct messages *messages);
 bool scene_loads_move(const struct scene *scene); /* any of them */
 bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
-double scene_fastest(const struct scene *scene);  /* speed of P waves in the fastest material */
+/* Loads of the deck; behind them come the pieces of those that a host drives, each within its load. */
+size_t scene_deck_loads(const struct scene *scene);
+double scene_fastest(const struct scene *scene); /* speed of P waves in the fastest material */
 /* The same of their front: where they are damped those of the source's highest frequencies are faster than those at
  * q_frequency (constant Q: by ln(f / q_frequency) / (pi Q) of themselves; doc/theory/damping.md). */
 double scene_first(const struct scene *scene);
