@@ -251,12 +251,52 @@ static void test_other_host(void **state)
     remove(path);
 }
 
+static void write_table(const char *path, double peak)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "0 0\n.5 %g\n1 0\n", peak);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A checkpoint goes on with the files that its run has read, whatever they have become before it was saved. */
+static void test_changed_file(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/selas-checkpoint-XXXXXX", table[] = "/tmp/selas-table-XXXXXX";
+    const char *const words[2] = {"table", table};
+    const int file[2] = {mkstemp(path), mkstemp(table)};
+    assert_true(file[0] >= 0 && file[1] >= 0);
+    close(file[0]);
+    close(file[1]);
+    for (int changed = 0; changed < 2; changed++) {
+        write_table(table, 1);
+        selas_simulation *all[2] = {open_scene(), open_scene()};
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(selas_add(all[k], "load", &(size_t){0}), SELAS_OK);
+            assert_int_equal(selas_set_text(all[k], "load(2)%face", 1, &(const char *){"z-"}), SELAS_OK);
+            assert_int_equal(selas_set_text(all[k], "load(2)%shape", 1, &(const char *){"face"}), SELAS_OK);
+            assert_int_equal(selas_set_real(all[k], "load(2)%direction", 3, (double[]){0, 0, 1}), SELAS_OK);
+            assert_int_equal(selas_set_text(all[k], "load(2)%history", 1, &words[0]), SELAS_OK);
+            assert_int_equal(selas_set_text(all[k], "load(2)%file", 1, &words[1]), SELAS_OK);
+            if (k == 1) break;
+            if (selas_step(all[k], 2) != SELAS_OK) fail_msg("%s", selas_message(all[k]));
+            if (changed) write_table(table, 2);
+            assert_int_equal(selas_save(all[k], path), SELAS_OK);
+        }
+        assert_int_equal(selas_restore(all[1], path), changed ? SELAS_FILE_ERROR : SELAS_OK);
+        for (int k = 0; k < 2; k++)
+            selas_close(&all[k]);
+    }
+    remove(path);
+    remove(table);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_other_host),
-        cmocka_unit_test(test_smoothed_point),
-        cmocka_unit_test(test_particles),
+        cmocka_unit_test(test_other_host),     cmocka_unit_test(test_changed_file),
+        cmocka_unit_test(test_smoothed_point), cmocka_unit_test(test_particles),
         cmocka_unit_test(test_driven),
     };
     omp_set_num_threads(1);

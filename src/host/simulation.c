@@ -239,6 +239,7 @@ selas_status simulation_prepare(selas_simulation *simulation)
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
+    if (status == SELAS_OK) status = recorder_keep_files(simulation->recorder, messages);
     status = ranks_agree(simulation->ranks, status, messages);
     if (status == SELAS_OK) recorder_weigh(simulation->recorder);
     simulation->prepared = status == SELAS_OK;

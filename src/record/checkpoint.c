@@ -6,7 +6,7 @@
  * /watch and /before: the energy watch; /figures: step, time and so on (struct figures); /deck: the deck with
  * all defaults (a checkpoint goes on only with the very same scene), /source: the deck as it was read, /name.
  * Numbers have 64 bits: what is read back is what was written. The head is head.c's. */
-#include "record/kept.h"
+#include "record/parts.h"
 
 #include "base/memory.h"
 #include "base/safe_file.h"
@@ -121,8 +121,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
                               const char *path, enum checkpoint_keep keep, struct messages *messages)
 {
     struct ranks *ranks = recorder->scene->ranks;
-    uint64_t files = 0;
-    const bool named = kept_files_checksum(recorder->scene, &files);
+    const uint64_t files = recorder->files;
     double figures[FIGURES] = {[STEP] = (double)state->step,
                                [TIME] = state->time,
                                [LAST_TIME] = recorder->last_time,
@@ -139,7 +138,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
     const size_t room = strlen(path) + 8;
     char *temporary = malloc(room);
     selas_status status = watch_sound(recorder, state, messages);
-    if (status == SELAS_OK && (!named || text == NULL || temporary == NULL))
+    if (status == SELAS_OK && (text == NULL || temporary == NULL))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a checkpoint");
     status = ranks_agree(ranks, status, messages);
     if (status != SELAS_OK || text == NULL || temporary == NULL) {
@@ -171,7 +170,7 @@ static bool is_count(double figure, double below)
 /* A reason why the checkpoint's own figures do not fit, or NULL. */
 static const char *misfit_of_figures(const struct recorder *recorder, const double figures[FIGURES])
 {
-    uint64_t files = 0;
+    const uint64_t files = recorder->files;
     const double dt = recorder->stepper->dt;
     if (!is_count(figures[STEP], 9e15) || !is_count(figures[ENTRIES], 1e9) ||
         !is_count(figures[EVALUATIONS], 9e15))
@@ -179,7 +178,6 @@ static const char *misfit_of_figures(const struct recorder *recorder, const doub
     for (size_t k = 0; k < FIGURES; k++)
         if (!isfinite(figures[k])) return "its times make no sense";
     if (!(fabs(figures[TIME_STEP] - dt) <= 1e-9 * dt)) return "its time step is another one";
-    if (!kept_files_checksum(recorder->scene, &files)) return "there is no memory for its name";
     if (figures[FILES_LOW] != (double)(files & UINT32_MAX) || figures[FILES_HIGH] != (double)(files >> 32))
         return "a file that its deck names (points, table or reference) has changed since, or the host gives "
                "other "

@@ -65,11 +65,16 @@ bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
     return good;
 }
 
+void kept_text_of(uint64_t checksum, char text[KEPT_CHECKSUM])
+{
+    snprintf(text, KEPT_CHECKSUM, "%016llx", (unsigned long long)checksum);
+}
+
 bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM])
 {
     uint64_t checksum = 0;
     const bool good = kept_files_checksum(scene, &checksum);
-    snprintf(text, KEPT_CHECKSUM, "%016llx", (unsigned long long)checksum);
+    kept_text_of(checksum, text);
     return good;
 }
 

@@ -23,7 +23,8 @@ void kept_deck_free(struct kept_deck *kept);
  * loads and faces it drives; false without memory. */
 bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
 enum { KEPT_CHECKSUM = 17 };
-/* The same as text. */
+void kept_text_of(uint64_t checksum, char text[KEPT_CHECKSUM]);
+/* The scene's as text. */
 bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM]);
 
 #endif

@@ -5,6 +5,7 @@
 #include "record/record.h"
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* One receiver: what every step showed, and the finished rows. */
@@ -102,6 +103,7 @@ struct recorder {
     double last_time;
     bool started;
     bool recording; /* with result files, which the first rank has */
+    uint64_t files; /* checksum of the files that the deck names, as they were read */
     double memory;  /* planned bytes of the largest rank; 0: one alone */
 };
 

@@ -81,13 +81,14 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
            hdf_text(place, "variant", recorder->model->method->variant);
 }
 
-static bool write_deck_texts(const struct scene *scene, hid_t place, struct messages *messages)
+static bool write_deck_texts(const struct recorder *recorder, hid_t place, struct messages *messages)
 {
-    const struct deck *deck = scene->deck;
+    const struct deck *deck = recorder->scene->deck;
     char files[KEPT_CHECKSUM];
     if (deck == NULL) return true;
+    kept_text_of(recorder->files, files);
     char *echo = deck_echo(deck, messages);
-    const bool good = echo != NULL && kept_files_text(scene, files) && hdf_text(place, "files", files) &&
+    const bool good = echo != NULL && hdf_text(place, "files", files) &&
                       hdf_text(place, "deck", deck_source(deck)) && hdf_text(place, "deck_echo", echo) &&
                       hdf_text(place, "deck_name", deck_name(deck));
     free(echo);
@@ -99,7 +100,7 @@ bool write_provenance(const struct recorder *recorder, hid_t file, const struct 
 {
     const hid_t place = hdf_group(file, "provenance");
     const bool good = place >= 0 && write_origin(recorder, place, figures) &&
-                      write_deck_texts(recorder->scene, place, messages) &&
+                      write_deck_texts(recorder, place, messages) &&
                       hdf_text(file, "title", recorder->scene->title);
     if (place >= 0) H5Gclose(place);
     return good;

@@ -35,6 +35,8 @@ struct run_figures {
 /* Prepares probes, buffers and the folder's name; writes nothing yet. */
 selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
                              struct recorder **recorder, struct messages *messages);
+/* Remembers the files that the deck names, for checkpoints and results: right after they were read. */
+selas_status recorder_keep_files(struct recorder *recorder, struct messages *messages);
 /* Together, on ranks: the memory of the largest rank, for the plan. */
 void recorder_weigh(struct recorder *recorder);
 /* Together: makes the folder and locks it against other runs. Not called for `check` and by hosts that want no files.

@@ -1,4 +1,5 @@
 /* The recorder: what a run leaves, gathered step by step and written at the end. */
+#include "record/kept.h"
 #include "record/results.h"
 #include "record/watch.h"
 
@@ -36,6 +37,12 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
     }
     *created = recorder;
     return SELAS_OK;
+}
+
+selas_status recorder_keep_files(struct recorder *recorder, struct messages *messages)
+{
+    if (kept_files_checksum(recorder->scene, &recorder->files)) return SELAS_OK;
+    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the deck's files");
 }
 
 static selas_status claim_folder(const struct recorder *recorder, struct messages *messages)
