@@ -811,4 +811,21 @@ cat >numbers.nml <<'END'
 &receiver name = 'r', position = 1.25, .75, 1.5 /
 END
 told "a load behind a file of sources" "load 2 begins at t = 9" check numbers.nml
+
+# --- Single precision ---
+cat >drift.nml <<'DECK'
+&scene end_time = 20 /
+&method precision = 'single', symmetry = F /
+&stepping scheme = 'leapfrog' /
+&material name = 'rock', density = 2, lambda = 3, mu = 1.5 /
+&body material = 'rock', low = 3*0, high = 3*4, spacing = .25 /
+&initial kind = 'uniform-velocity', velocity = 80, 0, 0 /
+&load face = 'z-', shape = 'square', centre = 2, 2, 0, size = 2, 2, direction = 0, 0, 1, history = 'gaussian', width = 1, delay = 4 /
+&receiver name = 'r', position = 2.5, 2, 1 /
+&profile name = 'p', from = 1, 2, 1, to = 3, 2, 3, points = 9, times = 19, fields = 'stress' /
+&output plots = F /
+DECK
+told "stresses in a body that drifts far, in single precision" "rounding in single precision may be up to" \
+    drift.nml output%directory=out
+untold "stresses in a body that drifts, in single precision" drift.nml initial%velocity=8,0,0 output%directory=out
 exit $failures

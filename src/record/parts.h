@@ -137,6 +137,8 @@ selas_status profile_create(struct recorder *recorder, struct messages *messages
 void profile_observe(struct recorder *recorder, const struct state *state);
 /* Takes away what was seen of the state, which is as it was then. */
 void profile_forget(struct recorder *recorder, const struct state *state);
+/* Largest component of a field in all profiles; 0 where none shows it. */
+double profiles_largest(const struct recorder *recorder, selas_field field);
 /* Together: the first rank gets the values of others. */
 void profile_gather(struct recorder *recorder);
 selas_status profile_write(struct recorder *recorder, struct messages *messages);

@@ -123,6 +123,20 @@ void profile_forget(struct recorder *recorder, const struct state *state)
     add_state(recorder, state, -1);
 }
 
+double profiles_largest(const struct recorder *recorder, selas_field field)
+{
+    double largest = 0.0;
+    for (size_t p = 0; p < recorder->scene->profiles; p++) {
+        const struct profile_record *record = &recorder->profile[p];
+        const unsigned fields = record->profile->fields, bit = 1U << field;
+        const size_t before = columns_of(fields & (bit - 1)), past = before + columns_of(fields & bit);
+        for (size_t i = 0; i < record->profile->points * record->profile->times; i++)
+            for (size_t c = before; c < past; c++)
+                largest = fmax(largest, fabs(record->value[i * record->columns + c]));
+    }
+    return largest;
+}
+
 void profile_gather(struct recorder *recorder)
 {
     for (size_t p = 0; p < recorder->scene->profiles; p++) {

@@ -115,16 +115,45 @@ static void write_errors_at(FILE *out, const struct recorder *recorder, size_t r
     }
 }
 
+/* Stresses see the rounding of displacements from point to point (F3a), however little these differ. */
+static double noise_of_stress(const struct recorder *recorder, double largest)
+{
+    const struct scene *scene = recorder->scene;
+    double stiffest = 0.0;
+    for (size_t m = 0; m < scene->materials; m++)
+        stiffest = fmax(stiffest, scene->material[m].density * pow(scene->material[m].p_speed, 2.0));
+    largest = fmax(largest, profiles_largest(recorder, SELAS_DISPLACEMENT));
+    return 0x1p-24 * sqrt((double)recorder->last_step) * stiffest * largest / scene->body.spacing;
+}
+
+static void write_noise(FILE *out, const struct recorder *recorder, double noise, struct messages *messages)
+{
+    static const double noted = 0.05;
+    const double shown = profiles_largest(recorder, SELAS_STRESS);
+    char text[256];
+    fprintf(out, "single precision adds to stresses: up to about %.1e (estimated)\n", noise);
+    if (!(noise > noted * shown) || !(shown > 0.0)) return;
+    snprintf(
+        text, sizeof text,
+        "rounding in single precision may be up to %.2g of the stresses in the profiles, for displacements "
+        "are large "
+        "beside their differences from point to point; precision = 'double' would be right",
+        noise / shown);
+    tell_line(out, "warning", text);
+    warn(messages, "%s", text);
+}
+
 /* What rounding of the state adds (doc/developers/performance.md, F3); each operator of damped ground adds as much. */
-static void write_precision(FILE *out, const struct recorder *recorder)
+static void write_precision(FILE *out, const struct recorder *recorder, struct messages *messages)
 {
     const double steps = (double)recorder->last_step;
     const unsigned parts = recorder->model->parts;
-    double worst = 0.0;
+    double worst = 0.0, largest = 0.0;
     for (size_t r = 0; r < recorder->scene->receivers; r++) {
         double size[2] = {0.0, 0.0};
         for (size_t i = 0; i < 6 * recorder->rows; i++)
             size[i % 6 / 3] = fmax(size[i % 6 / 3], fabs(recorder->trace[r].value[i]));
+        largest = fmax(largest, size[0]);
         if (size[0] == 0.0 || size[1] == 0.0) continue;
         const double turned = recorder->stepper->dt * size[1] / size[0];
         worst = fmax(worst, 0x1p-24 * ((3.0 + 1.5 / turned) * sqrt(steps) + 2.0 * steps * turned));
@@ -132,6 +161,7 @@ static void write_precision(FILE *out, const struct recorder *recorder)
     if (recorder->model->single && worst > 0.0)
         fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",
                 worst * (parts > 1 ? parts : 1));
+    if (recorder->model->single) write_noise(out, recorder, noise_of_stress(recorder, largest), messages);
 }
 
 /* What the low-pass alone takes off the exact velocity: no method comes below that. */
@@ -204,7 +234,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     char missed[MISSED_TEXT];
     if (histories_missed(recorder, missed)) tell_line(out, "warning", missed);
     write_energy(out, recorder);
-    write_precision(out, recorder);
+    write_precision(out, recorder, messages);
     write_cost(out, recorder, figures);
     write_speed_against_error(out, recorder, figures, false);
     return safe_file_close(&file, SELAS_OK, messages);
