@@ -183,14 +183,43 @@ static void test_advice_on_driven(void **state)
     }
 }
 
+static int shear(void *context, double time, const double position[3], double value[3])
+{
+    const double *along = context;
+    (void)time, (void)position;
+    value[0] = *along;
+    value[1] = 1;
+    value[2] = 0;
+    return 0;
+}
+
+/* Sides that are rollers, for the deck's load is alike all over the surface, hold what a function gives across it. */
+static void test_sides_hold(void **state)
+{
+    (void)state;
+    static const char column[] = "&scene dimension = 2, end_time = 1 /\n"
+                                 "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+                                 "&body material = 'rock', shape = 'half-space', spacing = 0.125 /\n"
+                                 "&load face = 'y-', shape = 'face', direction = 0, 1, history = 'step' /\n"
+                                 "&receiver name = 'r', position = 0, .5 /\n";
+    for (int across = 0; across < 2; across++) {
+        double along = across;
+        selas_simulation *s = open_with(column, "");
+        assert_int_equal(selas_set_traction(s, "1", shear, &along), SELAS_OK);
+        assert_int_equal(selas_step(s, 3), SELAS_OK);
+        const char *first = strstr(selas_message(s), "the sides are rollers");
+        assert_true((first != NULL) == (across == 1));
+        if (first != NULL) assert_null(strstr(first + 1, "the sides are rollers"));
+        selas_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_looks),
-        cmocka_unit_test(test_advice),
-        cmocka_unit_test(test_driven),
-        cmocka_unit_test(test_advice_on_driven),
-        cmocka_unit_test(test_means_beyond_mirrors),
+        cmocka_unit_test(test_looks),      cmocka_unit_test(test_advice),
+        cmocka_unit_test(test_driven),     cmocka_unit_test(test_advice_on_driven),
+        cmocka_unit_test(test_sides_hold), cmocka_unit_test(test_means_beyond_mirrors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -199,6 +199,30 @@ static bool ask(selas_simulation *simulation, selas_vector_function function, vo
     return answer >= 0;
 }
 
+/* Sides that the program made rollers, for the deck's load is alike all over the surface along its normal, hold no
+ * other: of several pieces each is held against the first. */
+static void look_at_sides(selas_simulation *simulation, const char *name, const double first[3],
+                          const double value[3])
+{
+    const struct scene *scene = simulation->scene;
+    const struct boundary *side = &scene->boundary[FACE_X_LOW];
+    const int down = scene->dimension - 1;
+    double other = fabs(value[down] - first[down]), size = fabs(first[down]);
+    if (simulation->host.told || scene->body.shape != BODY_HALF_SPACE || side->kind != BOUNDARY_ROLLER ||
+        side->given)
+        return;
+    for (int c = 0; c < 2 && c < down; c++)
+        other = fmax(other, fabs(value[c]));
+    if (!(other > 1e-9 * size)) return;
+    simulation->host.told = true;
+    warn(&simulation->messages,
+         "the function for load '%s' gives what is not alike all over the surface along its normal, but the "
+         "sides are "
+         "rollers, which hold it: the box of the half-space (body%%low and high) with faces of its own would "
+         "be right",
+         name);
+}
+
 static void drive_load(selas_simulation *simulation, const struct driven_load *driven, double time,
                        double *load)
 {
@@ -206,11 +230,14 @@ static void drive_load(selas_simulation *simulation, const struct driven_load *d
     const size_t d = (size_t)scene->dimension;
     char number[LOAD_NUMBER_SIZE];
     const char *name = load_name(scene, driven->load, number);
+    double first[3] = {0.0};
     load[driven->load] = driven->value;
     for (size_t p = 0; p < driven->pieces; p++) {
         const size_t piece = driven->first + d * p;
         double value[3];
         ask(simulation, driven->function, driven->context, time, scene->load[piece].centre, name, value);
+        if (p == 0) memcpy(first, value, sizeof first);
+        if (scene->load[driven->load].shape == LOAD_FACE) look_at_sides(simulation, name, first, value);
         memcpy(load + piece, value, d * sizeof *load);
     }
 }

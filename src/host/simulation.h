@@ -35,6 +35,7 @@ struct host {
     struct host_drive drive;
     int answer;              /* what the callbacks returned since this was last looked at: the worst */
     char refused[NAME_SIZE]; /* the load or face whose callback it was */
+    bool told;               /* that a function gives what the sides of the box hold */
 };
 
 struct selas_simulation {
