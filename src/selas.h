@@ -174,8 +174,8 @@ SELAS_API selas_status selas_build(selas_simulation *simulation);
  * state kept (the advancing call returns SELAS_STOPPED; the next one goes on), < 0 to fail
  * (SELAS_CALLBACK_FAILED; no step can follow). A value that is not finite counts as a failure. Called in
  * order of time, once for each step's time and place (Runge-Kutta schemes: once for each stage, for motions also the
- * times around it), and one step
- * ahead of the state by the scheme 'modified-equation' and for motions. Only the thread that advances the
+ * times around it), and one step ahead of the state by the scheme 'modified-equation' and for motions; from the time
+ * reached on again where set_load changes a load beside it. Only the thread that advances the
  * simulation calls it. It must not call functions of the same simulation (they return SELAS_BAD_ARGUMENT). */
 typedef int (*selas_vector_function)(void *context, double time, const double position[3], double value[3]);
 
