@@ -296,8 +296,8 @@ static double slowest_sent(const struct scene *scene)
     return slowest_speed(scene);
 }
 
-/* The method as published presses and holds faces to order 0. Measured at 10 to 40 points a unit: a bar's pulse between
- * rollers .1 to .26, patches on held boxes .4, on free ones .7 to 1.5, half-spaces .2 to .7 (paper-method.md). */
+/* The method as published presses and holds faces to order 0. Measured: patches on held
+ * boxes .4 to .6, on free ones .6 to 1.1, half-spaces .2 to .7 (paper-method.md). */
 static void look_at_pressed_faces(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
