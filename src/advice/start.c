@@ -313,10 +313,10 @@ static void look_at_pressed_faces(struct adviser *adviser)
 }
 
 /* What the paper's waves err by where they meet faces, carried to order 0, by end_time: each time .15 at free faces and
- * dampers (which send little back: twice at most), .03 at held ones (paper-method.md). In a bar free ends are right. */
+ * dampers (which send little back: twice at most), .05 at held ones (paper-method.md). In a bar free ends are right. */
 static double error_at_faces(const struct scene *scene, double way)
 {
-    static const double loose = .15, held = .03;
+    static const double loose = .15, held = .05;
     double most = 0;
     for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
         const double edge = scene->body.high[axis] - scene->body.low[axis];
