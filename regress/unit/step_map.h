@@ -88,4 +88,24 @@ static inline double map_largest(struct model *model, double dt, bool (*held)(st
     return map_largest_of(map_step, model, dt, held, count);
 }
 
+/* Growth a step of the velocities of noise (uniform motion does not count), over the last two thirds of 300 steps. */
+static inline double map_growth(map_of_step *step, struct model *model, double dt)
+{
+    enum { THIRD = 100 };
+    const size_t size = model->state_size;
+    double *y = calloc(size, sizeof *y), *a = calloc(model->unknowns, sizeof *a), norm[4];
+    for (size_t i = 0; i < size; i++)
+        y[i] = sin(1 + 12.9898 * (double)i);
+    for (int third = 0; third < 4; third++) {
+        norm[third] = 0;
+        for (size_t i = model->unknowns; i < 2 * model->unknowns; i++)
+            norm[third] = hypot(norm[third], y[i]);
+        for (int i = 0; third < 3 && i < THIRD; i++)
+            step(model, dt, y, a);
+    }
+    free(y);
+    free(a);
+    return pow(norm[3] / norm[1], .5 / THIRD);
+}
+
 #endif
