@@ -256,8 +256,8 @@ static bool wall_between(const struct scene *scene, const struct ground_block *o
     return true;
 }
 
-/* Walls between soft blocks. Measured in the plane, moduli 10 : 1, at 5.8 points a wavelength: .6 spacings thick .07 to
- * .29, thicker ones and thin plates in soft ground .01 to .14 (doc/theory/general-ground.md, section 7). */
+/* Walls between soft blocks. Measured in the plane, moduli 10 : 1, at 6 points a wavelength: thinner than .9 spacings
+ * .06 to .26, thicker ones .04 to .13 (doc/theory/general-ground.md, section 7). */
 void look_at_walls(struct adviser *adviser)
 {
     static const double thin = .9, softer = 3;
