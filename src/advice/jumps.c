@@ -219,26 +219,54 @@ void look_at_crossed_rock(struct adviser *adviser)
            initial->wavelength > 0 ? "even ground" : "a state that begins 3.5 widths from it");
 }
 
-/* Sweeps invert the mass badly where densities jump. Measured: blocks of 1/36 to 36 times the ground density,
- * drawn by chance, at 3 to 9 points a wavelength, err by .04 to 2.6 times the law (general-ground.md). */
+/* How many times the shear modulus differs across the middles of a block's faces, at most. */
+static double modulus_jump(const struct scene *scene, const struct ground_block *block)
+{
+    const struct body *body = &scene->body;
+    const double aside = 1e-6 * body->spacing;
+    double most = 1;
+    for (int face = 0; face < 2 * scene->dimension && face < FACES; face++) {
+        const int axis = face / 2, way = face % 2 == 0 ? -1 : 1;
+        double mu[2];
+        for (int side = 0; side < 2; side++) {
+            double place[3];
+            memcpy(place, block->centre, sizeof place);
+            place[axis] += way * (block->half[axis] + (side == 0 ? -aside : aside));
+            const bool inside = place[axis] > ground_low(body, axis) && place[axis] < body->high[axis];
+            mu[side] = inside ? ground_at(scene, place).mu : 0;
+        }
+        if (mu[0] > 0 && mu[1] > 0) most = fmax(most, fmax(mu[0] / mu[1], mu[1] / mu[0]));
+    }
+    return most;
+}
+
+/* Interfaces that the splines carry smoothly. Measured in the plane (general-ground.md, section 7): blocks of 1/36 to
+ * 36 times the ground's density, drawn by chance, err by .04 to 2.9 times the first law, of 1/15 to 15 times its
+ * moduli and the same density by .2 to 1.3 times the second one. */
 void look_at_weights(struct adviser *adviser)
 {
-    static const double seen = .08, constant = .31;
+    static const double seen = .08, of_densities = .31, seen_moduli = .1, of_moduli = .4;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene);
-    double least = INFINITY, most = 0;
+    double least = INFINITY, most = 0, moduli = 1;
     for (size_t m = 0; m < scene->materials; m++) {
         least = fmin(least, scene->material[m].density);
         most = fmax(most, scene->material[m].density);
     }
-    const double error = constant * (most / least - 1) / (points * points);
-    const bool told = scene->reference.kind[0] != '\0';
-    if (told || !ground_is_general(scene) || !(points > 0) || !(error > seen)) return;
-    advise(adviser,
-           "densities differ %.3g times where the rock changes: at %.3g points per wavelength velocities err "
-           "by up to "
-           "about %.2g; body%%spacing = %.3g would be right",
-           most / least, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
+    if (scene->reference.kind[0] != '\0' || !ground_is_general(scene) || !(points > 0)) return;
+    for (size_t k = 0; k < scene->body.blocks; k++)
+        moduli = fmax(moduli, modulus_jump(scene, &scene->body.block[k]));
+    const double light = of_densities * (most / least - 1) / (points * points),
+                 soft = of_moduli * (moduli - 1) / (points * points);
+    const bool by_weight = light > seen;
+    if (!by_weight && !(soft > seen_moduli)) return;
+    advise(
+        adviser,
+        "%s differ %.3g times where the rock changes: at %.3g points per wavelength velocities err by up to "
+        "about %.2g; body%%spacing = %.3g would be right",
+        by_weight ? "densities" : "moduli", by_weight ? most / least : moduli, points,
+        fmin(1, by_weight ? light : soft),
+        scene->body.spacing * (by_weight ? sqrt(seen / 2 / light) : sqrt(seen_moduli / 2 / soft)));
 }
 
 /* The middle of what stands between two blocks along an axis, if it is thinner than `most`. */
