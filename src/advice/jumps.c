@@ -225,15 +225,15 @@ static double modulus_jump(const struct scene *scene, const struct ground_block 
     const struct body *body = &scene->body;
     const double aside = 1e-6 * body->spacing;
     double most = 1;
-    for (int face = 0; face < 2 * scene->dimension && face < FACES; face++) {
+    for (int face = 0; face < 6 && face < 2 * scene->dimension; face++) {
         const int axis = face / 2, way = face % 2 == 0 ? -1 : 1;
-        double mu[2];
+        const double edge = block->centre[axis] + way * block->half[axis];
+        double mu[2] = {0, 0};
         for (int side = 0; side < 2; side++) {
-            double place[3];
-            memcpy(place, block->centre, sizeof place);
-            place[axis] += way * (block->half[axis] + (side == 0 ? -aside : aside));
-            const bool inside = place[axis] > ground_low(body, axis) && place[axis] < body->high[axis];
-            mu[side] = inside ? ground_at(scene, place).mu : 0;
+            double place[3] = {block->centre[0], block->centre[1], block->centre[2]};
+            place[axis] = edge + (2 * side - 1) * aside;
+            if (place[axis] > ground_low(body, axis) && place[axis] < body->high[axis])
+                mu[side] = ground_at(scene, place).mu;
         }
         if (mu[0] > 0 && mu[1] > 0) most = fmax(most, fmax(mu[0] / mu[1], mu[1] / mu[0]));
     }
