@@ -198,13 +198,15 @@ static const char *obstacle(const struct consistent *c)
     for (int face = 0; face < BOX_FACES; face++)
         moving = moving || c->moving[face];
     if (c->fused == NULL)
-        return "the fused operator: three dimensions, degree 2, a mass of sweeps, no thin body";
+        return "the fused operator: three dimensions, degree 2, a mass of sweeps, 14 control values along "
+               "each axis (mirror planes halve them; method%symmetry = F has none)";
     if (moving) return "no moving faces or loads";
     if (c->model.damped) return "absorbing layers ('pml') in place of dampers ('lysmer')";
     if (c->hform->dissipation != NULL) return "no dissipation";
     if (c->pml != NULL && c->pml->fast == NULL) return "layers whose passes are shared";
     if (!c->options.single) return NULL;
-    if (c->fused->single == NULL) return "16 control values along x";
+    if (c->fused->single == NULL)
+        return "16 control values along x (a mirror plane halves them; method%symmetry = F has none)";
     if (c->pml != NULL && c->pml->single == NULL) return "layers whose passes are shared";
     return NULL;
 }
