@@ -233,11 +233,10 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
 {
     enum { TRIALS = 4 };
     static const double good = .3;
-    double proven = 0, next = trial_spacing(task, ground, *h, TRIAL_RATIO, most);
+    double proven = 0, reached = 0, next = trial_spacing(task, ground, *h, TRIAL_RATIO, most);
     for (int i = 0; i < TRIALS && next < most; i++) {
         bool made = false;
         selas_status status = make_trial(task, ground, next, trial, choice, &made, messages);
-        if (!made) task->expected = 0;
         if (!made || status != SELAS_OK) return status;
         const double error = worst(task->scene, task->place, next, ground) / task->accuracy;
         *tried = next;
@@ -245,7 +244,7 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
         *h = next;
         if (error <= MEASURED_MOST) {
             proven = next;
-            task->expected = error * task->accuracy;
+            reached = error;
         } else {
             most = .98 * next;
         }
@@ -253,15 +252,14 @@ static selas_status narrow(struct task *task, const struct surface_ground *groun
         status = find_spacing(task, ground, most, h, messages);
         if (status != SELAS_OK) return status;
         const bool close = rings(task->scene, *h);
-        if (*h < next && next < (close ? CLOSE_RATIO : FAR_RATIO) * *h) {
-            task->expected = 0;
-            return SELAS_OK;
-        }
+        if (*h < next && next < (close ? CLOSE_RATIO : FAR_RATIO) * *h) return SELAS_OK;
         if (*h < next && proven > *h) break;
         next =
             *h > next ? *h : trial_spacing(task, ground, *h, close ? CLOSE_RATIO : TRIAL_RATIO, .98 * next);
     }
-    if (proven > 0) *h = *tried = proven;
+    if (proven == 0) return SELAS_OK;
+    *h = *tried = proven;
+    task->expected = reached * task->accuracy;
     return SELAS_OK;
 }
 

@@ -13,7 +13,7 @@ struct task {
     struct surface_place *place; /* [receivers] */
     double *power;
     double accuracy, aim;
-    double expected; /* of the choice, where an earlier trial than the last says it; else 0 */
+    double expected; /* error of a trial before the last one that is taken as it is; else 0 */
 };
 
 /* Does a force or a moment tensor act at a point? */

@@ -121,8 +121,7 @@ static void look_at_layers_there(struct adviser *adviser)
         if (!there)
             advise(adviser,
                    "the layer of '%s' is nowhere in the body: it lies below it, or other layers hide it; the "
-                   "top of "
-                   "a tilted layer is its depth at x = y = 0",
+                   "top of a tilted layer is its depth at x = y = 0",
                    scene->material[body->layer[k].material].name);
     }
 }

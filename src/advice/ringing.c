@@ -103,7 +103,7 @@ void look_at_cut_moment(struct adviser *adviser)
         advise(
             adviser,
             "load %zu is a moment tensor that begins with a small jump at t = 0, of which the finer lattice "
-            "carries "
-            "more: velocities ring by some %.1g of themselves; a longer delay, or output%%low_pass, would do",
+            "carries more: velocities ring by some %.1g of themselves; a longer delay, or output%%low_pass, "
+            "would do",
             group + 1, worst);
 }

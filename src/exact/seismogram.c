@@ -20,6 +20,12 @@ static const double MOST_EVALUATIONS = 5e7;
 /* Waves after the period may be so much louder than those before its end. */
 static const double LOUDER = 10;
 
+/* What was found of a receiver's velocity with one kind of edge: its norm, that of what the last band added, and what
+ * is missing of it, estimated. */
+struct edge {
+    double norm, last, missing;
+};
+
 struct work {
     const struct seismogram_problem *problem;
     struct sums sums;
@@ -32,8 +38,7 @@ struct work {
     double complex *spectrum; /* [receivers * components][room]: displacement (and stress) */
     double *missed;           /* [receivers]: squares of the sums' errors of velocity */
     double *least;            /* [receivers]: norm of velocity below which nothing is judged */
-    double *last;             /* [receivers][2]: norm of the last band, cut off or faded out at its end */
-    double *left;             /* [receivers][2]: and of what is above it, estimated, relative */
+    struct edge *edge;        /* [receivers][2]: cut off at the last frequency; faded out */
     bool faded;               /* which of the two leaves less */
 };
 
@@ -175,40 +180,42 @@ static double norm_from(struct work *work, size_t receiver, size_t from, bool fa
     return largest;
 }
 
-/* What is above the band from `from` on, relative to the history: as the bands fell, or less than an eighth of the
- * last band where the histories end there. */
-static double left_above(struct work *work, size_t receiver, size_t from, bool end, bool faded)
+/* What is above the band from `from` on falls as the bands fell, or is less than an eighth of the last band where
+ * the histories end there. */
+static void look_above(struct work *work, size_t receiver, size_t from, bool end, bool faded)
 {
     const size_t tail = work->frequencies - (work->frequencies - from) / 8;
-    double *last = &work->last[2 * receiver + faded];
+    struct edge *edge = &work->edge[2 * receiver + faded];
     const double part = norm_from(work, receiver, from, faded);
-    const double norm = fmax(norm_from(work, receiver, 0, faded), work->least[receiver]);
-    const double ratio = fmin(.8, fmax(.3, *last > 0 ? part / *last : .8));
+    const double ratio = fmin(.8, fmax(.3, edge->last > 0 ? part / edge->last : .8));
     const double left = end ? norm_from(work, receiver, tail, false) : part * ratio / (1 - ratio);
-    *last = part;
-    return norm > 0 ? left / norm : 0;
+    edge->last = part;
+    edge->norm = fmax(norm_from(work, receiver, 0, faded), work->least[receiver]);
+    edge->missing = edge->norm > 0 ? left / edge->norm : 0;
 }
 
-/* Notes what was reached with the band from `from` on, cut off or faded out at its end, whichever leaves less; the
- * worst of the receivers. */
+/* Notes what was reached with the band from `from` on, by the kind of edge that leaves less; the worst of the
+ * receivers. */
 static double judge(struct work *work, size_t from, double cutoff, bool end)
 {
-    double worst[2] = {0, 0};
-    for (size_t r = 0; r < work->receivers; r++)
-        for (size_t faded = 0; faded < 2; faded++) {
-            work->left[2 * r + faded] = left_above(work, r, from, end, faded);
-            worst[faded] = fmax(worst[faded], work->left[2 * r + faded]);
+    double worst[2] = {0, INFINITY};
+    for (int faded = 0; faded < (end ? 1 : 2); faded++) {
+        worst[faded] = 0;
+        for (size_t r = 0; r < work->receivers; r++) {
+            look_above(work, r, from, end, faded == 1);
+            worst[faded] = fmax(worst[faded], work->edge[2 * r + (size_t)faded].missing);
         }
-    work->faded = !end && worst[1] < worst[0];
+    }
+    work->faded = worst[1] < worst[0];
     for (size_t r = 0; r < work->receivers; r++) {
         struct seismogram_effort *effort = &work->seismogram[r].effort;
-        const double norm = fmax(norm_from(work, r, 0, work->faded), work->least[r]);
+        const struct edge *edge = &work->edge[2 * r + work->faded];
         effort->cutoff = cutoff;
         effort->period = work->contour.period;
         effort->decay = work->contour.decay;
         effort->evaluations = work->sums.evaluations;
-        effort->of_wavenumbers = norm > 0 ? work->growth * sqrt(work->missed[r]) / norm : 0;
-        effort->of_frequencies = work->left[2 * r + work->faded];
+        effort->of_wavenumbers = edge->norm > 0 ? work->growth * sqrt(work->missed[r]) / edge->norm : 0;
+        effort->of_frequencies = edge->missing;
         effort->of_period = LOUDER * exp(-work->contour.decay * work->contour.period);
         effort->reached = effort->of_wavenumbers + effort->of_frequencies + effort->of_period;
     }
@@ -318,10 +325,8 @@ static selas_status prepare(struct work *work, struct messages *messages)
     work->components = problem->stress ? COMPONENTS : 3;
     work->missed = array_new(work->receivers, sizeof *work->missed);
     work->least = array_new(work->receivers, sizeof *work->least);
-    work->last = array_new(2 * work->receivers, sizeof *work->last);
-    work->left = array_new(2 * work->receivers, sizeof *work->left);
-    if (work->missed == NULL || work->least == NULL || work->last == NULL || work->left == NULL)
-        return no_memory(messages);
+    work->edge = array_new(2 * work->receivers, sizeof *work->edge);
+    if (work->missed == NULL || work->least == NULL || work->edge == NULL) return no_memory(messages);
     return seismograms_check(problem, work->receivers, work->seismogram, messages);
 }
 
@@ -331,8 +336,7 @@ static void work_free(struct work *work)
     array_free(work->spectrum);
     array_free(work->missed);
     array_free(work->least);
-    array_free(work->last);
-    array_free(work->left);
+    array_free(work->edge);
     contour_free(&work->contour);
 }
 

@@ -63,9 +63,7 @@ static selas_status prepare_restore(selas_simulation *simulation)
     if (simulation->recording && simulation->state.y != NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "with result files restore right after selas_record");
-    if (simulation->state.y == NULL)
-        status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
-    status = ranks_agree(simulation->ranks, status, &simulation->messages);
+    if (simulation->state.y == NULL) status = simulation_state(simulation);
     if (status == SELAS_OK && simulation->recording) status = open_again(simulation);
     return ranks_agree(simulation->ranks, status, &simulation->messages);
 }

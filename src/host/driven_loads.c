@@ -207,18 +207,18 @@ static void look_at_sides(selas_simulation *simulation, const char *name, const 
     const struct scene *scene = simulation->scene;
     const struct boundary *side = &scene->boundary[FACE_X_LOW];
     const int down = scene->dimension - 1;
-    double other = fabs(value[down] - first[down]), size = fabs(first[down]);
+    double other = fabs(value[down] - first[down]);
     if (simulation->host.told || scene->body.shape != BODY_HALF_SPACE || side->kind != BOUNDARY_ROLLER ||
         side->given)
         return;
     for (int c = 0; c < 2 && c < down; c++)
         other = fmax(other, fabs(value[c]));
-    if (!(other > 1e-9 * size)) return;
+    if (!(other > 1e-9 * fabs(first[down]))) return;
     simulation->host.told = true;
     warn(&simulation->messages,
          "the function for load '%s' gives what is not alike all over the surface along its normal, but the "
-         "sides are "
-         "rollers, which hold it: the box of the half-space (body%%low and high) with faces of its own would "
+         "sides are rollers, which hold it: the box of the half-space (body%%low and high) with faces of its "
+         "own would "
          "be right",
          name);
 }

@@ -239,13 +239,19 @@ selas_status simulation_prepare(selas_simulation *simulation)
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
-    if (status == SELAS_OK) status = recorder_keep_files(simulation->recorder, messages);
     status = ranks_agree(simulation->ranks, status, messages);
     if (status == SELAS_OK) recorder_weigh(simulation->recorder);
     simulation->prepared = status == SELAS_OK;
     simulation->figures.threads = omp_get_max_threads();
     add_elapsed(begun, &simulation->figures.setup_wall_seconds, &simulation->figures.setup_cpu_seconds);
     return status;
+}
+
+selas_status simulation_state(selas_simulation *simulation)
+{
+    selas_status status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
+    if (status == SELAS_OK) status = recorder_keep_files(simulation->recorder, &simulation->messages);
+    return ranks_agree(simulation->ranks, status, &simulation->messages);
 }
 
 /* The state at t = 0, seen by the recorder. */
@@ -255,8 +261,7 @@ static selas_status start(selas_simulation *simulation)
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
     const struct stopwatch begun = start_watch();
     model_computed(simulation->model)->evaluations = 0;
-    status = state_create(simulation->stepper, &simulation->state, &simulation->messages);
-    status = ranks_agree(simulation->ranks, status, &simulation->messages);
+    status = simulation_state(simulation);
     if (status == SELAS_OK && simulation->recording)
         status = recorder_open(simulation->recorder, NULL, &simulation->messages);
     status = ranks_agree(simulation->ranks, status, &simulation->messages);

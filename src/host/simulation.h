@@ -94,7 +94,9 @@ selas_status simulation_consequence(selas_simulation *simulation, selas_status s
 selas_status simulation_scene(selas_simulation *simulation);
 /* The same, with model, time step and recorder, without files. */
 selas_status simulation_prepare(selas_simulation *simulation);
-/* The same, with the state at t = 0 or later and the loads as they are now. */
+/* The state at rest of one that is prepared; remembers the files that its deck names. Together, on ranks. */
+selas_status simulation_state(selas_simulation *simulation);
+/* The same as simulation_prepare, with the state at t = 0 or later and the loads as they are now. */
 selas_status simulation_begin(selas_simulation *simulation);
 /* Runs on as far as the finished histories need, and finishes them. */
 selas_status simulation_finish(selas_simulation *simulation);

@@ -136,8 +136,7 @@ static void write_noise(FILE *out, const struct recorder *recorder, double noise
     snprintf(
         text, sizeof text,
         "rounding in single precision may be up to %.2g of the stresses in the profiles, for displacements "
-        "are large "
-        "beside their differences from point to point; precision = 'double' would be right",
+        "are large beside their differences from point to point; precision = 'double' would be right",
         noise / shown);
     tell_line(out, "warning", text);
     warn(messages, "%s", text);
