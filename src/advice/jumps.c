@@ -240,12 +240,11 @@ static double modulus_jump(const struct scene *scene, const struct ground_block 
     return most;
 }
 
-/* Interfaces that the splines carry smoothly. Measured in the plane (general-ground.md, section 7): blocks of 1/36 to
- * 36 times the ground's density, drawn by chance, err by .04 to 2.9 times the first law, of 1/15 to 15 times its
- * moduli and the same density by .2 to 1.3 times the second one. */
+/* Interfaces that the splines carry smoothly. Measured in the plane (regress/studies/blocks): blocks of r times the
+ * ground's density, or of r times its moduli, err by so much (r - 1) / p^2 at most, p the points a wavelength. */
 void look_at_weights(struct adviser *adviser)
 {
-    static const double seen = .08, of_densities = .31, seen_moduli = .1, of_moduli = .4;
+    static const double seen = .1, of_densities = .8, of_moduli = .4;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene);
     double least = INFINITY, most = 0, moduli = 1;
@@ -256,17 +255,15 @@ void look_at_weights(struct adviser *adviser)
     if (scene->reference.kind[0] != '\0' || !ground_is_general(scene) || !(points > 0)) return;
     for (size_t k = 0; k < scene->body.blocks; k++)
         moduli = fmax(moduli, modulus_jump(scene, &scene->body.block[k]));
-    const double light = of_densities * (most / least - 1) / (points * points),
-                 soft = of_moduli * (moduli - 1) / (points * points);
-    const bool by_weight = light > seen;
-    if (!by_weight && !(soft > seen_moduli)) return;
+    const double light = of_densities * (most / least - 1), soft = of_moduli * (moduli - 1),
+                 error = fmax(light, soft) / (points * points);
+    if (!(error > seen)) return;
     advise(
         adviser,
         "%s differ %.3g times where the rock changes: at %.3g points per wavelength velocities err by up to "
         "about %.2g; body%%spacing = %.3g would be right",
-        by_weight ? "densities" : "moduli", by_weight ? most / least : moduli, points,
-        fmin(1, by_weight ? light : soft),
-        scene->body.spacing * (by_weight ? sqrt(seen / 2 / light) : sqrt(seen_moduli / 2 / soft)));
+        light > soft ? "densities" : "moduli", light > soft ? most / least : moduli, points, fmin(1, error),
+        scene->body.spacing * sqrt(seen / 2 / error));
 }
 
 /* The middle of what stands between two blocks along an axis, if it is thinner than `most`. */
