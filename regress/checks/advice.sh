@@ -60,6 +60,9 @@ told "a load on an absorbing face" "load 1 acts on the absorbing face y+" load%f
 told "few points ahead of a load that moves" "3.08 points per wavelength .* ahead of what moves" load%velocity=.5,0 load%width=.6 \
     load%delay=4 "boundary(2)%kind=free"
 told "an edge that comes by" "load 1 comes by receiver 'r'.* err by about 0.19 there.*(displacements by 0.07)" load%velocity=.25,0 receiver%position=1,0 "boundary(2)%kind=free"
+told "one three spacings below it" "load 1 comes by receiver 'r'.* err by about 0.041 there" load%velocity=.6,0 receiver%position=1,.75 "boundary(2)%kind=free"
+deck=good.nml
+untold "below a slow one" load%velocity=.3,0 receiver%position=1,.75 "boundary(2)%kind=free"
 cat >rest.nml <<'END'
 &scene dimension = 3, end_time = 40 /
 &material name = 'rock', density = 1, lambda = 1, mu = 1 /

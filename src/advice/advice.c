@@ -169,7 +169,7 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
 
 /* On the Mach lines of the Rayleigh wave displacements have kinks and velocities poles (doc/theory/sources.md, Eq
  * 11). */
-static void look_at_speed(struct adviser *adviser, size_t k)
+static bool outruns_rayleigh(struct adviser *adviser, size_t k)
 {
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
@@ -177,18 +177,20 @@ static void look_at_speed(struct adviser *adviser, size_t k)
     double centre[3], speed = 0.0;
     for (int axis = 0; axis < 3; axis++)
         speed = hypot(speed, load->velocity[axis]);
-    if (load->kind != LOAD_TRACTION || speed <= 0.0) return;
+    if (load->kind != LOAD_TRACTION || speed <= 0.0) return false;
     body_from_deck(&scene->body, load->centre, centre);
     const double depth = fmax(0.0, centre[down] - scene->body.low[down]);
     const struct material *material = scene_material_at(scene, depth);
     struct half_space ground;
     half_space_set(&ground, material->density, material->plane_lambda, material->mu);
-    if (speed > ground.rayleigh_speed)
-        advise(adviser,
-               "load %zu moves at %.4g, faster than the Rayleigh wave (%.4g): its Mach lines have velocities "
-               "that no spacing resolves; compare displacements, or velocities through a window of some "
-               "spacings, or move it slower",
-               scene->load[k].group + 1, speed, ground.rayleigh_speed);
+    if (!(speed > ground.rayleigh_speed)) return false;
+    advise(
+        adviser,
+        "load %zu moves at %.4g, faster than the Rayleigh wave (%.4g): its Mach lines have velocities that "
+        "no spacing resolves; compare displacements, or velocities through a window of some spacings, or "
+        "move it slower",
+        scene->load[k].group + 1, speed, ground.rayleigh_speed);
+    return true;
 }
 
 size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
@@ -233,8 +235,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_grading(&adviser);
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
-        look_at_speed(&adviser, k);
-        look_at_passed(&adviser, k);
+        if (!outruns_rayleigh(&adviser, k)) look_at_passed(&adviser, k);
         if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }
     return adviser.count;
