@@ -1,7 +1,8 @@
 /* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
  * points.c (patches on points), ringing.c (damped bodies), jumps.c (fields and states where the rock
  * jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
- * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others), beyond.c (ground that goes on). */
+ * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others), beyond.c (ground that goes on),
+ * stacks.c (ground that goes to and fro). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -70,9 +71,10 @@ void look_at_passed(struct adviser *adviser, size_t load);
 void look_at_interfaces(struct adviser *adviser);
 /* Stresses that are asked for where the rock jumps (jumps.c). */
 void look_at_fields(struct adviser *adviser);
-/* Densities that jump in general ground (jumps.c). */
+/* Rock that jumps in general ground (jumps.c, stacks.c). */
 void look_at_weights(struct adviser *adviser);
 void look_at_walls(struct adviser *adviser);
+void look_at_stacks(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
 /* Dampers where an absorbing layer cannot be, and nobody asked for them. */

@@ -1,0 +1,102 @@
+/* Ground that goes to and fro within few spacings: stacks of thin layers, models finer than the lattice. */
+#include "advice/parts.h"
+
+#include "scene/ground.h"
+#include "scene/resolution.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { STACK = 3 }; /* so many swings are more than a layer between two others */
+
+/* What is met along a line: the logarithm of a modulus or density, where it turned last, how far it has come since, and
+ * the largest swings that few spacings hold, in parts of (r - 1), r the ratio across a swing. */
+struct swings {
+    double turn[2], reached[2]; /* place in spacings, value */
+    bool turned;
+    double largest[STACK];
+};
+
+static void swing_ends(struct swings *swings)
+{
+    static const double few = 4, whole = .8; /* measured: thinner ones average out */
+    const double length = swings->reached[0] - swings->turn[0];
+    double size = expm1(fabs(swings->reached[1] - swings->turn[1])) * fmin(1, pow(length / whole, 2));
+    if (!swings->turned || length > few) return;
+    for (int i = 0; i < STACK; i++)
+        if (size > swings->largest[i]) {
+            const double less = swings->largest[i];
+            swings->largest[i] = size;
+            size = less;
+        }
+}
+
+static void swing_on(struct swings *swings, double place, double value)
+{
+    static const double slight = .05;
+    const double so_far = swings->reached[1] - swings->turn[1], more = value - swings->reached[1];
+    const bool turns = so_far * more < 0;
+    if (more == 0 || (turns && fabs(more) < slight)) return;
+    if (turns) {
+        swing_ends(swings);
+        swings->turned = true;
+        memcpy(swings->turn, swings->reached, sizeof swings->turn);
+    }
+    swings->reached[0] = place;
+    swings->reached[1] = value;
+}
+
+/* The largest such swing that STACK have along a line through a place, of moduli and of densities. */
+static void look_along(const struct scene *scene, const double through[3], int axis, double size[2])
+{
+    enum { MOST = 20000, A_SPACING = 8 };
+    const struct body *body = &scene->body;
+    const double low = ground_low(body, axis), length = body->high[axis] - low;
+    const int steps = (int)fmin(MOST, ceil(A_SPACING * length / body->spacing));
+    struct swings swings[2];
+    memset(swings, 0, sizeof swings);
+    for (int i = 0; i < steps; i++) {
+        double place[3] = {through[0], through[1], through[2]};
+        const double part = (i + .5) / steps;
+        place[axis] = low + part * length;
+        const struct rock rock = ground_at(scene, place);
+        const double value[2] = {log(rock.mu), log(rock.density)};
+        for (int what = 0; what < 2; what++) {
+            if (i == 0) swings[what].turn[1] = swings[what].reached[1] = value[what];
+            swing_on(&swings[what], part * length / body->spacing, value[what]);
+        }
+    }
+    for (int what = 0; what < 2; what++) {
+        swing_ends(&swings[what]);
+        size[what] = fmax(size[what], swings[what].largest[STACK - 1]);
+    }
+}
+
+/* Lines through sources and receivers. Measured in the plane (regress/studies/blocks, `stacks`). */
+void look_at_stacks(struct adviser *adviser)
+{
+    enum { LINES = 50 };
+    static const double seen = .1, of_moduli = 1.5, of_densities = 3;
+    const struct scene *scene = adviser->scene;
+    const double points = points_per_wavelength(scene);
+    const size_t places = scene->loads + scene->receivers, stride = 1 + places / LINES;
+    double size[2] = {0, 0};
+    if (scene->reference.kind[0] != '\0' || !by_general_operator(scene) || !(points > 0)) return;
+    for (size_t n = 0; n < places; n += stride)
+        for (int axis = 0; axis < scene->dimension; axis++) {
+            double place[3] = {0, 0, 0};
+            ground_from_deck(
+                &scene->body,
+                n < scene->loads ? scene->load[n].centre : scene->receiver[n - scene->loads].position, place);
+            if (ground_varies(scene, axis)) look_along(scene, place, axis, size);
+        }
+    const double soft = of_moduli * size[0], light = of_densities * size[1],
+                 error = fmax(soft, light) / (points * points);
+    if (!(error > seen)) return;
+    advise(
+        adviser,
+        "%s go to and fro by %.3g times within few spacings, again and again: at %.3g points per wavelength "
+        "velocities err by up to about %.2g; body%%spacing = %.3g would be right",
+        light > soft ? "densities" : "moduli", 1 + (light > soft ? size[1] : size[0]), points, fmin(1, error),
+        scene->body.spacing * sqrt(seen / 2 / error));
+}
