@@ -130,6 +130,10 @@ cat >"$out/hill.nml" <<D
 &load kind = 'body-force', shape = 'point', centre = 3, 2, direction = 0, 1, history = 'gaussian', width = 0.3, delay = 1.5 /
 D
 plot "a hill" "$out/hill.nml"
+mkdir "$out/bin" && printf '#!/bin/sh\ncat >"%s/script"\n' "$out" >"$out/bin/gnuplot" && chmod +x "$out/bin/gnuplot"
+PATH="$out/bin:$PATH" selas check --plot "$out/hill.nml" 'boundary%face=x-,x+' 'boundary%kind=transmitting' output%directory="$out/air"
+ok "absorbing layers beside a hill end at the surface" \
+    awk '/^\$/ { in_layers = /^\$layers0/ } in_layers && NF == 2 { n++; if ($2 < -.1) exit bad = 1 } END { exit bad || n < 10 }' "$out/script"
 mkdir "$out/foreign" && echo mine >"$out/foreign/ground.png"
 selas check --plot "$out/two.nml" output%directory="$out/foreign"
 ok "a foreign picture is not overwritten" test "$(cat "$out/foreign/ground.png")" = mine

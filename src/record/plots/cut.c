@@ -11,7 +11,8 @@
 
 enum { PIXELS = 420, LEAST_PIXELS = 120 };
 
-void cut_layers(const struct scene *scene, double thickness[BOX_FACES])
+/* Extent of the absorbing layers behind the six faces. */
+static void cut_layers(const struct scene *scene, double thickness[BOX_FACES])
 {
     for (int face = 0; face < BOX_FACES; face++)
         thickness[face] =
@@ -237,18 +238,56 @@ bool cut_write_jumps(const struct scene *scene, const struct cut *cut, FILE *scr
     return found;
 }
 
-bool cut_write_surface(const struct scene *scene, const struct cut *cut, FILE *script)
+/* The surface at a coordinate along a cut; of a map and of level ground the page's upper end. */
+static double upper_end(const struct scene *scene, const struct cut *cut, double at)
 {
     const int last = scene->dimension - 1;
-    if (scene->body.topography == NULL || cut->across[last] == 0) return false;
+    if (scene->body.topography == NULL || cut->across[last] == 0) return cut->low[1];
+    double place[3];
+    for (int axis = 0; axis < 3; axis++)
+        place[axis] = cut->origin[axis] + at * cut->along[axis];
+    return scene->body.low[last] + drop_at(scene, place);
+}
+
+void cut_write_surface(const struct scene *scene, const struct cut *cut, FILE *script)
+{
+    if (scene->body.topography == NULL || cut->across[scene->dimension - 1] == 0) return;
     for (int i = 0; i <= PIXELS; i++) {
-        double place[3];
         const double at = cut->low[0] + (cut->high[0] - cut->low[0]) * i / PIXELS;
-        for (int axis = 0; axis < 3; axis++)
-            place[axis] = cut->origin[axis] + at * cut->along[axis];
-        fprintf(script, "%.9g %.9g\n", at, scene->body.low[last] + drop_at(scene, place));
+        fprintf(script, "%.9g %.9g\n", at, upper_end(scene, cut, at));
     }
-    return true;
+}
+
+void cut_write_part(const struct scene *scene, const struct cut *cut, const double low[2],
+                    const double high[2], FILE *script)
+{
+    for (int i = 0; i <= PIXELS; i++) {
+        const double at = low[0] + (high[0] - low[0]) * i / PIXELS;
+        fprintf(script, "%.9g %.9g\n", at, fmax(low[1], upper_end(scene, cut, at)));
+    }
+    fprintf(script, "%.9g %.9g\n%.9g %.9g\n", high[0], high[1], low[0], high[1]);
+    fprintf(script, "%.9g %.9g\n\n", low[0], fmax(low[1], upper_end(scene, cut, low[0])));
+}
+
+bool cut_write_layers(const struct scene *scene, const struct cut *cut, FILE *script)
+{
+    bool found = false;
+    for (int side = 0; side < 2; side++)
+        for (int end = 0; end < 2; end++) {
+            double low[2] = {cut->low[0], cut->low[1]}, high[2] = {cut->high[0], cut->high[1]};
+            if (end == 0)
+                high[side] = cut->body_low[side];
+            else
+                low[side] = cut->body_high[side];
+            if (side == 1) { /* corners once */
+                low[0] = cut->body_low[0];
+                high[0] = cut->body_high[0];
+            }
+            if (!(high[side] - low[side] > 1e-9 * (cut->high[side] - cut->low[side]))) continue;
+            cut_write_part(scene, cut, low, high, script);
+            found = true;
+        }
+    return found;
 }
 
 bool cut_write_speed(const struct cut *cut, int which, FILE *data)

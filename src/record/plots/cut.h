@@ -20,8 +20,6 @@ struct cut {
     double least[2], greatest[2];
 };
 
-/* Extent of the absorbing layers behind the six faces. */
-void cut_layers(const struct scene *scene, double thickness[BOX_FACES]);
 /* The surface, z- face. */
 void cut_map(const struct scene *scene, struct cut *cut);
 /* The plane over depth through two places (of the body's frame); of a scene in two dimensions all. */
@@ -32,8 +30,13 @@ bool cut_fill(const struct scene *scene, struct cut *cut);
 double cut_project(const struct cut *cut, const double place[3], double at[2]);
 /* Middles of the edges between pixels between which the rock jumps, as lines of two numbers; false: none. */
 bool cut_write_jumps(const struct scene *scene, const struct cut *cut, FILE *script);
-/* The surface along a section, as lines of two numbers; false: it is level, or this is a map. */
-bool cut_write_surface(const struct scene *scene, const struct cut *cut, FILE *script);
+/* The surface along a section, as lines of two numbers; none where it is level, or of a map. */
+void cut_write_surface(const struct scene *scene, const struct cut *cut, FILE *script);
+/* The rim of a rectangle of the page, of what lies below the surface: lines of two numbers and an empty one. */
+void cut_write_part(const struct scene *scene, const struct cut *cut, const double low[2],
+                    const double high[2], FILE *script);
+/* The rims of the absorbing layers; false: none. */
+bool cut_write_layers(const struct scene *scene, const struct cut *cut, FILE *script);
 bool cut_write_speed(const struct cut *cut, int which, FILE *data);
 void cut_free(struct cut *cut);
 

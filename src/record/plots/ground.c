@@ -46,35 +46,6 @@ static void set_panel(const struct page *page, const struct cut *cut, int left, 
     }
 }
 
-/* Absorbing layers are veiled, the body has a rim. */
-static void set_layers(const struct page *page, const struct cut *cut)
-{
-    FILE *script = page->script;
-    int object = 1;
-    for (int n = 1; n <= 6; n++)
-        fprintf(script, "unset object %d\n", n);
-    for (int side = 0; side < 2; side++)
-        for (int end = 0; end < 2; end++) {
-            double low[2] = {cut->low[0], cut->low[1]}, high[2] = {cut->high[0], cut->high[1]};
-            if (end == 0)
-                high[side] = cut->body_low[side];
-            else
-                low[side] = cut->body_high[side];
-            if (side == 1) { /* corners once */
-                low[0] = cut->body_low[0];
-                high[0] = cut->body_high[0];
-            }
-            if (!(high[side] - low[side] > 1e-9 * (cut->high[side] - cut->low[side]))) continue;
-            fprintf(script,
-                    "set object %d rect from %.9g,%.9g to %.9g,%.9g front fc rgb '#444444' fs transparent "
-                    "pattern 4 noborder\n",
-                    object++, low[0], low[1], high[0], high[1]);
-        }
-    fprintf(script,
-            "set object 6 rect from %.9g,%.9g to %.9g,%.9g front fs empty border rgb '#000000' lw 1.5\n",
-            cut->body_low[0], cut->body_low[1], cut->body_high[0], cut->body_high[1]);
-}
-
 static void draw(const struct page *page, size_t c, size_t skip, bool key)
 {
     const struct cut *cut = &page->cut[c];
@@ -85,10 +56,13 @@ static void draw(const struct page *page, size_t c, size_t skip, bool key)
     marks_names(page, c);
     fprintf(script,
             "plot '" GNUPLOT_DATA "' binary skip=%zu array=(%zu,%zu) origin=(%.9g,%.9g) dx=%.9g dy=%.9g "
-            "format='%%float' with image notitle, $jumps%zu u 1:2 w p pt 7 ps .18 lc rgb '#000000' notitle, "
+            "format='%%float' with image notitle, $layers%zu w filledcurves closed fs transparent pattern 4 "
+            "noborder fc rgb '#444444' notitle, $body%zu w l lc rgb '#000000' lw 1.5 notitle, $jumps%zu u "
+            "1:2 w p pt "
+            "7 ps .18 lc rgb '#000000' notitle, "
             "$surface%zu u 1:2 w l lc rgb '#000000' lw 2 notitle",
             skip, cut->pixels[0], cut->pixels[1], cut->low[0] + step[0] / 2, cut->low[1] + step[1] / 2,
-            step[0], step[1], c, c);
+            step[0], step[1], c, c, c, c);
     static const char *const look[LOOKS] = {"lc rgb '#d97706' lw 6", "lc rgb '#1d4ed8' lw 6"},
                              *const name[LOOKS] = {"face with dampers", "face held or moved"};
     for (int n = 0; n < LOOKS; n++)
@@ -104,12 +78,8 @@ static void draw(const struct page *page, size_t c, size_t skip, bool key)
         c, c, key && page->sources > 0 ? "t 'source'" : "notitle", c,
         key && page->receivers > 0 ? "t 'receiver'" : "notitle");
     if (key) {
-        double thickness[BOX_FACES], thickest = 0;
-        cut_layers(page->scene, thickness);
-        for (int face = 0; face < BOX_FACES; face++)
-            thickest = fmax(thickest, thickness[face]);
         if (page->jumps) fprintf(script, ", NaN w p pt 7 ps .5 lc rgb '#000000' t 'interface'");
-        if (thickest > 0)
+        if (page->layers)
             fprintf(script,
                     ", NaN w filledcurves fs transparent pattern 4 fc rgb '#444444' t 'absorbing layer'");
     }
@@ -134,7 +104,6 @@ static void draw_sections(const struct page *page, int left, const size_t skip[2
     int top = TOP;
     for (int which = 0; which < 2; which++) {
         set_panel(page, cut, left, top, page->size[0]);
-        set_layers(page, cut);
         set_scale(page, which);
         const double scale =
             page->size[0][1] / (cut->high[1] - cut->low[1]) * (cut->high[0] - cut->low[0]) / page->size[0][0];
@@ -173,7 +142,6 @@ static void set_line(const struct page *page)
 static void draw_map(const struct page *page, size_t skip)
 {
     set_panel(page, &page->cut[1], LEFT, TOP, page->size[1]);
-    set_layers(page, &page->cut[1]);
     set_scale(page, 0);
     set_line(page);
     fprintf(page->script, "unset colorbox\nset title 'map of the surface: speed of S waves' offset 0,.9\n");

@@ -126,6 +126,10 @@ static void write_places(struct page *page, size_t c)
     page->jumps = cut_write_jumps(scene, &page->cut[c], page->script) || page->jumps;
     fprintf(page->script, "END\n$surface%zu << END\n", c);
     cut_write_surface(scene, &page->cut[c], page->script);
+    fprintf(page->script, "END\n$layers%zu << END\n", c);
+    page->layers = cut_write_layers(scene, &page->cut[c], page->script) || page->layers;
+    fprintf(page->script, "END\n$body%zu << END\n", c);
+    cut_write_part(scene, &page->cut[c], page->cut[c].body_low, page->cut[c].body_high, page->script);
     fprintf(page->script, "END\n");
 }
 

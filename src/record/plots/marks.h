@@ -15,7 +15,7 @@ struct page {
     double least[2], greatest[2];
     int size[2][2]; /* pixels of each cut's panel */
     size_t sources, receivers;
-    bool jumps; /* an interface is seen */
+    bool jumps, layers; /* an interface, an absorbing layer is seen */
 };
 
 enum face_look { LOOK_DAMPED, LOOK_HELD, LOOKS };
@@ -23,8 +23,8 @@ enum face_look { LOOK_DAMPED, LOOK_HELD, LOOKS };
 /* Where the section goes (body's frame): first source that has a place, else first receiver, else the middle;
  * the receiver farthest from it. */
 void marks_line(const struct scene *scene, double from[3], double to[3]);
-/* The data of a cut: $sources, $receivers, $jumps, $surface, $patches (rims), each with the cut's
- * number, and $facesCUT_LOOK. */
+/* The data of a cut: $sources, $receivers, $jumps, $surface, $layers, $body, $patches (rims), each with the
+ * cut's number, and $facesCUT_LOOK. */
 void marks_write(struct page *page, size_t c);
 /* Sets labels NAME_TAGS and so on: the receivers' names, none on another. */
 void marks_names(const struct page *page, size_t c);
