@@ -64,14 +64,23 @@ axes() { # axes ROTATION WORDS: the maps name their axes so
         'snapshot(1)%every=1' 'snapshot(2)%times=1' profile%times=1
     grep -q "set xlabel 'x$2'" script && grep -q "set ylabel 'z$2'" script && grep -q "title .*surface z$2 = " script
 }
-below() { # a region below the surface is a cut
+region() { # region CORNERS: what is told about snapshots of it
     rm -f script
     PATH="$work/listens:$PATH" "$selas" small.nml output%directory=turned output%plots=T scene%end_time=1 'snapshot(1)%every=1' \
-        'snapshot(2)%times=1' 'snapshot(2)%region=0,0,.5,2,5,1' profile%times=1
+        'snapshot(2)%times=1' "snapshot(2)%region=$1" profile%times=1
+}
+flat() { # a region that is a plane or a line is one map or one curve along its own axes
+    region 0,0,0,2,5,0 && test "$(grep -c "set ylabel 'z'" script)" = 2 &&
+        region 2,0,0,2,5,1 && grep -q "title .*at x = 2" script && grep -q "set xlabel 'y'" script &&
+        region 2,1,0,2,1,1 && grep -q "title 'at x = 2, y = 1'" script && grep -q "set xlabel 'z'" script
+}
+below() { # a region below the surface is a cut
+    region 0,0,.5,2,5,1
     grep -q "title .*surface z = 0[ (]" script && grep -q "title .*cut at z = 0.5" script && ! grep -q "title .*surface z = 0.5" script
 }
 check "maps name the deck's axes" axes 0,0,0 ""
 check "a map below the surface is a cut" below
+check "a flat region is one map or curve" flat
 check "maps of a turned body name its own" axes 0,0,90 " of the body"
 check "run.xdmf closes what it opens" awk '
     { while (match($0, /<\/?[A-Za-z]+[^>]*>/)) {

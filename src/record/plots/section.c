@@ -36,10 +36,8 @@ static double cut_place(const struct recorder *recorder, const double low[3], co
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].shape == LOAD_FACE) continue;
         double centre[3];
-        if (scene->body.rotated)
-            body_from_deck(&scene->body, scene->load[k].centre, centre);
-        else
-            memcpy(centre, scene->load[k].centre, sizeof centre);
+        memcpy(centre, scene->load[k].centre, sizeof centre);
+        if (scene->body.rotated) body_from_deck(&scene->body, centre, centre);
         return fmin(fmax(centre[1], low[1]), high[1]);
     }
     return 0.5 * (low[1] + high[1]);
@@ -130,7 +128,7 @@ static bool surface_section(const struct recorder *recorder, const struct snapsh
     const bool below = body_is_box(body) && top[2] > body->low[2] + drop + .01 * body->spacing;
     if (body->topography != NULL)
         snprintf(section->title, sizeof section->title, "%s, seen from above",
-                 below ? "uppermost points of the region" : "surface");
+                 below ? "top of the region" : "surface");
     else
         snprintf(section->title, sizeof section->title, "%s z%s = %.4g", below ? "cut at" : "surface",
                  own_axes(body), low[2]);
@@ -156,53 +154,64 @@ static bool cut_section(const struct recorder *recorder, const struct snapshot_r
     if (grid[0] == 0)
         return pick_near(recorder, record, section, 1, place, 0.55 * spacing_of(recorder, low, high)) &&
                place_points(recorder, record, section);
-    size_t nearest = 0;
-    double least = INFINITY;
+    double nearest = INFINITY;
     for (size_t j = 0; j < grid[1]; j++) {
         double x[3];
         body_position(recorder, record, j * grid[0], x);
-        if (fabs(x[1] - place) >= least) continue;
-        least = fabs(x[1] - place);
-        nearest = j;
+        if (fabs(x[1] - place) >= nearest) continue;
+        nearest = fabs(x[1] - place);
+        section->start = j * grid[0];
         snprintf(section->title, sizeof section->title, "cut at y%s = %.4g", axes, x[1]);
     }
     section->along = grid[0];
     section->across = grid[2];
     section->points = grid[0] * grid[2];
-    section->start = nearest * grid[0];
     section->stride = grid[0] * grid[1];
     section->count = grid[2];
     section->block = grid[0];
     return place_points(recorder, record, section);
 }
 
-/* One or two dimensions: everything. */
+/* All of a region that is a plane or a line: one or two dimensions, or planes of a lattice. */
 static bool whole_section(const struct recorder *recorder, const struct snapshot_record *record,
                           struct section *section)
 {
-    *section = (struct section){
-        .axis = {0, 1}, .downwards = recorder->scene->dimension == 2 && ground_has_depth(recorder->scene)};
+    const struct scene *scene = recorder->scene;
+    const int dimension = scene->dimension, last = dimension - 1;
+    *section = (struct section){.axis = {0, 1},
+                                .downwards = dimension == 3 || (dimension == 2 && ground_has_depth(scene))};
     if (record->grid[0] == 0)
         return pick_near(recorder, record, section, -1, 0.0, 0.0) && place_points(recorder, record, section);
-    section->along = record->grid[0];
-    section->across = record->grid[1];
+    section->along = section->across = 1;
     section->points = section->stride = section->block = record->points;
     section->count = 1;
-    return place_points(recorder, record, section);
+    double first[3];
+    int sides = 0;
+    body_position(recorder, record, 0, first);
+    for (int axis = 0; axis < 3 && axis < dimension; axis++) {
+        const size_t length = strlen(section->title);
+        if (record->grid[axis] > 1) {
+            *(sides == 0 ? &section->along : &section->across) = record->grid[axis];
+            section->axis[sides++] = axis;
+        } else if (axis < last || scene->body.topography == NULL)
+            snprintf(section->title + length, sizeof section->title - length, "%s%c%s = %.4g",
+                     length > 0 ? ", " : "at ", "xyz"[axis], own_axes(&scene->body), first[axis]);
+    }
+    return sides > 0 && place_points(recorder, record, section);
 }
 
 static bool choose_sections(const struct recorder *recorder, struct film *film)
 {
     const struct snapshot_record *record = &recorder->snapshot[film->group];
-    if (recorder->scene->dimension < 3) {
-        film->sections = 1;
+    const size_t *grid = record->grid;
+    film->sections = 1;
+    if (recorder->scene->dimension < 3 || grid[0] == 1 || grid[1] == 1)
         return whole_section(recorder, record, &film->section[0]);
-    }
     double low[3] = {0}, high[3] = {0};
     bounds_of(recorder, record, low, high);
-    film->sections = 2;
+    film->sections = grid[2] == 1 ? 1 : 2;
     return surface_section(recorder, record, low, high, &film->section[0]) &&
-           cut_section(recorder, record, low, high, &film->section[1]);
+           (film->sections == 1 || cut_section(recorder, record, low, high, &film->section[1]));
 }
 
 static bool choose_field(unsigned fields, selas_field *field)
@@ -218,8 +227,7 @@ static bool choose_field(unsigned fields, selas_field *field)
     return false;
 }
 
-/* Values of a section in one frame, [points * components] in the frame's buffer; vectors in the body's frame.
- */
+/* Values of a section in one frame, [points * components] in the film's room; vectors in the body's frame. */
 static bool read_section(const struct recorder *recorder, const struct film *film,
                          const struct section *section, const struct frame *frame, struct messages *messages)
 {
@@ -285,9 +293,7 @@ bool film_create(const struct recorder *recorder, size_t group, struct film *fil
     return false;
 }
 
-/* Weights of the four points around a place s in [0, 1] between the middle two (Keys 1981, cubic
- * convolution).
- */
+/* Weights of the four points around a place s in [0, 1] between the middle two (Keys 1981). */
 static void cubic_weights(double s, double weight[4])
 {
     weight[0] = 0.5 * s * (s * (2.0 - s) - 1.0);

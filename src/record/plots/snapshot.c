@@ -1,7 +1,8 @@
 /* Plots of snapshots: one PNG each and an animated GIF of all.
  *
  * Three dimensions: the surface (z- face) and a cut through the first load's centre (or the body's), side by
- * side; two: a map; one: a curve. The values come back from run.h5. */
+ * side; two: a map; one: a curve; likewise of a region that is a plane or a line. The values come back from
+ * run.h5. */
 #include "base/gnuplot.h"
 #include "record/plots/section.h"
 #include "scene/units.h"
@@ -28,6 +29,7 @@ enum {
     CURVE_HEIGHT = 620,
     FRAME_DELAY = 10 /* hundredths of a second */
 };
+static const char axis_name[3] = {'x', 'y', 'z'};
 static const double axis_slack = 1e-9;
 static const double quiet = 1e-4;
 
@@ -106,7 +108,6 @@ static void set_tics(FILE *script, const struct film *film, const struct section
 static void draw_map(FILE *script, const struct film *film, size_t s, size_t sections,
                      const struct frame *frame, double largest)
 {
-    static const char axis_name[3] = {'x', 'y', 'z'};
     const struct section *section = &film->section[s];
     char label[64], unit[UNIT_TEXT];
     label_of(film, label, sizeof label);
@@ -149,8 +150,9 @@ static void draw_curve(FILE *script, const struct film *film, const struct frame
     char label[64], unit[UNIT_TEXT], along[UNIT_TEXT];
     label_of(film, label, sizeof label);
     const double size = largest > 0.0 ? 1.08 * largest : 1.0;
-    fprintf(script, "unset colorbox\nset xlabel 'x%s%s'\nset ylabel '%s%s'\nset grid\n", film->axes,
-            unit_text(film->output, 1, 0, "", along), label, unit_of(film, unit));
+    fprintf(script, "unset colorbox\nset title '%s'\nset xlabel '%c%s%s'\nset ylabel '%s%s'\nset grid\n",
+            section->title, axis_name[section->axis[0]], film->axes, unit_text(film->output, 1, 0, "", along),
+            label, unit_of(film, unit));
     set_range(script, "x", section->low[0], section->high[0], false);
     set_range(script, "y", film->field == SELAS_ENERGY ? 0.0 : -size, size, false);
     fprintf(script,
