@@ -188,6 +188,7 @@ wave="initial%kind=plane-wave initial%centre=2,2 initial%direction"
     untold "a pulse between rollers" $wave=0,1 initial%width=.4
     told "a pulse askew" "face x-, sliding, cuts the plane wave of t = 0" $wave=.6,.8 initial%width=.4
     told "a P pulse beside free faces" "face x-, free, cuts the plane wave of t = 0" $wave=0,1 boundary%face=y-,y+ initial%width=.5 scene%end_time=1
+    told "an S pulse that moves across rollers" "face x-, sliding, cuts the plane wave of t = 0 .* a support that holds motion along the wave alone" $wave=0,1 initial%wave=s initial%polarisation=1,0 initial%width=.4
     told "a pulse that begins near a face" "face y-, sliding, cuts the plane wave of t = 0" $wave=0,1 initial%width=.8
 }
 told "few points between rollers" "3.21 points per wavelength of the initial state, .* 4 need body%spacing = 0.128" initial%width=.2 initial%centre=2,2

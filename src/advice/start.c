@@ -154,7 +154,9 @@ static bool suits(const struct scene *scene, int face)
     body_from_deck(body, initial->centre, centre);
     if (fabs(direction[axis]) < 1e-9 && fabs(motion[axis]) < 1e-9)
         return boundary_slides(boundary) || (initial->shear && boundary_is_free(boundary));
-    if (fabs(direction[axis]) < 1e-9 || initial->wavelength > 0)
+    if (fabs(direction[axis]) < 1e-9)
+        return boundary_moves(boundary) && boundary->slip && !face_holds(scene, (enum face)face, axis);
+    if (initial->wavelength > 0)
         return boundary_moves(boundary) && boundary->slip; /* what it holds is not looked at */
     for (int corner = 0; corner < 8; corner++) {
         double s = 0;
@@ -168,23 +170,38 @@ static bool suits(const struct scene *scene, int face)
     return least > STATE_REACH * initial->width || most < -STATE_REACH * initial->width;
 }
 
+/* Does an S wave run along a face and move across it? */
+static bool moves_across(const struct scene *scene, int face)
+{
+    double direction[3], motion[3];
+    body_direction_from_deck(&scene->body, scene->initial.direction, direction);
+    body_direction_from_deck(&scene->body, scene->initial.polarisation, motion);
+    return scene->initial.shear && fabs(direction[face / 2]) < 1e-9 && fabs(motion[face / 2]) > 1e-9;
+}
+
 static void look_at_cut_wave(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const struct boundary *boundary = &scene->boundary[face];
         if (boundary_mirrors(boundary) || suits(scene, face)) continue; /* (mirrors.c tells) */
-        advise(
-            adviser,
-            "face %s, %s, cuts the plane wave of t = 0 into short waves that the points do not carry; a "
-            "pulse that begins %g widths from it, or beside the wave faces that leave it as it is (rollers; "
-            "free ones, too, along which an S wave is polarised), would be right",
-            face_name((enum face)face),
-            boundary_absorbs(boundary)   ? "absorbing"
-            : boundary_is_free(boundary) ? "free"
-            : boundary_slides(boundary)  ? "sliding"
-                                         : "held",
-            STATE_REACH);
+        char right[200];
+        snprintf(right, sizeof right,
+                 moves_across(scene, face)
+                     ? "a support that holds motion along the wave alone (kind = 'displacement', direction "
+                       "along the wave, slip = .true., amplitude = 0, history = 'step')"
+                     : "a pulse that begins %g widths from it, or beside the wave faces that leave it as it "
+                       "is (rollers; free ones, too, along which an S wave is polarised),",
+                 STATE_REACH);
+        advise(adviser,
+               "face %s, %s, cuts the plane wave of t = 0 into short waves that the points do not carry; %s "
+               "would be right",
+               face_name((enum face)face),
+               boundary_absorbs(boundary)   ? "absorbing"
+               : boundary_is_free(boundary) ? "free"
+               : boundary_slides(boundary)  ? "sliding"
+                                            : "held",
+               right);
         return;
     }
 }

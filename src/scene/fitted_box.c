@@ -106,11 +106,11 @@ static bool sources_fit(struct builder *builder, const struct scene *sketch, con
                 builder, extent.group, extent.index, NULL,
                 "this one has a place, beside others that act all over the surface: no sides are "
                 "right for both");
-        if (!extent.plane && isinf(extent.low[0]))
-            return refuse_box(
-                builder, extent.group, extent.index, NULL,
-                "what acts here has no end, and is not alike all over the surface along its normal, "
-                "where rollers at the sides would do");
+        if (extent.plane || !isinf(extent.low[0])) continue;
+        complain(builder, deck_get(builder->deck, extent.group, extent.index), NULL,
+                 "what acts here has no end, and is not alike all over the surface along its normal, where "
+                 "rollers at the sides would do; a body of shape 'box' has sides of its own");
+        return false;
     }
     return true;
 }

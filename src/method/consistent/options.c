@@ -52,10 +52,11 @@ static selas_status check_general(const struct scene *scene, const struct consis
         return fail(messages, SELAS_UNSUPPORTED,
                     "method%%operator = 'general' takes plane strain, not plane stress");
     for (int face = 0; face < 2 * scene->dimension; face++) {
-        if (boundary_moves(&scene->boundary[face]))
-            return fail(messages, SELAS_UNSUPPORTED,
-                        "face %s: method%%operator = 'general' has no faces with a prescribed motion",
-                        face_name((enum face)face));
+        if (boundary_acts(&scene->boundary[face]))
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "face %s: method%%operator = 'general' has no moved faces (but supports, of amplitude 0)",
+                face_name((enum face)face));
     }
     return check_surface(scene, messages);
 }

@@ -24,7 +24,7 @@ static void lay_faces(struct consistent *c)
         double direction[3];
         memcpy(direction, boundary->direction, sizeof direction);
         if (scene->body.rotated) body_direction_from_deck(&scene->body, boundary->direction, direction);
-        c->moving[face] = boundary_moves(boundary);
+        c->moving[face] = boundary_acts(boundary);
         c->damped[face] = boundary_damps(boundary);
         c->model.damped = c->model.damped || c->damped[face];
         for (int component = 0; component < c->dimension; component++) {

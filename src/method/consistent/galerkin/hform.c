@@ -327,7 +327,7 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
     size_t largest = c->plane;
     for (int slot = 0; slot < 2; slot++)
         if (c->n[1 - slot] * c->n[DEPTH] > largest) largest = c->n[1 - slot] * c->n[DEPTH];
-    for (int face = 0; face < 2 * c->dimension; face++)
+    for (int face = 0; face < 2 * c->dimension && !c->options.general; face++)
         for (int one = 0; one < c->dimension; one++)
             for (int other = 0; other < one; other++)
                 if (one != face / 2 && other != face / 2 && c->held[one][face] != c->held[other][face])
