@@ -118,11 +118,11 @@ struct nearest {
     size_t distance;
 };
 
-/* Keeps the nearer of two spellings; what differs in more than half of its letters is not near. */
+/* Keeps the nearer of two spellings; what differs in half of its letters is not near. */
 static void keep_nearest(const char *word, const char *name, struct nearest *nearest)
 {
     const size_t distance = words_distance(word, name);
-    if (distance >= nearest->distance || 2 * distance > strlen(name) || 2 * distance > strlen(word) + 1)
+    if (distance >= nearest->distance || 2 * distance >= strlen(name) || 2 * distance > strlen(word) + 1)
         return;
     nearest->distance = distance;
     snprintf(nearest->name, sizeof nearest->name, "%s", name);

@@ -65,8 +65,9 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
     const struct body *body = &builder->scene->body;
     const int dimension = builder->scene->dimension;
     double nearest[3];
-    const bool placed = strcmp(name, "position") == 0 ? need_place(builder, group, name, what, position)
-                                                      : need_vector(builder, group, name, what, position);
+    const bool has_depth = strcmp(name, "position") == 0;
+    const bool placed = has_depth ? need_place(builder, group, name, what, position)
+                                  : need_vector(builder, group, name, what, position);
     if (!placed || !builder->body_known) return;
     if (body_holds(body, dimension, position, nearest)) return;
     double off = 0; /* the box is missed by this much */
@@ -76,8 +77,11 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
         complain(builder, group, name, "%s at %s lies in the hole", what,
                  vector_text(given, position, dimension));
     else
-        complain(builder, group, name, "%s at %s lies outside the body; the nearest place in it is %s", what,
-                 vector_text(given, position, dimension), vector_text(near, nearest, dimension));
+        complain(builder, group, name, "%s at %s lies outside the body; the nearest place in it is %s%s",
+                 what, vector_text(given, position, dimension), vector_text(near, nearest, dimension),
+                 has_depth && body->topography != NULL
+                     ? "; depth = 0 in place of the last value is the surface"
+                     : "");
 }
 
 /* Below a surface that is not level a line between two places of the body may leave it. */
