@@ -88,8 +88,10 @@ check-tidy: ## clang-tidy; as many states of a function as NODES (clang's own 22
 	printf '%s\n' $(SOURCES) $(PROGRAM) | xargs -P$$(nproc) -n4 sh -c 'clang-tidy --quiet "$$@" -- $(filter-out -fopenmp,$(ALL_C)) \
 	    -fopenmp -idirafter $(shell gcc -print-file-name=include) -Xclang -analyzer-config -Xclang max-nodes=$(NODES) 2>/dev/null' tidy
 
-check-cppcheck: ## cppcheck
-	cppcheck --quiet --std=c11 --enable=warning,performance,portability --error-exitcode=1 --inline-suppr -Isrc -j$$(nproc) src
+BUILT := -D__GNUC__=12 -D__x86_64__ -D__SSE2__ -DH5_HAVE_PARALLEL
+check-cppcheck: ## cppcheck of what is built, not of all that its conditions allow
+	cppcheck --quiet --std=c11 --enable=warning,performance,portability --error-exitcode=1 --inline-suppr -Isrc $(BUILT) \
+	    -j$$(nproc) src
 
 # The nightly regression and its parts
 
