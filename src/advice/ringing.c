@@ -70,8 +70,8 @@ void look_at_ringing_body(struct adviser *adviser)
 
 /* Of the velocities from a moment tensor the share, in relative L2, that a jump at t = 0 leaves up to the frequency
  * where S waves are two spacings long: they go with w^2 times the spectrum of the time function, in the plane with
- * w^(3/2). What rings is 1.7 times as much, as P waves and waves askew are faster (measured: .7 to 1.4 of what is
- * told, at 4 to 40 points a wave). */
+ * w^(3/2). What rings is 1.7 times as much, as P waves and waves askew are faster (regress/studies/ringing: .4 to
+ * 1.3 of what is told). */
 static double share_of_jump(const struct scene *scene, const struct history *history)
 {
     const bool plane = scene->dimension == 2, ricker = history->kind == HISTORY_RICKER;
@@ -103,7 +103,7 @@ void look_at_cut_moment(struct adviser *adviser)
         advise(
             adviser,
             "load %zu is a moment tensor that begins with a small jump at t = 0, of which the finer lattice "
-            "carries more: velocities ring by some %.1g of themselves; a longer delay, or output%%low_pass, "
+            "carries more: velocities ring by some %.2g of themselves; a longer delay, or output%%low_pass, "
             "would do",
             group + 1, worst);
 }
