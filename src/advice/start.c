@@ -358,16 +358,19 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
     const bool papers = strcmp(model->method->variant, "paper") == 0;
     if (papers) look_at_pressed_faces(adviser);
-    const double start = error_of_waves(scene, &model->waves, typical_number(scene),
-                                        plane_wave_speed(scene) * scene->end_time);
+    struct wave_law first = model->waves, sent = model->waves;
+    if (scene->initial.shear) first.floor += first.shear;
+    if (slowest < scene_fastest(scene)) sent.floor += sent.shear;
+    const double start =
+        error_of_waves(scene, &first, typical_number(scene), plane_wave_speed(scene) * scene->end_time);
     const double error =
-        fmax(start, error_of_waves(scene, &model->waves, omega / slowest, slowest * scene->end_time)) +
+        fmax(start, error_of_waves(scene, &sent, omega / slowest, slowest * scene->end_time)) +
         (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
+    const bool remains = sent.floor > .005;
     if (error > seen)
         advise(adviser,
                "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
                "end_time%s; %svariant = 'consistent' would be right",
-               model->method->variant, fmin(1, error),
-               model->waves.floor > 0 ? ", much of it whatever the spacing" : "",
-               model->waves.floor > 0 ? "" : "finer points or ");
+               model->method->variant, fmin(1, error), remains ? ", much of it whatever the spacing" : "",
+               remains ? "" : "finer points or ");
 }

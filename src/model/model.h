@@ -215,10 +215,10 @@ enum patch_sight {
 };
 
 /* What a plane wave errs by for each of its wavelengths that it travels, if it has p points: floor + constant /
- * p^order, as measured (doc/howto/spacing.md); all 0: not told. spread, turned: shares of it
+ * p^order (doc/howto/spacing.md), S waves shear more; all 0: not told. spread, turned: shares of it
  * that a Gaussian state errs by, as it is and as slower waves (initial-states.md): of the consistent method alone. */
 struct wave_law {
-    double constant, order, floor, spread, turned;
+    double constant, order, floor, spread, turned, shear;
 };
 
 struct model {

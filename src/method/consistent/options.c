@@ -144,8 +144,9 @@ struct wave_law consistent_waves(const struct consistent_options *options)
     static const double constant[SPLINE_MAX_DEGREE - 1][4] = {
         {25, 2000, 400, 120}, {7, 3000, 600, 200}, {2, 4000, 800, 300}}; /* by degree from 2 on, by sweeps */
     const bool plain = options->degree == 2 && options->sweeps == 0;
-    if (options->degree == 1) return (struct wave_law){12, 2, 0, .44, .26};
-    return (struct wave_law){constant[options->degree - 2][options->sweeps], 4, 0, .24, plain ? .26 : .093};
+    if (options->degree == 1) return (struct wave_law){12, 2, 0, .44, .26, 0};
+    return (struct wave_law){
+        constant[options->degree - 2][options->sweeps], 4, 0, .24, plain ? .26 : .093, 0};
 }
 
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4, the exact mass and

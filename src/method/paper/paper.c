@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "points/cloud.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Solves m x = b in place for a symmetric positive matrix of size n <= 3 (elimination without pivots). */
@@ -270,11 +271,40 @@ static const struct model_core core = {
 static const struct model_operator filtering = {.accelerate = accelerate, .after_step = filter};
 static const struct model_operator plain = {.accelerate = accelerate}; /* every time scheme may be had */
 
-/* As printed points hang on springs to the ground; without these the smoothed acceleration slows waves down. */
-static struct wave_law waves_of(const struct paper_options *options, int dimension)
+/* 2 * second moments along x of the stencil's W_,xx and W_,yy: 2 and 0 in the limit of many neighbours. */
+static void second_moments(const struct paper_options *options, int dimension, double moment[2])
 {
-    if (!options->zero_row_sums) return (struct wave_law){0, 1, 1, 0, 0};
-    return (struct wave_law){.9, 1, dimension < 3 ? .05 : .12, 0, 0};
+    const double h = options->smoothing_length;
+    const int reach = (int)ceil(options->kernel->support * h);
+    const int y_reach = dimension > 1 ? reach : 0, z_reach = dimension > 2 ? reach : 0;
+    double all = 0, sum[2] = {0};
+    for (int z = -z_reach; z <= z_reach; z++)
+        for (int y = -y_reach; y <= y_reach; y++)
+            for (int x = -reach; x <= reach; x++) {
+                const double r = sqrt(x * x + y * y + z * z);
+                const double flat = kernel_derivative_over_r(options->kernel, dimension, r, h);
+                const double bent = kernel_second_derivative(options->kernel, dimension, r, h) - flat;
+                all += kernel_value(options->kernel, dimension, r, h);
+                sum[0] += x * x * (flat + (r > 0 ? bent * x * x / (r * r) : 0));
+                sum[1] += x * x * (flat + (r > 0 ? bent * y * y / (r * r) : 0));
+            }
+    for (int i = 0; i < 2; i++)
+        moment[i] = sum[i] / all;
+}
+
+/* As printed, points hang on springs to the ground but in a bar. Without these the smoothed acceleration and the
+ * filter slow waves down, and forces of waves along an axis are 1 + e times too large, e of the stencil's moments:
+ * phases are pi e off after each wavelength. */
+static struct wave_law waves_of(const struct paper *paper)
+{
+    const double others = paper->dimension - 1, mu = paper->material->mu;
+    const double ratio = (paper->material->plane_lambda + 2 * mu) / mu;
+    if (!paper->options.zero_row_sums && others > 0) return (struct wave_law){.order = 1, .floor = 1};
+    double m[2];
+    second_moments(&paper->options, paper->dimension, m);
+    const double p = M_PI * fabs(m[0] / 2 + others * m[1] / 2 / ratio - 1);
+    const double s = M_PI * fabs(m[0] / 2 + (others - 1 + ratio) * m[1] / 2 - 1);
+    return (struct wave_law){.constant = .9, .order = 1, .floor = p, .shear = others > 0 ? s - p : 0};
 }
 
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
@@ -291,7 +321,7 @@ selas_status paper_create(const struct scene *scene, const struct paper_options 
     paper->model.method = &method_paper;
     paper->model.core = &core;
     paper->model.patch = PATCH_BY_POINTS;
-    paper->model.waves = waves_of(options, scene->dimension);
+    paper->model.waves = waves_of(paper);
     paper->model.spatial = options->filter > 0 ? &filtering : &plain;
     paper->model.scene = scene;
     status = fill(paper, messages);

@@ -266,7 +266,7 @@ selas_status updated_lagrangian_new(const struct scene *scene, const struct upda
     updated->model.core = &core;
     updated->model.patch = PATCH_BY_CELLS;
     updated->model.waves =
-        (struct wave_law){1 + 1.2 * options->alpha, 1, .5 * options->artificial_stress, 0, 0};
+        (struct wave_law){1 + 1.2 * options->alpha, 1, .5 * options->artificial_stress, 0, 0, 0};
     updated->model.spatial = &spatial;
     updated->model.scene = scene;
     updated->options = *options;
