@@ -140,7 +140,10 @@ done
 grep -v reference slip.nml >degree.nml
 told "a dip-slip source right below the surface, degree 3 (2.7 wrong)" "load 1 pulls across the free face z-, 0.02 spacings" check degree.nml method%degree=3
 told "the same, mapped ends (12 wrong)" "load 1 pulls across the free face z-, 0.02 spacings" check degree.nml method%ends=mapped
-untold "the same, degree 4 and the exact mass (.08)" check degree.nml method%degree=4 method%mass=exact
+told "the same 1.5 spacings deep (.17 wrong)" "load 1 pulls across the free face z-, 1.5 spacings" check degree.nml method%ends=mapped load%centre=.03,.05,.3
+told "degree 4 and the exact mass with these ends (7 wrong)" "load 1 pulls across the free face z-, 0.02 spacings" check degree.nml \
+    method%ends=mapped method%degree=4 method%mass=exact
+untold "open ends, degree 4 and the exact mass (.09)" check degree.nml method%degree=4 method%mass=exact
 untold "strike slip there" check degree.nml method%degree=3 load%moment=0,0,0,1,0,0
 untold "dip slip there, degree 2" check degree.nml
 # In graded ground it is as much weaker as it is shallower
