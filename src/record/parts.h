@@ -19,8 +19,10 @@ struct trace {
 /* A profile: at each of its times the fields of all its points, interpolated over four steps. */
 struct profile_record {
     const struct profile *profile;
-    struct probe *probe;  /* [points] */
-    size_t columns;       /* of all fields together */
+    struct probe *probe; /* [points] */
+    unsigned
+        fields; /* the profile's; in single precision stresses have displacements before them, not shown */
+    size_t columns;       /* of all these together */
     unsigned long *first; /* [times] first of the four steps */
     double *weight;       /* [4 * times] Lagrange weights of these */
     double *value;        /* [times * points * columns] */

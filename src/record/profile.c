@@ -49,7 +49,9 @@ static void choose_steps(const struct recorder *recorder, struct profile_record 
 static selas_status create_one(struct recorder *recorder, const struct profile *profile,
                                struct profile_record *record, struct messages *messages)
 {
-    *record = (struct profile_record){.profile = profile, .columns = columns_of(profile->fields)};
+    const bool rounded = recorder->model->single && (profile->fields >> SELAS_STRESS & 1U) != 0;
+    const unsigned fields = profile->fields | (rounded ? 1U << SELAS_DISPLACEMENT : 0);
+    *record = (struct profile_record){.profile = profile, .fields = fields, .columns = columns_of(fields)};
     record->probe = array_new(profile->points, sizeof *record->probe);
     record->first = array_new(profile->times, sizeof *record->first);
     record->weight = array_new(NODES * profile->times, sizeof *record->weight);
@@ -84,7 +86,7 @@ static void add_point(struct model *model, const struct state *state, const stru
                       size_t point, double weight, double *sum)
 {
     for (int field = 0; field <= LAST_FIELD; field++) {
-        if ((record->profile->fields >> field & 1U) == 0) continue;
+        if ((record->fields >> field & 1U) == 0) continue;
         double value[6] = {0};
         model_observe(model, &record->probe[point], (selas_field)field, state->y, state->a, value);
         const int components = field_components((selas_field)field);
@@ -128,7 +130,7 @@ double profiles_largest(const struct recorder *recorder, selas_field field)
     double largest = 0.0;
     for (size_t p = 0; p < recorder->scene->profiles; p++) {
         const struct profile_record *record = &recorder->profile[p];
-        const unsigned fields = record->profile->fields, bit = 1U << field;
+        const unsigned fields = record->fields, bit = 1U << field;
         const size_t before = columns_of(fields & (bit - 1)), past = before + columns_of(fields & bit);
         for (size_t i = 0; i < record->profile->points * record->profile->times; i++)
             for (size_t c = before; c < past; c++)
@@ -196,7 +198,7 @@ static selas_status write_one(const struct recorder *recorder, const struct prof
             const double s =
                 hypot(hypot(x[0] - profile->from[0], x[1] - profile->from[1]), x[2] - profile->from[2]);
             fprintf(out, "%.17g %.17g %.17g %.17g", s, x[0], x[1], x[2]);
-            for (size_t c = 0; c < record->columns; c++)
+            for (size_t c = record->columns - columns_of(profile->fields); c < record->columns; c++)
                 fprintf(out, " %.17g", record->value[(k * profile->points + i) * record->columns + c]);
             fputc('\n', out);
         }

@@ -123,7 +123,7 @@ static double noise_of_stress(const struct recorder *recorder, double largest)
     for (size_t m = 0; m < scene->materials; m++)
         stiffest = fmax(stiffest, scene->material[m].density * pow(scene->material[m].p_speed, 2.0));
     largest = fmax(largest, profiles_largest(recorder, SELAS_DISPLACEMENT));
-    return 0x1p-24 * sqrt((double)recorder->last_step) * stiffest * largest / scene->body.spacing;
+    return 1.5 * 0x1p-24 * sqrt((double)recorder->last_step) * stiffest * largest / scene->body.spacing;
 }
 
 static void write_noise(FILE *out, const struct recorder *recorder, double noise, struct messages *messages)
