@@ -5,25 +5,11 @@
 #include "base/memory.h"
 #include "scene/build.h"
 #include "scene/height_rows.h"
-
-#include <gsl/gsl_linalg.h>
+#include "scene/height_splines.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { ORDER = 4 }; /* degree and one */
-/* Values that a piece has at least. */
-static const double values_a_piece = 1.5;
-
-struct axis_map {
-    size_t values, order, count; /* of the grid; of the splines: order, coefficients */
-    double *place;               /* [values] */
-    size_t pieces, parts;        /* of the splines; 0: no such axis; even parts, one or several to a piece */
-    double *knot;                /* [pieces + 1] ends of the pieces, in parts */
-    size_t *piece_of;            /* [parts] */
-    bool gaps;                   /* between the values, beyond what the parts could have */
-};
 
 struct height_map {
     int axes;
@@ -106,140 +92,16 @@ static selas_status lay_grid(const char *path, const struct height_rows *rows, d
     return SELAS_OK;
 }
 
-/* Place along an axis in its even parts. */
-static double in_parts(const struct axis_map *along, double x)
-{
-    const double low = along->place[0], high = along->place[along->values - 1];
-    return fmin(fmax((x - low) / (high - low), 0), 1) * (double)along->parts;
-}
-
-/* Do the values tell all splines on the even parts: each has one of its own well within its support (I. J. Schoenberg,
- * A. Whitney, Trans. Am. Math. Soc. 74 (1953) 246)? */
-static bool told(const struct axis_map *along)
-{
-    static const double within = .05;
-    const size_t count = along->parts + along->order - 1;
-    size_t next = 1;
-    for (size_t i = 1; i + 1 < count; i++, next++) { /* the ends tell the first and the last */
-        const double low = i < along->order ? 0 : (double)(i + 1 - along->order),
-                     high = fmin((double)i + 1, (double)along->parts);
-        while (next < along->values && in_parts(along, along->place[next]) < low + within)
-            next++;
-        if (next >= along->values || in_parts(along, along->place[next]) > high - within) return false;
-    }
-    return true;
-}
-
-/* Pieces of a part each or, where gaps between the values leave splines untold, of two values at least. */
-static void lay_knots(struct axis_map *along)
-{
-    along->gaps = !told(along);
-    size_t next = 0, taken = 0; /* values before the part's end, before the piece */
-    for (size_t part = 0; part < along->parts; part++) {
-        along->piece_of[part] = along->pieces;
-        while (next < along->values && in_parts(along, along->place[next]) < (double)part + 1)
-            next++;
-        const bool few = along->gaps && (next < taken + 2 || along->values < next + 2);
-        if (few && part + 1 < along->parts) continue;
-        along->knot[++along->pieces] = (double)part + 1;
-        taken = next;
-    }
-}
-
-/* Splines of an axis whose pieces are no shorter than `piece` nor than so many values. */
-static bool lay_splines(struct axis_map *along, double piece)
-{
-    along->count = 1;
-    if (along->values < 2) return true; /* no such axis */
-    const double low = along->place[0], high = along->place[along->values - 1];
-    along->order = along->values < ORDER ? along->values : ORDER;
-    const double most = fmin((high - low) / piece, (double)(along->values - 1) / values_a_piece);
-    along->parts = most > 1 ? (size_t)most : 1;
-    if (along->parts > along->values - along->order + 1) along->parts = along->values - along->order + 1;
-    along->knot = array_new(along->parts + 1, sizeof *along->knot);
-    along->piece_of = array_new(along->parts, sizeof *along->piece_of);
-    if (along->knot == NULL || along->piece_of == NULL) return false;
-    lay_knots(along);
-    along->count = along->pieces + along->order - 1;
-    return true;
-}
-
-/* Values of the splines that are not 0 at x, from *first on; the knots at the ends count as many times as the order
- * (L. Piegl, W. Tiller, The NURBS Book, 1997, A2.2). */
-static size_t basis_at(const struct axis_map *along, double x, double basis[ORDER], size_t *first)
-{
-    basis[0] = 1;
-    *first = 0;
-    if (along->pieces == 0) return 1;
-    const double t = in_parts(along, x);
-    const size_t at = along->piece_of[(size_t)fmin(floor(t), (double)along->parts - 1)];
-    double left[ORDER], right[ORDER];
-    *first = at;
-    for (size_t j = 1; j < along->order; j++) {
-        left[j] = t - along->knot[at + 1 > j ? at + 1 - j : 0];
-        right[j] = along->knot[at + j < along->pieces ? at + j : along->pieces] - t;
-        double saved = 0;
-        for (size_t r = 0; r < j; r++) {
-            const double part = basis[r] / (right[r + 1] + left[j - r]);
-            basis[r] = saved + right[r + 1] * part;
-            saved = left[j - r] * part;
-        }
-        basis[j] = saved;
-    }
-    return along->order;
-}
-
-/* Coefficients along an axis: `lines` lines of values, number i of line l at in[l * skip + i * step]; out alike,
- * with steps of its own. */
-struct lines_of {
-    double *at;
-    size_t step, skip;
-};
-
-static bool fit(const struct axis_map *along, size_t lines, struct lines_of in, struct lines_of out)
-{
-    if (along->pieces == 0) {
-        for (size_t l = 0; l < lines; l++)
-            out.at[l * out.skip] = in.at[l * in.skip];
-        return true;
-    }
-    gsl_matrix *matrix = gsl_matrix_calloc(along->values, along->count);
-    gsl_vector *tau = gsl_vector_alloc(along->count), *value = gsl_vector_alloc(along->values);
-    gsl_vector *found = gsl_vector_alloc(along->count), *rest = gsl_vector_alloc(along->values);
-    bool good = matrix != NULL && tau != NULL && value != NULL && found != NULL && rest != NULL;
-    for (size_t i = 0; good && i < along->values; i++) {
-        double basis[ORDER];
-        size_t first;
-        const size_t count = basis_at(along, along->place[i], basis, &first);
-        for (size_t n = 0; n < count; n++)
-            gsl_matrix_set(matrix, i, first + n, basis[n]);
-    }
-    good = good && gsl_linalg_QR_decomp(matrix, tau) == 0;
-    for (size_t l = 0; good && l < lines; l++) {
-        for (size_t i = 0; i < along->values; i++)
-            gsl_vector_set(value, i, in.at[l * in.skip + i * in.step]);
-        good = gsl_linalg_QR_lssolve(matrix, tau, value, found, rest) == 0;
-        for (size_t i = 0; good && i < along->count; i++)
-            out.at[l * out.skip + i * out.step] = gsl_vector_get(found, i);
-    }
-    gsl_matrix_free(matrix);
-    gsl_vector_free(tau);
-    gsl_vector_free(value);
-    gsl_vector_free(found);
-    gsl_vector_free(rest);
-    return good;
-}
-
 static bool fit_all(struct height_map *map)
 {
     const struct axis_map *x = &map->along[0], *y = &map->along[1];
     double *half = array_new(x->count * y->values, sizeof *half);
     map->coefficient = array_new(x->count * y->count, sizeof *map->coefficient);
     const bool good = half != NULL && map->coefficient != NULL &&
-                      fit(x, y->values, (struct lines_of){map->height, y->values, 1},
-                          (struct lines_of){half, y->values, 1}) &&
-                      fit(y, x->count, (struct lines_of){half, 1, y->values},
-                          (struct lines_of){map->coefficient, 1, y->count});
+                      height_splines_fit(x, y->values, (struct lines_of){map->height, y->values, 1},
+                                         (struct lines_of){half, y->values, 1}) &&
+                      height_splines_fit(y, x->count, (struct lines_of){half, 1, y->values},
+                                         (struct lines_of){map->coefficient, 1, y->count});
     array_free(half);
     for (size_t i = 0; good && i < x->values * y->values; i++) {
         const double place[2] = {x->place[i / y->values], y->place[i % y->values]};
@@ -260,8 +122,9 @@ static struct height_map *map_of(const struct height_rows *rows, const char *pat
         status = found ? lay_grid(path, rows, datum, map, messages) : SELAS_NO_MEMORY;
     }
     if (status == SELAS_OK) {
-        const bool laid = lay_splines(&map->along[0], piece) && lay_splines(&map->along[1], piece);
         gsl_errors_returned();
+        const bool laid =
+            height_splines_lay(&map->along[0], piece) && height_splines_lay(&map->along[1], piece);
         if (!laid || !fit_all(map)) status = fail(messages, SELAS_NO_MEMORY, "no memory for '%s'", path);
         gsl_errors_as_before();
     }
@@ -324,10 +187,10 @@ void height_map_free(struct height_map *map)
 double height_map_at(const struct height_map *map, const double place[2])
 {
     const struct axis_map *x = &map->along[0], *y = &map->along[1];
-    double along[2][ORDER];
+    double along[2][HEIGHT_ORDER];
     size_t first[2];
-    const size_t rows = basis_at(x, place[0], along[0], &first[0]),
-                 columns = basis_at(y, place[1], along[1], &first[1]);
+    const size_t rows = height_splines_at(x, place[0], along[0], &first[0]),
+                 columns = height_splines_at(y, place[1], along[1], &first[1]);
     double sum = 0;
     for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < columns; j++)
