@@ -824,6 +824,23 @@ END
 told "a damped strip held at one end" "rings at frequencies below the source's" check strip.nml
 untold "held all round" check strip.nml boundary%face=all
 told "on rollers all round" "rings at frequencies below the source's" check strip.nml boundary%face=all boundary%kind=roller
+# --- Slabs between absorbing layers ---
+cat >slab.nml <<'END'
+&scene dimension = 2, end_time = 30 /
+&material name = 'm', density = 1, lambda = 1, mu = 1 /
+&body material = 'm', low = -2, 0, high = 2, 2, spacing = 0.2 /
+&boundary face = 'x-', 'x+', kind = 'transmitting' /
+&load face = 'y-', shape = 'square', centre = 0, 0, size = 1, direction = 0, 1, history = 'gaussian', width = 0.4, delay = 2 /
+&receiver name = 'a', position = 1, 0.5 /
+&output plots = F /
+END
+told "waves that free faces guide into layers" "guide, and send them back: from about t = 23.5 on" check slab.nml
+untold "an earlier end of them" check slab.nml scene%end_time=20
+untold "layers farther off" check slab.nml body%low=-4,0 body%high=4,2
+untold "waves longer than the slab is thick" check slab.nml load%width=1.2 load%delay=6
+untold "a slab with a way out" check slab.nml boundary%face=x-,x+,y+
+told "one held face" "guide, and send them back: from about t = 39.5 on" check slab.nml scene%end_time=60 'boundary(2)%face=y+' 'boundary(2)%kind=fixed'
+untold "and it at the earlier end" check slab.nml 'boundary(2)%face=y+' 'boundary(2)%kind=fixed'
 # --- Loads are counted as the deck's &load ---
 printf '%s\n' '-.5 0 1 0 0 1' '.5 0 1 0 0 1' >sources.txt
 cat >numbers.nml <<'END'

@@ -184,15 +184,18 @@ static bool ground_changes_behind(const struct scene *scene, int face)
     return false;
 }
 
+bool faces_guide(const struct scene *scene, int axis)
+{
+    const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
+    return !boundary_absorbs(low) && !boundary_absorbs(high) &&
+           !(boundary_slides(low) && boundary_slides(high));
+}
+
 double layer_drag(const struct scene *scene, int face)
 {
     static const double plate = 1.2, ground = .3; /* measured */
-    for (int axis = 0; axis < scene->dimension; axis++) {
-        const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
-        if (!boundary_absorbs(low) && !boundary_absorbs(high) &&
-            !(boundary_slides(low) && boundary_slides(high)))
-            return plate; /* no way out, and waves that are not plane ones */
-    }
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (faces_guide(scene, axis)) return plate;
     return ground_changes_behind(scene, face) ? ground : 0;
 }
 

@@ -36,6 +36,8 @@ bool layer_anywhere(const struct scene *scene);
  * the one to be expected by measurement. */
 double layer_profile_reflection(size_t points);
 double layer_expected_reflection(size_t points);
+/* Do the two faces across an axis guide waves between them: no way out, and waves that are not plane ones? */
+bool faces_guide(const struct scene *scene, int axis);
 /* Waves guided along a layer, whose phase and group velocities may be opposite, would grow in it: velocities there
  * are damped besides, at this share of the layer's own damping d times (d / largest d)^4 (Eq 11a); 0: none are. */
 double layer_drag(const struct scene *scene, int face);

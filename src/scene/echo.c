@@ -22,6 +22,11 @@ static double distance(const struct scene *scene, int face, const struct extent 
     return fmax(0, plane - (mirrored ? fmax(near, 2 * mirror - far) : near));
 }
 
+double echo_way(const struct scene *scene, int face, const struct extent *acts, const struct extent *seen)
+{
+    return distance(scene, face, acts) + distance(scene, face, seen);
+}
+
 bool echo_seen(const struct scene *scene, int face, double less)
 {
     const double speed = 1.02 * scene_first(scene);

@@ -9,6 +9,9 @@
  * looked at in time. Without anything that acts or anything that looks: true. */
 bool echo_seen(const struct scene *scene, int face, double less);
 
+/* Shortest way from what acts over a face to what is looked at. */
+double echo_way(const struct scene *scene, int face, const struct extent *acts, const struct extent *seen);
+
 /* A face without an absorbing layer, since nobody sees by the end what it sends back, whose echo has reached an extent
  * by `time`; FACES if there is none. */
 int echo_heard(const struct scene *scene, const struct extent *seen, double time);
