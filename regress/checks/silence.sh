@@ -196,6 +196,22 @@ untold "blocks that meet but for rounding" check wall.nml 'block(1)%centre=.3,.5
 untold "ellipsoids askew, whose boxes alone are near" check wall.nml 'block(1)%shape=ellipsoid' 'block(2)%shape=ellipsoid' \
     'block(1)%centre=-1,2' 'block(1)%size=2,2' 'block(2)%centre=1.1,2.9' 'block(2)%size=2,2' load%centre=-2.5,2.5
 
+# --- A moment tensor beside a level interface by the general operator: .02 where shear moduli are 1 : 3, .04 where 1 : 5.5 ---
+cat >level.nml <<'END'
+&scene dimension = 2, end_time = 6.54 /
+&method operator = 'general' /
+&material name = 'rock', density = 1, p_speed = 2.93027, s_speed = 1 /
+&material name = 'soil', density = .9, p_speed = 1.3318, s_speed = .602 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = .632 /
+&body material = 'rock', shape = 'half-space', spacing = 0.1 /
+&load kind = 'moment-tensor', centre = 0, 0.652, moment = -0.82, 0.37, 0, 0.81, 0, 0, history = 'gaussian', width = 0.471, delay = 2.356 /
+&receiver name = 'r1', position = 0.981, 0.0 /
+END
+told "a moment tensor beside a level interface" "by a twentieth where shear moduli are 1 : 5, a tenth" check level.nml 'material(2)%density=.5'
+untold "of rocks less unlike" check level.nml
+untold "farther off" check level.nml 'material(2)%density=.5' load%centre=0,.95
+
 # --- Layers a spacing thick that go to and fro: densities 3 : 1 err by .06, by .02 at half the spacing, with sources as slow ---
 {
     cat <<'END'

@@ -153,7 +153,7 @@ void look_at_guided(struct adviser *adviser)
         advise(
             adviser,
             "absorbing layers let waves grow that faces %s and %s guide, and send them back: from about t = "
-            "%.3g on velocities err by .01 to .05 of the largest, at twice that time by up to .5, and the "
+            "%.3g on velocities err by .005 to .05 of the largest, at twice that time by up to .5, and the "
             "run may go unstable; sides farther from what acts and is looked at would be right",
             face_name((enum face)(2 * axis)), face_name((enum face)(2 * axis + 1)), first);
         return;

@@ -149,7 +149,7 @@ static double contrast(const struct scene *scene, const double place[3], double 
 void look_at_interfaces(struct adviser *adviser)
 {
     enum { STEPS = 10 }; /* in a spacing */
-    static const double reach = 3.0, slight = 0.05, strong = 10.0;
+    static const double reach = 3.0, slight = 0.05, strong = 5.0;
     const struct scene *scene = adviser->scene;
     double least = reach, direction[MOST_DIRECTIONS][3];
     const size_t directions = lay_directions(scene->dimension, direction);
@@ -177,7 +177,7 @@ void look_at_interfaces(struct adviser *adviser)
         scene->load[load].group + 1, least, reach,
         ground_is_general(scene)
             ? ", a tenth within 7 spacings of a face, several tenths beside corners of the rock"
-            : " where moduli are 1 : 10",
+            : " where shear moduli are 1 : 5, a tenth where they are 1 : 10",
         scene->body.spacing * least / reach,
         ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
