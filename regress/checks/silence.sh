@@ -585,6 +585,21 @@ told "a moment tensor that begins 4 widths before its peak, on fine points" "sma
 untold "5 widths before" check jump.nml load%delay=1.25
 untold "4 widths before on points as fine as waves need" check jump.nml body%spacing=.1
 untold "4 widths before without the waves beyond the source" check jump.nml output%low_pass=20
+cat >other.nml <<'END'
+&load kind = 'moment-tensor', centre = 0, 1, moment = 1, .5, 0, .3, 0, 0, history = 'gaussian', width = .25, delay = 1.25 /
+END
+cat jump.nml other.nml >jumps.nml
+told "beside one that does not" "load 1 .*small jump at t = 0" check jumps.nml
+untold "beside one a hundred times as strong that does not" check jumps.nml 'load(2)%amplitude=100'
+untold "switched off beside one that does not" check jumps.nml 'load(1)%amplitude=0'
+cat >line.nml <<'END'
+&scene dimension = 1, end_time = 3 /
+&material name = 'rock', density = 1, p_speed = 1.7, s_speed = 1 /
+&body material = 'rock', low = 0, high = 8, spacing = .05 /
+&load kind = 'moment-tensor', centre = 4, moment = 1, 5*0, history = 'gaussian', width = .25, delay = 1 /
+&receiver name = 'a', position = 5 /
+END
+untold "4 widths before along a line, which carry .0008" check line.nml
 # --- Ground ---
 alike() { # alike WHAT MOST RECEIVERS ONE OTHER: velocities of two runs
     worst=$(for receiver in $3; do

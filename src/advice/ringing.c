@@ -70,11 +70,12 @@ void look_at_ringing_body(struct adviser *adviser)
 
 /* Of the velocities from a moment tensor the share, in relative L2, that a jump at t = 0 leaves up to the frequency
  * where S waves are two spacings long: they go with w^2 times the spectrum of the time function, in the plane with
- * w^(3/2). What rings is 1.7 times as much, as P waves and waves askew are faster (regress/studies/ringing: .4 to
- * 1.3 of what is told). */
+ * w^(3/2), along a line with w. What rings is 1.7 times as much, as P waves and waves askew are faster
+ * (regress/studies/ringing: .4 to 1.3 of what is told; along a line .3). */
 static double share_of_jump(const struct scene *scene, const struct history *history)
 {
-    const bool plane = scene->dimension == 2, ricker = history->kind == HISTORY_RICKER;
+    static const double pulse[2][3] = {{1.67, 2.51, 3.54}, {3.23, 6.15, 10.5}};
+    const bool ricker = history->kind == HISTORY_RICKER;
     if ((!ricker && history->kind != HISTORY_GAUSSIAN) || history->smoothing > 0) return 0;
     struct history raw = *history;
     raw.start = 0;
@@ -82,20 +83,30 @@ static double share_of_jump(const struct scene *scene, const struct history *his
     const double width = ricker ? 1 / (sqrt(2) * M_PI * history->frequency) : history->width;
     const double pass = scene->output.low_pass, highest = M_PI * slowest_speed(scene) / scene->body.spacing;
     const double band = width * (pass > 0 ? fmin(pass, highest) : highest);
-    const double pulse = plane ? 2.51 * (ricker ? 2.45 : 1) : 3.54 * (ricker ? 2.96 : 1);
-    return 1.7 * jump * pow(band, plane ? 1 : 1.5) / pulse;
+    return 1.7 * jump * pow(band, .5 * scene->dimension) / pulse[ricker][scene->dimension - 1];
+}
+
+/* Of a load that is a moment tensor by the deck's history; else 0. */
+static double moment_of(const struct load *load)
+{
+    double sum = 0;
+    for (int n = 0; n < 6 && load->kind == LOAD_MOMENT_TENSOR && load->driven == BY_HISTORY; n++)
+        sum += load->moment[n] * load->moment[n];
+    return fabs(load->amplitude) * sqrt(sum);
 }
 
 void look_at_cut_moment(struct adviser *adviser)
 {
     static const double seen = .01;
     const struct scene *scene = adviser->scene;
-    double worst = 0;
+    double worst = 0, most = 0;
     size_t group = 0;
+    for (size_t k = 0; k < scene->loads; k++)
+        most = fmax(most, moment_of(&scene->load[k]));
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
-        if (load->kind != LOAD_MOMENT_TENSOR || load->driven != BY_HISTORY) continue;
-        const double share = share_of_jump(scene, &load->history);
+        if (moment_of(load) == 0) continue;
+        const double share = share_of_jump(scene, &load->history) * moment_of(load) / most;
         if (share > worst) group = load->group;
         worst = fmax(worst, share);
     }
