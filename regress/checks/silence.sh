@@ -855,6 +855,22 @@ END
 told "a damped strip held at one end" "rings at frequencies below the source's" check strip.nml
 untold "held all round" check strip.nml boundary%face=all
 told "on rollers all round" "rings at frequencies below the source's" check strip.nml boundary%face=all boundary%kind=roller
+# --- Long ways on splines ---
+cat >way.nml <<'END'
+&scene dimension = 1, end_time = 40 /
+&material name = 'm', density = 1, lambda = 1, mu = 1 /
+&body material = 'm', low = 0, high = 4, spacing = 0.25 /
+&boundary face = 'x+', kind = 'fixed' /
+&load face = 'x-', direction = 1, history = 'gaussian', width = 0.3, delay = 2 /
+&receiver name = 'a', position = 1 /
+&output plots = F /
+END
+untold "waves on their way through a bar, to and fro" check way.nml
+told "a later end of them" "waves that loads send, 11.1 points each .* err by up to about 0.12 on their longest way" check way.nml scene%end_time=100
+told "with one sweep" "waves that loads send.* err by up to about" check way.nml method%mass=vc1
+untold "with the exact mass of degree 4, late" check way.nml method%degree=4 method%mass=exact scene%end_time=400
+told "degree 1 in good resolution" "waves that loads send.*or method%degree = 2, would be right" check way.nml method%degree=1 body%spacing=.1
+untold "a bar that lets them out" check way.nml scene%end_time=400 boundary%kind=transmitting
 # --- Slabs between absorbing layers ---
 cat >slab.nml <<'END'
 &scene dimension = 2, end_time = 30 /

@@ -206,6 +206,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_impact(&adviser);
     look_at_time_error(&adviser, stepper);
     look_at_method(&adviser, stepper->model);
+    look_at_long_way(&adviser, stepper->model);
     look_at_incompressible(&adviser);
     look_at_moments(&adviser);
     look_at_step(&adviser, stepper);

@@ -141,7 +141,7 @@ static double guided_return(const struct scene *scene, int face, double thick)
 void look_at_guided(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
-    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
+    for (int axis = 0; axis < 3 && axis < scene->dimension && !scene->body.chosen; axis++) {
         const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
         const bool alike =
             boundary_is_free(low) == boundary_is_free(high) && boundary_slides(low) == boundary_slides(high);

@@ -1,6 +1,6 @@
-/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
- * points.c (patches on points), ringing.c (damped bodies), jumps.c (fields and states where the rock
- * jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
+/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0), waves.c
+ * (what waves err by on their way), points.c (patches on points), ringing.c (damped bodies), jumps.c (fields and
+ * states where the rock jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
  * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others), beyond.c (ground that goes on),
  * stacks.c (ground that goes to and fro). */
 #ifndef SELAS_ADVICE_PARTS_H
@@ -33,6 +33,17 @@ bool has_patch(const struct load *load);
 /* Half its extent along an axis; 0 across its face. */
 double half_size(const struct load *load, int axis);
 
+/* What waves of a number k err by after a way. */
+double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double way);
+/* How far waves run by end_time, or before they leave through absorbing faces. */
+double longest_way(const struct scene *scene, double speed);
+/* Wave number of what is typical in the velocity of the initial state, its root mean square; angular frequency that
+ * loads send with half their largest amplitude; 0: not known. */
+double typical_number(const struct scene *scene);
+double typical_frequency(const struct scene *scene);
+/* The consistent method? */
+bool on_splines(const struct model *model);
+
 /* What does nothing (nothing.c). */
 void look_at_nothing(struct adviser *adviser);
 /* Short waves in the state at t = 0, faces that cut it, a velocity that jumps at them. */
@@ -47,8 +58,10 @@ void look_at_ringing_body(struct adviser *adviser);
 void look_at_cut_moment(struct adviser *adviser);
 /* Leapfrog's time error where it stays. */
 void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
-/* Waves that a method's points carry badly. */
+/* Waves that a method's points carry badly (waves.c). */
 void look_at_method(struct adviser *adviser, const struct model *model);
+/* Loads' waves that splines carry too far. */
+void look_at_long_way(struct adviser *adviser, const struct model *model);
 /* A patch on points that do not see it as it is. */
 void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */

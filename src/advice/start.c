@@ -47,8 +47,7 @@ static double shortest_wave(const struct scene *scene, bool slower, bool train)
     return slower ? wave * slowest_speed(scene) / plane_wave_speed(scene) : wave;
 }
 
-/* What waves of a number k err by after a way. */
-static double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double way)
+double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double way)
 {
     const double points = 2 * M_PI / (k * scene->body.spacing);
     return k > 0 && isfinite(way)
@@ -56,14 +55,12 @@ static double error_of_waves(const struct scene *scene, const struct wave_law *l
                : 0;
 }
 
-/* The consistent method; what others' points carry badly is told by look_at_method(). */
-static bool on_splines(const struct model *model)
+bool on_splines(const struct model *model)
 {
     return strcmp(model->method->variant, "consistent") == 0;
 }
 
-/* How far waves run by end_time, or before they leave through absorbing faces. */
-static double longest_way(const struct scene *scene, double speed)
+double longest_way(const struct scene *scene, double speed)
 {
     double way = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
@@ -75,8 +72,7 @@ static double longest_way(const struct scene *scene, double speed)
     return fmin(way, speed * scene->end_time);
 }
 
-/* Wave number of what is typical in the velocity of the initial state, its root mean square; 0: not known. */
-static double typical_number(const struct scene *scene)
+double typical_number(const struct scene *scene)
 {
     const struct initial *initial = &scene->initial;
     const bool plane = initial->kind == INITIAL_PLANE_WAVE;
@@ -253,8 +249,7 @@ void look_at_impact(struct adviser *adviser)
         }
 }
 
-/* Angular frequency that loads send with half their largest amplitude; 0: not known. */
-static double typical_frequency(const struct scene *scene)
+double typical_frequency(const struct scene *scene)
 {
     const double half = source_cutoff_at(scene, .5);
     return isfinite(half) ? half : 0;
@@ -278,99 +273,4 @@ void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
                "%.2g by end_time; %sstepping%%safety = %.2g%s would be right",
                stepper->scheme->name, fmin(1, phase), better ? "scheme = 'modified-equation', or " : "",
                sqrt(seen / 2 / phase) * stepper->dt / stepper->limit, better ? "," : "");
-}
-
-static bool along(const struct scene *scene, const double direction[3], int axis)
-{
-    double own[3];
-    body_direction_from_deck(&scene->body, direction, own);
-    return fabs(own[axis]) > 1 - 1e-9;
-}
-
-/* Do loads and moved faces send plane P waves along an axis alone, between sides that leave them as they are? */
-static bool sends_plane_p(const struct scene *scene, int axis)
-{
-    bool plane = body_is_box(&scene->body) && scene->materials == 1;
-    for (int face = 0; face < 2 * scene->dimension; face++) {
-        const struct boundary *boundary = &scene->boundary[face];
-        if (face / 2 != axis)
-            plane = plane && boundary_slides(boundary) && !boundary_moves(boundary);
-        else if (boundary_acts(boundary))
-            plane = plane && along(scene, boundary->direction, axis);
-    }
-    for (size_t k = 0; k < scene->loads && plane; k++)
-        plane = scene->load[k].amplitude == 0 ||
-                (scene->load[k].shape == LOAD_FACE && along(scene, scene->load[k].direction, axis) &&
-                 (scene->load[k].kind != LOAD_TRACTION || face_axis(scene->load[k].face) == axis));
-    return plane;
-}
-
-/* Speed of the slowest waves that loads send. */
-static double slowest_sent(const struct scene *scene)
-{
-    for (int axis = 0; axis < scene->dimension; axis++)
-        if (sends_plane_p(scene, axis)) return scene->material[0].p_speed;
-    return slowest_speed(scene);
-}
-
-/* The method as published presses and holds faces to order 0. Measured: patches on held
- * boxes .4 to .6, on free ones .6 to 1.1, half-spaces .2 to .7 (paper-method.md). */
-static void look_at_pressed_faces(struct adviser *adviser)
-{
-    const struct scene *scene = adviser->scene;
-    bool pressed = false;
-    for (size_t k = 0; k < scene->loads; k++)
-        pressed = pressed || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].amplitude != 0);
-    for (int face = 0; face < FACES; face++)
-        pressed = pressed || boundary_acts(&scene->boundary[face]);
-    if (pressed)
-        advise(adviser, "variant 'paper' carries what acts on faces to order 0: velocities were .1 to 1.5 "
-                        "wrong, whatever "
-                        "the spacing (most where faces are free); variant = 'consistent' would be right");
-}
-
-/* What the paper's waves err by where they meet faces, carried to order 0, by end_time: each time .15 at free faces and
- * dampers (which send little back: twice at most), .05 at held ones (paper-method.md). In a bar free ends are right. */
-static double error_at_faces(const struct scene *scene, double way)
-{
-    static const double loose = .15, held = .05;
-    double most = 0;
-    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
-        const double edge = scene->body.high[axis] - scene->body.low[axis];
-        double each = 0, times = way / edge;
-        if (!(way > edge)) continue;
-        for (int face = 2 * axis; face < 2 * axis + 2; face++) {
-            const bool absorbs = boundary_absorbs(&scene->boundary[face]);
-            const bool free = boundary_is_free(&scene->boundary[face]);
-            if (absorbs) times = fmin(times, 2);
-            each += absorbs ? loose : scene->dimension == 1 ? 0 : free ? loose : held;
-        }
-        most = fmax(most, each / 2 * times);
-    }
-    return most;
-}
-
-void look_at_method(struct adviser *adviser, const struct model *model)
-{
-    static const double seen = .1;
-    const struct scene *scene = adviser->scene;
-    const double slowest = slowest_sent(scene), omega = typical_frequency(scene);
-    if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
-    const bool papers = strcmp(model->method->variant, "paper") == 0;
-    if (papers) look_at_pressed_faces(adviser);
-    struct wave_law first = model->waves, sent = model->waves;
-    if (scene->initial.shear) first.floor += first.shear;
-    if (slowest < scene_fastest(scene)) sent.floor += sent.shear;
-    const double start =
-        error_of_waves(scene, &first, typical_number(scene), plane_wave_speed(scene) * scene->end_time);
-    const double error =
-        fmax(start, error_of_waves(scene, &sent, omega / slowest, slowest * scene->end_time)) +
-        (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
-    const bool remains = sent.floor > .005;
-    if (error > seen)
-        advise(adviser,
-               "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
-               "end_time%s; %svariant = 'consistent' would be right",
-               model->method->variant, fmin(1, error), remains ? ", much of it whatever the spacing" : "",
-               remains ? "" : "finer points or ");
 }

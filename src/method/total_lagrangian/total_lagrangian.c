@@ -244,8 +244,8 @@ selas_status tl_fill_points(struct tl_model *tl, struct messages *messages)
 /* By gradients (the cloud's are linear, and err as quadratic ones). */
 static struct wave_law waves_of(const struct tl_options *options)
 {
-    if (options->central) return (struct wave_law){1000, 4, 0, 0, 0, 0};
-    return (struct wave_law){options->form == NULL && options->degree == 1 ? 95 : 48, 2, 0, 0, 0, 0};
+    if (options->central) return (struct wave_law){.constant = 1000, .order = 4};
+    return (struct wave_law){.constant = options->form == NULL && options->degree == 1 ? 95 : 48, .order = 2};
 }
 
 static void fill_model(struct tl_model *tl)

@@ -265,8 +265,8 @@ selas_status updated_lagrangian_new(const struct scene *scene, const struct upda
     updated->model.method = &method_updated_lagrangian;
     updated->model.core = &core;
     updated->model.patch = PATCH_BY_CELLS;
-    updated->model.waves =
-        (struct wave_law){1 + 1.2 * options->alpha, 1, .5 * options->artificial_stress, 0, 0, 0};
+    updated->model.waves = (struct wave_law){
+        .constant = 1 + 1.2 * options->alpha, .order = 1, .floor = .5 * options->artificial_stress};
     updated->model.spatial = &spatial;
     updated->model.scene = scene;
     updated->options = *options;

@@ -1,0 +1,161 @@
+/* What waves err by on their way: those of loads and moved faces, on points of any method. */
+#include "advice/parts.h"
+
+#include "scene/extent.h"
+#include "scene/initial.h"
+#include "scene/resolution.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool along(const struct scene *scene, const double direction[3], int axis)
+{
+    double own[3];
+    body_direction_from_deck(&scene->body, direction, own);
+    return fabs(own[axis]) > 1 - 1e-9;
+}
+
+/* Do loads and moved faces send plane P waves along an axis alone, between sides that leave them as they are? */
+static bool sends_plane_p(const struct scene *scene, int axis)
+{
+    bool plane = body_is_box(&scene->body) && scene->materials == 1;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        if (face / 2 != axis)
+            plane = plane && boundary_slides(boundary) && !boundary_moves(boundary);
+        else if (boundary_acts(boundary))
+            plane = plane && along(scene, boundary->direction, axis);
+    }
+    for (size_t k = 0; k < scene->loads && plane; k++)
+        plane = scene->load[k].amplitude == 0 ||
+                (scene->load[k].shape == LOAD_FACE && along(scene, scene->load[k].direction, axis) &&
+                 (scene->load[k].kind != LOAD_TRACTION || face_axis(scene->load[k].face) == axis));
+    return plane;
+}
+
+/* Speed of the slowest waves that loads send. */
+static double slowest_sent(const struct scene *scene)
+{
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (sends_plane_p(scene, axis)) return scene->material[0].p_speed;
+    return slowest_speed(scene);
+}
+
+/* Largest distance of what acts from what is looked at, within the body. */
+static double farthest(const struct scene *scene)
+{
+    const struct body *body = &scene->body;
+    double low[2][3], high[2][3], away = 0;
+    struct extent extent;
+    for (int c = 0; c < 3; c++)
+        for (int seen = 0; seen < 2; seen++) {
+            low[seen][c] = body->high[c];
+            high[seen][c] = body->low[c];
+        }
+    for (size_t k = 0; scene_extent(scene, k, &extent); k++)
+        for (int c = 0, seen = extent.role == EXTENT_SEEN; c < 3 && extent.role != EXTENT_IDLE; c++) {
+            low[seen][c] = fmin(low[seen][c], fmax(extent.low[c], body->low[c]));
+            high[seen][c] = fmax(high[seen][c], fmin(extent.high[c], body->high[c]));
+        }
+    for (int c = 0; c < 3 && c < scene->dimension; c++)
+        away = hypot(away, fmax(0, fmax(high[0][c] - low[1][c], high[1][c] - low[0][c])));
+    return away;
+}
+
+/* How far waves of a number k that loads send run until they are seen last, or 1/e is left of them. */
+static double seen_way(const struct scene *scene, double speed, double k)
+{
+    bool leave = true;
+    double quality = 0;
+    for (size_t m = 0; m < scene->materials; m++) {
+        const double larger = fmax(scene->material[m].q_p, scene->material[m].q_s);
+        quality = fmax(quality, larger > 0 ? larger : INFINITY);
+    }
+    for (int axis = 0; axis < scene->dimension; axis++)
+        leave = leave && (boundary_absorbs(&scene->boundary[2 * axis]) ||
+                          boundary_absorbs(&scene->boundary[2 * axis + 1]));
+    const double way = fmin(longest_way(scene, speed), quality > 0 ? 2 * quality / k : INFINITY);
+    return fmin(way, leave || scene->body.chosen ? farthest(scene) : INFINITY);
+}
+
+/* What loads send on splines. By end_time bars erred by .8 to 1.3 of what is told, boxes in the plane by .2 to 1.3,
+ * since much in them is P waves (doc/howto/spacing.md). */
+void look_at_long_way(struct adviser *adviser, const struct model *model)
+{
+    static const double seen = .1;
+    const struct scene *scene = adviser->scene;
+    const struct wave_law law = {.constant = model->waves.sent, .order = model->waves.sent_order};
+    const bool told = scene->reference.kind[0] != '\0' || scene->body.accuracy[0] != '\0';
+    const double slowest = slowest_sent(scene), k = typical_frequency(scene) / slowest;
+    if (told || !(scene->body.spacing > 0) || !on_splines(model)) return;
+    const double error = error_of_waves(scene, &law, k, seen_way(scene, slowest, k));
+    if (error > seen)
+        advise(adviser,
+               "waves that loads send, %.3g points each at half the largest amplitude, err by up to about "
+               "%.2g on their longest way; body%%spacing = %.3g%s would be right",
+               2 * M_PI / k / scene->body.spacing, fmin(1, error),
+               scene->body.spacing * pow(seen / 2 / error, 1 / law.order),
+               law.order < 3 ? ", or method%degree = 2," : "");
+}
+
+/* The method as published presses and holds faces to order 0. Measured: patches on held
+ * boxes .4 to .6, on free ones .6 to 1.1, half-spaces .2 to .7 (paper-method.md). */
+static void look_at_pressed_faces(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    bool pressed = false;
+    for (size_t k = 0; k < scene->loads; k++)
+        pressed = pressed || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].amplitude != 0);
+    for (int face = 0; face < FACES; face++)
+        pressed = pressed || boundary_acts(&scene->boundary[face]);
+    if (pressed)
+        advise(adviser, "variant 'paper' carries what acts on faces to order 0: velocities were .1 to 1.5 "
+                        "wrong, whatever "
+                        "the spacing (most where faces are free); variant = 'consistent' would be right");
+}
+
+/* What the paper's waves err by where they meet faces, carried to order 0, by end_time: each time .15 at free faces and
+ * dampers (which send little back: twice at most), .05 at held ones (paper-method.md). In a bar free ends are right. */
+static double error_at_faces(const struct scene *scene, double way)
+{
+    static const double loose = .15, held = .05;
+    double most = 0;
+    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
+        const double edge = scene->body.high[axis] - scene->body.low[axis];
+        double each = 0, times = way / edge;
+        if (!(way > edge)) continue;
+        for (int face = 2 * axis; face < 2 * axis + 2; face++) {
+            const bool absorbs = boundary_absorbs(&scene->boundary[face]);
+            const bool free = boundary_is_free(&scene->boundary[face]);
+            if (absorbs) times = fmin(times, 2);
+            each += absorbs ? loose : scene->dimension == 1 ? 0 : free ? loose : held;
+        }
+        most = fmax(most, each / 2 * times);
+    }
+    return most;
+}
+
+void look_at_method(struct adviser *adviser, const struct model *model)
+{
+    static const double seen = .1;
+    const struct scene *scene = adviser->scene;
+    const double slowest = slowest_sent(scene), omega = typical_frequency(scene);
+    if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
+    const bool papers = strcmp(model->method->variant, "paper") == 0;
+    if (papers) look_at_pressed_faces(adviser);
+    struct wave_law first = model->waves, sent = model->waves;
+    if (scene->initial.shear) first.floor += first.shear;
+    if (slowest < scene_fastest(scene)) sent.floor += sent.shear;
+    const double start =
+        error_of_waves(scene, &first, typical_number(scene), plane_wave_speed(scene) * scene->end_time);
+    const double error =
+        fmax(start, error_of_waves(scene, &sent, omega / slowest, slowest * scene->end_time)) +
+        (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
+    const bool remains = sent.floor > .005;
+    if (error > seen)
+        advise(adviser,
+               "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
+               "end_time%s; %svariant = 'consistent' would be right",
+               model->method->variant, fmin(1, error), remains ? ", much of it whatever the spacing" : "",
+               remains ? "" : "finer points or ");
+}
