@@ -48,7 +48,7 @@ selas_status recorder_open(struct recorder *recorder, const char *work, struct m
 selas_status recorder_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
 /* Before and after a change of the loads at the time of the step that was seen last: that step once more, in place
- * of what was seen of it. */
+ * of what was seen of it; of finished histories nothing changes any more. */
 void recorder_forget(struct recorder *recorder, const struct state *state);
 selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
                                     struct messages *messages);

@@ -93,6 +93,7 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
 
 void recorder_forget(struct recorder *recorder, const struct state *state)
 {
+    if (recorder->finished) return;
     trace_forget(recorder);
     profile_forget(recorder, state);
     recorder->watch = recorder->before;
@@ -103,6 +104,7 @@ void recorder_forget(struct recorder *recorder, const struct state *state)
 selas_status recorder_observe_again(struct recorder *recorder, const struct state *state,
                                     struct messages *messages)
 {
+    if (recorder->finished) return SELAS_OK;
     selas_status status = trace_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
     profile_observe(recorder, state);
