@@ -644,7 +644,7 @@ contains
       integer, intent(out), optional :: status
       integer(c_long) :: count
       count = 1
-      if (present(steps)) count = max(steps, 0)
+      if (present(steps)) count = steps
       call report(self, c_step(self%handle, count), status)
    end subroutine
 

@@ -78,7 +78,7 @@ SELAS_API selas_status selas_share_handle(selas_simulation *simulation, int comm
  * Errors: SELAS_UNSTABLE (the message says where and when), SELAS_BAD_SCENE (no stable step),
  * SELAS_UNSUPPORTED. */
 SELAS_API selas_status selas_advance(selas_simulation *simulation, double time);
-/* Runs `steps` steps. */
+/* Runs `steps` steps. Errors: as selas_advance; SELAS_BAD_ARGUMENT beyond LONG_MAX, as numbers below 0 are. */
 SELAS_API selas_status selas_step(selas_simulation *simulation, unsigned long steps);
 
 /* Time reached, end time of the deck, time step (0 before the first call that needs it), steps done and steps

@@ -98,6 +98,8 @@ contains
       call sim%advance(1.0_real64, status)
       call ok('advance', status == selas_ok .and. sim%time() > 1 - 1e-9_real64 .and. sim%steps() > 0 .and. &
          sim%time_step() > 0 .and. sim%steps_needed() > sim%steps())
+      call sim%step(-3, status)
+      call ok('no steps back', status == selas_bad_argument .and. index(sim%last_message(), 'below 0') > 0)
       call sim%receiver('centre', selas_velocity, velocity, status)
       call ok('receiver', status == selas_ok .and. velocity(3) > 0)
       call sim%receiver('nowhere', selas_velocity, velocity, status)

@@ -144,6 +144,7 @@ static void test_wrong_words(void **state)
     wrong(s, selas_set_points(s, SIZE_MAX / 2, many, &one, NULL));
     if (selas_build(s) != SELAS_OK) fail_msg("%s", selas_message(s));
     assert_int_equal(selas_step(s, 1), SELAS_OK);
+    wrong(s, selas_step(s, (unsigned long)-3));
     selas_close(&s);
 }
 

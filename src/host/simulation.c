@@ -310,7 +310,8 @@ selas_status selas_step(selas_simulation *simulation, unsigned long steps)
 {
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
-    return run_steps(simulation, steps);
+    if (steps <= ~0UL >> 1) return run_steps(simulation, steps);
+    return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "a number of steps below 0, or too large");
 }
 
 selas_status selas_advance(selas_simulation *simulation, double time)
