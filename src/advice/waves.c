@@ -85,7 +85,8 @@ void look_at_long_way(struct adviser *adviser, const struct model *model)
     static const double seen = .1;
     const struct scene *scene = adviser->scene;
     const struct wave_law law = {.constant = model->waves.sent, .order = model->waves.sent_order};
-    const bool told = scene->reference.kind[0] != '\0' || scene->body.accuracy[0] != '\0';
+    const bool told = scene->reference.kind[0] != '\0' || scene->body.accuracy[0] != '\0' ||
+                      points_per_wavelength(scene) < FEWEST_POINTS; /* (advice.c tells) */
     const double slowest = slowest_sent(scene), k = typical_frequency(scene) / slowest;
     if (told || !(scene->body.spacing > 0) || !on_splines(model)) return;
     const double error = error_of_waves(scene, &law, k, seen_way(scene, slowest, k));
