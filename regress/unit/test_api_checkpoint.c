@@ -292,12 +292,49 @@ static void test_changed_file(void **state)
     remove(table);
 }
 
+static void write_rows(const char *path, int last)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "0 0 0 0 0 0 0\n1 %d 0 0 0 0 0\n", last);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A reference from a file that is another one at the end: told. */
+static void test_changed_reference(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "&scene dimension = 1, end_time = 1 /\n&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+        "&body material = 'rock', low = 0, high = 4, spacing = .5 /\n&receiver name = 'r', position = 2 /\n"
+        "&initial kind = 'gaussian', amplitude = .01, direction = 1, centre = 2, width = .6 /\n"
+        "&reference kind = 'file', file = '%s/rows' /\n&output directory = '%s/out', plots = .false. /\n";
+    char folder[] = "/tmp/selas-reference-XXXXXX", rows[60], text[1000], command[60];
+    assert_non_null(mkdtemp(folder));
+    snprintf(rows, sizeof rows, "%s/rows", folder);
+    snprintf(text, sizeof text, deck, folder, folder);
+    for (int changed = 0; changed < 2; changed++) {
+        selas_simulation *simulation = NULL;
+        write_rows(rows, 0);
+        if (selas_open_text("reference", text, &simulation) != SELAS_OK ||
+            selas_record(simulation) != SELAS_OK || selas_step(simulation, 1) != SELAS_OK)
+            fail_msg("%s", selas_message(simulation));
+        write_rows(rows, changed);
+        if (selas_write(simulation) != SELAS_OK) fail_msg("%s", selas_message(simulation));
+        const char *const told = strstr(selas_message(simulation), "names has changed since the run began");
+        assert_true((told != NULL) == (changed == 1));
+        selas_close(&simulation);
+    }
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_other_host),     cmocka_unit_test(test_changed_file),
-        cmocka_unit_test(test_smoothed_point), cmocka_unit_test(test_particles),
-        cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_changed_reference), cmocka_unit_test(test_other_host),
+        cmocka_unit_test(test_changed_file),      cmocka_unit_test(test_smoothed_point),
+        cmocka_unit_test(test_particles),         cmocka_unit_test(test_driven),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

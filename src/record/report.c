@@ -1,5 +1,6 @@
 /* report.txt: the run in figures, one `key: value` a line; ends with speed against error. */
 #include "compare/misfit.h"
+#include "record/kept.h"
 #include "record/watch.h"
 
 #include "base/memory.h"
@@ -206,6 +207,20 @@ static void write_speed_against_error(FILE *out, const struct recorder *recorder
             histories_error(recorder));
 }
 
+/* The files of a reference are read when the run is over. */
+static void write_changed(FILE *out, const struct recorder *recorder, struct messages *messages)
+{
+    static const char text[] =
+        "a file that the deck names has changed since the run began: errors are those against "
+        "reference 'file' as it is now";
+    uint64_t files = 0;
+    if (strcmp(recorder->scene->reference.kind, "file") != 0 || recorder->scene->deck == NULL ||
+        !kept_files_checksum(recorder->scene, &files) || files == recorder->files)
+        return;
+    tell_line(out, "warning", text);
+    warn(messages, "%s", text);
+}
+
 void recorder_summary(const struct recorder *recorder, const struct run_figures *figures, FILE *out)
 {
     write_speed_against_error(out, recorder, figures, true);
@@ -229,6 +244,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
         for (size_t r = 0; exact->class->judge != NULL && r < recorder->scene->receivers; r++)
             exact->class->judge(exact, &recorder->scene->receiver[r], recorder->rows, recorder->time,
                                 recorder->trace[r].value, tell_line, out);
+        write_changed(out, recorder, messages);
     }
     char missed[MISSED_TEXT];
     if (histories_missed(recorder, missed)) tell_line(out, "warning", missed);
