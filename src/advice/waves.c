@@ -78,8 +78,8 @@ static double seen_way(const struct scene *scene, double speed, double k)
     return fmin(way, leave || scene->body.chosen ? farthest(scene) : INFINITY);
 }
 
-/* What loads send on splines. By end_time bars erred by .8 to 1.3 of what is told, boxes in the plane by .2 to 1.3,
- * since much in them is P waves (doc/howto/spacing.md). */
+/* What loads send on splines. By end_time bars erred by .8 to 1.4 of what is told up to .4 (regress/studies/bodies/
+ * long-way), by less where more is told; boxes in the plane by .2 to 1.3, since much in them is P waves. */
 void look_at_long_way(struct adviser *adviser, const struct model *model)
 {
     static const double seen = .1;
