@@ -137,7 +137,7 @@ static double guided_return(const struct scene *scene, int face, double thick)
 
 /* Slabs between two faces that guide waves, which grow in layers (doc/theory/absorbing-faces.md, section 4); unlike
  * faces guide those of a slab twice as thick. Velocities were wrong by .005 to .05 of the largest at the time told, by
- * .02 to .5 at twice that time (regress/studies/guided; in space, and with Q of 20 and 100, too). */
+ * .02 to .5 at twice that time (regress/studies/guided); longer waves by less, until the watch ends the run. */
 void look_at_guided(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;

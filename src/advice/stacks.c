@@ -72,7 +72,7 @@ static void look_along(const struct scene *scene, const double through[3], int a
     }
 }
 
-/* Lines through sources and receivers. Measured in the plane (regress/studies/blocks, `stacks`). */
+/* Lines through sources and receivers. Measured in the plane (regress/studies/blocks, `stacks` and `voxels`). */
 void look_at_stacks(struct adviser *adviser)
 {
     enum { LINES = 50 };

@@ -19,9 +19,8 @@ struct trace {
 /* A profile: at each of its times the fields of all its points, interpolated over four steps. */
 struct profile_record {
     const struct profile *profile;
-    struct probe *probe; /* [points] */
-    unsigned
-        fields; /* the profile's; in single precision stresses have displacements before them, not shown */
+    struct probe *probe;  /* [points] */
+    unsigned fields;      /* the profile's; in single precision displacements beside stresses, not shown */
     size_t columns;       /* of all these together */
     unsigned long *first; /* [times] first of the four steps */
     double *weight;       /* [4 * times] Lagrange weights of these */
