@@ -44,12 +44,12 @@ general="method%operator=general method%degree= method%mass="
 below "S pulse in a rectangle, general operator" "$(largest $general scene%dimension=2 body%low=0,0 body%high=4,0.4 body%spacing=0.04 \
     initial%wave=s initial%direction=1,0 initial%centre=1,0 initial%width=0.2 "boundary%face='y-','y+'" \
     boundary%kind=displacement boundary%direction=1,0 boundary%slip=T boundary%amplitude=0 \
-    boundary%history=step 'receiver(1)%position=2,0.2' 'receiver(2)%position=3.5,0.4')" 2e-3
+    boundary%history=step 'receiver(1)%position=2,0.2' 'receiver(2)%position=3.5,0.4')" 1e-3
 # shellcheck disable=SC2086
 below "S pulse in a box, general operator" "$(largest $general scene%dimension=3 body%low=0,0,0 body%high=4,0.4,0.4 body%spacing=0.04 \
     initial%wave=s initial%direction=1,0,0 initial%centre=1,0,0 initial%polarisation=0,1,0 initial%width=0.2 "boundary%face='y-','y+'" \
     boundary%kind=displacement boundary%direction=1,0,0 boundary%slip=T boundary%amplitude=0 \
-    boundary%history=step 'receiver(1)%position=2,0.2,0.2' 'receiver(2)%position=3.5,0.2,0.4')" 2e-3
+    boundary%history=step 'receiver(1)%position=2,0.2,0.2' 'receiver(2)%position=3.5,0.2,0.4')" 1e-3
 below "S pulse askew in a box" "$(largest scene%dimension=3 scene%end_time=0.5 body%low=0,0,0 body%high=4,4,4 \
     body%spacing=0.1 initial%wave=s initial%direction=2,3,6 initial%polarisation=3,-2,0 \
     initial%centre=1.86,1.79,1.57 initial%width=0.5 'receiver(1)%position=2,2,2' \
