@@ -147,10 +147,20 @@ static inline void leap(struct run *run, const struct drive *drive, double dt)
 {
     double *v = run->y + run->n;
     run->model->spatial->accelerate(run->model, drive, dt / 2, run->y, v, run->a);
-    for (size_t i = 0; i < run->n; i++) {
+    for (size_t i = 0; i < run->n; i++)
         v[i] += dt * run->a[i];
+    if (drive->extra != NULL) run->model->memory->drag(run->model, dt, v);
+    for (size_t i = 0; i < run->n; i++)
         run->y[i] += dt * v[i];
-    }
+    if (drive->extra != NULL) run->model->memory->remember(run->model, dt, run->y, v, v + run->n);
+}
+
+/* Steps without loads, with memory where the model has some. */
+static inline void march(struct run *run, double dt, int steps)
+{
+    const struct drive drive = {.extra = run->model->memory != NULL ? run->y + 2 * run->n : NULL};
+    for (int step = 0; step < steps; step++)
+        leap(run, &drive, dt);
 }
 
 #endif

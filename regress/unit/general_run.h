@@ -97,21 +97,6 @@ static inline void assert_same_steps(struct run *run, int threads, double **kept
     memcpy(*kept, run->y, run->n * sizeof **kept);
 }
 
-/* Steps with absorbing layers; v is that of the half step before. */
-static inline void march(struct run *run, double dt, int steps)
-{
-    double *v = run->y + run->n;
-    for (int step = 0; step < steps; step++) {
-        run->model->spatial->accelerate(run->model, &(struct drive){.extra = v + run->n}, dt / 2, run->y, v,
-                                        run->a);
-        for (size_t i = 0; i < run->n; i++) {
-            v[i] += dt * run->a[i];
-            run->y[i] += dt * v[i];
-        }
-        model_remember(run->model, dt, run->y);
-    }
-}
-
 static inline struct consistent_options quick(void) /* denormal numbers are slow */
 {
     struct consistent_options options = general();

@@ -12,17 +12,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* u, v and memory by an acceleration. */
+static inline void map_go_on(struct model *model, double dt, double *y, const double *a)
+{
+    const size_t n = model->unknowns;
+    for (size_t i = 0; i < n; i++)
+        y[n + i] += dt * a[i];
+    model->memory->drag(model, dt, y + n);
+    for (size_t i = 0; i < n; i++)
+        y[i] += dt * y[n + i];
+    model->memory->remember(model, dt, y, y + n, y + 2 * n);
+}
+
 /* v is that of the half step before on entry and at the end. */
 static inline void map_step(struct model *model, double dt, double *y, double *a)
 {
     const size_t n = model->unknowns;
     const struct drive drive = {.extra = y + 2 * n};
     model->spatial->accelerate(model, &drive, dt / 2, y, y + n, a);
-    for (size_t i = 0; i < n; i++) {
-        y[n + i] += dt * a[i];
-        y[i] += dt * y[n + i];
-    }
-    model_remember(model, dt, y);
+    map_go_on(model, dt, y, a);
 }
 
 /* The same by the modified equation; damped materials do not relax by what it adds. */
@@ -40,11 +48,7 @@ static inline void map_corrected_step(struct model *model, double dt, double *y,
     for (size_t i = 0; i < n && relaxes; i++)
         a[i] += first[i];
     free(lifted);
-    for (size_t i = 0; i < n; i++) {
-        y[n + i] += dt * a[i];
-        y[i] += dt * y[n + i];
-    }
-    model_remember(model, dt, y);
+    map_go_on(model, dt, y, a);
 }
 
 typedef void map_of_step(struct model *model, double dt, double *y, double *a);

@@ -294,15 +294,9 @@ static double sent_back(size_t layers)
         const double amplitude = exp(-pow((step * dt - 1.6) / .5, 2));
         double value[2][3];
         for (int large = 0; large < 2; large++) {
-            double *v = run[large].y + run[large].n;
-            const struct drive drive = {.load = &amplitude, .extra = large ? NULL : v + run[large].n};
-            run[large].model->spatial->accelerate(run[large].model, &drive, dt / 2, run[large].y, v,
-                                                  run[large].a);
-            for (size_t i = 0; i < run[large].n; i++) {
-                v[i] += dt * run[large].a[i];
-                run[large].y[i] += dt * v[i];
-            }
-            if (!large) model_remember(run[large].model, dt, run[large].y);
+            const struct drive drive = {.load = &amplitude,
+                                        .extra = large ? NULL : run[large].y + 2 * run[large].n};
+            leap(&run[large], &drive, dt);
             velocity_at(&run[large], (double[]){1, 1, 0}, value[large]);
         }
         off += pow(value[0][0] - value[1][0], 2) + pow(value[0][2] - value[1][2], 2);

@@ -27,22 +27,6 @@ static struct run start(const struct plain_scene *plain, const struct consistent
     return run;
 }
 
-/* Steps of leapfrog; v is that of the half step before on entry and at the end. */
-static void march(struct run *run, double dt, int steps)
-{
-    const struct model *model = run->model;
-    double *v = run->y + run->n;
-    for (int step = 0; step < steps; step++) {
-        const struct drive drive = {.extra = model->memory != NULL ? v + run->n : NULL};
-        model->spatial->accelerate(run->model, &drive, dt / 2, run->y, v, run->a);
-        for (size_t i = 0; i < run->n; i++) {
-            v[i] += dt * run->a[i];
-            run->y[i] += dt * v[i];
-        }
-        if (model->memory != NULL) model_remember(run->model, dt, run->y);
-    }
-}
-
 static double safe_step(const struct run *run)
 {
     double omega, error;

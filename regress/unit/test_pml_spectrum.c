@@ -109,54 +109,53 @@ static double norm(size_t n, const double *y)
     return sqrt(dot(n, y, y));
 }
 
-/* Three dimensions: the map is too large for all its eigenvalues (5754 and 10224), so its powers are applied
- * to noise, a third of them twice after each other: the modulus per step that is left is that of the largest
- * eigenvalues. A corner of layers under a free surface, and layers all around a thin body under one. */
+/* Three dimensions: the map is too large for all its eigenvalues (5754 and more), so its powers are applied to noise, a
+ * third of them twice after each other: the modulus per step that is left is that of the largest eigenvalues. (A plate
+ * with velocities damped behind what moves by them grows in runs: regress/checks/absorbing.sh.) */
+static void judge_powers(const char *name, const enum boundary_kind kind[6], double nu)
+{
+    enum { THIRD = 800 };
+    struct plain_scene plain;
+    plain_box(&plain, 3, (double[]){.5, .25, .25}, .25);
+    plain_material(&plain.material[0], 1, 2 * nu / (1 - 2 * nu), 1);
+    for (int face = 0; face < 6; face++)
+        plain.scene.boundary[face] =
+            (struct boundary){.kind = kind[face], .absorber = ABSORBER_PML, .layer_points = LEAST_POINTS};
+    struct model *model =
+        make(&plain, (struct consistent_options){.degree = 2, .sweeps = 3, .depth_exact = true});
+    double omega, error, size[4];
+    struct messages messages = {0};
+    assert_int_equal(largest_frequency(model, &omega, &error, &messages), SELAS_OK);
+    double *y = calloc(model->state_size, sizeof *y), *a = calloc(model->unknowns, sizeof *a);
+    noise(model->state_size, y);
+    for (size_t i = 0; i < model->state_size; i++)
+        if (held(model, i)) y[i] = 0;
+    for (int third = 0; third < 4; third++) {
+        size[third] = norm(model->state_size, y);
+        for (int i = 0; third < 3 && i < THIRD; i++)
+            map_step(model, 1.8 / (omega * (1 + error)), y, a);
+    }
+    const double before = log(size[2] / size[1]) / THIRD, largest = log(size[3] / size[2]) / THIRD;
+    print_message("# 3-D, %s, nu %g, %zu numbers: modulus left after %d steps 1 %+.2e, before 1 %+.2e\n",
+                  name, nu, model->state_size, 3 * THIRD, largest, before);
+    assert_true(largest < 0 && before < 0 && size[3] < size[0]);
+    free(y);
+    free(a);
+    model_free(&model);
+}
+
+/* A corner of layers under a free surface, layers all around a thin body under one, and a corner of a plate. */
 static void test_three_dimensions(void **state)
 {
     (void)state;
-    enum { THIRD = 800 };
-    static const double poisson[3] = {.25, .45, .49};
-    for (int thin = few_of(0, 1); thin < 2; thin++)
-        for (int material = thin ? 1 : 0; material < few_of(3, 2); material += 2) {
-            struct plain_scene plain;
-            plain_box(&plain, 3, (double[]){.5, .25, .25}, .25);
-            plain_material(&plain.material[0], 1, 2 * poisson[material] / (1 - 2 * poisson[material]), 1);
-            for (int face = 0; face < 6; face++) {
-                struct boundary *boundary = &plain.scene.boundary[face];
-                if (face == FACE_Z_LOW) continue;
-                if (face % 2 == 0 && !(thin && face == FACE_X_LOW)) {
-                    boundary->kind = BOUNDARY_SYMMETRY;
-                    continue;
-                }
-                boundary->kind = BOUNDARY_TRANSMITTING;
-                boundary->absorber = ABSORBER_PML;
-                boundary->layer_points = LEAST_POINTS;
-            }
-            struct model *model =
-                make(&plain, (struct consistent_options){.degree = 2, .sweeps = 3, .depth_exact = true});
-            double omega, error, size[4];
-            struct messages messages = {0};
-            assert_int_equal(largest_frequency(model, &omega, &error, &messages), SELAS_OK);
-            double *y = calloc(model->state_size, sizeof *y), *a = calloc(model->unknowns, sizeof *a);
-            noise(model->state_size, y);
-            for (size_t i = 0; i < model->state_size; i++)
-                if (held(model, i)) y[i] = 0;
-            for (int third = 0; third < 4; third++) {
-                size[third] = norm(model->state_size, y);
-                for (int i = 0; third < 3 && i < THIRD; i++)
-                    map_step(model, 1.8 / (omega * (1 + error)), y, a);
-            }
-            const double before = log(size[2] / size[1]) / THIRD, largest = log(size[3] / size[2]) / THIRD;
-            print_message(
-                "# 3-D, %s, nu %g, %zu numbers: modulus left after %d steps 1 %+.2e, before 1 %+.2e\n",
-                thin ? "thin body" : "corner", poisson[material], model->state_size, 3 * THIRD, largest,
-                before);
-            assert_true(largest < 0 && before < 0 && size[3] < size[0]);
-            free(y);
-            free(a);
-            model_free(&model);
-        }
+    const enum boundary_kind mirror = BOUNDARY_SYMMETRY, open = BOUNDARY_TRANSMITTING, none = BOUNDARY_FREE;
+    const enum boundary_kind corner[6] = {mirror, open, mirror, open, none, open},
+                             thin[6] = {open, open, mirror, open, none, open},
+                             plate[6] = {mirror, open, mirror, open, mirror, none};
+    if (few_of(1, 0)) judge_powers("corner", corner, .25);
+    if (few_of(1, 0)) judge_powers("corner", corner, .49);
+    judge_powers("thin body", thin, .45);
+    judge_powers("plate", plate, .25);
 }
 
 int main(void)

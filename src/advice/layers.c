@@ -18,7 +18,7 @@
 
 static double layers_error(size_t points, double cells_per_wavelength)
 {
-    return 0.0011 * layer_profile_reflection(points) * pow(cells_per_wavelength, 1.7);
+    return 0.00055 * layer_expected_reflection(points) * pow(cells_per_wavelength, 1.7);
 }
 
 static bool layer_size_given(const struct boundary *boundary)
@@ -136,8 +136,8 @@ static double guided_return(const struct scene *scene, int face, double thick)
 }
 
 /* Slabs between two faces that guide waves, which grow in layers (doc/theory/absorbing-faces.md, section 4); unlike
- * faces guide those of a slab twice as thick. Velocities were wrong by .005 to .05 of the largest at the time told, by
- * .02 to .5 at twice that time (regress/studies/guided); longer waves by less, until the watch ends the run. */
+ * faces guide those of a slab twice as thick. Velocities were wrong by .008 to .05 of the largest at the time told, by
+ * .01 to .26 at twice that time (regress/studies/guided). */
 void look_at_guided(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
@@ -153,8 +153,8 @@ void look_at_guided(struct adviser *adviser)
         advise(
             adviser,
             "absorbing layers let waves grow that faces %s and %s guide, and send them back: from about t = "
-            "%.3g on velocities err by .005 to .05 of the largest, at twice that time by up to .5, and the "
-            "run may go unstable; sides farther from what acts and is looked at would be right",
+            "%.3g on velocities err by .008 to .05 of the largest, at twice that time by up to .3; sides "
+            "farther from what acts and is looked at would be right",
             face_name((enum face)(2 * axis)), face_name((enum face)(2 * axis + 1)), first);
         return;
     }

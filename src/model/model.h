@@ -202,7 +202,7 @@ struct model_memory {
      * mean velocity over it (leapfrog's half-step velocity), extra that of the start. Called before the
      * acceleration at the end, which gets it in drive->extra, and the same u. */
     void (*remember)(struct model *model, double dt, const double *u, const double *v, double *extra);
-    /* Damps that velocity besides, after remember(). */
+    /* Damps that velocity besides, before displacements and memory go on by it. */
     void (*drag)(struct model *model, double dt, double *v);
 };
 
@@ -268,14 +268,6 @@ struct model {
 static inline struct model *model_computed(struct model *model)
 {
     return model->part != NULL ? model->part : model;
-}
-
-/* Brings the memory of a model that has some over a step, in its state y. */
-static inline void model_remember(struct model *model, double dt, double *y)
-{
-    double *v = y + model->unknowns;
-    model->memory->remember(model, dt, y, v, v + model->unknowns);
-    model->memory->drag(model, dt, v);
 }
 
 /* Together: brings state and acceleration to what all ranks have of them, where ranks have arrays of the whole body

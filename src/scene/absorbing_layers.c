@@ -15,14 +15,14 @@
  * that meets the absorbing layer at right angles sees twice that (measured); waves along a surface far less.
  */
 static const double decay_per_point = .78, measured_part = 2;
-double layer_profile_reflection(size_t points)
+static double decayed(size_t points)
 {
     return exp(fmax(-decay_per_point * (double)points, log(DBL_MIN)));
 }
 
 double layer_expected_reflection(size_t points)
 {
-    return measured_part * layer_profile_reflection(points);
+    return measured_part * decayed(points);
 }
 
 static bool given(const struct scene *scene, const char *word)
@@ -191,11 +191,24 @@ bool faces_guide(const struct scene *scene, int axis)
            !(boundary_slides(low) && boundary_slides(high));
 }
 
+double layer_plate_reflection(const struct scene *scene)
+{
+    static const double least =
+        .02; /* measured: less comes back of what d lets grow, and layers stay stable */
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (faces_guide(scene, axis)) return least;
+    return 0;
+}
+
+double layer_profile_reflection(const struct scene *scene, size_t points)
+{
+    return fmax(decayed(points), layer_plate_reflection(scene));
+}
+
 double layer_drag(const struct scene *scene, int face)
 {
-    static const double plate = 1.2, ground = .3; /* measured */
-    for (int axis = 0; axis < scene->dimension; axis++)
-        if (faces_guide(scene, axis)) return plate;
+    static const double in_plate = 1.2, ground = .3; /* measured */
+    if (layer_plate_reflection(scene) > 0) return in_plate;
     return ground_changes_behind(scene, face) ? ground : 0;
 }
 

@@ -16,13 +16,18 @@ void leapfrog_drift(struct stepper *stepper, struct state *state)
     const double *restrict a = state->a;
     const bool filters = model->spatial->after_step != NULL;
     if (filters) memcpy(stepper->work[0], u, n * sizeof *u);
+    if (model->memory != NULL) {
+        leapfrog_kick(stepper, state);
+        model->memory->drag(model, dt, v);
+    }
+    const double kick = model->memory != NULL ? 0 : 0.5 * dt;
 #pragma omp parallel for simd schedule(static) if (n > SERIAL)
     for (size_t i = 0; i < n; i++) {
-        v[i] += 0.5 * dt * a[i];
+        v[i] += kick * a[i];
         u[i] += dt * v[i];
     }
     if (filters) model->spatial->after_step(model, dt, stepper->work[0], u, v);
-    if (model->memory != NULL) model_remember(model, dt, state->y);
+    if (model->memory != NULL) model->memory->remember(model, dt, u, v, v + n);
     state->step++;
     state->time = (double)state->step * dt;
 }

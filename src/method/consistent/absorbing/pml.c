@@ -152,20 +152,6 @@ void pml_keep(const struct consistent *c, double dt)
     }
 }
 
-double pml_kept(const struct consistent *c, size_t entry)
-{
-    const size_t at = entry % c->volume, place[3] = {at % c->n[0], at % c->plane / c->n[0], at / c->plane};
-    double kept = 1;
-    for (size_t s = 0; s < c->pml->slabs; s++) {
-        const struct slab *slab = &c->pml->slab[s];
-        const int slot = c->slot[slab->axis];
-        const size_t from = slab->inside.at[slot];
-        if (slab->drag != NULL && place[slot] >= from && place[slot] < from + slab->inside.n[slot])
-            kept *= slab->kept[place[slot] - from];
-    }
-    return kept;
-}
-
 /* v := exp(-rate dt) v in the slab (Eq 11). */
 static void drag(const struct consistent *c, const struct slab *slab, double *v)
 {

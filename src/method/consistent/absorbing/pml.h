@@ -85,13 +85,11 @@ void pml_accelerate(const struct consistent *c, double factor, const double *ext
  * (dt/2). */
 void pml_remember(struct consistent *c, double dt, double to_middle, const double *u, const double *v,
                   double *extra);
-/* Velocities after a step where layers damp them besides (Eq 11): only if c->pml->drag > 0. In single
+/* Mean velocities over a step where layers damp them besides (Eq 11): only if c->pml->drag > 0. In single
  * precision pml_fast_accelerate_single() and pml_fast_remember_single() serve (pml_fast.h) where
  * c->pml->single is not NULL. */
 void pml_damp(const struct consistent *c, double dt, double *v);
-/* What is left of velocities after a step so long: `kept` of the slabs. */
+/* What is left of velocities over a step so long: `kept` of the slabs. */
 void pml_keep(const struct consistent *c, double dt);
-/* The same of one velocity, an entry of u. */
-double pml_kept(const struct consistent *c, size_t entry);
 
 #endif

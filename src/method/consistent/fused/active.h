@@ -80,7 +80,7 @@ static void take_sizes(const struct fused *f, size_t k, const struct window *win
     }
 }
 
-/* Velocities in a window of plane k, once u is brought on, where layers damp them besides. */
+/* Velocities in a window of plane k where layers damp them besides. */
 static void drag_rows(const struct fused *f, const struct fused_fields *fields, size_t k,
                       const struct window *window)
 {
@@ -101,13 +101,20 @@ static void drag_rows(const struct fused *f, const struct fused_fields *fields, 
     }
 }
 
+/* Velocities where layers damp them besides, before they move anything. */
+static void drag_planes(const struct fused *f, const struct fused_fields *fields)
+{
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < f->n[2]; k++)
+        drag_rows(f, fields, k, &f->reached[k]);
+}
+
 /* Brings u on in a window of plane k, as far as waves have reached. */
 static void bring_on(const struct fused *f, const struct fused_fields *fields, size_t k,
                      const struct window *window)
 {
     const struct window both = window_meet(window, &f->reached[k]);
     take_sizes(f, k, &both, fields, NULL);
-    drag_rows(f, fields, k, &both);
 }
 
 static void bring_planes(const struct fused *f, const struct fused_fields *fields, size_t from, size_t end)

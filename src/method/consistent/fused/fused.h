@@ -167,7 +167,7 @@ struct fused_fields {
     const struct fused_relax *relax; /* the fields `kept` go on by this, u being the first; NULL: u by dt w */
     void *const *kept;
     const void *other;         /* e_1, NULL if there is one part */
-    const struct pml *dragged; /* layers that damp w besides once u has gone on; NULL: none do */
+    const struct pml *dragged; /* layers that damp w besides; NULL: none do */
     size_t bring_on, before;   /* planes of u to be brought on on the way */
 };
 

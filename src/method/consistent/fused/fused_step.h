@@ -355,8 +355,9 @@ void NAME(fused_advance)(const struct consistent *c, const struct drive *drive, 
     for (size_t k = 0; k < f->n[2]; k++)
         forget_sizes(f, k);
     if (dragged) pml_keep(c, dt);
+    if (dragged) drag_planes(f, &fields);
     for (size_t i = 0; i < watch->count; i++)
-        watch->before[i] = step->w[watch->entry[i]] * (dragged ? pml_kept(c, watch->entry[i]) : 1);
+        watch->before[i] = step->w[watch->entry[i]];
     for (size_t p = 0; p < step->parts && c->pml != NULL; p++)
         NAME(pml_fast_remember)
     (step->part[p].c, dt, dt / 2, level, step->part[p].u, rates(c, step, p), step->part[p].extra);

@@ -230,7 +230,7 @@ static void move_over_depth(const struct pass *pass, size_t from, size_t end)
     }
 }
 
-/* What is left of the velocities of plane k where layers damp them besides. */
+/* What is left of the velocities of plane k where layers damp them besides (Eq 11 of absorbing-faces.md). */
 static void drag_plane(const struct pass *pass, size_t k)
 {
     const struct sweep *s = pass->s;
@@ -248,4 +248,12 @@ static void drag_plane(const struct pass *pass, size_t k)
             }
         }
     }
+}
+
+static void drag_planes(const struct pass *pass)
+{
+    const struct consistent *c = pass->c;
+#pragma omp parallel for num_threads(c->threads) schedule(static)
+    for (size_t k = 0; k < (c->pml != NULL && c->pml->drag > 0 ? pass->s->n[2] : 0); k++)
+        drag_plane(pass, k);
 }

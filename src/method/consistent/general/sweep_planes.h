@@ -207,8 +207,6 @@ static void finish_planes(const struct pass *pass, const struct rings *r, size_t
     struct rows rows = {0, 0};
     for (size_t k = less(first, SWEEP_REACH); k < first + planes + SWEEP_REACH && k < s->n[2]; k++)
         join(&rows, s->filled[k].from, s->filled[k].end);
-    for (size_t k = first; pass->moving && k < first + planes; k++)
-        drag_plane(pass, k);
     for (size_t component = 0; component < 3; component++)
         for (size_t j = rows.from; j < rows.end; j++) {
             const REAL *in[SWEEP_TAPS + SWEEP_PLANES - 1], *root[SWEEP_PLANES];

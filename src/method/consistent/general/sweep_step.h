@@ -220,8 +220,6 @@ void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double
     const struct watch *watch = &c->watch;
     const REAL *w = fields->w;
     if (s->layered) general_layers_prepare(c, dt);
-    for (size_t i = 0; i < watch->count; i++)
-        watch->before[i] = w[watch->entry[i]] * (s->layered ? pml_kept(c, watch->entry[i]) : 1);
     struct pass pass = {.c = c,
                         .s = s,
                         .drive = drive,
@@ -232,6 +230,9 @@ void NAME(sweep_advance)(struct consistent *c, const struct drive *drive, double
                         .dt = dt,
                         .extra = fields->part[0].extra};
     if (!s->known) find_reached(&pass);
+    drag_planes(&pass);
+    for (size_t i = 0; i < watch->count; i++)
+        watch->before[i] = w[watch->entry[i]];
     pass.level = s->quiet * s->largest;
     sweep_over(&pass);
     for (size_t i = 0; i < watch->count; i++) {
