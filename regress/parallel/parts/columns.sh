@@ -14,6 +14,12 @@ same "2 4" "snapshots, all and a part of the body" $shown
 same 3 "snapshots of damped ground" $shown material%q_p=40 material%q_s=25
 dampers="regress/parallel/tall-dampers.nml $early profile(1)%times=1,1.4"
 same 3 "dampers, exact mass" $dampers method%mass=exact
+same "2 4" "layers, exact mass of degree 3" regress/parallel/tall-exact.nml
+short="regress/parallel/tall-exact.nml method%degree=4 body%high=4,25.5 layer(2)%top=12 load(2)%centre=1,13 load(3)%centre=1,23 receiver(2)%position=1,14 receiver(3)%position=1,22"
+same 2 "layers, exact mass of degree 4, parts as thin as may be" $short
+same 3 "layers, exact mass in three dimensions, modified equation" $tall method%mass=exact stepping%scheme=modified-equation body%high=2,2,32
+quiet 3 regress/parallel/tall-exact.nml output%directory="$work/reach"
+as_planned "and a rank sends what the plan tells, its solves among it" reach
 same 3 "a profile of steps in one pass" $dampers "boundary(2)%layer=pml"
 same 4 "dampers, mass of sweeps" $dampers
 same 4 "moment tensor" input/buried-source.nml body%spacing=.25 load%width=.4 load%delay=.6 body%low=-2,-2,-4 body%high=2,2,4 scene%end_time=1.2

@@ -4,6 +4,7 @@ one=3 two=2
 chain "restart with snapshots" regress/parallel/tall-shown.nml scene%end_time=6
 chain "restart, general ground in one pass, layers" $hill stepping%time_step=.03 $layers
 chain "restart, damped general ground, layers" $hill stepping%time_step=.03 $layers $quality
+chain "restart, layers beside the exact mass" regress/parallel/tall-exact.nml scene%end_time=8
 chain "restart, damped ground, modified equation" regress/parallel/tall.nml material%q_p=40 material%q_s=25 stepping%scheme=modified-equation
 chain "restart, points along the first axis" regress/parallel/long-sph.nml scene%end_time=20
 chain "restart, points in layers" regress/parallel/column-sph.nml scene%end_time=10

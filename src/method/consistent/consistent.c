@@ -98,9 +98,10 @@ static void exact_accelerate(struct consistent *c, const struct drive *drive, do
                              const double *u, const double *v, double *a)
 {
     const struct mass_factors *factors = mass_factors_for(c, half_step);
+    const struct part_axis *own = &c->part.along[DEPTH];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
-    for (size_t k = 0; k < c->n[DEPTH]; k += TENSOR_PLANES) {
-        const size_t end = k + TENSOR_PLANES < c->n[DEPTH] ? k + TENSOR_PLANES : c->n[DEPTH];
+    for (size_t k = own->own; k < own->end; k += TENSOR_PLANES) {
+        const size_t end = k + TENSOR_PLANES < own->end ? k + TENSOR_PLANES : own->end;
         residual_planes(c, drive, omp_get_thread_num(), k, end, u, v, a);
     }
     mass_solve(c, factors, a);

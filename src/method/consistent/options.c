@@ -82,8 +82,6 @@ static selas_status check_layers(const struct scene *scene, const struct consist
             missing = options->degree > 2 ? "at degree 3 and more method%mass = 'exact'" : NULL;
         else if (scene->dimension == 1)
             missing = "in one dimension method%mass = 'vc1', 'vc2' or 'vc3'";
-        else if (ranks_count(scene->ranks) > 1)
-            missing = "on ranks method%mass = 'vc1', 'vc2' or 'vc3'";
         if (missing != NULL)
             return fail(messages, SELAS_UNSUPPORTED,
                         "face %s: layer 'pml' needs %s; else take layer = 'lysmer'",

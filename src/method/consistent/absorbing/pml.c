@@ -17,6 +17,18 @@ static struct block whole_of(const struct consistent *c)
     return (struct block){.n = {c->n[0], c->n[1], c->n[2]}};
 }
 
+/* What a block has of the rank's own planes, and where that begins in the arrays of the block. */
+static struct block own_of(const struct consistent *c, const struct block *block, size_t *place)
+{
+    const struct part_axis *depth = &c->part.along[DEPTH];
+    struct block own = *block;
+    const size_t from = block->at[DEPTH], end = from + block->n[DEPTH];
+    own.at[DEPTH] = from > depth->own ? from : depth->own;
+    own.n[DEPTH] = (end < depth->end ? end : depth->end) - own.at[DEPTH];
+    *place = (own.at[DEPTH] - from) * block->n[0] * block->n[1];
+    return own;
+}
+
 /* to += factor * from where both blocks are. */
 static void block_add(int threads, double *to, const struct block *t, double factor, const double *from,
                       const struct block *f)
@@ -81,12 +93,13 @@ static void work_out(const struct consistent *c, const struct slab *slab, const 
     }
 }
 
-/* Moves a memory variable of the slab on, g in the region; middle (may be NULL) gets the mean of both ends of
- * the step. */
-static void move_on(const struct consistent *c, const struct slab *slab, double dt, const double *g,
-                    double *memory, double *middle)
+/* Moves a memory variable on in some planes of the slab, g in the region; middle (may be NULL) gets the mean of both
+ * ends of the step. */
+static void move_on(const struct consistent *c, const struct slab *slab, const struct block *in, double dt,
+                    const double *g, double *memory, double *middle)
 {
-    const struct block *in = &slab->inside, *region = &slab->region;
+    const struct block *region = &slab->region;
+    const size_t first = in->at[2] - slab->inside.at[2];
     const int slot = c->slot[slab->axis];
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t k = 0; k < in->n[2]; k++)
@@ -97,7 +110,7 @@ static void move_on(const struct consistent *c, const struct slab *slab, double 
                 in->at[0] - region->at[0];
             const size_t to = (k * in->n[1] + j) * in->n[0];
             for (size_t i = 0; i < in->n[0]; i++) {
-                const double q = slab->damping[slot == 0 ? i : slot == 1 ? j : k] * dt / 2;
+                const double q = slab->damping[slot == 0 ? i : slot == 1 ? j : first + k] * dt / 2;
                 const double mean = (memory[to + i] - q * g[from + i]) / (1 + q + slab->relaxation * dt / 2);
                 memory[to + i] = 2 * mean - memory[to + i];
                 if (middle != NULL) middle[to + i] = mean;
@@ -111,8 +124,8 @@ static void move_gradients(const struct consistent *c, const struct slab *slab, 
     take_displacements(c, slab, u, v, to_middle);
     work_out(c, slab, slab->gradient, &slab->inside);
     for (size_t i = 0; i < (size_t)c->dimension; i++)
-        move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->psi + i * slab->inner,
-                slab->middle + i * slab->inner);
+        move_on(c, slab, &slab->inside, dt, c->pml->out + i * slab->volume,
+                extra + slab->psi + i * slab->inner, slab->middle + i * slab->inner);
 }
 
 /* Sum of psi_kk of all slabs across axis k, in the region. */
@@ -131,6 +144,8 @@ static void move_forces(const struct consistent *c, const struct slab *slab, dou
                         const double *u, const double *v, double *extra)
 {
     const size_t dimension = (size_t)c->dimension;
+    size_t place;
+    const struct block own = own_of(c, &slab->inside, &place);
     take_displacements(c, slab, u, v, to_middle);
     for (size_t i = 0; i < dimension; i++)
         take_in(c, slab, c->pml->in + (dimension + i) * slab->volume, slab->middle + i * slab->inner,
@@ -138,9 +153,10 @@ static void move_forces(const struct consistent *c, const struct slab *slab, dou
     for (size_t k = 0; k < dimension; k++)
         if ((int)k != slab->axis)
             take_divergence(c, slab, (int)k, c->pml->in + (2 * dimension + k) * slab->volume);
-    work_out(c, slab, slab->outer, &slab->inside);
+    work_out(c, slab, slab->outer, &own);
     for (size_t i = 0; i < dimension; i++)
-        move_on(c, slab, dt, c->pml->out + i * slab->volume, extra + slab->phi + i * slab->inner, NULL);
+        move_on(c, slab, &own, dt, c->pml->out + i * slab->volume,
+                extra + slab->phi + i * slab->inner + place, NULL);
 }
 
 void pml_keep(const struct consistent *c, double dt)
@@ -197,15 +213,18 @@ void pml_accelerate(const struct consistent *c, double factor, const double *ext
     }
     for (size_t s = 0; s < c->pml->slabs; s++) {
         const struct slab *slab = &c->pml->slab[s];
+        size_t in_region, in_slab;
+        const struct block pulled = own_of(c, &slab->region, &in_region),
+                           inside = own_of(c, &slab->inside, &in_slab);
         for (size_t i = 0; i < (size_t)c->dimension; i++)
             take_in(c, slab, c->pml->in + i * slab->volume, extra + slab->psi + i * slab->inner,
                     &slab->inside);
-        work_out(c, slab, slab->pull, &slab->region);
+        work_out(c, slab, slab->pull, &pulled);
         for (size_t i = 0; i < (size_t)c->dimension; i++) {
-            block_add(c->threads, a + i * c->volume, &whole, factor, c->pml->out + i * slab->volume,
-                      &slab->region);
-            block_add(c->threads, a + i * c->volume, &whole, factor, extra + slab->phi + i * slab->inner,
-                      &slab->inside);
+            block_add(c->threads, a + i * c->volume, &whole, factor,
+                      c->pml->out + i * slab->volume + in_region, &pulled);
+            block_add(c->threads, a + i * c->volume, &whole, factor,
+                      extra + slab->phi + i * slab->inner + in_slab, &inside);
         }
     }
 }

@@ -139,8 +139,8 @@ static void inverse_column(struct consistent *c, int component, int axis, size_t
     band_backward(factor, n, factors->half[slot], x, 1, 1);
 }
 
-/* The inverse of an exact mass as a band: its columns fall off by a factor an entry (.43, .54, .61 for degrees
- * 2, 3, 4), and what is below `cut` of the largest is left out. NULL: no memory. */
+/* The inverse of an exact mass as a band: what is below `cut` of the largest in a column is left out. NULL:
+ * no memory. */
 static struct band *exact_inverse(struct consistent *c, int component, int axis)
 {
     const double cut = 1e-10;
@@ -157,8 +157,8 @@ static struct band *exact_inverse(struct consistent *c, int component, int axis)
             if (fabs(x[i]) > cut * largest && away > half) half = away;
         }
     }
-    const size_t room = TENSOR_MOST_HALF - (size_t)c->options.degree; /* for N G */
-    if (half > room) half = room;
+    const size_t most = exact_inverse_half(&c->options); /* leaves room for N G; what halos are laid for */
+    if (half > most) half = most;
     struct band *inverse = x == NULL ? NULL : band_new(n, half);
     for (size_t j = 0; inverse != NULL && j < n; j++) {
         inverse_column(c, component, axis, j, x);

@@ -24,13 +24,15 @@ static size_t rounded_up(size_t n, size_t unit)
     return (n + unit - 1) / unit * unit;
 }
 
-/* Control values that the operator reaches: N K, of the dissipation N B^T B; without sweeps K alone. */
-static size_t reach_of(const struct consistent_options *options)
+/* Control values that the operator reaches: N K, of the dissipation N B^T B; without sweeps K alone, N G in layers. */
+static size_t reach_of(const struct consistent *c)
 {
     enum { DIFFERENCE = 4 };
+    const struct consistent_options *options = &c->options;
     const size_t degree = (size_t)options->degree, sweeps = (size_t)options->sweeps;
     const size_t narrow = options->dissipation > 0 && degree < DIFFERENCE ? DIFFERENCE : degree;
-    return sweeps == 0 ? degree : sweeps * degree + narrow;
+    if (sweeps == 0) return degree + (layer_anywhere(c->model.scene) ? exact_inverse_half(options) : 0);
+    return sweeps * degree + narrow;
 }
 
 /* What a rank has at least: the halo of its neighbours; at the ends a whole layer and all that it moves. */
@@ -38,8 +40,8 @@ static size_t least_of(const struct consistent *c, int slot, int rank, int ranks
 {
     const int face = 2 * axis_of(c, slot);
     const size_t low = rank == 0 ? c->layer[face] : 0, high = rank == ranks - 1 ? c->layer[face + 1] : 0;
-    const size_t layers = low + high;
-    return rounded_up(c->part.along[slot].halo + (layers > 0 ? layers + 1 : 0), unit_of(slot));
+    const size_t layers = low + high, ends = ((size_t)c->options.degree + 1) / 2;
+    return rounded_up(c->part.along[slot].halo + (layers > 0 ? layers + ends : 0), unit_of(slot));
 }
 
 /* What a plane or row costs; 1: one without layers. */
@@ -246,7 +248,7 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
     part->ranks = c->model.scene->ranks;
     if (part->ranks == NULL) return SELAS_OK;
     for (int slot = 1; slot < 3; slot++)
-        part->along[slot].halo = rounded_up(reach_of(&c->options), unit_of(slot));
+        part->along[slot].halo = rounded_up(reach_of(c), unit_of(slot));
     const selas_status status = lay_grid(c, &used, &over_y, messages);
     if (status != SELAS_OK) return status;
     ranks_take(part->ranks, used);
