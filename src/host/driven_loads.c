@@ -205,12 +205,12 @@ static void look_at_sides(selas_simulation *simulation, const char *name, const 
                           const double value[3])
 {
     const struct scene *scene = simulation->scene;
-    const struct boundary *side = &scene->boundary[FACE_X_LOW];
     const int down = scene->dimension - 1;
     double other = fabs(value[down] - first[down]);
-    if (simulation->host.told || scene->body.shape != BODY_HALF_SPACE || side->kind != BOUNDARY_ROLLER ||
-        side->given)
-        return;
+    bool made = false;
+    for (const struct boundary *side = scene->boundary; side < scene->boundary + 2 * down; side++)
+        made = made || (side->kind == BOUNDARY_ROLLER && !side->given);
+    if (simulation->host.told || scene->body.shape != BODY_HALF_SPACE || !made) return;
     for (int c = 0; c < 2 && c < down; c++)
         other = fmax(other, fabs(value[c]));
     if (!(other > 1e-9 * fabs(first[down]))) return;
