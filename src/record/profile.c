@@ -1,7 +1,7 @@
 /* Profiles: fields along a line at given times.
  *
- * A time between steps is interpolated by Lagrange's cubic through the four nearest steps, for every field
- * alike: error of the order dt^4 where the field is smooth in time. */
+ * A time between steps is interpolated by Lagrange's cubic through the four nearest steps (all of a run that has
+ * fewer), for every field alike: error of the order dt^4 where the field is smooth in time. */
 #include "record/parts.h"
 #include "scene/units.h"
 
@@ -22,27 +22,35 @@ static size_t columns_of(unsigned fields)
     return columns;
 }
 
-/* Weights of the four steps from `first` on for time x (in steps). */
-static void lagrange(double x, unsigned long first, double *weight)
+static unsigned long last_step(const struct recorder *recorder)
 {
-    for (int j = 0; j < NODES; j++) {
+    return recorder->stepper->steps + recorder->stepper->extra;
+}
+
+/* How many steps a time is interpolated from. */
+static unsigned long nodes_of(const struct recorder *recorder)
+{
+    return last_step(recorder) < NODES ? last_step(recorder) + 1 : NODES;
+}
+
+/* Weights of the `nodes` steps from `first` on for time x (in steps). */
+static void lagrange(double x, unsigned long first, unsigned long nodes, double *weight)
+{
+    for (unsigned long j = 0; j < nodes; j++) {
         weight[j] = 1.0;
-        for (int k = 0; k < NODES; k++)
-            if (k != j) weight[j] *= (x - (double)(first + (unsigned long)k)) / (double)(j - k);
+        for (unsigned long k = 0; k < nodes; k++)
+            if (k != j) weight[j] *= (x - (double)(first + k)) / ((double)j - (double)k);
     }
 }
 
 static void choose_steps(const struct recorder *recorder, struct profile_record *record)
 {
-    const struct stepper *stepper = recorder->stepper;
-    const unsigned long last = stepper->steps + stepper->extra;
+    const unsigned long nodes = nodes_of(recorder), last_first = last_step(recorder) + 1 - nodes;
     for (size_t k = 0; k < record->profile->times; k++) {
-        const double x = record->profile->time[k] / stepper->dt;
-        const double whole = fmax(floor(x + 1e-9) - 1.0, 0.0);
-        unsigned long first = whole < (double)last ? (unsigned long)whole : last;
-        if (first + NODES - 1 > last) first = last >= NODES - 1 ? last - (NODES - 1) : 0;
-        record->first[k] = first;
-        lagrange(x, first, record->weight + NODES * k);
+        const double x = record->profile->time[k] / recorder->stepper->dt;
+        const double first = fmax(floor(x + 1e-9) - 1.0, 0.0);
+        record->first[k] = first < (double)last_first ? (unsigned long)first : last_first;
+        lagrange(x, record->first[k], nodes, record->weight + NODES * k);
     }
 }
 
@@ -103,7 +111,8 @@ static void add_state(struct recorder *recorder, const struct state *state, int 
         struct profile_record *record = &recorder->profile[p];
         const size_t points = record->profile->points;
         for (size_t k = 0; k < record->profile->times; k++) {
-            if (state->step < record->first[k] || state->step >= record->first[k] + NODES) continue;
+            if (state->step < record->first[k] || state->step >= record->first[k] + nodes_of(recorder))
+                continue;
             const double weight = sign * record->weight[NODES * k + (state->step - record->first[k])];
             double *value = record->value + k * points * record->columns;
             const int me = ranks_me(recorder->scene->ranks);
@@ -186,7 +195,7 @@ static selas_status write_one(const struct recorder *recorder, const struct prof
     FILE *out = file.file;
     write_header(out, recorder, profile);
     for (size_t k = 0; k < profile->times; k++) {
-        if (record->seen[k] < NODES) { /* the run ended before */
+        if (record->seen[k] < nodes_of(recorder)) { /* the run ended before */
             if (!recorder->so_far)
                 warn(messages, "profile '%s' has no values at t = %g: the run ended before", profile->name,
                      profile->time[k]);
