@@ -49,7 +49,7 @@ same() { # same "RANKS..." WHAT WORDS...: histories and energies alone and on ra
         rm -rf "$work/ranks"
         quiet "$n" "$@" output%plots=F output%directory="$work/ranks"
         bad=$?
-        [ -n "${FEW:-}" ] || ! grep -q 'ranks have work' "$work/log" || bad=few
+        [ -n "${FEW:-}" ] || ! grep -q 'ranks [0-9]* can work' "$work/log" || bad=few
         for file in "$work"/alone/*.dat; do
             numbers "$file" >"$work/one"
             numbers "$work/ranks/$(basename "$file")" 2>/dev/null | cmp -s - "$work/one" || bad="$bad $(basename "$file")"

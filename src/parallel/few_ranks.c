@@ -9,9 +9,9 @@ selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what,
         return fail(
             messages, SELAS_UNSUPPORTED,
             "%zu of the %d ranks of the communicator would have work: the body has %zu %s; open it with "
-            "%zu ranks",
-            places, wanted, places, what, places);
-    warn(messages, "%zu of %d ranks have work: the body has %zu %s", places, wanted, places, what);
+            "as many",
+            places, wanted, places, what);
+    warn(messages, "of %d ranks %zu can work: the body has %zu %s", wanted, places, places, what);
     ranks_take(ranks, (int)places);
     return ranks_idle(ranks) ? SELAS_STOPPED : SELAS_OK;
 }

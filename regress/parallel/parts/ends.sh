@@ -2,7 +2,7 @@
 # What is refused; how runs end that go wrong.
 one_line "the variant cloud" "on one rank" 3 input/halfspace-cloud.nml
 one_line "a wrong word" "number" 3 regress/parallel/tall.nml body%spacing=wide
-quiet 7 regress/cases/half-space-pml/deck.nml scene%end_time=.1 output%directory="$work/few" && grep -q '^warning: 1 of 7 ranks have work' "$work/log"
+quiet 7 regress/cases/half-space-pml/deck.nml scene%end_time=.1 output%directory="$work/few" && grep -q '^warning: of 7 ranks 1 can work' "$work/log"
 verdict $? "a body of few planes takes fewer ranks and says so"
 quiet 3 regress/parallel/tall.nml scene%end_time=60 stepping%time_step=.3 stepping%force=T output%directory="$work/wild"
 [ $? = 1 ] && [ "$(grep -c '^error: the run went unstable at .* (rank [0-2]), .*' "$work/log")" = 1 ]

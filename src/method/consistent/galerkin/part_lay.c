@@ -228,13 +228,13 @@ static selas_status lay_grid(struct consistent *c, int *used, int *over_y, struc
                  c->n[1], least_of(c, 1, -1, 1));
     if (*used < count && ranks_fixed(c->part.ranks))
         return fail(messages, SELAS_UNSUPPORTED,
-                    "%d of the %d ranks of the communicator would have work: %s; open it with %d ranks",
-                    *used, count, body, *used);
+                    "%d of the %d ranks of the communicator would have work: %s; open it with as many", *used,
+                    count, body);
     if (*used < count)
         warn(messages,
-             "%d of %d ranks have work: %s; the first and the last ones have all points of absorbing layers "
+             "of %d ranks %d can work: %s; the first and the last ones have all points of absorbing layers "
              "besides",
-             *used, count, body);
+             count, *used, body);
     return SELAS_OK;
 }
 
