@@ -78,6 +78,10 @@ refused "unknown name in an override" right.nml "override: error: unknown name '
 refused "a filter with a Runge-Kutta scheme" right.nml \
     "error: a filter (method%filter > 0) needs scheme 'leapfrog' or 'modified-equation', not 'rk4'" \
     method%variant=paper stepping%scheme=rk4
+sed '1i &boundary face = "x-", kind = "displacement", direction = 0, 0, 1, slip = T, amplitude = 0, history = "step" /' right.nml >slip.nml
+refused "a support along one of a face's two axes" slip.nml \
+    "error: face x- prescribes motion along z and leaves it free along y, .*; method%mass = 'exact' would be right" method%mass=vc3
+rm slip.nml
 refused "single precision of another method" right.nml "override: error: method '.*', variant '.*', has no state in single precision; expected 'double'" \
     method%precision=single method%variant=paper
 refused "single precision without the fused operator" right.nml "error: method%precision = 'single' needs the fused operator.*" \

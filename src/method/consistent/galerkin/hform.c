@@ -331,10 +331,13 @@ selas_status hform_create(struct consistent *c, struct messages *messages)
         for (int one = 0; one < c->dimension; one++)
             for (int other = 0; other < one; other++)
                 if (one != face / 2 && other != face / 2 && c->held[one][face] != c->held[other][face])
-                    return fail(messages, SELAS_UNSUPPORTED,
-                                "face %s moves along itself and slips across: that needs method%%mass = "
-                                "'exact'",
-                                face_name((enum face)face));
+                    return fail(
+                        messages, SELAS_UNSUPPORTED,
+                        "face %s prescribes motion along %c and leaves it free along %c, both in the face: "
+                        "method%%mass = 'vc1', 'vc2', 'vc3' has no such face; method%%mass = 'exact' would "
+                        "be right",
+                        face_name((enum face)face), "xyz"[c->held[one][face] ? one : other],
+                        "xyz"[c->held[one][face] ? other : one]);
     for (int face = 0; c->part.ranks != NULL && face < 2 * c->dimension; face++) {
         if (!c->damped[face] || c->slot[face / 2] == DEPTH) continue;
         c->model.untold = true;
