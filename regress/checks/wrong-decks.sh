@@ -60,7 +60,7 @@ changed "missing / at the end" '$s,/,,' "11:1: error: &receiver is not closed: .
 changed "unknown key" 's/spacing/spcaing/' "4:37: error: unknown name 'spcaing' in &body; did you mean 'spacing'?"
 changed "a word like no other" 's/centre = 3.5/position = 3.5/' "8:[0-9]*: error: unknown name 'position' in &load"
 changed "a receiver above a hill" "s/^&receiver.*/\\&topography shape = 'gaussian', height = 1, centre = 3.5, 3.5, width = 1 \\/\n\\&receiver name = 'top', position = 3.5, 3.5, -1.1 \\//" \
-    "12:[0-9]*: error: .* lies outside the body; .*; depth = 0 in place of the last value is the surface"
+    "12:[0-9]*: error: .* lies above the surface, which is at z = -1 there; position = 3.5, 3.5, depth = 0 is on it"
 changed "unknown group" 's/&load/\&laod/' "7:1: error: unknown group '&laod'; did you mean '&load'?"
 changed "wrong type" "s/spacing = 0.5/spacing = 'fine'/" "4:47: error: expected a real number, found ''fine''"
 changed "wrong choice" "s/'square'/'sqare'/" ".*error: 'sqare' for 'shape'.*did you mean 'square'?"

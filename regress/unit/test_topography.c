@@ -258,8 +258,8 @@ static void test_refused(void **state)
                    "t.nml:5:", (const char *[]){"as steep as 6", "60 at most", NULL});
     assert_refused(HEAD BOX HILL "&boundary face = 'z-', kind = 'fixed' /\n",
                    "t.nml:5:", (const char *[]){"free surface", NULL});
-    assert_refused(HEAD BOX HILL "&receiver name = 'air', position = 2, 2, -.6 /\n",
-                   "t.nml:6:", (const char *[]){"outside the body", "2, 2, -0.5", NULL});
+    assert_refused(HEAD BOX HILL "&receiver name = 'air', position = 2, 2, -.6 /\n", "t.nml:6:",
+                   (const char *[]){"above the surface", "z = -0.5 there; position = 2, 2, depth = 0", NULL});
     assert_refused(HEAD BOX HILL "&profile name = 'line', from = 2, 2, -.5, to = 4, 2, 0, points = 5 /\n",
                    "t.nml:6:", (const char *[]){"leaves the ground at", NULL});
     assert_refused(HEAD BOX HILL "&receiver name = 'three', position = 2, 2, 1, depth = 0 /\n",

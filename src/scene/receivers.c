@@ -70,18 +70,24 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
                                   : need_vector(builder, group, name, what, position);
     if (!placed || !builder->body_known) return;
     if (body_holds(body, dimension, position, nearest)) return;
-    double off = 0; /* the box is missed by this much */
-    for (int c = 0; c < 3; c++)
+    const int down = dimension - 1;
+    double off = 0, aside = 0; /* the box is missed by this much, beside the vertical axis by that */
+    for (int c = 0; c < 3; c++) {
         off = fmax(off, fabs(nearest[c] - position[c]));
+        if (c != down) aside = fmax(aside, fabs(nearest[c] - position[c]));
+    }
     if (body->shape == BODY_PLATE_WITH_HOLE && off <= body_tolerance(body))
         complain(builder, group, name, "%s at %s lies in the hole", what,
                  vector_text(given, position, dimension));
+    else if (has_depth && body->topography != NULL && nearest[down] > position[down] &&
+             aside <= body_tolerance(body))
+        complain(builder, group, name,
+                 "%s at %s lies above the surface, which is at %c = %.10g there; %s = %s, depth = 0 is on it",
+                 what, vector_text(given, position, dimension), "xyz"[down], nearest[down], name,
+                 vector_text(near, position, down));
     else
-        complain(builder, group, name, "%s at %s lies outside the body; the nearest place in it is %s%s",
-                 what, vector_text(given, position, dimension), vector_text(near, nearest, dimension),
-                 has_depth && body->topography != NULL
-                     ? "; depth = 0 in place of the last value is the surface"
-                     : "");
+        complain(builder, group, name, "%s at %s lies outside the body; the nearest place in it is %s", what,
+                 vector_text(given, position, dimension), vector_text(near, nearest, dimension));
 }
 
 /* Below a surface that is not level a line between two places of the body may leave it. */
