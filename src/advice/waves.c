@@ -136,6 +136,32 @@ static double error_at_faces(const struct scene *scene, double way)
     return most;
 }
 
+/* When a history first has half its largest amplitude. */
+static double half_begins(const struct history *history, double end)
+{
+    enum { LOOKS = 256 };
+    const double each = (fmin(history_end(history), end) - history->start) / LOOKS;
+    double largest = 0;
+    int first = 0;
+    for (int k = 1; k <= LOOKS; k++)
+        largest = fmax(largest, fabs(history_value(history, history->start + k * each, 0)));
+    while (first < LOOKS && fabs(history_value(history, history->start + first * each, 0)) < largest / 2)
+        first++;
+    return history->start + first * each;
+}
+
+/* When loads and moved faces begin to send waves. */
+static double sending_begins(const struct scene *scene)
+{
+    double first = scene->end_time;
+    for (size_t k = 0; k < scene->loads; k++)
+        if (scene->load[k].amplitude != 0) first = fmin(first, half_begins(&scene->load[k].history, first));
+    for (size_t face = 0; face < FACES; face++)
+        if (boundary_acts(&scene->boundary[face]))
+            first = fmin(first, half_begins(&scene->boundary[face].history, first));
+    return first;
+}
+
 void look_at_method(struct adviser *adviser, const struct model *model)
 {
     static const double seen = .1;
@@ -149,9 +175,9 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     if (slowest < scene_fastest(scene)) sent.floor += sent.shear;
     const double start =
         error_of_waves(scene, &first, typical_number(scene), plane_wave_speed(scene) * scene->end_time);
-    const double error =
-        fmax(start, error_of_waves(scene, &sent, omega / slowest, slowest * scene->end_time)) +
-        (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
+    const double error = fmax(start, error_of_waves(scene, &sent, omega / slowest,
+                                                    slowest * (scene->end_time - sending_begins(scene)))) +
+                         (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
     const bool remains = sent.floor > .005;
     if (error > seen)
         advise(adviser,
