@@ -65,19 +65,23 @@ static void sync_folder_of(const char *path)
     free(folder);
 }
 
+static selas_status put(const char *temporary, const char *path, int error, struct messages *messages)
+{
+    if (error == 0 && rename(temporary, path) != 0) error = errno;
+    if (error == 0) return SELAS_OK;
+    unlink(temporary);
+    return cannot(messages, "write", path, error);
+}
+
 selas_status safe_file_commit(const char *temporary, const char *path, struct messages *messages)
 {
     int error = 0;
     const int handle = open(temporary, O_RDONLY | O_CLOEXEC);
     if (handle < 0 || fsync(handle) != 0) error = errno;
     if (handle >= 0 && close(handle) != 0 && error == 0) error = errno;
-    if (error == 0 && rename(temporary, path) != 0) error = errno;
-    if (error != 0) {
-        unlink(temporary);
-        return cannot(messages, "write", path, error);
-    }
-    sync_folder_of(path);
-    return SELAS_OK;
+    const selas_status status = put(temporary, path, error, messages);
+    if (status == SELAS_OK) sync_folder_of(path);
+    return status;
 }
 
 selas_status safe_file_close(struct safe_file *file, selas_status status, struct messages *messages)
@@ -90,7 +94,8 @@ selas_status safe_file_close(struct safe_file *file, selas_status status, struct
     if (status == SELAS_OK && (bad || error != 0))
         status = cannot(messages, "write", file->path, error != 0 ? error : EIO);
     if (status == SELAS_OK)
-        status = safe_file_commit(file->temporary, file->path, messages);
+        status = file->twice ? put(file->temporary, file->path, 0, messages)
+                             : safe_file_commit(file->temporary, file->path, messages);
     else
         unlink(file->temporary);
     free(file->path);

@@ -5,12 +5,14 @@
 
 #include "base/messages.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 struct safe_file {
     FILE *file;      /* write here */
     char *path;      /* the name the file gets */
     char *temporary; /* the name it has until it is complete */
+    bool twice;      /* what it holds stands in a synced file, too: not synced itself, which takes its time */
 };
 
 /* Opens `folder`/`name` for writing text. On failure file is NULL and nothing has to be closed. */

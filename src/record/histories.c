@@ -36,6 +36,7 @@ static selas_status write_history(const struct scene *scene, const struct record
         safe_file_open(recorder != NULL ? recorder->folder : scene->output.directory, name, &file, messages);
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
+    file.twice = recorder != NULL; /* run.h5 or the checkpoint */
     fprintf(out, "# %s at receiver %s, position %.17g %.17g %.17g\n",
             kind == COMPUTED ? "history" : "exact history", place->name, place->position[0],
             place->position[1], place->position[2]);
