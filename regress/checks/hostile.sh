@@ -57,6 +57,19 @@ deck "a body 1e300 wide" "error: .* points need at least" body%high=3*1e300
 deck "time step 1e-300" "steps of 1e-300 .* are too many" stepping%time_step=1e-300
 deck "end_time 1e300" "are too many\|error: " scene%end_time=1e300
 deck "history rows 1e-300 apart" "history_step = 1e-300 asks for" output%history_step=1e-300
+
+# What receivers cost grows as their number: 50,000 in a plan take 2 s of a processor.
+{
+    sed /receiver/d right.nml
+    awk 'BEGIN { for (i = 0; i < 50000; i++) printf "&receiver name = \"r%d\", position = %.4f, %.4f, 0 /\n", i, i % 200 / 50, i / 12500 }' | tr '"' "'"
+} >many.nml
+[ -n "${SELAS_SANITIZED:-}" ] && seconds=unlimited || seconds=6
+if (ulimit -t $seconds && "$selas" check many.nml body%spacing=.25 >text 2>&1); then
+    echo "ok - 50,000 receivers"
+else
+    echo "not ok - 50,000 receivers: $(tail -1 text)"
+fi
+rm many.nml
 deck "a nested repeat" "error: " 'receiver%position=1000000000*1000000000*1.0'
 deck "10^9 values" "error: " 'body%low=1000000000*1.0'
 deck "more values than integers go" "error: " 'body%low=99999999999999999999999*1.0'

@@ -1,4 +1,5 @@
 /* What the user wants to see: receivers, profiles, snapshots. */
+#include "base/memory.h"
 #include "scene/build.h"
 
 #include <math.h>
@@ -45,12 +46,40 @@ static void check_picture(struct builder *builder, const struct deck_group *grou
     }
 }
 
+struct named {
+    const char *name;
+    size_t number; /* from 0 */
+};
+
+static int by_name(const void *one, const void *other)
+{
+    const struct named *a = one, *b = other;
+    const int order = strcasecmp(a->name, b->name);
+    return order != 0 ? order : (a->number > b->number) - (a->number < b->number);
+}
+
 /* Receivers and profiles share a folder; some file systems do not tell case. */
-static void check_unique(struct builder *builder, const struct deck_group *group, const char *name,
-                         size_t receivers, size_t profiles)
+static void check_receivers(struct builder *builder)
+{
+    const size_t count = builder->scene->receivers;
+    struct named *sorted = scene_array(builder, count, sizeof *sorted);
+    if (sorted == NULL) return;
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = (struct named){builder->scene->receiver[i].name, i};
+    qsort(sorted, count, sizeof *sorted, by_name);
+    for (size_t i = 1; i < count; i++)
+        if (sorted[i].name[0] != '\0' && strcasecmp(sorted[i - 1].name, sorted[i].name) == 0)
+            complain(builder, deck_get(builder->deck, "receiver", sorted[i].number), "name",
+                     "there is a receiver '%s' already (&receiver %zu)", sorted[i].name,
+                     sorted[i - 1].number + 1);
+    array_free(sorted);
+}
+
+static void check_profile(struct builder *builder, const struct deck_group *group, const char *name,
+                          size_t profiles)
 {
     const struct scene *scene = builder->scene;
-    for (size_t i = 0; i < receivers; i++)
+    for (size_t i = 0; i < scene->receivers; i++)
         if (strcasecmp(scene->receiver[i].name, name) == 0)
             complain(builder, group, "name", "there is a receiver '%s' already (&receiver %zu)", name, i + 1);
     for (size_t i = 0; i < profiles; i++)
@@ -119,12 +148,11 @@ void build_receivers(struct builder *builder)
         const struct deck_group *group = deck_get(builder->deck, "receiver", i);
         struct receiver *receiver = &scene->receiver[i];
         if (take_name(builder, group, "name", receiver->name) &&
-            check_file_name(builder, group, receiver->name)) {
-            check_unique(builder, group, receiver->name, i, 0);
+            check_file_name(builder, group, receiver->name))
             check_picture(builder, group, receiver->name);
-        }
         read_place(builder, group, "position", "the receiver", receiver->position);
     }
+    check_receivers(builder);
 }
 
 static int ascending(const void *one, const void *other)
@@ -174,7 +202,7 @@ void build_profiles(struct builder *builder)
         struct profile *profile = &scene->profile[i];
         if (take_name(builder, group, "name", profile->name) &&
             check_file_name(builder, group, profile->name))
-            check_unique(builder, group, profile->name, scene->receivers, i);
+            check_profile(builder, group, profile->name, i);
         read_place(builder, group, "from", "the profile's first point", profile->from);
         read_place(builder, group, "to", "the profile's last point", profile->to);
         profile->points = (size_t)deck_integer(group, "points", 0);

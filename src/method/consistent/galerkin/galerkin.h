@@ -72,7 +72,8 @@ struct mass_factors {
 struct watch {
     size_t count, room, *entry;
     bool sorted;
-    double *before; /* [count] room for the velocities before a step */
+    double *before;       /* [count] room for the velocities before a step */
+    unsigned char *taken; /* a bit a control value: is there */
 };
 
 struct consistent {
@@ -150,7 +151,7 @@ bool consistent_plans(struct consistent *c);
  * where loads act, whose power is that of the velocities there. False: no memory. */
 bool watch_places(struct consistent *c, size_t count, const size_t *place);
 bool watch_loads(struct consistent *c);
-void watch_sort(struct watch *watch); /* each entry once, in the order of memory */
+void watch_sort(struct watch *watch); /* in the order of memory */
 void watch_free(struct watch *watch);
 
 /* mass.c */

@@ -16,34 +16,38 @@ void watch_sort(struct watch *watch)
 {
     if (watch->sorted || watch->count == 0) return;
     qsort(watch->entry, watch->count, sizeof *watch->entry, by_place);
-    size_t kept = 1;
-    for (size_t i = 1; i < watch->count; i++)
-        if (watch->entry[i] != watch->entry[kept - 1]) watch->entry[kept++] = watch->entry[i];
-    watch->count = kept;
     watch->sorted = true;
+}
+
+static bool make_room(struct watch *watch, size_t count)
+{
+    if (watch->room >= count) return true;
+    size_t *entry = array_new(2 * count, sizeof *entry);
+    double *before = array_new(2 * count, sizeof *before);
+    if (entry != NULL && watch->count > 0) memcpy(entry, watch->entry, watch->count * sizeof *entry);
+    array_free(watch->entry);
+    array_free(watch->before);
+    watch->entry = entry;
+    watch->before = before;
+    watch->room = 2 * count;
+    return entry != NULL && before != NULL;
 }
 
 bool watch_places(struct consistent *c, size_t count, const size_t *place)
 {
     if (c->model.one_pass == NULL) return true;
     struct watch *watch = &c->watch;
-    if (watch->room < watch->count + 3 * count) {
-        watch_sort(watch);
-        const size_t room = 2 * watch->count + 3 * count;
-        size_t *entry = array_new(room, sizeof *entry);
-        double *before = array_new(room, sizeof *before);
-        if (entry != NULL && watch->count > 0) memcpy(entry, watch->entry, watch->count * sizeof *entry);
-        array_free(watch->entry);
-        array_free(watch->before);
-        watch->entry = entry;
-        watch->before = before;
-        watch->room = room;
-        if (entry == NULL || before == NULL) return false;
-    }
-    for (size_t component = 0; component < 3; component++)
-        for (size_t i = 0; i < count; i++)
+    if (watch->taken == NULL) watch->taken = array_new(c->volume / 8 + 1, 1);
+    if (watch->taken == NULL || !make_room(watch, watch->count + 3 * count)) return false;
+    for (size_t i = 0; i < count; i++) {
+        unsigned char *taken = &watch->taken[place[i] / 8];
+        const unsigned bit = 1U << place[i] % 8;
+        if ((*taken & bit) != 0) continue;
+        *taken = (unsigned char)(*taken | bit);
+        for (size_t component = 0; component < 3; component++)
             watch->entry[watch->count++] = component * c->volume + place[i];
-    watch->sorted = false;
+        watch->sorted = false;
+    }
     return true;
 }
 
@@ -64,4 +68,5 @@ void watch_free(struct watch *watch)
 {
     array_free(watch->entry);
     array_free(watch->before);
+    array_free(watch->taken);
 }
