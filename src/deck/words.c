@@ -203,8 +203,8 @@ static const struct word layer_words[] = {
      "direction along which a tilted face is level, from x towards y; it deepens towards strike + 90; in 2D "
      "-90 (default) or 90 [degrees]"},
     {"bottom", WORD_TEXT, 1, NULL, NULL, OPTIONAL,
-     "material that the layer reaches at its lower face, going evenly with depth (consistent, operator "
-     "'general')"},
+     "material that the layer reaches at its lower face, speeds, density and 1/Q going evenly with depth "
+     "(consistent, operator 'general')"},
 };
 
 static const struct word model_words[] = {
