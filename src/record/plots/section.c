@@ -65,30 +65,6 @@ static size_t row_of(const struct section *section, size_t point)
     return section->start + read / section->block * section->stride + read % section->block;
 }
 
-/* A regular section is drawn as an image with at least so many pixels along each axis. */
-enum { FINE = 280 };
-
-static void look_regular(struct section *section)
-{
-    const size_t number[2] = {section->along, section->across};
-    if (number[0] < 2 || number[1] < 2) return;
-    section->regular = true;
-    for (size_t k = 0; k < section->points; k++)
-        for (int side = 0; side < 2; side++) {
-            const size_t at = side == 0 ? k % number[0] : k / number[0];
-            const double step = (section->high[side] - section->low[side]) / (double)(number[side] - 1);
-            const double expected = section->low[side] + (double)at * step;
-            if (!(fabs((double)section->coordinate[2 * k + (size_t)side] - expected) <= 1e-3 * step))
-                section->regular = false;
-        }
-    const size_t least = number[0] < number[1] ? number[0] : number[1];
-    const size_t refine = (FINE + least - 2) / (least - 1);
-    const size_t most = number[0] > number[1] ? number[0] : number[1];
-    const size_t factor = most * refine > 4 * FINE ? (4 * FINE + most - 1) / most : refine;
-    for (int side = 0; side < 2; side++)
-        section->fine[side] = (number[side] - 1) * factor + 1;
-}
-
 static bool place_points(const struct recorder *recorder, const struct snapshot_record *record,
                          struct section *section)
 {
@@ -104,7 +80,7 @@ static bool place_points(const struct recorder *recorder, const struct snapshot_
             section->high[side] = k == 0 ? at : fmax(section->high[side], at);
         }
     }
-    look_regular(section);
+    image_prepare(section);
     return true;
 }
 
@@ -293,47 +269,6 @@ bool film_create(const struct recorder *recorder, size_t group, struct film *fil
     return false;
 }
 
-/* Weights of the four points around a place s in [0, 1] between the middle two (Keys 1981). */
-static void cubic_weights(double s, double weight[4])
-{
-    weight[0] = 0.5 * s * (s * (2.0 - s) - 1.0);
-    weight[1] = 0.5 * (s * s * (3.0 * s - 5.0) + 2.0);
-    weight[2] = 0.5 * s * (s * (4.0 - 3.0 * s) + 1.0);
-    weight[3] = 0.5 * s * s * (s - 1.0);
-}
-
-/* The four points around pixel i of an axis, repeated at the ends, and their weights. */
-static void around(size_t i, size_t factor, size_t points, size_t index[4], double weight[4])
-{
-    const size_t low = i / factor < points - 1 ? i / factor : points - 2;
-    cubic_weights((double)i / (double)factor - (double)low, weight);
-    index[0] = low > 0 ? low - 1 : 0;
-    index[1] = low;
-    index[2] = low + 1;
-    index[3] = low + 2 < points ? low + 2 : points - 1;
-}
-
-/* Pixels of a regular section: cubic between the points. */
-static bool write_image(const struct section *section, const double *value, size_t components, FILE *data)
-{
-    const size_t factor = (section->fine[0] - 1) / (section->along - 1);
-    for (size_t j = 0; j < section->fine[1]; j++) {
-        size_t row[4], column[4];
-        double up[4], across[4];
-        around(j, factor, section->across, row, up);
-        for (size_t i = 0; i < section->fine[0]; i++) {
-            around(i, factor, section->along, column, across);
-            double sum = 0.0;
-            for (size_t k = 0; k < 4; k++)
-                for (size_t l = 0; l < 4; l++)
-                    sum += up[k] * across[l] * value[components * (row[k] * section->along + column[l])];
-            const float pixel = (float)sum;
-            if (fwrite(&pixel, sizeof pixel, 1, data) != 1) return false;
-        }
-    }
-    return true;
-}
-
 static bool write_points(const struct section *section, const double *value, size_t components, FILE *data)
 {
     for (size_t k = 0; k < section->points; k++) {
@@ -379,7 +314,7 @@ bool film_write(const struct recorder *recorder, struct film *film, FILE *data, 
             if (!read_section(recorder, film, section, frame, messages)) return false;
             const double *value = film->value + film->component;
             frame->skip[s] = (size_t)ftell(data);
-            if (!(section->regular ? write_image : write_points)(section, value, components, data))
+            if (!(section->regular ? image_write : write_points)(section, value, components, data))
                 return false;
             for (size_t k = 0; k < section->points; k++)
                 frame->largest[s] = fmax(frame->largest[s], fabs(value[components * k]));
@@ -395,6 +330,7 @@ void film_free(struct film *film)
     for (size_t s = 0; s < 2; s++) {
         array_free(film->section[s].pick);
         array_free(film->section[s].coordinate);
+        array_free(film->section[s].row);
     }
     *film = (struct film){0};
 }

@@ -16,8 +16,9 @@ struct section {
     size_t *pick;                       /* [points] of the rows read; NULL: all */
     float *coordinate;                  /* [2 * points] */
     double low[2], high[2];
-    bool regular;   /* equal spacings along the axes: drawn as an image ... */
+    bool regular;   /* columns of a lattice: drawn as an image ... */
     size_t fine[2]; /* ... of this many pixels, values in between cubic */
+    float *row;     /* [pixels] rows at them, counted in points, NAN: outside; NULL: equally spaced */
 };
 
 struct frame {
@@ -48,5 +49,9 @@ bool film_create(const struct recorder *recorder, size_t group, struct film *fil
 /* Writes the values of all frames; false if they cannot be read back. */
 bool film_write(const struct recorder *recorder, struct film *film, FILE *data, struct messages *messages);
 void film_free(struct film *film);
+
+/* image.c: decides whether a section is drawn as an image; writes its pixels. */
+void image_prepare(struct section *section);
+bool image_write(const struct section *section, const double *value, size_t components, FILE *data);
 
 #endif
