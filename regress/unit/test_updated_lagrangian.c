@@ -428,6 +428,50 @@ static void point_values(void **unused)
     drop(&f);
 }
 
+/* On walls motions are what these prescribe, wherever the particles are and however they move. */
+static void motions_on_walls(void **state)
+{
+    (void)state;
+    for (int dimension = 1; dimension <= 3; dimension++) {
+        const double size[3] = {1, .8, .6};
+        struct fixture f;
+        plain_box(&f.plain, dimension, size, .1);
+        f.plain.scene.body.jitter = .1;
+        struct boundary *moved = &f.plain.scene.boundary[FACE_X_LOW];
+        moved->kind = BOUNDARY_DISPLACEMENT;
+        moved->amplitude = .01;
+        moved->direction[0] = dimension > 1 ? .6 : 1;
+        moved->direction[1] = dimension > 1 ? .8 : 0;
+        f.plain.scene.boundary[FACE_X_HIGH].kind = BOUNDARY_FIXED;
+        if (dimension > 1) f.plain.scene.boundary[FACE_Y_LOW].kind = BOUNDARY_ROLLER;
+        f.options = updated_lagrangian_published();
+        make(&f);
+        const size_t unknowns = f.model->unknowns;
+        for (size_t k = 0; k < 2 * unknowns; k++)
+            f.y[k] = random_uniform(5, k);
+        const double motion[3][FACES] = {{2}, {3}, {5}};
+        const struct drive drive = {.displacement = motion[0], .velocity = motion[1], .motion = motion[2]};
+        updated_rate(f.model, &drive, f.y, f.rate);
+        const double at[3][3] = {{0, .43, .31}, {1, .43, .31}, {.52, 0, .31}};
+        for (int place = 0; place < (dimension > 1 ? 3 : 2); place++) {
+            double position[3] = {0}, value[3];
+            struct probe probe;
+            struct messages messages = {0};
+            memcpy(position, at[place], (size_t)dimension * sizeof *position);
+            assert_int_equal(updated_probe(f.model, position, &probe, &messages), SELAS_OK);
+            for (int field = SELAS_DISPLACEMENT; field <= SELAS_ACCELERATION; field++) {
+                updated_observe(f.model, &probe, (selas_field)field, f.y, f.rate + unknowns, value);
+                for (int c = 0; c < dimension; c++)
+                    if (place < 2 || c == 1)
+                        assert_near(value[c], place > 0 ? 0 : .01 * moved->direction[c] * motion[field][0],
+                                    1e-10);
+            }
+            probe_free(&probe);
+        }
+        drop(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -441,6 +485,7 @@ int main(void)
         cmocka_unit_test(spectrum_beside_dampers),
         cmocka_unit_test(same_bits),
         cmocka_unit_test(point_values),
+        cmocka_unit_test(motions_on_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

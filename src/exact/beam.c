@@ -136,8 +136,8 @@ double beam_plane(const struct scene *scene)
     const struct beam beam = beam_of(scene);
     if (scene->dimension != 2 || beam.ends != BEAM_CLAMPED_FREE) return 0;
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        if (scene->plane == known[k].plane && fabs(beam.length / beam.width - known[k].ratio) < 1e-9 &&
-            fabs(material->poisson - known[k].poisson) < 1e-9)
+        if (scene->plane == known[k].plane && fabs(beam.length / beam.width - known[k].ratio) < 1e-6 &&
+            fabs(material->poisson - known[k].poisson) < 1e-6)
             return known[k].frequency * sqrt(material->young / material->density) / beam.length;
     return 0;
 }

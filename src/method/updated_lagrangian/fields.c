@@ -49,18 +49,36 @@ void updated_initialise(struct model *model, double *y)
     }
 }
 
-/* Particles of the undeformed body within a radius of a place: how many, and with `index` which and where. */
-static size_t around(const struct updated *updated, const double place[3], double radius, size_t *index,
-                     double *offset)
+/* Does a place hold a particle, or its image in walls that prescribe how they move? */
+static bool moves_as_told(const struct updated *updated, size_t place)
 {
+    if (place < updated->cloud->points) return true;
+    const struct updated_ghost *ghost = &updated->ghost[place - updated->cloud->points];
+    for (int f = 0; f < ghost->count; f++)
+        if (updated->wall[ghost->face[f]] == WALL_TRACTION) return false;
+    return true;
+}
+
+static size_t source_of(const struct updated *updated, size_t place)
+{
+    const size_t points = updated->cloud->points;
+    return place < points ? place : updated->ghost[place - points].source;
+}
+
+/* Particles of the undeformed body, and with `walls` their images, within a radius of a place: how many, and with
+ * `index` which and where. */
+static size_t around(const struct updated *updated, const double place[3], bool walls, double radius,
+                     size_t *index, double *offset)
+{
+    const size_t points = updated->cloud->points;
     size_t count = 0;
-    for (size_t i = 0; i < updated->cloud->points; i++) {
+    for (size_t i = 0; i < points + (walls ? updated->ghosts : 0); i++) {
         double d[3], square = 0;
         for (size_t a = 0; a < 3; a++) {
-            d[a] = updated->cloud->position[3 * i + a] - place[a];
+            d[a] = updated->reference[3 * i + a] - place[a];
             square += d[a] * d[a];
         }
-        if (!(square < radius * radius)) continue;
+        if (!(square < radius * radius) || !moves_as_told(updated, i)) continue;
         if (index != NULL) {
             index[count] = i;
             memcpy(offset + 3 * count, d, sizeof d);
@@ -72,10 +90,10 @@ static size_t around(const struct updated *updated, const double place[3], doubl
 
 /* Fits a polynomial of the degree to the particles within the radius; SELAS_NOT_CONVERGED if they do not span
  * it. */
-static selas_status fit_probe(const struct updated *updated, const double place[3], int degree, double radius,
-                              struct probe *probe, struct messages *messages)
+static selas_status fit_probe(const struct updated *updated, const double place[3], bool walls, int degree,
+                              double radius, struct probe *probe, struct messages *messages)
 {
-    const size_t count = around(updated, place, radius, NULL, NULL);
+    const size_t count = around(updated, place, walls, radius, NULL, NULL);
     if (count < fit_terms(updated->dimension, degree)) return SELAS_NOT_CONVERGED;
     const selas_status status = probe_allocate(probe, count, messages);
     if (status != SELAS_OK) return status;
@@ -85,11 +103,11 @@ static selas_status fit_probe(const struct updated *updated, const double place[
         return fail(messages, SELAS_NO_MEMORY, "no memory for the weights of a receiver");
     }
     double *weight = offset + 3 * count;
-    around(updated, place, radius, probe->index, offset);
+    around(updated, place, walls, radius, probe->index, offset);
     for (size_t j = 0; j < count; j++) {
         const double *d = offset + 3 * j;
         const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        weight[j] = updated->cloud->volume[probe->index[j]] *
+        weight[j] = updated->cloud->volume[source_of(updated, probe->index[j])] *
                     kernel_value(updated->options.kernel, updated->dimension, r,
                                  radius / updated->options.kernel->support);
     }
@@ -104,18 +122,53 @@ static selas_status fit_probe(const struct updated *updated, const double place[
 /* Moving least squares with the method's kernel: a quadratic where the particles span one (it leaves a front
  * that is several spacings wide as it is, and averages what alternates from particle to particle), else a
  * straight line. Places outside the outermost particles are extrapolated. */
+static selas_status fit_around(const struct updated *updated, const double place[3], bool walls,
+                               struct probe *probe, struct messages *messages)
+{
+    selas_status status = SELAS_NOT_CONVERGED;
+    for (int degree = 2; degree >= 1 && status == SELAS_NOT_CONVERGED; degree--)
+        for (double factor = 1; factor < 2 && status == SELAS_NOT_CONVERGED; factor *= 1.2)
+            status = fit_probe(updated, place, walls, degree, factor * updated->reach, probe, messages);
+    if (status == SELAS_NOT_CONVERGED)
+        return fail(messages, status, "too few particles around a receiver to interpolate");
+    return status;
+}
+
+/* Beside walls motions are taken from images, too, so that on the wall they are what it prescribes: weights of these,
+ * behind the probe's own. */
+static selas_status see_walls(const struct updated *updated, const double place[3], struct probe *probe,
+                              struct messages *messages)
+{
+    struct probe seen = {0}, both = {0};
+    bool walls = false;
+    selas_status status = fit_around(updated, place, true, &seen, messages);
+    for (size_t k = 0; k < seen.count; k++)
+        walls = walls || seen.index[k] >= updated->cloud->points;
+    if (walls) status = probe_allocate(&both, probe->count + seen.count, messages);
+    if (walls && status == SELAS_OK) {
+        const size_t count = probe->count;
+        memcpy(both.index, probe->index, count * sizeof *both.index);
+        memcpy(both.weight, probe->weight, count * sizeof *both.weight);
+        memcpy(both.gradient, probe->gradient, 3 * count * sizeof *both.gradient);
+        memcpy(both.index + count, seen.index, seen.count * sizeof *both.index);
+        memcpy(both.weight + count, seen.weight, seen.count * sizeof *both.weight);
+        probe_free(probe);
+        *probe = both;
+        probe->count = count;
+        probe->sites = seen.count;
+    }
+    probe_free(&seen);
+    return status;
+}
+
 selas_status updated_probe(struct model *model, const double position[3], struct probe *probe,
                            struct messages *messages)
 {
     const struct updated *updated = updated_of(model);
     double place[3];
     body_from_deck(&model->scene->body, position, place);
-    selas_status status = SELAS_NOT_CONVERGED;
-    for (int degree = 2; degree >= 1 && status == SELAS_NOT_CONVERGED; degree--)
-        for (double factor = 1; factor < 2 && status == SELAS_NOT_CONVERGED; factor *= 1.2)
-            status = fit_probe(updated, place, degree, factor * updated->reach, probe, messages);
-    if (status == SELAS_NOT_CONVERGED)
-        return fail(messages, status, "too few particles around a receiver to interpolate");
+    selas_status status = fit_around(updated, place, false, probe, messages);
+    if (status == SELAS_OK && updated->ghosts > 0) status = see_walls(updated, place, probe, messages);
     if (status != SELAS_OK) return status;
     memcpy(probe->position, position, sizeof probe->position);
     probe->material = updated->material;
@@ -141,12 +194,44 @@ static bool is_of_state(selas_field field)
     return field == SELAS_STRESS || field == SELAS_STRAIN || field == SELAS_PRESSURE || field == SELAS_ENERGY;
 }
 
+/* Component c of a vector of a particle or of its image. */
+static double seen_at(const struct updated *updated, size_t place, enum updated_motion motion,
+                      const double *vector, size_t c)
+{
+    double value = vector[(size_t)updated->dimension * source_of(updated, place) + c];
+    if (place < updated->cloud->points) return value;
+    const struct updated_ghost *ghost = &updated->ghost[place - updated->cloud->points];
+    for (int f = 0; f < ghost->count; f++) {
+        const size_t face = ghost->face[f];
+        if (updated->wall[face] == WALL_SLIP && face_axis((enum face)face) != (int)c) continue;
+        value = 2 * updated->amplitude[motion][face] * updated->direction[face][c] - value;
+    }
+    return value;
+}
+
+static void observe_beside_walls(const struct updated *updated, const struct probe *probe, selas_field field,
+                                 const double *y, const double *a, double *value)
+{
+    const enum updated_motion motion = field == SELAS_DISPLACEMENT ? WALL_PLACE
+                                       : field == SELAS_VELOCITY   ? WALL_SPEED
+                                                                   : WALL_ACCELERATION;
+    const double *vector = motion == WALL_PLACE ? y : motion == WALL_SPEED ? y + updated->model.unknowns : a;
+    double sum[3] = {0};
+    for (size_t k = probe->count; vector != NULL && k < probe->count + probe->sites; k++)
+        for (size_t c = 0; c < (size_t)updated->dimension; c++)
+            sum[c] += probe->weight[k] * seen_at(updated, probe->index[k], motion, vector, c);
+    body_direction_to_deck(&updated->model.scene->body, sum, value);
+}
+
 void updated_observe(struct model *model, const struct probe *probe, selas_field field, const double *y,
                      const double *a, double *value)
 {
     const struct updated *updated = updated_of(model);
     if (!is_of_state(field)) {
-        probe_observe(model, probe, field, y, a, value);
+        if (probe->sites > 0)
+            observe_beside_walls(updated, probe, field, y, a, value);
+        else
+            probe_observe(model, probe, field, y, a, value);
         return;
     }
     const size_t stresses = (size_t)updated->stresses, dimension = (size_t)updated->dimension;

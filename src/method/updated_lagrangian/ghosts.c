@@ -162,8 +162,8 @@ static void mirror(const struct updated *updated, const struct updated_ghost *gh
             image->stress[component[axis][a]] = 2 * sign * traction[a] - image->stress[component[axis][a]];
         return;
     }
-    const double displacement = wall_amplitude(drive->displacement, updated, face);
-    const double velocity = wall_amplitude(drive->velocity, updated, face);
+    const double displacement = updated->amplitude[WALL_PLACE][face],
+                 velocity = updated->amplitude[WALL_SPEED][face];
     for (int a = 0; a < updated->dimension; a++) {
         if (wall == WALL_SLIP && a != axis) {
             image->stress[component[axis][a]] *= -1;
@@ -282,6 +282,11 @@ static void search_if_needed(struct updated *updated)
 void updated_fill(struct updated *updated, const struct drive *drive, const double *y)
 {
     const size_t points = updated->cloud->points;
+    for (size_t face = 0; face < FACES; face++) {
+        updated->amplitude[WALL_PLACE][face] = wall_amplitude(drive->displacement, updated, face);
+        updated->amplitude[WALL_SPEED][face] = wall_amplitude(drive->velocity, updated, face);
+        updated->amplitude[WALL_ACCELERATION][face] = wall_amplitude(drive->motion, updated, face);
+    }
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t i = 0; i < points; i++) {
         struct image image = {.pressed = false};

@@ -36,6 +36,7 @@ struct updated_ghost {
 
 /* What a face does to its ghosts. */
 enum updated_wall { WALL_NONE, WALL_STICK, WALL_SLIP, WALL_TRACTION };
+enum updated_motion { WALL_PLACE, WALL_SPEED, WALL_ACCELERATION, WALL_MOTIONS };
 
 /* Components of a packed particle: place, velocity, volume, span (the volume, or 0 for ghosts that carry a
  * traction but do not deform with the body), mass, density, smoothing length over the usual one, stress /
@@ -81,13 +82,15 @@ struct updated {
     struct updated_ghost *ghost;
     enum updated_wall wall[FACES];
     double direction[FACES][3]; /* of prescribed motions, body frame */
-    double *load_direction;     /* [3 * loads] times amplitude, body frame */
-    double *reference;          /* [3 * (points + ghosts)] */
-    double *searched;           /* the same at the last search for neighbours */
-    double skin;                /* lists reach this much further than the kernel */
-    bool ordered;               /* particles are summed eight at a time: chosen from the reference places */
-    double *record; /* [layout.size * (points + ghosts)] particle by particle; NULL where ordered */
-    size_t stride;  /* of the planes */
+    /* times amplitude, when rates were last asked for: */
+    double amplitude[WALL_MOTIONS][FACES];
+    double *load_direction; /* [3 * loads] times amplitude, body frame */
+    double *reference;      /* [3 * (points + ghosts)] */
+    double *searched;       /* the same at the last search for neighbours */
+    double skin;            /* lists reach this much further than the kernel */
+    bool ordered;           /* particles are summed eight at a time: chosen from the reference places */
+    double *record;         /* [layout.size * (points + ghosts)] particle by particle; NULL where ordered */
+    size_t stride;          /* of the planes */
     double *planes; /* [layout.size * stride] component by component, UPDATED_END empty places at both ends */
     uint32_t *shifts;          /* [points / 8] number of distances in memory of each eight particles ... */
     int32_t *shift;            /* ... which stand from neighbours.start of the first of them on */
