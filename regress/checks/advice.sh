@@ -200,6 +200,12 @@ told "the time error of leapfrog" "time error of scheme 'leapfrog' stays .* by a
 untold "a shorter step" stepping%scheme=leapfrog initial%centre=2,2 scene%end_time=14 stepping%safety=.21
 told "waves on total-Lagrangian points" "waves on the points of variant 'total-lagrangian' err by up to 0.[1-9]" initial%centre=2,2 method%name=sph method%gradient=quadratic
 untold "longer waves on central differences" initial%centre=2,2 method%name=sph method%gradient=central
+updated="stepping%scheme=rk4 initial%centre=2,2 method%name=sph method%variant=updated-lagrangian method%artificial_stress=0 method%viscosity_beta=0"
+# shellcheck disable=SC2086 # words
+{
+    told "waves on updated-Lagrangian points without viscosity" "'updated-lagrangian' err by up to 0.5[0-9] when" $updated scene%end_time=1.2 method%viscosity_alpha=0
+    untold "the same for a moment" $updated scene%end_time=.2 method%viscosity_alpha=0
+}
 # motion at t = 0 keeps the transform from running: the modified equation, where it can run
 scheme() { # scheme WHAT SCHEME OVERRIDE...: what the plan takes where the deck names none
     what=$1
@@ -264,6 +270,12 @@ END
 told "quadratic gradients under a narrow patch" "only 4 points wide.*rings on; method%gradient = 'central'" method%gradient=quadratic
 told "linear gradients under a narrow patch" "only 4 points wide.*rings on; method%gradient = 'central'" method%gradient=linear
 told "the same on jittered points" "rings on; method%variant = 'cloud'" method%gradient=quadratic body%jitter=0.1
+flat="scene%dimension=2 body%low=0,0 body%high=4,2 load%face=y- load%centre=1.5,0 load%size=1 load%direction=0,1 receiver%position=2,1"
+# shellcheck disable=SC2086 # words
+{
+    told "quadratic gradients under a narrow patch in the plane" "only 4 points wide.*rings on; method%gradient = 'central'" $flat method%gradient=quadratic
+    untold "central differences in the plane" $flat
+}
 deck=layers.nml
 cat >layers.nml <<'END'
 &scene dimension = 3, end_time = 6.0 /

@@ -96,7 +96,7 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
         width = fmin(width, size);
         whole = whole && size >= 0.999 * (scene->body.high[axis] - scene->body.low[axis]);
     }
-    if (whole || scene->dimension < 3 || width > FEW * scene->body.spacing) return;
+    if (whole || width > FEW * scene->body.spacing) return;
     advise(
         adviser,
         "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "

@@ -256,7 +256,8 @@ static void fill_model(struct tl_model *tl)
     if (tl->part.ranks != NULL) model->core = tl->part.shared ? &shared_core : &divided_core;
     const bool viscous = tl->site_v != NULL;
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
-    model->patch = tl->options.form == NULL && !tl->options.central ? PATCH_RINGS : PATCH_WHOLE;
+    const bool soft = tl->options.degree > 1 || tl->cloud->dimension > 2; /* (section 10) */
+    model->patch = tl->options.form == NULL && !tl->options.central && soft ? PATCH_RINGS : PATCH_WHOLE;
     model->waves = waves_of(&tl->options);
     model->points = tl->cloud->whole;
     if (tl->part.shared)
