@@ -143,6 +143,15 @@ static void scenes_choose_their_reference(void **state)
     box.scene.plane = PLANE_STRESS;
     box.scene.boundary[FACE_X_LOW].kind = BOUNDARY_FIXED;
     assert_near(beam_plane(&box.scene), 2008.3, 1e-9 * 2008);
+    box.scene.body.low[0] += 5e5; /* easting and northing: edges are rounded */
+    box.scene.body.high[0] += 5e5;
+    box.scene.body.low[1] += 4e6;
+    box.scene.body.high[1] += 4e6;
+    assert_near(beam_plane(&box.scene), 2008.3, 1e-8 * 2008);
+    box.scene.body.low[1] -= 4e6;
+    box.scene.body.high[1] -= 4e6;
+    box.scene.body.low[0] -= 5e5;
+    box.scene.body.high[0] -= 5e5;
     box.scene.body.high[1] = .09;
     assert_near(beam_plane(&box.scene), 0, 0);
     assert_int_equal(exact_beam.create(&box.scene, &exact, &messages), SELAS_BAD_SCENE);
