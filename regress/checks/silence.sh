@@ -918,4 +918,22 @@ told "stresses in a body that drifts far, in single precision" "rounding in sing
 sed '/^&receiver/d' drift.nml >unseen.nml
 told "the same without a receiver" "rounding in single precision may be up to" unseen.nml output%directory=out
 untold "stresses in a body that drifts, in single precision" drift.nml initial%velocity=8,0,0 output%directory=out
+
+# --- A deck in km beside a model in metres ---
+awk 'BEGIN {
+    print "0 0 -4000 8000 8000 0\n4000 4000 2000\n3 3 3\n2000 6000 1000 3000 1500 3000"
+    for (k = 0; k < 27; k++) print 4000 * (k % 3), 4000 * int(k % 9 / 3), 2000 * int(k / 9) - 4000, 3000, 1700, 2000
+}' >metres.xyz
+cat >metres.nml <<'DECK'
+&scene dimension = 3, end_time = 4 /
+&model file = 'metres.xyz', origin = 4000, 4000, 0 /
+&body shape = 'box', low = -2000, -2000, 0, high = 2000, 2000, 2000, spacing = 200 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting' /
+&load kind = 'body-force', shape = 'point', centre = 0, 0, 1000, direction = 0, 0, 1, history = 'gaussian', width = .4, delay = 2 /
+&receiver name = 'r', position = 1500, 1000, 0 /
+&output plots = F /
+DECK
+untold "a model in metres" check metres.nml
+told "the same of a deck in km" "its slowest wave, 1700, crosses the body 1.7e+03 times by end_time" check metres.nml \
+    body%low=-2,-2,0 body%high=2,2,2 body%spacing=.2 load%centre=0,0,1 receiver%position=1.5,1,0
 exit $failures

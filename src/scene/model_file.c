@@ -144,6 +144,9 @@ static bool check_grid(const struct model_source *source, size_t number, struct 
     return true;
 }
 
+/* A deck in km beside a model in m/s makes a thousand times as many as are meant: some tens at the most. */
+enum { MOST_CROSSINGS = 300 };
+
 /* Values that are rock; materials of the fastest and the slowest one for what asks the scene for its speeds. */
 static bool check_values(struct model_source *source)
 {
@@ -162,6 +165,15 @@ static bool check_values(struct model_source *source)
              "'%s': its fastest wave, %g, does not come as far as one spacing by end_time; are its speeds in "
              "the deck's units?",
              source->path, fastest.p_speed);
+    double edge = 0;
+    for (int axis = 0; axis < 3; axis++)
+        edge = fmax(edge, scene->body.high[axis] - scene->body.low[axis]);
+    if (slowest.s_speed * scene->end_time > MOST_CROSSINGS * edge)
+        warn(source->builder->messages,
+             "'%s': its slowest wave, %g, crosses the body %.3g times by end_time; are lengths and times of "
+             "the deck in "
+             "the units of its speeds?",
+             source->path, slowest.s_speed, slowest.s_speed * scene->end_time / edge);
     return true;
 }
 
