@@ -934,6 +934,6 @@ cat >metres.nml <<'DECK'
 &output plots = F /
 DECK
 untold "a model in metres" check metres.nml
-told "the same of a deck in km" "its slowest wave, 1700, crosses the body 1.7e+03 times by end_time" check metres.nml \
+told "the same of a deck in km" "its slowest wave, 1700, crosses the body 1.7e.03 times by end_time" check metres.nml \
     body%low=-2,-2,0 body%high=2,2,2 body%spacing=.2 load%centre=0,0,1 receiver%position=1.5,1,0
 exit $failures
