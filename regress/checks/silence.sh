@@ -888,6 +888,11 @@ untold "waves longer than the slab is thick" check slab.nml load%width=1.2 load%
 untold "a slab with a way out" check slab.nml boundary%face=x-,x+,y+
 told "one held face" "guide, and send them back: from about t = 39.5 on" check slab.nml scene%end_time=60 'boundary(2)%face=y+' 'boundary(2)%kind=fixed'
 untold "and it at the earlier end" check slab.nml 'boundary(2)%face=y+' 'boundary(2)%kind=fixed'
+sed "s/^&body.*/\&material name = 'soft', density = 1, p_speed = 0.2, s_speed = 0.1 \/ \&layer material = 'soft', top = 0 \/ \&layer material = 'm', top = 0.8 \/\n&/" slab.nml >soft.nml
+told "soft ground more than ten times as slow between layers" "soft ground guides may grow in the layer" check soft.nml "material(2)%s_speed=0.0999" boundary%face=x-,x+,y+
+"$selas" check soft.nml boundary%face=x-,x+,y+ 2>&1 | grep -q "soft ground guides"
+[ $? -eq 1 ]
+verdict "ten times as slow" $?
 # --- Loads are counted as the deck's &load ---
 printf '%s\n' '-.5 0 1 0 0 1' '.5 0 1 0 0 1' >sources.txt
 cat >numbers.nml <<'END'

@@ -224,6 +224,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_cut_moment(&adviser);
     look_at_layers(&adviser, stepper);
     look_at_guided(&adviser);
+    look_at_contrast(&adviser);
     look_at_clearance(&adviser);
     look_at_shallow(&adviser, stepper->model);
     look_at_beyond(&adviser);

@@ -160,6 +160,25 @@ void look_at_guided(struct adviser *adviser)
     }
 }
 
+/* Layers beside ground of more contrast than they were measured at: 1 : 10 (doc/theory/absorbing-faces.md, section 4). */
+void look_at_contrast(struct adviser *adviser)
+{
+    static const double measured = 10;
+    const struct scene *scene = adviser->scene;
+    const double contrast = ground_contrast(scene);
+    for (int face = 0; face < 2 * scene->dimension && contrast > measured; face++) {
+        if (layer_points(scene, face) == 0 || layer_drag(scene, face) == 0) continue;
+        advise(adviser,
+               "speeds of S waves differ 1 : %.3g, and absorbing layers beside such ground are measured to 1 "
+               ": %.0f: "
+               "beyond, waves that soft ground guides may grow in the layer behind face %s; sides so far off "
+               "that "
+               "nothing comes back by end_time would be right",
+               contrast, measured, face_name((enum face)face));
+        return;
+    }
+}
+
 /* Cells between what a load acts on and a face. */
 static double cells_to(const struct scene *scene, const struct extent *load, int face)
 {

@@ -68,6 +68,7 @@ void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 /* Slabs between faces that guide waves, which grow in layers. */
 void look_at_guided(struct adviser *adviser);
+void look_at_contrast(struct adviser *adviser);
 /* Few points between a hole and an edge. */
 void look_at_ligament(struct adviser *adviser);
 /* Loads that stay on between layers that give way. */

@@ -191,25 +191,45 @@ bool faces_guide(const struct scene *scene, int axis)
            !(boundary_slides(low) && boundary_slides(high));
 }
 
-double layer_plate_reflection(const struct scene *scene)
+double ground_contrast(const struct scene *scene)
 {
-    static const double least =
-        .02; /* measured: less comes back of what d lets grow, and layers stay stable */
-    for (int axis = 0; axis < scene->dimension; axis++)
-        if (faces_guide(scene, axis)) return least;
-    return 0;
+    double fastest = 0, slowest = INFINITY;
+    for (size_t m = 0; m < scene->materials; m++) {
+        fastest = fmax(fastest, scene->material[m].s_speed);
+        slowest = fmin(slowest, scene->material[m].s_speed);
+    }
+    return slowest > 0 ? fastest / slowest : INFINITY;
 }
 
-double layer_profile_reflection(const struct scene *scene, size_t points)
+/* Against guided waves: the share of d in (11), and the least R of (9), by whose logarithm they grow. Measured to t =
+ * 500: ground by the contrast of speeds, plates to t = 3000. */
+struct guiding {
+    double share, least;
+};
+
+static struct guiding guiding(const struct scene *scene, int face)
 {
-    return fmax(decayed(points), layer_plate_reflection(scene));
+    static const struct guiding none = {0, 0}, ground = {.3, 0}, plate = {1.2, .02}, rigid = {3, .02};
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (faces_guide(scene, axis)) return plate;
+    if (!ground_changes_behind(scene, face)) return none;
+    const double contrast = ground_contrast(scene);
+    return contrast <= 4 ? ground : contrast <= 8 ? plate : rigid;
+}
+
+double layer_least_reflection(const struct scene *scene, int face)
+{
+    return guiding(scene, face).least;
+}
+
+double layer_profile_reflection(const struct scene *scene, int face, size_t points)
+{
+    return fmax(decayed(points), guiding(scene, face).least);
 }
 
 double layer_drag(const struct scene *scene, int face)
 {
-    static const double in_plate = 1.2, ground = .3; /* measured */
-    if (layer_plate_reflection(scene) > 0) return in_plate;
-    return ground_changes_behind(scene, face) ? ground : 0;
+    return guiding(scene, face).share;
 }
 
 bool layer_left_out(const struct scene *scene, int face)

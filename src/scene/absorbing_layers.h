@@ -34,10 +34,12 @@ double layer_spacing(const struct scene *scene, int face);
 bool layer_anywhere(const struct scene *scene);
 /* Reflection at normal incidence that the profile of an absorbing layer of so many points is made for, and
  * the one to be expected by measurement. */
-double layer_profile_reflection(const struct scene *scene, size_t points);
+double layer_profile_reflection(const struct scene *scene, int face, size_t points);
 double layer_expected_reflection(size_t points);
-/* The least of the former where faces guide waves, for what grows in layers goes by its logarithm; 0: none do. */
-double layer_plate_reflection(const struct scene *scene);
+/* The least of the former where waves are guided, for what grows in layers goes by its logarithm; 0: none are. */
+double layer_least_reflection(const struct scene *scene, int face);
+/* Speed of S waves in the fastest material over that in the slowest. */
+double ground_contrast(const struct scene *scene);
 /* Do the two faces across an axis guide waves between them: no way out, and waves that are not plane ones? */
 bool faces_guide(const struct scene *scene, int axis);
 /* Waves guided along a layer, whose phase and group velocities may be opposite, would grow in it: velocities there

@@ -44,7 +44,7 @@ static double of_face(const struct scene *scene, const struct stay *stay, int fa
 {
     const double h = layer_spacing(scene, face), thick = points * h, away = to_face(scene, stay, face);
     const double speed = scene_fastest(scene), t = stay->since, gone = speed * t;
-    const double stretch = log(1 / layer_profile_reflection(scene, (size_t)points)) * gone /
+    const double stretch = log(1 / layer_profile_reflection(scene, face, (size_t)points)) * gone /
                            (1 + relaxing * gone / thick) * (layer_drag(scene, face) > 0 ? dragged : 1);
     const double image = 2 * (away + thick) + stretch, x = image / gone, fades = exp(-x);
     const double plane = sqrt(M_PI / (2 * x)) * fades; /* K_0(x), and K_1(x) but for 1 + 3 / (8 x) */

@@ -43,7 +43,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     const int slot = c->slot[slab->axis], face = 2 * slab->axis + slab->end;
     const double edge = slab->end == 0 ? body->low[slab->axis] : body->high[slab->axis];
     const double thickness = slab->end == 0 ? edge - spline->low : spline->high - edge;
-    const double reflection = layer_profile_reflection(c->model.scene, c->layer[face]);
+    const double reflection = layer_profile_reflection(c->model.scene, face, c->layer[face]);
     const double fastest = consistent_fastest(c, face);
     const double stretch =
         slot == DEPTH ? grading_stretch(body->grading, edge) : 1; /* even beyond the face */
