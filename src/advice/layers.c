@@ -160,7 +160,7 @@ void look_at_guided(struct adviser *adviser)
     }
 }
 
-/* Layers beside ground of more contrast than they were measured at: 1 : 10 (doc/theory/absorbing-faces.md, section 4). */
+/* Layers beside ground of more contrast than they were measured at (doc/theory/absorbing-faces.md, section 4). */
 void look_at_contrast(struct adviser *adviser)
 {
     static const double measured = 10;
