@@ -109,7 +109,7 @@ bool image_write(const struct section *section, const double *value, size_t comp
             const double at =
                 section->row != NULL ? (double)section->row[j * section->fine[0] + i] : (double)j / factor;
             size_t row[4] = {0}, column[4];
-            double up[4], across[4], sum = isnan(at) ? (double)NAN : 0.0;
+            double up[4] = {0}, across[4] = {0}, sum = isnan(at) ? (double)NAN : 0.0;
             if (!isnan(at)) around(at, section->across, row, up);
             around(pixel_at(section, i), section->along, column, across);
             for (size_t k = 0; k < 4 && !isnan(at); k++)
