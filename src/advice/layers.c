@@ -153,8 +153,8 @@ void look_at_guided(struct adviser *adviser)
         advise(
             adviser,
             "absorbing layers let waves grow that faces %s and %s guide, and send them back: from about t = "
-            "%.3g on velocities err by .008 to .05 of the largest, at twice that time by up to .3; sides "
-            "farther from what acts and is looked at would be right",
+            "%.3g on velocities err by .008 to .05 of the largest, at twice that time by up to .3, and may "
+            "grow; sides farther from what acts and is looked at would be right",
             face_name((enum face)(2 * axis)), face_name((enum face)(2 * axis + 1)), first);
         return;
     }
@@ -169,11 +169,9 @@ void look_at_contrast(struct adviser *adviser)
     for (int face = 0; face < 2 * scene->dimension && contrast > measured; face++) {
         if (layer_points(scene, face) == 0 || layer_drag(scene, face) == 0) continue;
         advise(adviser,
-               "speeds of S waves differ 1 : %.3g, and absorbing layers beside such ground are measured to 1 "
-               ": %.0f: "
+               "S speeds differ 1 : %.3g, and absorbing layers beside such ground are measured to 1 : %.0f: "
                "beyond, waves that soft ground guides may grow in the layer behind face %s; sides so far off "
-               "that "
-               "nothing comes back by end_time would be right",
+               "that nothing comes back by end_time would be right",
                contrast, measured, face_name((enum face)face));
         return;
     }

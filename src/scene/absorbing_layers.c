@@ -201,15 +201,15 @@ double ground_contrast(const struct scene *scene)
     return slowest > 0 ? fastest / slowest : INFINITY;
 }
 
-/* Against guided waves: the share of d in (11), and the least R of (9), by whose logarithm they grow. Measured to t =
- * 500: ground by the contrast of speeds, plates to t = 3000. */
+/* Against guided waves: the share of d in (11), and the least R of (9), by whose logarithm they grow; measured, in
+ * ground by its contrast of speeds. */
 struct guiding {
     double share, least;
 };
 
 static struct guiding guiding(const struct scene *scene, int face)
 {
-    static const struct guiding none = {0, 0}, ground = {.3, 0}, plate = {1.2, .02}, rigid = {3, .02};
+    static const struct guiding none = {0, 0}, ground = {.3, 0}, plate = {1.2, .02}, rigid = {3, .05};
     for (int axis = 0; axis < scene->dimension; axis++)
         if (faces_guide(scene, axis)) return plate;
     if (!ground_changes_behind(scene, face)) return none;

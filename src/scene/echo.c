@@ -89,8 +89,6 @@ static const double most_wanted = 1e-3, coarse = 12;
 /* Of the part (16): of all faces together, in squares. */
 static const double most_dragged = 4e-3;
 enum { MOST = 40 };
-/* Of the reflection that the profile is made for where waves are guided, behind their damping (derived). */
-static const double guided_part = .5;
 
 /* Longest distance between two extents along the face, as far as the box goes. */
 static double way_along(const struct scene *scene, int face, const struct extent *one,
@@ -172,7 +170,7 @@ double echo_of_layer(const struct scene *scene, int face, size_t points)
 {
     const struct echo echo = worst_echo(scene, face);
     return of_points(scene, &echo, points) + of_drag(scene, face, &echo, points) +
-           guided_part * layer_least_reflection(scene, face);
+           layer_least_reflection(scene, face);
 }
 
 /* Of what all faces may send back by (16), the share of one. */
