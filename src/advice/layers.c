@@ -10,6 +10,7 @@
 #include "scene/echo.h"
 #include "scene/extent.h"
 #include "scene/ground.h"
+#include "scene/guided.h"
 #include "scene/resolution.h"
 #include "scene/rests.h"
 
@@ -117,47 +118,23 @@ void look_at_fallen_layers(struct adviser *adviser)
     }
 }
 
-/* When guided waves come back from a layer to what is looked at; INFINITY: not by the end. */
-static double guided_return(const struct scene *scene, int face, double thick)
-{
-    static const double shortest = 3.6, slow = 8, way = 3;
-    struct extent acts, seen;
-    double first = INFINITY;
-    if (layer_points(scene, face) == 0) return first;
-    for (size_t k = 0; scene_extent(scene, k, &acts); k++)
-        for (size_t i = 0;
-             acts.role == EXTENT_ACTS && acts.wavelength < shortest * thick && scene_extent(scene, i, &seen);
-             i++) {
-            const double back =
-                acts.from + (slow * thick + way * echo_way(scene, face, &acts, &seen)) / slowest_speed(scene);
-            if (seen.role == EXTENT_SEEN && back < seen.until) first = fmin(first, back);
-        }
-    return first;
-}
-
-/* Slabs between two faces that guide waves, which grow in layers (doc/theory/absorbing-faces.md, section 4); unlike
- * faces guide those of a slab twice as thick. Velocities were wrong by .008 to .05 of the largest at the time told, by
- * .01 to .26 at twice that time (regress/studies/guided). */
+/* Slabs between two faces that guide waves, which come back from layers (doc/theory/absorbing-faces.md, section 4). */
 void look_at_guided(struct adviser *adviser)
 {
+    static const double little = .03;
     const struct scene *scene = adviser->scene;
-    for (int axis = 0; axis < 3 && axis < scene->dimension && !scene->body.chosen; axis++) {
-        const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
-        const bool alike =
-            boundary_is_free(low) == boundary_is_free(high) && boundary_slides(low) == boundary_slides(high);
-        const double thick = (alike ? 1 : 2) * (scene->body.high[axis] - scene->body.low[axis]);
-        double first = INFINITY;
-        for (int face = 0; faces_guide(scene, axis) && face < 2 * scene->dimension; face++)
-            first = fmin(first, guided_return(scene, face, thick));
-        if (!isfinite(first)) continue;
-        advise(
-            adviser,
-            "absorbing layers let waves grow that faces %s and %s guide, and send them back: from about t = "
-            "%.3g on velocities err by .008 to .05 of the largest, at twice that time by up to .3, and may "
-            "grow; sides farther from what acts and is looked at would be right",
-            face_name((enum face)(2 * axis)), face_name((enum face)(2 * axis + 1)), first);
-        return;
-    }
+    const struct guided guided = guided_waves(scene);
+    const double error = guided_error(scene, &guided);
+    if (!(error > little)) return;
+    advise(adviser,
+           "absorbing layers send back waves that faces %s and %s guide: velocities may err by %g of the "
+           "largest from "
+           "about t = %.3g on, by %.2g at the end, mostly by half of that or less; sides farther from "
+           "what acts "
+           "and is looked "
+           "at would be right",
+           face_name((enum face)(2 * guided.axis)), face_name((enum face)(2 * guided.axis + 1)), little,
+           guided_since(scene, &guided, little), error);
 }
 
 /* Layers beside ground of more contrast than they were measured at (doc/theory/absorbing-faces.md, section 4). */

@@ -10,6 +10,7 @@
 #include "scene/echo.h"
 #include "scene/grading.h"
 #include "scene/ground.h"
+#include "scene/guided.h"
 #include "scene/resolution.h"
 #include "scene/rests.h"
 #include "scene/topography.h"
@@ -93,7 +94,8 @@ static double expected_at_worst(const struct scene *scene)
         const size_t points = layer_points(scene, face);
         if (points > 0) worst = fmax(worst, echo_of_layer(scene, face, points));
     }
-    return worst;
+    const struct guided guided = guided_waves(scene);
+    return worst + guided_error(scene, &guided);
 }
 
 /* What one run records, or differences of two (other not NULL). */

@@ -1,6 +1,7 @@
 /* Absorbing layers as the scene asks for them: thickness, profile, and whether a face needs one at all
  * (doc/theory/absorbing-faces.md, sections 3, 6 and 7). */
 #include "scene/absorbing_layers.h"
+#include "scene/guided.h"
 #include "scene/symmetry.h"
 
 #include "scene/echo.h"
@@ -184,13 +185,6 @@ static bool ground_changes_behind(const struct scene *scene, int face)
     return false;
 }
 
-bool faces_guide(const struct scene *scene, int axis)
-{
-    const struct boundary *low = &scene->boundary[2 * axis], *high = low + 1;
-    return !boundary_absorbs(low) && !boundary_absorbs(high) &&
-           !(boundary_slides(low) && boundary_slides(high));
-}
-
 double ground_contrast(const struct scene *scene)
 {
     double fastest = 0, slowest = INFINITY;
@@ -202,19 +196,20 @@ double ground_contrast(const struct scene *scene)
 }
 
 /* Against guided waves: the share of d in (11), and the least R of (9), by whose logarithm they grow; measured, in
- * ground by its contrast of speeds. */
+ * ground by its contrast of speeds, between faces that guide by how long they do. */
 struct guiding {
     double share, least;
 };
 
 static struct guiding guiding(const struct scene *scene, int face)
 {
-    static const struct guiding none = {0, 0}, ground = {.3, 0}, plate = {1.2, .02}, rigid = {3, .05};
+    static const struct guiding none = {0, 0}, ground = {.3, 0}, brief = {1.2, 0}, much = {1.2, .02},
+                                rigid = {3, .05};
     for (int axis = 0; axis < scene->dimension; axis++)
-        if (faces_guide(scene, axis)) return plate;
+        if (faces_guide(scene, axis)) return guided_briefly(scene) ? brief : much;
     if (!ground_changes_behind(scene, face)) return none;
     const double contrast = ground_contrast(scene);
-    return contrast <= 4 ? ground : contrast <= 8 ? plate : rigid;
+    return contrast <= 4 ? ground : contrast <= 8 ? much : rigid;
 }
 
 double layer_least_reflection(const struct scene *scene, int face)

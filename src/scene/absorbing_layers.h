@@ -40,8 +40,6 @@ double layer_expected_reflection(size_t points);
 double layer_least_reflection(const struct scene *scene, int face);
 /* Speed of S waves in the fastest material over that in the slowest. */
 double ground_contrast(const struct scene *scene);
-/* Do the two faces across an axis guide waves between them: no way out, and waves that are not plane ones? */
-bool faces_guide(const struct scene *scene, int axis);
 /* Waves guided along a layer, whose phase and group velocities may be opposite, would grow in it: velocities there
  * are damped besides, at this share of the layer's own damping d times (d / largest d)^4 (Eq 11a); 0: none are. */
 double layer_drag(const struct scene *scene, int face);

@@ -3,6 +3,7 @@
 #include "scene/absorbing_layers.h"
 #include "scene/echo.h"
 #include "scene/ground.h"
+#include "scene/guided.h"
 #include "scene/resolution.h"
 #include "scene/rests.h"
 
@@ -14,6 +15,8 @@ void layers_describe(const struct consistent *c,
 {
     const struct scene *scene = c->model.scene;
     const double cutoff = source_cutoff(scene), two_pi = 6.283185307179586477;
+    const struct guided guided = guided_waves(scene);
+    const double returning = guided_error(scene, &guided);
     char key[32], text[256];
     for (int face = 0; face < 2 * c->dimension; face++) {
         snprintf(key, sizeof key, "layer %s", face_name((enum face)face));
@@ -29,10 +32,12 @@ void layers_describe(const struct consistent *c,
                              " = %.2g P wavelengths at the source's cutoff",
                              thickness * cutoff / (two_pi * consistent_fastest(c, face)));
         const double expected =
-            fmax(echo_of_layer(scene, face, c->layer[face]), layer_expected_reflection(c->layer[face]));
+            fmax(echo_of_layer(scene, face, c->layer[face]), layer_expected_reflection(c->layer[face])) +
+            returning;
         snprintf(text + used, sizeof text - (size_t)used,
-                 ", expected reflection %.1g %% of the velocity at the worst place looked at%s%s",
-                 100 * fmin(1, expected), ground_is_general(scene) ? " if the ground were level" : "",
+                 ", expected reflection %.*g %% of the velocity at the worst place looked at%s%s",
+                 expected < .1 ? 1 : 2, 100 * fmin(1, expected),
+                 ground_is_general(scene) ? " if the ground were level" : "",
                  layer_drag(scene, face) > 0 ? ", damped against guided waves" : "");
         tell(context, key, text);
     }
