@@ -116,15 +116,21 @@ bool worst_rest(const struct scene *scene, struct rest *rest)
         struct stay stay;
         if (!take_stay(scene, &scene->load[k], &stay)) continue;
         found = true;
+        double way = -1;
+        size_t farthest = 0; /* (18) grows with the distance */
         for (size_t r = 0; r < scene->receivers; r++) {
             const double *to = scene->receiver[r].position;
-            const double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-            const double error = of_all(scene, &stay, 0, fmax(way, scene->body.spacing));
-            if (error <= rest->error) continue;
-            *rest = (struct rest){k, r, error, 0};
-            worst = stay;
-            far = way;
+            const double away = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
+            if (away <= way) continue;
+            way = away;
+            farthest = r;
         }
+        if (way < 0) continue;
+        const double error = of_all(scene, &stay, 0, fmax(way, scene->body.spacing));
+        if (error <= rest->error) continue;
+        *rest = (struct rest){k, farthest, error, 0};
+        worst = stay;
+        far = way;
     }
     if (rest->error >= REST_SEEN) rest->points = enough_points(scene, &worst, far);
     return found;
