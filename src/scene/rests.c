@@ -39,13 +39,32 @@ static double to_face(const struct scene *scene, const struct stay *stay, int fa
     return fmax(away, layer_spacing(scene, face));
 }
 
-/* (18) and (19) of a face with a layer of so many points, without the factors of (18). */
-static double of_face(const struct scene *scene, const struct stay *stay, int face, double points, double way)
+/* The layers of a scene's faces. */
+struct layers {
+    double points[FACES], stretch[FACES]; /* ln(1/R), .6 of it where velocities are damped */
+};
+
+/* As they are, or with so many points each where that is more. */
+static struct layers layers_of(const struct scene *scene, size_t points)
 {
-    const double h = layer_spacing(scene, face), thick = points * h, away = to_face(scene, stay, face);
+    struct layers layers = {0};
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const size_t own = layer_points(scene, face), n = points > own ? points : own;
+        if (own == 0) continue;
+        layers.points[face] = (double)n;
+        layers.stretch[face] =
+            log(1 / layer_profile_reflection(scene, face, n)) * (layer_drag(scene, face) > 0 ? dragged : 1);
+    }
+    return layers;
+}
+
+/* (18) and (19) of a face, without the factors of (18). */
+static double of_face(const struct scene *scene, const struct stay *stay, int face,
+                      const struct layers *layers, double way)
+{
+    const double thick = layers->points[face] * layer_spacing(scene, face), away = to_face(scene, stay, face);
     const double speed = scene_fastest(scene), t = stay->since, gone = speed * t;
-    const double stretch = log(1 / layer_profile_reflection(scene, face, (size_t)points)) * gone /
-                           (1 + relaxing * gone / thick) * (layer_drag(scene, face) > 0 ? dragged : 1);
+    const double stretch = layers->stretch[face] * gone / (1 + relaxing * gone / thick);
     const double image = 2 * (away + thick) + stretch, x = image / gone, fades = exp(-x);
     const double plane = sqrt(M_PI / (2 * x)) * fades; /* K_0(x), and K_1(x) but for 1 + 3 / (8 x) */
     if (scene->dimension == 3)
@@ -61,18 +80,17 @@ static double near_face(const struct scene *scene, const struct stay *stay, int 
                         : 0;
 }
 
-/* With the layers as they are, or (points > 0) with so many points each. */
-static double of_all(const struct scene *scene, const struct stay *stay, size_t points, double way)
+static double of_all(const struct scene *scene, const struct stay *stay, const struct layers *layers,
+                     double way)
 {
     const double factor = scene->dimension == 3 ? in_space : in_plane;
     double sum = 0;
     for (int face = 0; face < 2 * scene->dimension; face++) {
-        const size_t own = layer_points(scene, face);
-        if (own == 0) continue;
-        const double n = (double)(points > own ? points : own);
+        const double n = layers->points[face];
+        if (!(n > 0)) continue;
         const double faces =
             boundary_mirrors(&scene->boundary[face ^ 1]) ? 2 : 1; /* that of the mirror image */
-        sum += faces * (factor * of_face(scene, stay, face, n, way) + near_face(scene, stay, face, n));
+        sum += faces * (factor * of_face(scene, stay, face, layers, way) + near_face(scene, stay, face, n));
     }
     return fmin(1, sum);
 }
@@ -99,8 +117,10 @@ static bool take_stay(const struct scene *scene, const struct load *load, struct
 /* The least points with which (18) and (19) leave too little to be told. */
 static long enough_points(const struct scene *scene, const struct stay *stay, double way)
 {
-    for (size_t points = LAYER_POINTS; points <= MOST_POINTS; points++)
-        if (of_all(scene, stay, points, way) < REST_SEEN) return (long)points;
+    for (size_t points = LAYER_POINTS; points <= MOST_POINTS; points++) {
+        const struct layers layers = layers_of(scene, points);
+        if (of_all(scene, stay, &layers, way) < REST_SEEN) return (long)points;
+    }
     return 0;
 }
 
@@ -111,6 +131,7 @@ bool worst_rest(const struct scene *scene, struct rest *rest)
     bool found = false;
     *rest = (struct rest){0};
     if (scene->dimension < 2 || !body_is_box(&scene->body) || !layer_anywhere(scene)) return false;
+    const struct layers layers = layers_of(scene, 0);
     for (size_t k = 0; k < scene->loads; k++) {
         const double *from = scene->load[k].centre;
         struct stay stay;
@@ -126,7 +147,7 @@ bool worst_rest(const struct scene *scene, struct rest *rest)
             farthest = r;
         }
         if (way < 0) continue;
-        const double error = of_all(scene, &stay, 0, fmax(way, scene->body.spacing));
+        const double error = of_all(scene, &stay, &layers, fmax(way, scene->body.spacing));
         if (error <= rest->error) continue;
         *rest = (struct rest){k, farthest, error, 0};
         worst = stay;
