@@ -62,6 +62,23 @@ done
 "$build/selas" diff "$out/cut3000/r.dat" "$out/cut900/r.dat" --rtol=1e-9 >>"$out/log" 2>&1
 ok "what a model holds above the surface is not seen" test $? = 0
 
+# a row of heavy rock between values a sixteenth of the spacing apart counts as layers that go over into it
+awk 'BEGIN {
+    print "0 0 -1000 2000 2000 0"; print "2000 2000 6.25"; print "2 2 161"; print "100 9000 100 9000 100 99000"
+    for (k = 0; k < 161; k++) for (j = 0; j < 2; j++) for (i = 0; i < 2; i++)
+        print 2000 * i, 2000 * j, 6.25 * k - 1000, 3000, 1700, k == 145 ? 12500 : 2500
+}' >"$out/row.xyz"
+cat "$out/even.nml" - >"$out/rows.nml" <<'D'
+&material name = 'heavy', density = 12500, p_speed = 3000, s_speed = 1700 /
+&layer material = 'rock', top = 0 /
+&layer material = 'rock', bottom = 'heavy', top = 87.5 /
+&layer material = 'heavy', bottom = 'rock', top = 93.75 /
+&layer material = 'rock', top = 100 /
+D
+"$build/selas" -q "$out/d.nml" model%file=row.xyz output%directory="$out/row" output%plots=F && "$build/selas" -q "$out/rows.nml" body%material=rock output%directory="$out/rows" output%plots=F
+"$build/selas" diff "$out/row/r.dat" "$out/rows/r.dat" --rtol=1e-2 >"$out/log" 2>&1
+ok "a thin row of a model: the histories of thin layers" awk '$1 == "r" { n++; if (!($3 < 3e-3)) exit bad = 1 } END { exit bad || n != 6 }' "$out/log"
+
 # the same with Q in columns 7 and 8
 model ""
 sed '5,$s/$/ 40 20/' "$out/m.xyz" >"$out/q.xyz" && sed '/^&model/d; s/&method /\&method mechanisms = 2, /' "$out/d.nml" >"$out/dq.nml"

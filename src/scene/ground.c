@@ -191,9 +191,9 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
 
 /* --- Where a model changes much: its values may be much nearer than the points of the lattice --- */
 
-/* Parts of a range that are looked at. One over which the shear modulus rises by more than this is halved, and so are
- * its halves, so often. */
-enum { MODEL_PARTS = 2, HALVINGS = 5 };
+/* A part between values of the model over which the shear modulus rises by more than this is halved, and so are its
+ * halves, so often. */
+enum { HALVINGS = 5 };
 static const double much = .05;
 
 /* In logarithms. */
@@ -213,12 +213,12 @@ struct piece {
 static size_t model_jumps(const struct scene *scene, const double place[3], double from, double to,
                           double *at)
 {
-    const double step = (to - from) / MODEL_PARTS;
-    double stiffness = stiffness_at(scene, place, from);
-    size_t count = 0;
-    for (int part = 0; part < MODEL_PARTS; part++) {
-        const double start = from + part * step, next = stiffness_at(scene, place, start + step);
-        struct piece piece[HALVINGS + 1] = {{start, start + step, stiffness, next, 0}};
+    const size_t kinks = ground_model_kinks(scene->body.model, place, from, to, at);
+    double start = from, stiffness = stiffness_at(scene, place, from);
+    size_t count = kinks;
+    for (size_t part = 0; part <= kinks; part++) {
+        const double end = part < kinks ? at[part] : to, next = stiffness_at(scene, place, end);
+        struct piece piece[HALVINGS + 1] = {{start, end, stiffness, next, 0}};
         for (int pieces = 1; pieces > 0;) {
             const struct piece whole = piece[--pieces];
             if (whole.halvings == HALVINGS || fabs(whole.high - whole.low) < much) continue;
@@ -227,6 +227,7 @@ static size_t model_jumps(const struct scene *scene, const double place[3], doub
             piece[pieces++] = (struct piece){whole.from, middle, whole.low, between, whole.halvings + 1};
             piece[pieces++] = (struct piece){middle, whole.to, between, whole.high, whole.halvings + 1};
         }
+        start = end;
         stiffness = next;
     }
     return count;
@@ -260,8 +261,11 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
 size_t ground_jumps_at_most(const struct scene *scene)
 {
     if (scene->body.line != NULL) return ground_line_jumps_at_most(scene->body.line);
-    return scene->body.layers + 2 * scene->body.blocks +
-           (scene->body.model != NULL ? MODEL_PARTS << HALVINGS : 0);
+    const struct ground_model *model = scene->body.model;
+    size_t parts = model != NULL ? 1 : 0;
+    for (size_t i = 0; model != NULL && i < model->grids; i++)
+        parts += model->grid[i].n[2];
+    return scene->body.layers + 2 * scene->body.blocks + (parts << HALVINGS);
 }
 
 double ground_low(const struct body *body, int axis)

@@ -25,6 +25,10 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
 /* model_grid.c: even between the values of the grids, beyond the body as at its nearest face. */
 struct rock ground_model_at(const struct ground_model *model, const double place[3]);
 struct shares ground_model_shares(const struct ground_model *model, const double place[3]);
+/* Depths from < z < to at which its values lie on the line through `place`, falling together with neither end; even
+ * between them. */
+size_t ground_model_kinks(const struct ground_model *model, const double place[3], double from, double to,
+                          double *at);
 /* A value of one of the model's grids, without a name. */
 struct material ground_model_material(const struct ground_model *model, const struct model_grid *grid,
                                       size_t i);

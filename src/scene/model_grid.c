@@ -60,18 +60,24 @@ static double below_sea(const struct ground_model *model, double depth, double g
     return ground + depth * (isfinite(bottom) ? (bottom - ground) / bottom : 1);
 }
 
-/* The grid between whose surfaces a depth below the sea lies, and its part of the way between them. */
-static const struct model_grid *grid_between(const struct ground_model *model, double depth, double place[3])
+/* Coordinate along the third axis of grid i at a depth: goes evenly with it; place[0], place[1]: along the others. */
+static double along_depth(const struct ground_model *model, size_t i, double depth, const double place[3])
 {
-    size_t i = 0;
-    double top = surface_at(model, 0, place), next = surface_at(model, 1, place);
-    const double z = below_sea(model, depth, top, surface_at(model, model->surfaces - 1, place));
-    for (; i + 1 < model->grids && z > next; i++) {
-        top = next;
-        next = surface_at(model, i + 2, place);
+    if (model->depth == MODEL_BELOW) return below_sea(model, depth, surface_at(model, 0, place), INFINITY);
+    if (model->depth == MODEL_BETWEEN) {
+        const double top = surface_at(model, i, place), next = surface_at(model, i + 1, place);
+        const double z = below_sea(model, depth, surface_at(model, 0, place),
+                                   surface_at(model, model->surfaces - 1, place));
+        if (!(next > top)) return z > top ? INFINITY : 0;
+        return (z - top) / (next - top);
     }
-    place[2] = next > top ? (z - top) / (next - top) : 0;
-    return &model->grid[i];
+    if (model->depth == MODEL_STRETCHED) {
+        const double top = surface_at(model, 0, place),
+                     ground = surface_at(model, model->surfaces - 1, place);
+        const double z = below_sea(model, depth, ground, model->bottom);
+        return (z - top) * model->bottom / (model->bottom - top);
+    }
+    return depth + model->shift;
 }
 
 /* The grid of a place along the model's horizontal axes at a depth; place[2]: there. Where two grids meet the
@@ -79,18 +85,9 @@ static const struct model_grid *grid_between(const struct ground_model *model, d
 static const struct model_grid *grid_at(const struct ground_model *model, double depth, double place[3])
 {
     size_t i = 0;
-    place[2] = depth + model->shift;
-    if (model->depth == MODEL_BETWEEN) return grid_between(model, depth, place);
-    if (model->depth == MODEL_BELOW)
-        place[2] = below_sea(model, depth, surface_at(model, 0, place), INFINITY);
-    if (model->depth == MODEL_STRETCHED) {
-        const double top = surface_at(model, 0, place),
-                     ground = surface_at(model, model->surfaces - 1, place);
-        const double z = below_sea(model, depth, ground, model->bottom);
-        place[2] = (z - top) * model->bottom / (model->bottom - top);
-    }
+    place[2] = along_depth(model, i, depth, place);
     while (i + 1 < model->grids && place[2] > model->grid[i].at[2][model->grid[i].n[2] - 1])
-        i++;
+        place[2] = along_depth(model, ++i, depth, place);
     return &model->grid[i];
 }
 
@@ -103,6 +100,25 @@ static void place_in(const struct ground_model *model, const double place[2], do
     for (int axis = 0; axis < 2; axis++)
         there[axis] =
             model->origin[axis] + model->turn[axis][0] * inside[0] + model->turn[axis][1] * inside[1];
+}
+
+size_t ground_model_kinks(const struct ground_model *model, const double place[3], double from, double to,
+                          double *at)
+{
+    double there[3] = {0}, part;
+    size_t count = 0;
+    place_in(model, place, there);
+    for (size_t i = 0; i < model->grids; i++) {
+        const struct model_grid *grid = &model->grid[i];
+        const double first = along_depth(model, i, from - model->low[2], there),
+                     length = along_depth(model, i, to - model->low[2], there) - first;
+        for (size_t k = before(grid->at[2], grid->n[2], first, &part); k < grid->n[2]; k++) {
+            const double way = (grid->at[2][k] - first) / length;
+            if (!(way < 1 - 1e-9)) break;
+            if (way > 1e-9) at[count++] = from + way * (to - from);
+        }
+    }
+    return count;
 }
 
 double ground_model_height(const struct ground_model *model, const double place[2])
