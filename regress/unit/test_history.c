@@ -303,6 +303,9 @@ static void tables_are_read_or_refused(void **state)
         {"\xEF\xBB\xBF"
          "0.0D0 1d0\n5.D-1 2.5D+0\n1 -3d-1\n",
          3, NULL},
+        {"0 1.0+0\n.5 25.0-1\n1 -3.0-001\n", 3, NULL},
+        {"0 0 0 1.0-2-3\n", 0, ":1: expected two numbers"},
+        {"0 1\n1-.5\n", 0, ":2: expected two numbers"},
         {"0 1\r1 x\r", 0, ":2: expected two numbers"},
         {"0 1\n1 2D\n", 0, ":2: expected two numbers"},
         {"", 0, "no rows"},

@@ -33,22 +33,31 @@ const char *line_fault(enum line_found found)
                                   : "a byte 0: this is not a text file";
 }
 
-double line_number(const char *at, char **end)
+/* As strtod(), with Fortran's exponents. */
+static double number_at(const char *at, char **end)
 {
     const double value = strtod(at, end);
     char *letter = *end;
-    if (letter == at || (*letter != 'D' && *letter != 'd')) return value;
+    if (letter == at || *letter == '\0' || strchr("Dd+-", *letter) == NULL) return value;
     if (strspn(at, "+-.0123456789") < (size_t)(letter - at)) return value; /* inf, or of another base */
     char number[LINE_SIZE];
-    const size_t sign = letter[1] == '+' || letter[1] == '-' ? 1 : 0,
-                 digits = strspn(letter + 1 + sign, "0123456789"), before = (size_t)(letter - at);
-    const size_t length = before + 1 + sign + digits;
-    if (digits == 0 || length >= sizeof number) return value;
-    memcpy(number, at, length);
+    char *exponent = *letter == '+' || *letter == '-' ? letter : letter + 1;
+    const size_t sign = *exponent == '+' || *exponent == '-' ? 1 : 0,
+                 digits = strspn(exponent + sign, "0123456789"), before = (size_t)(letter - at);
+    if (digits == 0 || before + 2 + sign + digits > sizeof number) return value;
+    memcpy(number, at, before);
     number[before] = 'e';
-    number[length] = '\0';
-    *end = letter + 1 + sign + digits;
+    memcpy(number + before + 1, exponent, sign + digits);
+    number[before + 1 + sign + digits] = '\0';
+    *end = exponent + sign + digits;
     return strtod(number, NULL);
+}
+
+double line_number(const char *at, char **end)
+{
+    const double value = number_at(at, end);
+    if (strchr(" \t,\r\n#!", **end) == NULL) *end -= *end - at; /* what follows is part of it */
+    return value;
 }
 
 int line_numbers(const char *line, int most, double *value)

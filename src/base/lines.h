@@ -20,7 +20,8 @@ enum line_found line_next(FILE *file, char line[LINE_SIZE]);
 /* What is wrong after LINE_TOO_LONG or LINE_NO_TEXT, for a message. */
 const char *line_fault(enum line_found found);
 
-/* The number at a place of a line and where it ends, as strtod(); its exponent may follow d or D, as of Fortran. */
+/* The number at a place of a line and where it ends, as strtod(); its exponent may follow d or D or no letter, as of
+ * Fortran (1-103). What is not parted from what follows by a blank, a comma or a comment is none. */
 double line_number(const char *at, char **end);
 /* Numbers of a line, parted by blanks or commas, up to its end or a comment (# or !). Returns how many; -1 if there
  * is something else in it, or more than `most`. */
