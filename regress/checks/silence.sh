@@ -477,6 +477,19 @@ verdict "all its rows are read" $?
 told "a table that ends with a rest" "ends at t = 2 with 0.05, which holds" check pulse.nml $table load%file=rest.txt
 # shellcheck disable=SC2086
 told "a table that begins late with a jump" "begins at t = 1 with 0.5; before that the history is 0" check pulse.nml $table load%file=late.txt
+samples() { # samples STEP: of a Gaussian of width .3
+    awk -v step="$1" 'BEGIN { for (t = 0; t < 3; t += step) print t, exp(-((t - 1.5) / .3) ^ 2 / 2) }' >samples.txt
+}
+samples .15
+# shellcheck disable=SC2086
+told "samples of a pulse far apart" "table of &load 1 are up to 0.025 of its largest value off .* beside loads.*; rows 0.06.* apart" check pulse.nml $table load%file=samples.txt
+# shellcheck disable=SC2086
+told "the same on a moved face" "table of &boundary 1 are up to 0.025 of its" check pulse.nml body%spacing=.125 boundary%face=x- boundary%kind=velocity boundary%direction=1,0 boundary%history=table boundary%file=samples.txt
+# shellcheck disable=SC2086
+untold "the same, smoothed" check pulse.nml $table load%file=samples.txt load%smoothing=.6
+samples .06
+# shellcheck disable=SC2086
+untold "samples near enough" check pulse.nml $table load%file=samples.txt
 cat >moment.nml <<'END'
 &scene dimension = 3, end_time = 3.0 /
 &method name = 'sph', gradient = 'central' /

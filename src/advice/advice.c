@@ -211,6 +211,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_moments(&adviser);
     look_at_step(&adviser, stepper);
     look_at_nothing(&adviser);
+    look_at_tables(&adviser, stepper);
     look_at_ligament(&adviser);
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
     if (!body_is_box(&scene->body)) return adviser.count;

@@ -56,6 +56,8 @@ void look_at_crossed_rock(struct adviser *adviser);
 void look_at_ringing_body(struct adviser *adviser);
 /* Moment tensors that begin with a jump. */
 void look_at_cut_moment(struct adviser *adviser);
+/* Tables that are samples too far apart. */
+void look_at_tables(struct adviser *adviser, const struct stepper *stepper);
 /* Leapfrog's time error where it stays. */
 void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
 /* Waves that a method's points carry badly (waves.c). */

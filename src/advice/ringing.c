@@ -1,5 +1,5 @@
 /* What rings at frequencies that the source hardly has: damped bodies, whose mechanisms are fitted to the source's
- * band; the lattice, where a moment tensor begins with a jump. */
+ * band; the lattice, where a moment tensor begins with a jump, or straight lines join samples of a smooth function. */
 #include "advice/parts.h"
 
 #include "damping/ground.h"
@@ -117,4 +117,40 @@ void look_at_cut_moment(struct adviser *adviser)
             "carries more: velocities ring by some %.2g of themselves; a longer delay, or output%%low_pass, "
             "would do",
             group + 1, worst);
+}
+
+/* Velocities err by .4 to 1.5 times the sag where rows are nearer than .9 periods of the lattice's fastest wave.
+ * Farther off their kinks keep step with some of the lattice's shortest ones, and beside loads on a surface it is up to
+ * 20 times, in the ground up to 2.5 (regress/studies/sampled). */
+static void look_at_samples(struct adviser *adviser, const struct stepper *stepper, const char *what,
+                            size_t group, const struct history *history)
+{
+    static const double near = .9, slight[2] = {.01, .001}, good[2] = {.005, .8};
+    const double period = 2 * M_PI / stepper->spectrum.omega, pass = adviser->scene->output.low_pass;
+    double step;
+    const double sag = history_table_sag(history, &step);
+    const bool far = step > near * period;
+    if (!(sag > slight[far]) || history->smoothing >= 4 * step) return;
+    const bool ringing = far && !(pass > 0 && pass * step < M_PI);
+    if (!ringing && !(sag > slight[0])) return;
+    advise(
+        adviser,
+        "straight lines between the rows of the table of &%s %zu are up to %.2g of its largest value off a "
+        "smooth curve through them: where that is meant velocities err by some 2 times as much%s; rows %.3g "
+        "apart would do",
+        what, group + 1, sag,
+        ringing ? ", and up to 20 times beside loads, where the lattice rings at each row" : "",
+        fmin(step * sqrt(good[0] / sag), far ? good[1] * period : INFINITY));
+}
+
+void look_at_tables(struct adviser *adviser, const struct stepper *stepper)
+{
+    const struct scene *scene = adviser->scene;
+    for (size_t k = 0; k < scene->loads && stepper->spectrum.omega > 0; k++)
+        if (k == 0 || scene->load[k].group != scene->load[k - 1].group)
+            look_at_samples(adviser, stepper, "load", scene->load[k].group, &scene->load[k].history);
+    for (size_t face = 0; face < FACES && stepper->spectrum.omega > 0; face++)
+        if (boundary_acts(&scene->boundary[face]))
+            look_at_samples(adviser, stepper, "boundary", scene->boundary[face].group,
+                            &scene->boundary[face].history);
 }

@@ -152,6 +152,25 @@ double history_table_kinks(const struct history *history)
     return sum;
 }
 
+double history_table_sag(const struct history *history, double *step)
+{
+    enum { FEWEST = 8 };
+    static const double even = 1.1;
+    const double *time = history->table_time, *value = history->table_value;
+    double widest = 0, most = 0, largest = 0;
+    *step = INFINITY;
+    if (history->kind != HISTORY_TABLE || history->rows < FEWEST) return 0;
+    for (size_t i = 0; i < history->rows; i++) {
+        largest = fmax(largest, fabs(value[i]));
+        if (i + 1 == history->rows) break;
+        *step = fmin(*step, time[i + 1] - time[i]);
+        widest = fmax(widest, time[i + 1] - time[i]);
+        if (i > 0 && i + 2 < history->rows)
+            most = fmax(most, fabs(value[i - 1] - value[i] - value[i + 1] + value[i + 2]) / 16);
+    }
+    return widest < even * *step && largest > 0 ? most / largest : 0;
+}
+
 /* --- Reading it ------------------------------------------------------------------------------------------- */
 
 static selas_status keep_row(struct history *history, size_t *room, double time, double value)
