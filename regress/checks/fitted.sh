@@ -174,7 +174,13 @@ OMP_NUM_THREADS=1 "$build/selas" check --echo "$out/near.nml" >"$out/near.plan" 
 echo=$(sed -n 's/^echo r: \([^ ]*\).*/\1/p' "$out/near.plan")
 ok "a source 17 cells from layers beside the exact mass of degree 4: echo $echo" below "$echo" 2e-4
 plan close near body%low=-6.736,0 body%high=3.368,8.42 boundary%face=x-,x+,y+ boundary%kind=transmitting boundary%layer_points=13
-ok "one that is too near is told of" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face x+, .* up to about 0.3 of' "$out/close.plan"
+ok "one that is too near is told of" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face x+, .* up to about 0.05 of' "$out/close.plan"
+# Beside an interface, along its normal, and near a surface no source is filtered.
+soil="material(2)%name=soil material(2)%density=.9 material(2)%p_speed=1.2 material(2)%s_speed=.7 layer(1)%material=soil layer(1)%top=0 layer(2)%material=rock layer(2)%top=2.526"
+plan below near body%low=-8.42,0 body%high=8.42,5.052 boundary%face=x-,x+,y+ boundary%kind=transmitting boundary%layer_points=13 load%centre=1.894,3.5785
+ok "one above a layer" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face y+, .* up to about 0.05 of .*; 13 cells' "$out/below.plan"
+plan beneath near body%low=-8.42,0 body%high=8.42,5.052 boundary%face=x-,x+,y+ boundary%kind=transmitting boundary%layer_points=13 load%centre=1.894,3.5785 $soil
+ok "one between an interface and a layer" grep -q 'warning: the moment tensor of load 1 lies 3.5 cells from .* face y+, .* up to about 0.3 of .*; 17 cells' "$out/beneath.plan"
 plan none f scene%end_time=9 stepping%scheme=rk4
 ok "stepping%scheme=rk4: the larger box, and why" \
     grep -q '^box chosen: so large .*absorbing layers need' "$out/none.plan"

@@ -164,27 +164,38 @@ static double cells_to(const struct scene *scene, const struct extent *load, int
     return away / layer_spacing(scene, face);
 }
 
+/* Cells of the lattice beyond a load along an axis, on the side that has fewer; 0 where the ground changes along it. */
+static double cells_beyond(const struct scene *scene, const struct extent *load, int axis)
+{
+    double least = INFINITY;
+    if (axis == scene->dimension - 1 && body_is_layered(&scene->body)) return 0;
+    for (int face = 2 * axis; face < 2 * axis + 2; face++)
+        if (!boundary_mirrors(&scene->boundary[face]))
+            least = fmin(least, cells_to(scene, load, face) + (double)layer_points(scene, face));
+    return least;
+}
+
 void look_at_clearance(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
-    const double clearance = layer_clearance(scene);
     struct extent load;
     for (size_t i = 0; scene_extent(scene, i, &load); i++) {
-        int nearest = -1;
-        double least = clearance;
+        double most = 0, least = 0, clearance = 0;
+        int worst = -1;
         for (int face = 0; load.dipole && face < 2 * scene->dimension; face++) {
-            if (layer_points(scene, face) == 0) continue;
-            const double cells = cells_to(scene, &load, face);
-            if (cells > least - 1e-6) continue;
+            const double room = cells_beyond(scene, &load, face / 2), cells = cells_to(scene, &load, face);
+            const double wanted = layer_clearance(scene, room), left = layer_left_behind(scene, room, cells);
+            if (layer_points(scene, face) == 0 || cells > wanted - 1e-6 || left <= most) continue;
+            most = left;
             least = cells;
-            nearest = face;
+            clearance = wanted;
+            worst = face;
         }
-        if (nearest < 0) continue;
+        if (worst < 0) continue;
         advise(adviser,
                "the moment tensor of load %zu lies %.2g cells from the absorbing layer behind face %s, which "
                "leaves a displacement of up to about %.1g of the largest behind; %.0f cells would be right",
-               scene->load[load.index].group + 1, least, face_name((enum face)nearest),
-               layer_left_behind(scene, least), ceil(clearance));
+               scene->load[load.index].group + 1, least, face_name((enum face)worst), most, ceil(clearance));
     }
 }
 

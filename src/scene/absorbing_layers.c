@@ -70,35 +70,53 @@ double layer_steps(const struct scene *scene)
     return leapfrog ? 1 : sqrt(2);
 }
 
-/* In the cell of the layer's face, and from cell to cell. Measured in the plane, Poisson's ratio .14 to .49, and in
- * space, where it is a quarter (doc/verification/tables/absorbing.txt, table 8). */
+/* What sources leave in a layer m cells away: as much as the inverse of the mass carries there, by the slowest root
+ * of its polynomial; where they are filtered (method/spline/quiet.c), first as the filter's weights fall, then what it
+ * leaves of that root. Measured in the plane, Poisson's ratio .14 to .49, and in space, where it is a quarter
+ * (doc/verification/tables/absorbing.txt, table 8). */
 struct tail {
     double begins, falls;
 };
+struct tails {
+    struct tail near, far;
+    double factor;
+};
 
-static struct tail tail_of(const struct scene *scene)
+/* room: cells between the source and the nearest end of its axis of the lattice. */
+static struct tails tails_of(const struct scene *scene, double room)
 {
-    static const struct tail sweeps = {1.2, .194}, exact[] = {{1.5, .43}, {1.5, .54}, {1.5, .61}};
-    const long degree = degree_asked(scene);
-    struct tail tail = !asks_exact(scene) ? sweeps : exact[degree < 2 ? 0 : degree > 4 ? 2 : degree - 2];
+    static const double filtered_from = 8;
+    static const struct tails sweeps = {{1.2, .194}, {0, .194}, 1};
+    static const struct tails exact[2][3] = {
+        {{{1.5, .431}, {0, .431}, 1}, {{1.5, .535}, {0, .535}, 1}, {{1.5, .608}, {0, .608}, 1}},
+        {{{1.5, .431}, {0, .431}, 1}, {{2.1, .35}, {.13, .535}, 1}, {{2.1, .35}, {.2, .608}, 1}}};
+    const long degree = degree_asked(scene), which = degree < 2 ? 0 : degree > 4 ? 2 : degree - 2;
+    struct tails tails = asks_exact(scene) ? exact[room >= filtered_from][which] : sweeps;
     double ratio = 1.9;
     for (size_t m = 0; m < scene->materials; m++)
         ratio = fmax(ratio, scene->material[m].p_speed / scene->material[m].s_speed);
-    tail.begins *= pow(ratio / 1.9, .6) * (scene->dimension == 3 ? .25 : 1);
-    return tail;
+    tails.factor = pow(ratio / 1.9, .6) * (scene->dimension == 3 ? .25 : 1);
+    return tails;
 }
 
-double layer_left_behind(const struct scene *scene, double cells)
+double layer_left_behind(const struct scene *scene, double room, double cells)
 {
-    const struct tail tail = tail_of(scene);
-    return tail.begins * pow(tail.falls, fmax(cells, 0));
+    const struct tails tails = tails_of(scene, room);
+    const double m = fmax(cells, 0);
+    return tails.factor *
+           fmax(tails.near.begins * pow(tails.near.falls, m), tails.far.begins * pow(tails.far.falls, m));
 }
 
-double layer_clearance(const struct scene *scene)
+static double cells_until(struct tail tail, double left)
 {
-    const double allowed = asks_exact(scene) ? 5e-4 : 1e-3;
-    const struct tail tail = tail_of(scene);
-    return log(allowed / tail.begins) / log(tail.falls);
+    return log(left / tail.begins) / log(tail.falls);
+}
+
+double layer_clearance(const struct scene *scene, double room)
+{
+    const struct tails tails = tails_of(scene, room);
+    const double allowed = (asks_exact(scene) ? 5e-4 : 1e-3) / tails.factor;
+    return fmax(cells_until(tails.near, allowed), cells_until(tails.far, allowed));
 }
 
 const char *layers_refusal(const struct scene *scene)

@@ -21,9 +21,10 @@ double layer_steps(const struct scene *scene);
 
 /* The inverse of the mass carries the forces of a moment tensor on into layers: what stays behind there of one so many
  * cells away, in parts of its largest displacement, and the cells that it ought to keep
- * (doc/theory/absorbing-faces.md, section 2). */
-double layer_left_behind(const struct scene *scene, double cells);
-double layer_clearance(const struct scene *scene);
+ * (doc/theory/absorbing-faces.md, section 2). room: cells between it and the nearest end of the lattice along that
+ * axis, 0 where the ground changes along it. */
+double layer_left_behind(const struct scene *scene, double room, double cells);
+double layer_clearance(const struct scene *scene, double room);
 
 /* Is there an absorbing layer behind a face? How many points it has, 0 if there is none. */
 bool layer_needed(const struct scene *scene, int face);

@@ -242,7 +242,10 @@ static double fit_small(const struct builder *builder, const struct held *held, 
         for (int c = 0; c < sketch->dimension; c++) {
             const double widest = c < down ? dx : dx * sketch->body.most_stretch;
             const double margin = (held->plane && c < down ? 1 : MARGIN * factor) * widest;
-            const double clear = layer_clearance(sketch) * widest;
+            const double room = c < down                         ? INFINITY
+                                : body_is_layered(&sketch->body) ? 0
+                                                                 : held->dipole[c].low / widest;
+            const double clear = layer_clearance(sketch, room) * widest;
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
             widen(&want[c], held->dipole[c].low - clear, held->dipole[c].high + clear);
         }
