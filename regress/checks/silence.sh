@@ -715,6 +715,9 @@ cat >thin.nml <<'END'
 END
 told "layers of three points" "may send back up to .*left to the program" check thin.nml
 untold "layers whose thickness is left open" check thin.nml boundary%layer_points=
+told "layers at degree 1" "may send back up to .* three times that of the displacement: method%degree = 2" check thin.nml boundary%layer_points= method%degree=1
+told "what stays there" "stays on.* err by 0.0" check thin.nml boundary%layer_points=15 method%degree=1 load%history=error-function
+untold "the same at degree 2" check thin.nml boundary%layer_points=15 load%history=error-function
 # --- Points and the exact mass ---
 cat >exact.nml <<'END'
 &scene dimension = 3, end_time = 5 /

@@ -30,12 +30,14 @@ static bool layer_size_given(const struct boundary *boundary)
 /* Those that (15) of doc/theory/absorbing-faces.md, a bound, lets send back more than this. */
 static void look_at_echoes(struct adviser *adviser)
 {
-    static const double much = .05;
+    static const double much = .05, much_of_linear = .01;
     const struct scene *scene = adviser->scene;
-    double most = much;
+    const bool linear = layer_degree(scene) == 1;
+    double most = linear ? much_of_linear : much;
     int worst = -1;
     for (int face = 0; face < 2 * scene->dimension; face++) {
-        const size_t points = layer_size_given(&scene->boundary[face]) ? layer_points(scene, face) : 0;
+        const size_t points =
+            linear || layer_size_given(&scene->boundary[face]) ? layer_points(scene, face) : 0;
         const double echo = points > 0 ? echo_of_layer(scene, face, points) : 0;
         if (echo <= most) continue;
         most = echo;
@@ -44,9 +46,10 @@ static void look_at_echoes(struct adviser *adviser)
     if (worst < 0) return;
     advise(adviser,
            "the absorbing layer of face '%s' may send back up to %.2g of the velocity at the worst place "
-           "looked at: "
-           "more points, or a thickness that is left to the program, would be right",
-           face_name((enum face)worst), fmin(most, 1));
+           "looked at%s would be right",
+           face_name((enum face)worst), fmin(most, 1),
+           linear ? " and up to three times that of the displacement: method%degree = 2"
+                  : ": more points, or a thickness that is left to the program,");
 }
 
 /* Of layers whose size the deck gives: what the program chooses is proved by echoes (scene/absorbing_layers.c). */

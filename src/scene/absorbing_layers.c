@@ -36,7 +36,7 @@ static bool asks_exact(const struct scene *scene)
     return given(scene, "mass") && strcmp(deck_text(scene->method.group, "mass", 0), "exact") == 0;
 }
 
-static long degree_asked(const struct scene *scene)
+long layer_degree(const struct scene *scene)
 {
     return given(scene, "degree") ? deck_integer(scene->method.group, "degree", 0) : 2;
 }
@@ -90,7 +90,7 @@ static struct tails tails_of(const struct scene *scene, double room)
     static const struct tails exact[2][3] = {
         {{{1.5, .431}, {0, .431}, 1}, {{1.5, .535}, {0, .535}, 1}, {{1.5, .608}, {0, .608}, 1}},
         {{{1.5, .431}, {0, .431}, 1}, {{2.1, .35}, {.13, .535}, 1}, {{2.1, .35}, {.2, .608}, 1}}};
-    const long degree = degree_asked(scene), which = degree < 2 ? 0 : degree > 4 ? 2 : degree - 2;
+    const long degree = layer_degree(scene), which = degree < 2 ? 0 : degree > 4 ? 2 : degree - 2;
     struct tails tails = asks_exact(scene) ? exact[room >= filtered_from][which] : sweeps;
     double ratio = 1.9;
     for (size_t m = 0; m < scene->materials; m++)
@@ -124,7 +124,7 @@ const char *layers_refusal(const struct scene *scene)
     if (strcmp(scene->method.variant, "consistent") != 0) return "this method has no absorbing layers";
     if (!body_is_box(&scene->body)) return "only boxes and half-spaces have absorbing layers";
     if (scene->dimension == 1) return "in one dimension they send nothing back";
-    if (!asks_exact(scene) && degree_asked(scene) > 2)
+    if (!asks_exact(scene) && layer_degree(scene) > 2)
         return "absorbing layers at degree 3 and more need method%mass = 'exact'";
     if (given(scene, "tuned") && deck_logical(scene->method.group, "tuned", 0))
         return "absorbing layers need splines that are not tuned";

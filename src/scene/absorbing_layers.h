@@ -26,6 +26,9 @@ double layer_steps(const struct scene *scene);
 double layer_left_behind(const struct scene *scene, double room, double cells);
 double layer_clearance(const struct scene *scene, double room);
 
+/* The degree of the splines beside layers. */
+long layer_degree(const struct scene *scene);
+
 /* Is there an absorbing layer behind a face? How many points it has, 0 if there is none. */
 bool layer_needed(const struct scene *scene, int face);
 size_t layer_points(const struct scene *scene, int face);

@@ -81,6 +81,9 @@ static const double in_plane = .012, in_space = .0025, along_depth = .043;
  * what weak damping scatters back within a stretched coordinate, B by measurement. */
 static const double dragged_in_plane = 3.5, dragged_in_space = 1, dragged_grazing = .6;
 static const double dragged_power = 10. / 3;
+/* And where the splines are of degree 1, whose errors in the stretched coordinate fall as n^-2, by measurement:
+ *   e = B Lambda / h n^-2.                                                                                (16a) */
+static const double linear_in_plane = .4, linear_in_space = .06;
 /* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
 static const double static_reach = 4;
 /* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
@@ -166,11 +169,19 @@ static double of_drag(const struct scene *scene, int face, const struct echo *ec
            pow(echo->grazing, dragged_grazing) * waves * pow(n, -dragged_power) * fmin(1, waves / n);
 }
 
+/* (16a) */
+static double of_linear(const struct scene *scene, int face, const struct echo *echo, size_t points)
+{
+    const double waves = echo->wavelength / layer_spacing(scene, face), n = fmax(1, (double)points);
+    if (layer_degree(scene) != 1) return 0;
+    return (scene->dimension == 3 ? linear_in_space : linear_in_plane) * waves / (n * n);
+}
+
 double echo_of_layer(const struct scene *scene, int face, size_t points)
 {
     const struct echo echo = worst_echo(scene, face);
     return of_points(scene, &echo, points) + of_drag(scene, face, &echo, points) +
-           layer_least_reflection(scene, face);
+           of_linear(scene, face, &echo, points) + layer_least_reflection(scene, face);
 }
 
 /* Of what all faces may send back by (16), the share of one. */
