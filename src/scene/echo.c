@@ -83,7 +83,7 @@ static const double dragged_in_plane = 3.5, dragged_in_space = 1, dragged_grazin
 static const double dragged_power = 10. / 3;
 /* And where the splines are of degree 1, whose errors in the stretched coordinate fall as n^-2, by measurement:
  *   e = B Lambda / h n^-2.                                                                                (16a) */
-static const double linear_in_plane = .4, linear_in_space = .06;
+static const double linear_in_plane = .45, linear_in_space = .07;
 /* Of a static field no more is felt than belongs to waves of so many times the way from load to receiver. */
 static const double static_reach = 4;
 /* Wanted of a layer whose thickness the deck leaves open: what the points themselves err falls with the
