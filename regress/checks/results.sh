@@ -183,4 +183,25 @@ of_one_time() { # work and energy of the report belong to one time
 }
 check "the work of a load that acts on is that of the energy told" of_one_time 1 ""
 check "and what dampers absorbed" of_one_time 2 "boundary%face=all boundary%kind=transmitting boundary%layer=lysmer"
+# strains that snapshots of straight pieces (degree 1) show at points are those between the points beside them
+cat >pieces.nml <<'END'
+&scene dimension = 1, end_time = 3.0 /
+&method degree = 1 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', low = 0, high = 10, spacing = 0.25 /
+&load face = 'x-', direction = 1, history = 'gaussian', width = 0.4, delay = 1.6 /
+&snapshot times = 3, fields = 'displacement', 'strain' /
+&output plots = .false. /
+END
+between() {
+    "$selas" -q pieces.nml output%directory=pieces &&
+        for field in displacement strain; do
+            h5dump -y -w 0 -m %.9g -d /snapshots/0000/$field -o table pieces/run.h5 >/dev/null && tr ',' '\n' <table | grep . >$field.txt
+        done
+    awk 'FNR == NR { if (FNR % 3 == 1) u[n++] = $1; next } FNR % 6 == 1 { e[m++] = $1 }
+        END { for (i = 1; i + 1 < n; i++) { d = e[i] - (u[i + 1] - u[i - 1]) / .5; d = d < 0 ? -d : d; if (d > worst) worst = d
+            s = e[i] < 0 ? -e[i] : e[i]; if (s > most) most = s }; print worst, most, n, m; exit !(m == 41 && n == 41 && worst < 1e-5 * most) }' \
+        displacement.txt strain.txt
+}
+check "degree 1: strains at points are those between their neighbours" between
 exit $((failures > 0))

@@ -298,13 +298,46 @@ static void test_refusals(void **state)
     }
 }
 
+/* What is seen of straight pieces: slopes of quadratics are exact at any place, up to ends, on symmetry planes and on
+ * either side of a jump. */
+static void test_seen(void **state)
+{
+    (void)state;
+    const double jump = 1.25;
+    for (int kind = 0; kind < 3; kind++) { /* open ends, a symmetry plane, a jump */
+        struct messages messages = {0};
+        const struct spline_choice choice = {.degree = 1,
+                                             .high = 3,
+                                             .spacing = .25,
+                                             .mirror = {kind == 1, false},
+                                             .interfaces = kind == 2 ? 1 : 0,
+                                             .interface = &jump};
+        struct spline *spline = spline_new(&choice, &messages);
+        assert_non_null(spline);
+        for (double x = 0; x <= 3; x += .0625) {
+            const bool below = kind == 2 && x >= jump;
+            struct tuned_point at;
+            double value = 0, slope = 0;
+            tuned_seen(spline, false, x, &at);
+            for (size_t i = 0; i < at.count; i++) {
+                const double here = spline->greville[at.index[i]];
+                value += at.value[i] * here;
+                slope += at.slope[i] * (here * here + (kind == 2 && here > jump ? 3 * (here - jump) : 0));
+            }
+            assert_near(value, x, 1e-13);
+            assert_near(slope, 2 * x + (below ? 3 : 0), 1e-12);
+        }
+        spline_free(spline);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_symbols),  cmocka_unit_test(test_signs),
         cmocka_unit_test(test_filter),   cmocka_unit_test(test_patch),
         cmocka_unit_test(test_energy),   cmocka_unit_test(test_symmetry_planes),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -115,7 +115,7 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
     lattice_from_deck(&c->model.scene->body, probe->position, position);
     for (int axis = 0; axis < c->dimension; axis++)
         for (int odd = 0; odd < 2; odd++) {
-            tuned_at(c->spline[axis], odd, position[axis], &at[axis][odd]);
+            tuned_seen(c->spline[axis], odd, position[axis], &at[axis][odd]);
             place.at[axis][odd] = &at[axis][odd];
         }
     struct material here;
@@ -163,7 +163,7 @@ selas_status consistent_probe(struct model *model, const double position[3], str
     double place[3];
     lattice_from_deck(&c->model.scene->body, position, place);
     for (int axis = 0; axis < c->dimension; axis++) {
-        tuned_at(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
+        tuned_seen(c->spline[axis], false, place[axis], &at[c->slot[axis]]);
         count[c->slot[axis]] = at[c->slot[axis]].count;
     }
     const size_t first[3] = {0, c->part.along[1].first, c->part.along[DEPTH].first};
@@ -214,7 +214,7 @@ bool observe_create(struct consistent *c)
             c->lattice[axis][odd] = array_new(model->grid[axis], sizeof(struct tuned_point));
             if (c->lattice[axis][odd] == NULL) return false;
             for (size_t i = 0; i < model->grid[axis]; i++)
-                tuned_at(c->spline[axis], odd, lattice_position(c, axis, i), &c->lattice[axis][odd][i]);
+                tuned_seen(c->spline[axis], odd, lattice_position(c, axis, i), &c->lattice[axis][odd][i]);
         }
     }
     return true;

@@ -27,6 +27,7 @@ struct spline_element {
     double from, to;     /* in the parameter */
     double x_from, x_to; /* on the axis */
     size_t first;        /* first of the degree + 1 functions that are not zero (before folding) */
+    bool jump;           /* the ground jumps where it ends */
 };
 
 struct spline {

@@ -133,7 +133,7 @@ static bool lay_elements(struct spline *s, const struct spline_choice *choice, c
     return true;
 }
 
-/* Splits elements at interfaces that are not knots. */
+/* Splits elements at interfaces that are not knots; marks those that end at one. */
 static void cut_elements(struct spline *s, const struct spline_choice *choice)
 {
     for (size_t i = 0; i < choice->interfaces; i++) {
@@ -141,6 +141,8 @@ static void cut_elements(struct spline *s, const struct spline_choice *choice)
         const size_t at = spline_locate(s, x);
         const struct spline_element whole = s->element[at];
         const double small = 1e-9 * (whole.x_to - whole.x_from);
+        if (x - whole.x_from < small && at > 0) s->element[at - 1].jump = true;
+        if (whole.x_to - x < small) s->element[at].jump = true;
         if (x - whole.x_from < small || whole.x_to - x < small) continue;
         const double t = spline_parameter(s, &whole, x);
         for (size_t e = s->elements; e > at; e--)
@@ -148,6 +150,7 @@ static void cut_elements(struct spline *s, const struct spline_choice *choice)
         s->elements++;
         s->element[at].to = s->element[at + 1].from = t;
         s->element[at].x_to = s->element[at + 1].x_from = x;
+        s->element[at].jump = true;
     }
 }
 

@@ -172,15 +172,61 @@ void tuned_filter(const struct spline *spline, bool odd, const struct tuned_poin
         }
 }
 
-void tuned_at(const struct spline *spline, bool odd, double x, struct tuned_point *point)
+static void plain_at(const struct spline *spline, bool odd, double x, struct tuned_point *plain)
 {
     struct spline_point at;
-    struct tuned_point plain = {.count = (size_t)spline->degree + 1};
+    *plain = (struct tuned_point){.count = (size_t)spline->degree + 1};
     spline_at(spline, odd, x, &at);
-    for (size_t j = 0; j < plain.count; j++) {
-        plain.index[j] = at.index[j];
-        plain.value[j] = at.value[j];
-        plain.slope[j] = at.slope[j];
+    for (size_t j = 0; j < plain->count; j++) {
+        plain->index[j] = at.index[j];
+        plain->value[j] = at.value[j];
+        plain->slope[j] = at.slope[j];
+    }
+}
+
+void tuned_at(const struct spline *spline, bool odd, double x, struct tuned_point *point)
+{
+    struct tuned_point plain;
+    plain_at(spline, odd, x, &plain);
+    tuned_filter(spline, odd, &plain, point);
+}
+
+static double middle_of(const struct spline_element *element)
+{
+    return (element->x_from + element->x_to) / 2;
+}
+
+/* Is there a cell, or (`image`) the image of this one, beyond the lower or upper end of a cell on even ground? */
+static bool goes_on(const struct spline *spline, size_t here, bool upper, bool *image)
+{
+    const bool end = upper ? here + 1 == spline->elements : here == 0;
+    *image = end && spline->mirror[upper];
+    return *image || (!end && !spline->element[upper ? here : here - 1].jump);
+}
+
+void tuned_seen(const struct spline *spline, bool odd, double x, struct tuned_point *point)
+{
+    const size_t here = spline_locate(spline, x);
+    const double middle = middle_of(&spline->element[here]);
+    struct tuned_point plain, beside;
+    plain_at(spline, odd, x, &plain);
+    bool upper = x > middle, image = false, more = spline->degree == 1;
+    if (more && !goes_on(spline, here, upper, &image)) {
+        upper = !upper;
+        more = goes_on(spline, here, upper, &image);
+    }
+    if (more) {
+        const size_t other = image ? here : upper ? here + 1 : here - 1;
+        const double plane = upper ? spline->high : spline->low;
+        const double there = image ? 2 * plane - middle : middle_of(&spline->element[other]);
+        const double part = (x - middle) / (there - middle), sign = image && !odd ? -1 : 1;
+        plain_at(spline, odd, middle_of(&spline->element[other]), &beside);
+        for (size_t j = 0; j < 2; j++) {
+            plain.index[2 + j] = beside.index[j];
+            plain.slope[2 + j] = sign * part * beside.slope[j];
+            plain.slope[j] *= 1 - part;
+        }
+        plain.count = 4;
     }
     tuned_filter(spline, odd, &plain, point);
 }

@@ -29,6 +29,10 @@ struct tuned_point {
 void tuned_filter(const struct spline *spline, bool odd, const struct tuned_point *plain,
                   struct tuned_point *point);
 void tuned_at(const struct spline *spline, bool odd, double x, struct tuned_point *point);
+/* The same for who looks. Slopes of straight pieces (degree 1) are right to second order in the middles of cells;
+ * between these, and as far as ends and jumps of the ground, they go on in straight lines, across symmetry planes to
+ * the image. */
+void tuned_seen(const struct spline *spline, bool odd, double x, struct tuned_point *point);
 
 struct band *tuned_matrix(const struct spline *spline, bool test_odd, int test_slope, bool trial_odd,
                           int trial_slope, const double *weight);

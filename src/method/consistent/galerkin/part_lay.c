@@ -24,14 +24,16 @@ static size_t rounded_up(size_t n, size_t unit)
     return (n + unit - 1) / unit * unit;
 }
 
-/* Control values that the operator reaches: N K, of the dissipation N B^T B; without sweeps K alone, N G in layers. */
+/* Control values that the operator reaches: N K, of the dissipation N B^T B; without sweeps K alone, N G in layers.
+ * Who looks reaches two (tuned_seen). */
 static size_t reach_of(const struct consistent *c)
 {
     enum { DIFFERENCE = 4 };
     const struct consistent_options *options = &c->options;
     const size_t degree = (size_t)options->degree, sweeps = (size_t)options->sweeps;
     const size_t narrow = options->dissipation > 0 && degree < DIFFERENCE ? DIFFERENCE : degree;
-    if (sweeps == 0) return degree + (layer_anywhere(c->model.scene) ? exact_inverse_half(options) : 0);
+    const size_t seen = degree > 1 ? degree : 2;
+    if (sweeps == 0) return seen + (layer_anywhere(c->model.scene) ? exact_inverse_half(options) : 0);
     return sweeps * degree + narrow;
 }
 
