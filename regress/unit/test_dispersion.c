@@ -112,7 +112,7 @@ struct lattice {
     struct model *model;
     struct stepper stepper;
     struct state state;
-    double *work[1];
+    double *work[2];
     double ends; /* what the ends of the box still are in its middle: the inverse mass falls off like this */
 };
 
@@ -128,7 +128,8 @@ static void lattice_create(struct lattice *lattice, struct consistent_options op
     lattice->plain.scene.materials = 1;
     lattice->model = make(&lattice->plain, options);
     const size_t n = lattice->model->unknowns;
-    lattice->work[0] = calloc(2 * n, sizeof(double));
+    for (int i = 0; i < 2; i++)
+        lattice->work[i] = calloc(2 * n, sizeof(double));
     lattice->stepper = (struct stepper){.scheme = scheme_find(scheme),
                                         .model = lattice->model,
                                         .dt = strcmp(scheme, "leapfrog") == 0 ? .19 : .33,
@@ -137,6 +138,7 @@ static void lattice_create(struct lattice *lattice, struct consistent_options op
         driver_create(&lattice->stepper.driver, &lattice->plain.scene, lattice->stepper.dt, NULL), SELAS_OK);
     lattice->state = (struct state){.y = calloc(2 * n, sizeof(double)), .a = calloc(n, sizeof(double))};
     assert_non_null(lattice->work[0]);
+    assert_non_null(lattice->work[1]);
     assert_non_null(lattice->state.y);
     assert_non_null(lattice->state.a);
     lattice->ends = 1e-11 + (options.sweeps > 0 ? 0 : 50 * pow(decay[options.degree], size / 2));
@@ -147,6 +149,7 @@ static void lattice_free(struct lattice *lattice)
     free(lattice->state.y);
     free(lattice->state.a);
     free(lattice->work[0]);
+    free(lattice->work[1]);
     driver_free(&lattice->stepper.driver);
     model_free(&lattice->model);
 }

@@ -135,6 +135,7 @@ selas_status low_pass(double dt, double cutoff, bool from_rest, size_t rows, siz
 
 /* profile.c */
 selas_status profile_create(struct recorder *recorder, struct messages *messages);
+bool profile_due(const struct recorder *recorder, unsigned long step); /* is it looked at? */
 void profile_observe(struct recorder *recorder, const struct state *state);
 /* Takes away what was seen of the state, which is as it was then. */
 void profile_forget(struct recorder *recorder, const struct state *state);
@@ -147,6 +148,7 @@ void profile_free(struct recorder *recorder);
 
 /* snapshot.c: which points, which times */
 selas_status snapshot_create(struct recorder *recorder, struct messages *messages);
+bool snapshot_due(const struct recorder *recorder, const struct state *state);
 selas_status snapshot_observe(struct recorder *recorder, const struct state *state,
                               struct messages *messages);
 /* Writes those of the state's time again. */

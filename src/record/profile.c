@@ -104,6 +104,20 @@ static void add_point(struct model *model, const struct state *state, const stru
     }
 }
 
+static bool is_node(const struct recorder *recorder, const struct profile_record *record, size_t time,
+                    unsigned long step)
+{
+    return step >= record->first[time] && step < record->first[time] + nodes_of(recorder);
+}
+
+bool profile_due(const struct recorder *recorder, unsigned long step)
+{
+    for (size_t p = 0; p < recorder->scene->profiles; p++)
+        for (size_t k = 0; k < recorder->profile[p].profile->times; k++)
+            if (is_node(recorder, &recorder->profile[p], k, step)) return true;
+    return false;
+}
+
 /* Adds the state to the times that its step is one of, `sign` times: -1 takes away what was seen of it. */
 static void add_state(struct recorder *recorder, const struct state *state, int sign)
 {
@@ -111,8 +125,7 @@ static void add_state(struct recorder *recorder, const struct state *state, int 
         struct profile_record *record = &recorder->profile[p];
         const size_t points = record->profile->points;
         for (size_t k = 0; k < record->profile->times; k++) {
-            if (state->step < record->first[k] || state->step >= record->first[k] + nodes_of(recorder))
-                continue;
+            if (!is_node(recorder, record, k, state->step)) continue;
             const double weight = sign * record->weight[NODES * k + (state->step - record->first[k])];
             double *value = record->value + k * points * record->columns;
             const int me = ranks_me(recorder->scene->ranks);

@@ -74,6 +74,54 @@ selas_status recorder_open(struct recorder *recorder, const char *work, struct m
     return status == SELAS_OK ? run_file_open(recorder, work, messages) : status;
 }
 
+/* Does anybody but receivers look at the velocities of this step? Their finished histories the scheme corrects. */
+static bool looked_at(const struct recorder *recorder, const struct state *state)
+{
+    const bool powers = recorder->scene->loads > 0 || recorder->model->damped || recorder->watch.with_faces;
+    return powers || !((double)state->step < recorder->watch.next) || profile_due(recorder, state->step) ||
+           snapshot_due(recorder, state);
+}
+
+/* Returns whether it did, for hide(). */
+static bool show(const struct recorder *recorder, const struct state *state)
+{
+    const bool shown = recorder->stepper->scheme->show != NULL && looked_at(recorder, state);
+    if (shown) recorder->stepper->scheme->show(recorder->stepper, state, true);
+    return shown;
+}
+
+static void hide(const struct recorder *recorder, const struct state *state, bool shown)
+{
+    if (shown) recorder->stepper->scheme->show(recorder->stepper, state, false);
+}
+
+/* Profiles, and then the watch, which may settle the state. */
+static selas_status look(struct recorder *recorder, const struct state *state, struct messages *messages)
+{
+    profile_observe(recorder, state);
+    return watch_observe(recorder, state, messages);
+}
+
+static selas_status keep(struct recorder *recorder, const struct state *state, struct messages *messages)
+{
+    const selas_status status = look(recorder, state, messages);
+    if (status != SELAS_OK) return status;
+    recorder->started = true;
+    recorder->last_step = state->step;
+    recorder->last_time = state->time;
+    return recorder->recording ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+}
+
+static selas_status keep_again(struct recorder *recorder, const struct state *state,
+                               struct messages *messages)
+{
+    const selas_status status = look(recorder, state, messages);
+    recorder->started = true;
+    recorder->last_time = state->time;
+    return status == SELAS_OK && recorder->recording ? snapshot_observe_again(recorder, state, messages)
+                                                     : status;
+}
+
 selas_status recorder_observe(struct recorder *recorder, const struct state *state, struct messages *messages)
 {
     if (recorder->started && state->step != recorder->last_step + 1)
@@ -82,20 +130,20 @@ selas_status recorder_observe(struct recorder *recorder, const struct state *sta
     recorder->before = recorder->watch;
     recorder->before_time = recorder->last_time;
     selas_status status = trace_observe(recorder, state, messages);
-    profile_observe(recorder, state); /* and then the watch, which may settle the state */
-    if (status == SELAS_OK) status = watch_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
-    recorder->started = true;
-    recorder->last_step = state->step;
-    recorder->last_time = state->time;
-    return recorder->recording ? snapshot_observe(recorder, state, messages) : SELAS_OK;
+    const bool shown = show(recorder, state);
+    status = keep(recorder, state, messages);
+    hide(recorder, state, shown);
+    return status;
 }
 
 void recorder_forget(struct recorder *recorder, const struct state *state)
 {
     if (recorder->finished) return;
     trace_forget(recorder);
+    const bool shown = show(recorder, state);
     profile_forget(recorder, state);
+    hide(recorder, state, shown);
     recorder->watch = recorder->before;
     recorder->last_time = recorder->before_time;
     recorder->started = state->step > 0;
@@ -107,12 +155,10 @@ selas_status recorder_observe_again(struct recorder *recorder, const struct stat
     if (recorder->finished) return SELAS_OK;
     selas_status status = trace_observe(recorder, state, messages);
     if (status != SELAS_OK) return status;
-    profile_observe(recorder, state);
-    status = watch_observe(recorder, state, messages);
-    recorder->started = true;
-    recorder->last_time = state->time;
-    return status == SELAS_OK && recorder->recording ? snapshot_observe_again(recorder, state, messages)
-                                                     : status;
+    const bool shown = show(recorder, state);
+    status = keep_again(recorder, state, messages);
+    hide(recorder, state, shown);
+    return status;
 }
 
 bool recorder_gather(struct recorder *recorder)

@@ -215,6 +215,19 @@ static double next_time(const struct scene *scene, const struct snapshot_record 
     return record->due < snapshot->times ? snapshot->time[record->due] : INFINITY;
 }
 
+/* Half a step later. */
+static double until(const struct recorder *recorder, const struct state *state)
+{
+    return state->time + 0.5 * recorder->stepper->dt;
+}
+
+bool snapshot_due(const struct recorder *recorder, const struct state *state)
+{
+    for (size_t s = 0; recorder->recording && s < recorder->scene->snapshots; s++)
+        if (next_time(recorder->scene, &recorder->snapshot[s]) < until(recorder, state)) return true;
+    return recorder->entries > 0 && recorder->entry[recorder->entries - 1].time == state->time;
+}
+
 static selas_status keep_entry(struct recorder *recorder, size_t group, const struct state *state,
                                struct messages *messages)
 {
@@ -235,13 +248,13 @@ selas_status snapshot_observe(struct recorder *recorder, const struct state *sta
     selas_status status = SELAS_OK;
     for (size_t s = 0; s < recorder->scene->snapshots && status == SELAS_OK; s++) {
         struct snapshot_record *record = &recorder->snapshot[s];
-        const double until = state->time + 0.5 * recorder->stepper->dt;
+        const double end = until(recorder, state);
         const size_t due = record->due;
-        if (!(next_time(recorder->scene, record) < until)) continue;
+        if (!(next_time(recorder->scene, record) < end)) continue;
         if (record->snapshot->every > 0.0) /* one snapshot a step, however many times fall into it */
-            record->due = (size_t)fmin(floor(until / record->snapshot->every) + 1.0, 1e15);
+            record->due = (size_t)fmin(floor(end / record->snapshot->every) + 1.0, 1e15);
         else
-            while (next_time(recorder->scene, record) < until)
+            while (next_time(recorder->scene, record) < end)
                 record->due++;
         status = keep_entry(recorder, s, state, messages);
         if (status != SELAS_OK) break;

@@ -64,7 +64,7 @@ static void pass_entries(struct walk *walk, struct recorder *recorder, size_t en
     array_free(number);
 }
 
-/* The state, the acceleration and what steps in one pass keep, which ranks share. */
+/* The state, the accelerations and what steps in one pass keep, which ranks share. */
 static void pass_state(struct walk *walk, const struct recorder *recorder, struct state *state)
 {
     struct model *model = model_computed(recorder->model);
@@ -73,6 +73,10 @@ static void pass_state(struct walk *walk, const struct recorder *recorder, struc
     if (walk->mode == SET_WRITE && !walk->together) model_complete(model, state->y, state->a);
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);
     walk_shared(walk, "a", H5T_NATIVE_DOUBLE, 1, state->a, model->unknowns, shared ? &shares : NULL);
+    for (size_t k = 0; recorder->stepper->scheme->keeps && k < 2; k++)
+        walk_shared(walk, k == 0 ? "a_even" : "a_odd", H5T_NATIVE_DOUBLE, 1,
+                    recorder->stepper->work[1] + k * model->unknowns, model->unknowns,
+                    shared ? &shares : NULL);
     if (shared) model->core->share(model, ARRAY_UNKNOWNS, &shares);
     if (shared) model->core->share(model, ARRAY_EXTRA, &shares);
     walk_shared(walk, "y", H5T_NATIVE_DOUBLE, 1, state->y, model->state_size, shared ? &shares : NULL);

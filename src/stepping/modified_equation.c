@@ -10,7 +10,7 @@
  * back near the limit. C in a0 makes it unsymmetric, and it grows.) Memory of absorbing layers is the same in both
  * calls. Stable for omega dt <= sqrt(12), with dampers for omega dt <= 2, as K - dt^2/12 K Q K <= K, with layers
  * for omega dt <= sqrt(6) (doc/theory/stepping.md, T6b). The velocity (u(n+1) - u(n-1)) / (2 dt) has the error
- * dt^2/6 u''', which finish() takes out of the histories.
+ * dt^2/6 u''', which finish() takes out of the histories and show() out of what is looked at on the way.
  *
  * Damped materials answer to dt^2/12 a0 unrelaxed (doc/theory/damping.md, Eq 15a), so the second call is one on it
  * alone, and what the first one gave is added. */
@@ -18,6 +18,24 @@
 
 #include <math.h>
 #include <string.h>
+
+/* Vectors of unknowns, two to a work vector. */
+static double *lifted_of(const struct stepper *stepper)
+{
+    return stepper->work[0];
+}
+
+/* The velocities while others are shown. */
+static double *own_of(const struct stepper *stepper)
+{
+    return stepper->work[0] + stepper->model->unknowns;
+}
+
+/* The acceleration of a step is kept over the next two. */
+static double *kept_of(const struct stepper *stepper, unsigned long step)
+{
+    return stepper->work[1] + step % 2 * stepper->model->unknowns;
+}
 
 static double limit(const struct spectrum *spectrum, long stages)
 {
@@ -58,7 +76,7 @@ static void accelerate_by(struct stepper *stepper, const struct drive *given, un
     struct model *model = stepper->model;
     const size_t n = model->unknowns;
     const double twelfth = stepper->dt * stepper->dt / 12.0, half_step = step > 0 ? 0.5 * stepper->dt : 0.0;
-    double *restrict lifted = stepper->work[0];
+    double *restrict lifted = lifted_of(stepper);
     struct drive drive = given != NULL ? *given : drive_of(stepper, step, DRIVER_PLAIN);
     drive.extra = extra;
     model->spatial->accelerate(model, &drive, model->damped ? DAMPERS_HOLD : 0.0, u, NULL, a);
@@ -100,7 +118,7 @@ static void start(struct stepper *stepper, struct state *state)
     const size_t n = model->unknowns;
     const double sixth = stepper->dt * stepper->dt / 6.0;
     const struct drive none = {.time = 0.0};
-    double *v = state->y + n, *third = stepper->work[0];
+    double *v = state->y + n, *third = own_of(stepper);
     leapfrog_begin(stepper, state);
     if (model->spatial->linearise != NULL) model->spatial->linearise(model, true);
     model->spatial->accelerate(model, &none, 0.0, v, NULL, third);
@@ -108,10 +126,15 @@ static void start(struct stepper *stepper, struct state *state)
     for (size_t i = 0; i < n; i++)
         v[i] += sixth * third[i];
     accelerate_now(stepper, state);
+    for (size_t i = 0; i < n; i++) { /* as if u''' had been the same before */
+        kept_of(stepper, 1)[i] = state->a[i] - stepper->dt * third[i];
+        kept_of(stepper, 0)[i] = state->a[i] - 2.0 * stepper->dt * third[i];
+    }
 }
 
 static void step(struct stepper *stepper, struct state *state)
 {
+    memcpy(kept_of(stepper, state->step), state->a, stepper->model->unknowns * sizeof *state->a);
     leapfrog_drift(stepper, state);
     accelerate_now(stepper, state);
     leapfrog_kick(stepper, state);
@@ -127,6 +150,21 @@ static void again(struct stepper *stepper, struct state *state)
     leapfrog_unkick(stepper, state);
     accelerate_now(stepper, state);
     leapfrog_kick(stepper, state);
+}
+
+/* v := v - dt^2/6 da/dt, with da/dt of second order from this and the last two steps. */
+static void show(const struct stepper *stepper, const struct state *state, bool shown)
+{
+    const size_t n = stepper->model->unknowns;
+    const double factor = stepper->dt / 12.0;
+    const double *restrict a = state->a, *restrict before = kept_of(stepper, state->step + 1);
+    const double *restrict earlier = kept_of(stepper, state->step);
+    double *restrict v = state->y + n;
+    memcpy(shown ? own_of(stepper) : v, shown ? v : own_of(stepper), n * sizeof *v);
+    if (!shown) return;
+#pragma omp parallel for simd schedule(static)
+    for (size_t i = 0; i < n; i++)
+        v[i] -= factor * (3.0 * a[i] - 4.0 * before[i] + earlier[i]);
 }
 
 /* v := v - dt^2/6 da/dt, with da/dt by central differences inside and one-sided ones of second order at the
@@ -157,9 +195,11 @@ const struct scheme_class scheme_modified_equation = {
     .evaluations = 2.0,
     .accelerate = accelerate,
     .limit = limit,
-    .vectors = 1,
+    .vectors = 2,
+    .keeps = true,
     .start = start,
     .step = step,
     .again = again,
+    .show = show,
     .finish = finish,
 };

@@ -48,6 +48,7 @@ struct scheme_class {
     /* Schemes with a free number of stages: the number for a step dt (0: dt is free too). NULL: fixed. */
     long (*choose_stages)(const struct stepper *stepper, double dt);
     size_t vectors; /* work vectors of state_size that the scheme needs; one at least if the model filters */
+    bool keeps;     /* work[1] holds unknowns of two earlier steps */
     /* Makes state->a (and what else the scheme keeps) right at the start. */
     void (*start)(struct stepper *stepper, struct state *state);
     /* The same after a restart, which has given state->a. NULL: nothing else is kept. */
@@ -56,6 +57,9 @@ struct scheme_class {
     /* Makes state->a anew after a change of the loads at the state's own time, and the velocity with it where
      * that has half a step of a in it. */
     void (*again)(struct stepper *stepper, struct state *state);
+    /* Gives the state velocities of the scheme's order, for who looks at a step; then (`shown` is false) the scheme's
+     * own again, to the bit. NULL: these are of its order. */
+    void (*show)(const struct stepper *stepper, const struct state *state, bool shown);
     /* Corrects a receiver's finished history in place; rows 0..n-1 are steps of dt; u, v, a: [3 * n],
      * row-major. NULL: nothing to correct. */
     selas_status (*finish)(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
