@@ -164,7 +164,7 @@ static void show(const struct stepper *stepper, const struct state *state, bool 
     if (!shown) return;
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
-        v[i] -= factor * (3.0 * a[i] - 4.0 * before[i] + earlier[i]);
+        v[i] -= factor * (4.0 * (a[i] - before[i]) - (a[i] - earlier[i])); /* 0 of what rests */
 }
 
 /* v := v - dt^2/6 da/dt, with da/dt by central differences inside and one-sided ones of second order at the
