@@ -157,8 +157,8 @@ static void look_at_absorbers(struct adviser *adviser, size_t k)
     for (int face = 0; face < 2 * scene->dimension && load->shape == LOAD_POINT; face++) {
         const double depth =
             fabs(centre[face_axis((enum face)face)] - face_plane(&scene->body, (enum face)face));
-        const bool told = load->kind == LOAD_MOMENT_TENSOR && layer_points(scene, face) > 0; /* layers.c */
-        if (boundary_absorbs(&scene->boundary[face]) && !told && depth < 1.999 * layer_spacing(scene, face))
+        if (boundary_absorbs(&scene->boundary[face]) && depth < 1.999 * layer_spacing(scene, face) &&
+            !(load->kind == LOAD_MOMENT_TENSOR && layer_points(scene, face) > 0)) /* told of in layers.c */
             advise(adviser,
                    "load %zu acts at the absorbing face %s, which takes up part of it; two spacings (%.3g) "
                    "inside it "

@@ -188,7 +188,7 @@ void look_at_clearance(struct adviser *adviser)
         for (int face = 0; load.dipole && face < 2 * scene->dimension; face++) {
             const double room = cells_beyond(scene, &load, face / 2), cells = cells_to(scene, &load, face);
             const double wanted = layer_clearance(scene, room), left = layer_left_behind(scene, room, cells);
-            if (layer_points(scene, face) == 0 || cells > wanted - 1e-6 || left <= most) continue;
+            if (cells > wanted - 1e-6 || left <= most || layer_points(scene, face) == 0) continue;
             most = left;
             least = cells;
             clearance = wanted;

@@ -214,30 +214,30 @@ double ground_contrast(const struct scene *scene)
 }
 
 /* Against guided waves: the share of d in (11), and the least R of (9), by whose logarithm they grow; measured, in
- * ground by its contrast of speeds, between faces that guide by how long they do. */
+ * ground by its contrast of speeds. */
 struct guiding {
     double share, least;
 };
 
 static struct guiding guiding(const struct scene *scene, int face)
 {
-    static const struct guiding none = {0, 0}, ground = {.3, 0}, brief = {1.2, 0}, much = {1.2, .02},
-                                rigid = {3, .05};
+    static const struct guiding none = {0, 0}, ground = {.3, 0}, plate = {1.2, .02}, rigid = {3, .05};
     for (int axis = 0; axis < scene->dimension; axis++)
-        if (faces_guide(scene, axis)) return guided_briefly(scene) ? brief : much;
+        if (faces_guide(scene, axis)) return plate;
     if (!ground_changes_behind(scene, face)) return none;
     const double contrast = ground_contrast(scene);
-    return contrast <= 4 ? ground : contrast <= 8 ? much : rigid;
+    return contrast <= 4 ? ground : contrast <= 8 ? plate : rigid;
 }
 
 double layer_least_reflection(const struct scene *scene, int face)
 {
-    return guiding(scene, face).least;
+    const double least = guiding(scene, face).least;
+    return least > 0 && guided_briefly(scene) ? 0 : least;
 }
 
 double layer_profile_reflection(const struct scene *scene, int face, size_t points)
 {
-    return fmax(decayed(points), guiding(scene, face).least);
+    return fmax(decayed(points), layer_least_reflection(scene, face));
 }
 
 double layer_drag(const struct scene *scene, int face)
