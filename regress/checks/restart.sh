@@ -142,7 +142,7 @@ if command -v python3 >/dev/null; then
     version=$("$selas" --version | cut -d' ' -f2)
     reworded "version $version" "version 9.9.9" && refused "of another version" "written by version 9.9.9, this is $version"
     reworded "little-endian" "big-endian" && refused "of another byte order" "written by a big-endian machine"
-    reworded "format 4" "format 7" && refused "of another format" "format 7"
+    reworded "format 5" "format 7" && refused "of another format" "format 7"
     reworded "little" "little" && cmp -s $good $bad && echo "ok - the checksum of the head is CRC-64"
 fi
 cp cut_paper/unfinished/snapshot_0001.h5 kept.h5
