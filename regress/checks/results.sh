@@ -141,6 +141,32 @@ check "selas diff compares the receivers of run.h5" sh -c \
     'cp -r out more && cp out/side.dat more/stranger.dat && "$0" diff out more && "$0" diff more out' "$selas"
 check "... and misses one that is not there" sh -c \
     'rm more/side.dat; "$0" diff out more >said; test $? -eq 1 && grep -q "side .*is not in more" said' "$selas"
+told() { # told STATUS WORDS A B [OPTION]...: `selas diff` ends with the status and says the words
+    status=$1 words=$2
+    shift 2
+    "$selas" diff --no-plots "$@" >said 2>&1
+    test $? -eq "$status" && grep -q "$words" said
+}
+words() { # words OLD NEW: out as another run would tell of it
+    rm -rf worded && cp -r out worded && sed "/^#/s/$1/$2/" out/side.dat >worded/side.dat
+}
+set -- $(awk '/^# history/ { print $(NF - 2), $(NF - 1), $NF }' out/side.dat)
+words " $1 $2 $3\$" " $1 $2 1.25"
+check "selas diff tells where a receiver stands elsewhere" told 0 "side: the receiver stands elsewhere: at $1 $2 $3 in out, at $1 $2 1.25 in worded" out worded
+words " $3\$" " $3.00000000000001"
+check "... but for rounding" sh -c '! "$0" diff --no-plots out worded 2>&1 | grep elsewhere' "$selas"
+words "units: .*" "units: lengths in km"
+check "... and of other units" told 0 "the units have other names: .* in out, lengths in km in worded" out worded
+words "^# t ux" "# low-passed: spectrum times exp(-(omega\/9)^4), zero phase\n# t ux"
+check "... and of another low-pass" told 0 "the low-pass is another one: none in out, spectrum times .* in worded" out worded
+sed '$s/ [^ ]*$/ nan/' out/side.dat >nan.dat
+check "... and takes no NaN" told 1 "nan.dat:[0-9]*: a value is not finite" out/side.dat nan.dat
+check "... on either side" told 1 "nan.dat:[0-9]*: a value is not finite" nan.dat out/side.dat --atol=10
+awk '/^#/ { print; next } { print $1, 0, 0, 0, 0, 0, 0 }' out/side.dat >zero.dat
+check "... and names what is absolute" told 1 "side\|zero .* (L2 and Linf absolute: the first run is zero)" zero.dat out/side.dat
+check "... which is said of no other" sh -c '! "$0" diff --no-plots out/side.dat zero.dat | grep absolute' "$selas"
+awk '/^#/ || n++ % 8 == 0' out/side.dat >coarse.dat
+check "... and what interpolation between rows makes" told 1 "interpolation between rows alone errs by" out/side.dat coarse.dat
 refused() { # refused WORDS DECK [OVERRIDE]...: exit 1, with the words
     words=$1
     shift

@@ -33,7 +33,8 @@ static double packet(const struct signal *s, double t, int derivative)
 
 static struct history_file sample(const struct signal *signal, double step, size_t rows)
 {
-    struct history_file h = {rows, array_new(rows, sizeof(double)), array_new(6 * rows, sizeof(double))};
+    struct history_file h = {
+        .rows = rows, .time = array_new(rows, sizeof(double)), .value = array_new(6 * rows, sizeof(double))};
     for (size_t i = 0; i < rows; i++) {
         h.time[i] = (double)i * step;
         h.value[6 * i + 2] = packet(signal, h.time[i], 0);
@@ -137,6 +138,7 @@ static void tolerance_rule(void **state)
     *one = NAN;
     assert_int_equal(diff_histories(&first, &second, &tolerance, difference, &messages), SELAS_OK);
     assert_true(difference[5].differs && !difference[2].differs);
+    assert_true(isnan(difference[5].linf) && difference[2].linf == 0.0);
     *one = truth;
     second.value[6 * 100] = 1e-14; /* rounding in a component that is zero */
     assert_int_equal(diff_histories(&first, &second, &tolerance, difference, &messages), SELAS_OK);
@@ -238,7 +240,7 @@ static void plots(void **state)
     char there[64], one[128];
     snprintf(there, sizeof there, "%s/plots", folder[0]);
     write_file(path[0], good);
-    write_file(path[1], "# t ux uy uz vx vy vz\n0 0 0 0 0 0 0\n0.1 0 0 1 0 0 2\n0.2 0 0 3 0 nan 4.1\n");
+    write_file(path[1], "# t ux uy uz vx vy vz\n0 0 0 0 0 0 0\n0.1 0 0 1 0 0 2\n0.2 0 0 3 0 1 4.1\n");
     struct diff_report report = {NULL, there, 0};
     assert_int_equal(diff_paths(folder[0], folder[1], NULL, &report, &messages), SELAS_OK);
     assert_int_equal(report.differences, 2);
@@ -268,7 +270,9 @@ static void bad_histories(void **state)
                {"0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n", ":2: expected 7 numbers"},
                {"0 0 0 0 0 0 zero\n", ":1: expected 7 numbers"},
                {"0 0 0 0 0 0 0\n0 0 0 0 0 0 0\n", ":2: the time does not ascend"},
-               {"nan 0 0 0 0 0 0\n", "the time does not ascend"}};
+               {"nan 0 0 0 0 0 0\n", "the time does not ascend"},
+               {"0 0 0 0 0 0 0\n1 0 0 nan 0 0 0\n", ":2: a value is not finite"},
+               {"0 0 0 0 0 0 -inf\n", ":1: a value is not finite"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         struct messages messages = {0};
         struct history_file history;

@@ -49,6 +49,8 @@ static void compare_values(const struct history_pair *pair, size_t c, size_t of,
             result->when = pair->time[i];
         }
     }
+    if (isnan(l2)) linf = NAN; /* fmax() passes over it */
+    result->absolute = linf_of == 0.0 && linf != 0.0;
     result->l2 = l2_of > 0.0 ? sqrt(l2 / l2_of) : sqrt(l2);
     result->linf = linf_of > 0.0 ? linf / linf_of : linf;
     result->differs = !(result->excess <= 1.0);

@@ -8,14 +8,18 @@
 
 enum { DIFF_CHANNELS = 6 }; /* ux uy uz vx vy vz */
 
+/* What the comments of a history say; empty where it says nothing. */
+enum { HISTORY_PLACE, HISTORY_UNITS, HISTORY_LOW_PASS, HISTORY_HEADS, HEAD_SIZE = 128 };
+
 /* A history as read from NAME.dat. */
 struct history_file {
     size_t rows;
     double *time;  /* [rows], ascending */
     double *value; /* [6 * rows]: ux uy uz vx vy vz */
+    char head[HISTORY_HEADS][HEAD_SIZE];
 };
 
-/* Reads `t ux uy uz vx vy vz`; SELAS_FILE_ERROR with file and line for what is no such row. */
+/* Reads `t ux uy uz vx vy vz`; SELAS_FILE_ERROR with file and line for what is no such row of finite numbers. */
 selas_status history_file_read(const char *path, struct history_file *history, struct messages *messages);
 void history_file_free(struct history_file *history);
 
@@ -35,7 +39,8 @@ extern const struct tolerance tolerance_default;
 
 /* How b differs from a in one channel, over the times that both have. */
 struct channel_difference {
-    double l2, linf;        /* relative to the norms of a; absolute where a is zero throughout */
+    double l2, linf;        /* relative to the norms of a */
+    bool absolute;          /* they are not: a is zero throughout */
     double shift;           /* time by which b lies later than a (largest cross-correlation) */
     double envelope, phase; /* single-valued misfits of Kristekova et al. (2006), 0 = none */
     double excess;          /* largest |b - a| over what is allowed; beyond 1 the channel differs */
@@ -77,6 +82,16 @@ void history_at(const struct history_file *h, double time, size_t *row, double v
 /* One channel at times begin + i step, i < n, within the history. */
 void history_at_even_steps(const struct history_file *h, double begin, double step, size_t n, size_t channel,
                            double *series);
+
+/* diff_told.c: warns where the comments of two histories tell of other positions, units or low-passes, and where
+ * a good part of the differences is interpolation between rows that are far apart. `label`: what the two are
+ * called. Units and low-passes are those of a whole run: *told is set, and nothing is said of them where it is. */
+void tell_heads(const char *receiver, const char *const label[2], const struct history_file *a,
+                const struct history_file *b, bool *told, struct messages *messages);
+selas_status tell_interpolation(const char *receiver, const char *const label[2], const struct history_file *a,
+                                const struct history_file *b,
+                                const struct channel_difference difference[DIFF_CHANNELS],
+                                struct messages *messages);
 
 /* diff_plot.c: for each channel that differs both traces, the difference below on its own scale. `label`:
  * what the two are called. */

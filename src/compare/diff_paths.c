@@ -26,6 +26,7 @@ static void write_table_row(FILE *table, const char *receiver, const char *compo
         fprintf(table, " (%.3g times what is allowed, t = %.6g)", d->excess, d->when);
     if (!isfinite(d->excess))
         fprintf(table, " (%s, t = %.6g)", isfinite(d->l2) ? "none is allowed" : "not finite", d->when);
+    if (d->absolute) fputs(" (L2 and Linf absolute: the first run is zero)", table);
     fputc('\n', table);
 }
 
@@ -35,6 +36,7 @@ struct comparison {
     const struct tolerance *tolerance;
     struct diff_report *report;
     size_t compared;
+    bool told; /* of units and low-passes */
     struct messages *messages;
 };
 
@@ -62,6 +64,9 @@ static selas_status diff_files(struct comparison *c, const char *a, const char *
     if (status == SELAS_OK) {
         const char *const label[2] = {c->a, c->b};
         tell_times(report->table, receiver, &first, &second);
+        tell_heads(receiver, label, &first, &second, &c->told, c->messages);
+        if (differences > 0)
+            status = tell_interpolation(receiver, label, &first, &second, difference, c->messages);
         if (report->plots != NULL && differences > 0)
             diff_plots(report->plots, receiver, label, &first, &second, difference, c->messages);
         report->differences += differences;
@@ -178,7 +183,7 @@ selas_status diff_paths(const char *a, const char *b, const struct tolerance *to
     if (report->table != NULL)
         fprintf(report->table, "%-20s %-4s %10s %10s %11s %10s %10s\n", "receiver", "", "L2", "Linf", "shift",
                 "envelope", "phase");
-    struct comparison c = {a, b, tolerance != NULL ? tolerance : &tolerance_default, report, 0, messages};
+    struct comparison c = {a, b, tolerance != NULL ? tolerance : &tolerance_default, report, 0, false, messages};
     if (!folder) {
         char receiver[128];
         receiver_of(a, receiver, sizeof receiver);

@@ -34,6 +34,19 @@ static int read_numbers(const char *line, double number[COLUMNS])
     return count;
 }
 
+/* What selas writes about a history (record/histories.c); comments of other programs say nothing. */
+static void read_head(const char *line, struct history_file *history)
+{
+    static const char *const begin[HISTORY_HEADS] = {", position ", "; units: ", "# low-passed: "};
+    const bool place = strstr(line, "history at receiver ") != NULL, deck = strncmp(line, "# deck ", 7) == 0;
+    for (int k = 0; k < HISTORY_HEADS; k++) {
+        const char *at = strstr(line, begin[k]);
+        const bool here = k == HISTORY_PLACE ? place : k == HISTORY_UNITS ? deck : at == line;
+        if (at != NULL && here)
+            snprintf(history->head[k], HEAD_SIZE, "%.*s", HEAD_SIZE - 1, at + strlen(begin[k]));
+    }
+}
+
 static selas_status read_rows(FILE *file, const char *path, struct history_file *history,
                               struct messages *messages)
 {
@@ -44,6 +57,7 @@ static selas_status read_rows(FILE *file, const char *path, struct history_file 
         if (next != LINE_READ)
             return fail(messages, SELAS_FILE_ERROR, "%s:%zu: %s", path, number, line_fault(next));
         double row[COLUMNS];
+        if (line[0] == '#') read_head(line, history);
         if (line[strspn(line, " \t\r\n")] == '#') continue;
         const int count = read_numbers(line, row);
         if (count == 0) continue;
@@ -52,6 +66,9 @@ static selas_status read_rows(FILE *file, const char *path, struct history_file 
                         number);
         if (!isfinite(row[0]) || (history->rows > 0 && !(row[0] > history->time[history->rows - 1])))
             return fail(messages, SELAS_FILE_ERROR, "%s:%zu: the time does not ascend", path, number);
+        for (int c = 1; c < COLUMNS; c++)
+            if (!isfinite(row[c]))
+                return fail(messages, SELAS_FILE_ERROR, "%s:%zu: a value is not finite", path, number);
         if (history->rows == room) {
             room = 2 * room + 256;
             selas_status status = grow(&history->time, history->rows, room, messages);
