@@ -58,11 +58,13 @@ in_the_file() { # every data set that run.xdmf names is in run.h5
 check "run.xdmf and run_2.xdmf name data sets that are there" in_the_file
 # What gnuplot is told, by one that only listens.
 mkdir listens && printf '#!/bin/sh\ncat >>"%s/script"\n' "$work" >listens/gnuplot && chmod +x listens/gnuplot
-axes() { # axes ROTATION WORDS: the maps name their axes so
+axes() { # axes ROTATION WORDS [OVERRIDE]...: the maps name their axes so
     rm -f script
-    PATH="$work/listens:$PATH" "$selas" small.nml output%directory=turned output%plots=T body%rotation="$1" scene%end_time=1 \
-        'snapshot(1)%every=1' 'snapshot(2)%times=1' profile%times=1
-    grep -q "set xlabel 'x$2'" script && grep -q "set ylabel 'z$2'" script && grep -q "title .*surface z$2 = " script
+    turn=$1 named=$2
+    shift 2
+    PATH="$work/listens:$PATH" "$selas" small.nml output%directory=turned output%plots=T body%rotation="$turn" scene%end_time=1 \
+        'snapshot(1)%every=1' 'snapshot(2)%times=1' profile%times=1 "$@"
+    grep -q "set xlabel 'x$named'" script && grep -q "set ylabel 'z$named'" script && grep -q "title .*surface z$named = 0[ (]" script
 }
 region() { # region CORNERS: what is told about snapshots of it
     rm -f script
@@ -82,6 +84,11 @@ check "maps name the deck's axes" axes 0,0,0 ""
 check "a map below the surface is a cut" below
 check "a flat region is one map or curve" flat
 check "maps of a turned body name its own" axes 0,0,90 " of the body"
+tilted() { # ... whose rounding is no place
+    axes 0,45,0 " of the body" load%centre=1.982233047,2.5,-0.517766953 profile%from=2.5,2.5,1 profile%to=2.5,2.5,4
+    grep -c "title .*surface z of the body = 0[ (]" script && ! grep "title .*= [-0-9.]*e-1" script
+}
+check "... which is 0 but for rounding" tilted
 check "run.xdmf closes what it opens" awk '
     { while (match($0, /<\/?[A-Za-z]+[^>]*>/)) {
           tag = substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH)

@@ -9,11 +9,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Takes a place of the deck to the body's own frame; what is zero there but for the rounding of the rotation is 0. */
+static void own_position(const struct body *body, double position[3])
+{
+    if (!body->rotated) return;
+    double size = 0;
+    for (int axis = 0; axis < 3; axis++)
+        size = fmax(size, fmax(fabs(position[axis]), fabs(body->pivot[axis])));
+    body_from_deck(body, position, position);
+    for (int axis = 0; axis < 3; axis++)
+        if (fabs(position[axis]) <= 1e-12 * size) position[axis] = 0;
+}
+
 static void body_position(const struct recorder *recorder, const struct snapshot_record *record, size_t point,
                           double position[3])
 {
     model_position(recorder->model, snapshot_point(recorder->model, record, point), position);
-    if (recorder->scene->body.rotated) body_from_deck(&recorder->scene->body, position, position);
+    own_position(&recorder->scene->body, position);
 }
 
 static void bounds_of(const struct recorder *recorder, const struct snapshot_record *record, double low[3],
@@ -37,7 +49,7 @@ static double cut_place(const struct recorder *recorder, const double low[3], co
         if (scene->load[k].shape == LOAD_FACE) continue;
         double centre[3];
         memcpy(centre, scene->load[k].centre, sizeof centre);
-        if (scene->body.rotated) body_from_deck(&scene->body, centre, centre);
+        own_position(&scene->body, centre);
         return fmin(fmax(centre[1], low[1]), high[1]);
     }
     return 0.5 * (low[1] + high[1]);
