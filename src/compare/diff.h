@@ -88,8 +88,8 @@ void history_at_even_steps(const struct history_file *h, double begin, double st
  * called. Units and low-passes are those of a whole run: *told is set, and nothing is said of them where it is. */
 void tell_heads(const char *receiver, const char *const label[2], const struct history_file *a,
                 const struct history_file *b, bool *told, struct messages *messages);
-selas_status tell_interpolation(const char *receiver, const char *const label[2], const struct history_file *a,
-                                const struct history_file *b,
+selas_status tell_interpolation(const char *receiver, const char *const label[2],
+                                const struct history_file *a, const struct history_file *b,
                                 const struct channel_difference difference[DIFF_CHANNELS],
                                 struct messages *messages);
 

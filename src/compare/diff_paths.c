@@ -183,7 +183,8 @@ selas_status diff_paths(const char *a, const char *b, const struct tolerance *to
     if (report->table != NULL)
         fprintf(report->table, "%-20s %-4s %10s %10s %11s %10s %10s\n", "receiver", "", "L2", "Linf", "shift",
                 "envelope", "phase");
-    struct comparison c = {a, b, tolerance != NULL ? tolerance : &tolerance_default, report, 0, false, messages};
+    struct comparison c = {a,     b,       tolerance != NULL ? tolerance : &tolerance_default, report, 0,
+                           false, messages};
     if (!folder) {
         char receiver[128];
         receiver_of(a, receiver, sizeof receiver);

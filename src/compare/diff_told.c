@@ -30,7 +30,8 @@ void tell_heads(const char *receiver, const char *const label[2], const struct h
     const char *units[2] = {a->head[HISTORY_UNITS], b->head[HISTORY_UNITS]};
     if (*told || units[0][0] == '\0' || units[1][0] == '\0') return; /* or another program's */
     const char *low_pass[2] = {a->head[HISTORY_LOW_PASS], b->head[HISTORY_LOW_PASS]};
-    const bool other_units = strcmp(units[0], units[1]) != 0, other_pass = strcmp(low_pass[0], low_pass[1]) != 0;
+    const bool other_units = strcmp(units[0], units[1]) != 0,
+               other_pass = strcmp(low_pass[0], low_pass[1]) != 0;
     if (other_units)
         warn(messages, "the units have other names: %s in %s, %s in %s; numbers are compared as they are",
              units[0], label[0], units[1], label[1]);
@@ -63,8 +64,8 @@ static double row_step(const struct history_file *h)
     return h->rows > 1 ? (h->time[h->rows - 1] - h->time[0]) / (double)(h->rows - 1) : 0;
 }
 
-selas_status tell_interpolation(const char *receiver, const char *const label[2], const struct history_file *a,
-                                const struct history_file *b,
+selas_status tell_interpolation(const char *receiver, const char *const label[2],
+                                const struct history_file *a, const struct history_file *b,
                                 const struct channel_difference difference[DIFF_CHANNELS],
                                 struct messages *messages)
 {
@@ -81,7 +82,8 @@ selas_status tell_interpolation(const char *receiver, const char *const label[2]
     }
     if (alone[worst].l2 > 0)
         warn(messages,
-             "%s: interpolation between rows alone errs by %.2g of %s (L2): they are %.3g apart in %s, %.3g in "
+             "%s: interpolation between rows alone errs by %.2g of %s (L2): they are %.3g apart in %s, %.3g "
+             "in "
              "%s; output%%history_step gives both the same",
              receiver, alone[worst].l2, diff_channel[worst], row_step(a), label[0], row_step(b), label[1]);
     history_file_free(&thin);
