@@ -482,7 +482,7 @@ samples() { # samples STEP: of a Gaussian of width .3
 }
 samples .15
 # shellcheck disable=SC2086
-told "samples of a pulse far apart" "table of &load 1 are up to 0.025 of its largest value off .* beside loads.*; rows 0.06.* apart" check pulse.nml $table load%file=samples.txt
+told "samples of a pulse far apart" "table of &load 1 are up to 0.025 of its largest value off .* beside loads.*; even rows 0.06.* apart" check pulse.nml $table load%file=samples.txt
 # shellcheck disable=SC2086
 told "the same on a moved face" "table of &boundary 1 are up to 0.025 of its" check pulse.nml body%spacing=.125 boundary%face=x- boundary%kind=velocity boundary%direction=1,0 boundary%history=table boundary%file=samples.txt
 # shellcheck disable=SC2086
@@ -490,6 +490,21 @@ untold "the same, smoothed" check pulse.nml $table load%file=samples.txt load%sm
 samples .06
 # shellcheck disable=SC2086
 untold "samples near enough" check pulse.nml $table load%file=samples.txt
+uneven() { # uneven BEFORE AFTER: the same, rows as far apart before the peak and after it
+    awk -v before="$1" -v after="$2" 'BEGIN { for (t = 0; t < 3; t += t < 1.4 ? before : after) print t, exp(-((t - 1.5) / .3) ^ 2 / 2) }' >samples.txt
+}
+uneven .05 .15
+# shellcheck disable=SC2086
+told "samples farther apart after the peak" "table of &load 1 are up to 0.029 of its largest value off .* beside loads" check pulse.nml $table load%file=samples.txt
+uneven .02 .03
+# shellcheck disable=SC2086
+untold "uneven samples near enough" check pulse.nml $table load%file=samples.txt
+awk 'BEGIN { for (t = 0; t < 3; t += ++n % 2 ? .04 : .07) print t, exp(-((t - 1.5) / .3) ^ 2 / 2) }' >samples.txt
+# shellcheck disable=SC2086
+told "samples by turns nearer and farther" "table of &load 1 are up to 0.00.* beside loads" check pulse.nml $table load%file=samples.txt
+printf '0 0\n.1 .1\n.2 .2\n.4 .4\n.45 .45\n1 1\n1.5 .5\n2 0\n9 0\n10 0\n' >samples.txt
+# shellcheck disable=SC2086
+untold "straight lines with rows on them" check pulse.nml $table load%file=samples.txt
 cat >moment.nml <<'END'
 &scene dimension = 3, end_time = 3.0 /
 &method name = 'sph', gradient = 'central' /

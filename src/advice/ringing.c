@@ -119,25 +119,25 @@ void look_at_cut_moment(struct adviser *adviser)
             group + 1, worst);
 }
 
-/* Velocities err by .4 to 1.5 times the sag where rows are nearer than .9 periods of the lattice's fastest wave.
- * Farther off their kinks keep step with some of the lattice's shortest ones, and beside loads on a surface it is up to
- * 20 times, in the ground up to 2.5 (regress/studies/sampled). */
+/* Velocities err by .4 to 1.5 times the sag where kinks repeat sooner than .9 periods of the lattice's fastest wave.
+ * Later they keep step with some of the lattice's shortest ones, and beside loads on a surface it is up to 20 times, in
+ * the ground up to 2.5, of uneven rows 13 and 4 (regress/studies/sampled). */
 static void look_at_samples(struct adviser *adviser, const struct stepper *stepper, const char *what,
                             size_t group, const struct history *history)
 {
-    static const double near = .9, slight[2] = {.01, .001}, good[2] = {.005, .8};
+    static const double near = .9, slight[2] = {.005, .001}, good[2] = {.004, .8};
     const double period = 2 * M_PI / stepper->spectrum.omega, pass = adviser->scene->output.low_pass;
     double step;
-    const double sag = history_table_sag(history, &step);
-    const bool far = step > near * period;
+    const bool far = history_table_sag(history, near * period, &step) > slight[true];
+    const double sag = history_table_sag(history, 0, &step);
     if (!(sag > slight[far]) || history->smoothing >= 4 * step) return;
     const bool ringing = far && !(pass > 0 && pass * step < M_PI);
     if (!ringing && !(sag > slight[0])) return;
     advise(
         adviser,
         "straight lines between the rows of the table of &%s %zu are up to %.2g of its largest value off a "
-        "smooth curve through them: where that is meant velocities err by some 2 times as much%s; rows %.3g "
-        "apart would do",
+        "smooth curve through them: where that is meant velocities err by some 2 times as much%s; even rows "
+        "%.3g apart would do",
         what, group + 1, sag,
         ringing ? ", and up to 20 times beside loads, where the lattice rings at each row" : "",
         fmin(step * sqrt(good[0] / sag), far ? good[1] * period : INFINITY));

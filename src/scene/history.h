@@ -61,9 +61,11 @@ void history_set_peak(struct history *history);
  * value; of a table that its rows resolve so far, that of the smooth function behind it. */
 double history_cutoff(const struct history *history, double fraction);
 
-/* How far straight lines between evenly spaced rows of a table, `step` apart, are off the cubics through four of
- * them, of its largest value; 0 of uneven or few rows, which are hardly samples, and of other kinds. */
-double history_table_sag(const struct history *history, double *step);
+/* How far straight lines between the rows of a table are off the cubics through four of them, of its largest value: the
+ * most in the middles of intervals after which kinks repeat later than `longer` (uneven ones: after two), and the
+ * interval's length. 0 of few rows and of other kinds; lines that go on straight, or off which cubics are farther than
+ * the largest value, are hardly samples'. */
+double history_table_sag(const struct history *history, double longer, double *step);
 
 /* Reads a table: text, two columns, '#' or '!' comments; times must ascend from t >= 0. */
 selas_status history_read_table(struct history *history, const char *path, struct messages *messages);

@@ -152,23 +152,35 @@ double history_table_kinks(const struct history *history)
     return sum;
 }
 
-double history_table_sag(const struct history *history, double *step)
+/* Newton's second divided difference of the rows about one. */
+static double bend(const struct history *history, size_t row)
+{
+    return impulse(history, row) / (history->table_time[row + 1] - history->table_time[row - 1]);
+}
+
+double history_table_sag(const struct history *history, double longer, double *step)
 {
     enum { FEWEST = 8 };
-    static const double even = 1.1;
     const double *time = history->table_time, *value = history->table_value;
-    double widest = 0, most = 0, largest = 0;
-    *step = INFINITY;
+    static const double straight = 1e-3, even = 1.1;
+    double most = 0, largest = 0;
+    *step = 0;
     if (history->kind != HISTORY_TABLE || history->rows < FEWEST) return 0;
-    for (size_t i = 0; i < history->rows; i++) {
+    for (size_t i = 0; i < history->rows; i++)
         largest = fmax(largest, fabs(value[i]));
-        if (i + 1 == history->rows) break;
-        *step = fmin(*step, time[i + 1] - time[i]);
-        widest = fmax(widest, time[i + 1] - time[i]);
-        if (i > 0 && i + 2 < history->rows)
-            most = fmax(most, fabs(value[i - 1] - value[i] - value[i + 1] + value[i + 2]) / 16);
+    for (size_t i = 1; i + 2 < history->rows; i++) {
+        const double length = time[i + 1] - time[i], before = time[i] - time[i - 1],
+                     after = time[i + 2] - time[i + 1], bends[2] = {bend(history, i), bend(history, i + 1)};
+        const bool evenly = fmax(length, fmax(before, after)) < even * fmin(length, fmin(before, after));
+        const double part = (.5 * (time[i] + time[i + 1]) - time[i - 1]) / (time[i + 2] - time[i - 1]);
+        const double sag = length * length / 4 * fabs((1 - part) * bends[0] + part * bends[1]);
+        const double less = fmin(fabs(bends[0]), fabs(bends[1])), more = fmax(fabs(bends[0]), fabs(bends[1]));
+        if (less <= straight * more || sag > largest || sag <= most) continue;
+        if ((evenly ? length : 2 * length) <= longer) continue;
+        most = sag;
+        *step = length;
     }
-    return widest < even * *step && largest > 0 ? most / largest : 0;
+    return most > 0 ? most / largest : 0;
 }
 
 /* --- Reading it ------------------------------------------------------------------------------------------- */
