@@ -79,6 +79,26 @@ D
 "$build/selas" diff "$out/row/r.dat" "$out/rows/r.dat" --rtol=1e-2 >"$out/log" 2>&1
 ok "a thin row of a model: the histories of thin layers" awk '$1 == "r" { n++; if (!($3 < 3e-3)) exit bad = 1 } END { exit bad || n != 6 }' "$out/log"
 
+# a thin layer over which the speeds rise tenfold counts as thin even ones
+{
+    cat "$out/even.nml"
+    echo "&material name = 'soft', density = 2500, p_speed = 300, s_speed = 170 /"
+    printf "&layer material = 'rock', top = 0 /\n&layer material = 'soft', bottom = 'rock', top = 110 /\n&layer material = 'rock', top = 135 /\n"
+} >"$out/rises.nml"
+{
+    cat "$out/even.nml"
+    echo "&layer material = 'rock', top = 0 /"
+    awk 'BEGIN { for (k = 0; k < 128; k++) {
+        part = .1 + .9 * (k + .5) / 128
+        printf "&material name = \047m%d\047, density = 2500, p_speed = %.9g, s_speed = %.9g /\n", k, 3000 * part, 1700 * part
+        printf "&layer material = \047m%d\047, top = %.9g /\n", k, 110 + 25 * k / 128
+    } }'
+    echo "&layer material = 'rock', top = 135 /"
+} >"$out/evens.nml"
+for deck in rises evens; do "$build/selas" -q "$out/$deck.nml" body%material=rock output%directory="$out/$deck" output%plots=F; done >"$out/log" 2>&1
+"$build/selas" diff "$out/rises/r.dat" "$out/evens/r.dat" --rtol=1e-2 >"$out/log" 2>&1
+ok "a thin graded layer: the histories of thin even ones" awk '$1 == "r" { n++; if (!($3 < 3e-3)) exit bad = 1 } END { exit bad || n != 6 }' "$out/log"
+
 # the same with Q in columns 7 and 8
 model ""
 sed '5,$s/$/ 40 20/' "$out/m.xyz" >"$out/q.xyz" && sed '/^&model/d; s/&method /\&method mechanisms = 2, /' "$out/d.nml" >"$out/dq.nml"

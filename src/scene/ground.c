@@ -189,19 +189,25 @@ void ground_speeds_at(const struct scene *scene, const double place[3], double s
     speed[1] = sqrt(rock.mu / rock.density);
 }
 
-/* --- Where a model changes much: its values may be much nearer than the points of the lattice --- */
+/* --- Where ground goes over much: between values of a model or the faces of a graded layer, which may be much nearer
+ * than the points of the lattice --- */
 
-/* A part between values of the model over which the shear modulus rises by more than this is halved, and so are its
- * halves, so often. */
+/* A part over which the shear modulus rises by more than this is halved, and so are its halves, so often. */
 enum { HALVINGS = 5 };
 static const double much = .05;
 
-/* In logarithms. */
-static double stiffness_at(const struct scene *scene, const double place[3], double z)
+/* In logarithms: of a graded layer, or of the model. */
+static double stiffness_at(const struct scene *scene, const double place[3], const struct layer *layer,
+                           double z)
 {
+    const int axis = scene->dimension - 1;
     double there[3] = {place[0], place[1], place[2]};
-    there[scene->dimension - 1] = z;
-    return log(ground_model_at(scene->body.model, there).mu);
+    there[axis] = z;
+    if (layer == NULL) return log(ground_model_at(scene->body.model, there).mu);
+    const struct material *list = scene->whole != NULL ? scene->whole : scene->material;
+    const double top = layer_top_at(layer, place), end = layer_top_at(layer + 1, place);
+    const double part = (z - scene->body.low[axis] - top) / (end - top);
+    return log(between(&list[layer->material], &list[layer->bottom], part).mu);
 }
 
 /* Ends of a piece and the stiffness there. */
@@ -210,25 +216,34 @@ struct piece {
     int halvings;
 };
 
+static size_t halve(const struct scene *scene, const double place[3], const struct layer *layer, double from,
+                    double to, double *at)
+{
+    struct piece piece[HALVINGS + 1] = {
+        {from, to, stiffness_at(scene, place, layer, from), stiffness_at(scene, place, layer, to), 0}};
+    size_t count = 0;
+    for (int pieces = 1; pieces > 0;) {
+        const struct piece whole = piece[--pieces];
+        if (whole.halvings == HALVINGS || fabs(whole.high - whole.low) < much) continue;
+        const double middle = (whole.from + whole.to) / 2,
+                     between = stiffness_at(scene, place, layer, middle);
+        at[count++] = middle;
+        piece[pieces++] = (struct piece){whole.from, middle, whole.low, between, whole.halvings + 1};
+        piece[pieces++] = (struct piece){middle, whole.to, between, whole.high, whole.halvings + 1};
+    }
+    return count;
+}
+
 static size_t model_jumps(const struct scene *scene, const double place[3], double from, double to,
                           double *at)
 {
     const size_t kinks = ground_model_kinks(scene->body.model, place, from, to, at);
-    double start = from, stiffness = stiffness_at(scene, place, from);
+    double start = from;
     size_t count = kinks;
     for (size_t part = 0; part <= kinks; part++) {
-        const double end = part < kinks ? at[part] : to, next = stiffness_at(scene, place, end);
-        struct piece piece[HALVINGS + 1] = {{start, end, stiffness, next, 0}};
-        for (int pieces = 1; pieces > 0;) {
-            const struct piece whole = piece[--pieces];
-            if (whole.halvings == HALVINGS || fabs(whole.high - whole.low) < much) continue;
-            const double middle = (whole.from + whole.to) / 2, between = stiffness_at(scene, place, middle);
-            at[count++] = middle;
-            piece[pieces++] = (struct piece){whole.from, middle, whole.low, between, whole.halvings + 1};
-            piece[pieces++] = (struct piece){middle, whole.to, between, whole.high, whole.halvings + 1};
-        }
+        const double end = part < kinks ? at[part] : to;
+        count += halve(scene, place, NULL, start, end, at + count);
         start = end;
-        stiffness = next;
     }
     return count;
 }
@@ -242,6 +257,10 @@ size_t ground_jumps(const struct scene *scene, const double place[3], int axis, 
     for (size_t i = 0; i < body->layers && axis == scene->dimension - 1; i++) {
         const double top = layer_top_at(&body->layer[i], place), x = body->low[axis] + top;
         if (x > from && x < to && (top > 0 || top > fmin(0, surface_at(scene, place)))) at[count++] = x;
+        if (i + 1 == body->layers || !body->layer[i].graded) continue;
+        const double start = fmax(from, x),
+                     end = fmin(to, body->low[axis] + layer_top_at(&body->layer[i + 1], place));
+        if (end > start) count += halve(scene, place, &body->layer[i], start, end, at + count);
     }
     for (size_t i = 0; i < body->blocks; i++) {
         const struct ground_block *block = &body->block[i];
@@ -262,7 +281,8 @@ size_t ground_jumps_at_most(const struct scene *scene)
 {
     if (scene->body.line != NULL) return ground_line_jumps_at_most(scene->body.line);
     const struct ground_model *model = scene->body.model;
-    size_t parts = model != NULL ? 1 : 0;
+    size_t parts = ground_grades(scene) ? scene->body.layers : 0;
+    parts += model != NULL;
     for (size_t i = 0; model != NULL && i < model->grids; i++)
         parts += model->grid[i].n[2];
     return scene->body.layers + 2 * scene->body.blocks + (parts << HALVINGS);
