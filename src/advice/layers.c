@@ -131,11 +131,8 @@ void look_at_guided(struct adviser *adviser)
     if (!(error > little)) return;
     advise(adviser,
            "absorbing layers send back waves that faces %s and %s guide: velocities may err by %g of the "
-           "largest from "
-           "about t = %.3g on, by %.2g at the end, mostly by half of that or less; sides farther from "
-           "what acts "
-           "and is looked "
-           "at would be right",
+           "largest from about t = %.3g on, by %.2g at the end, mostly by half of that or less; sides "
+           "farther from what acts and is looked at would be right",
            face_name((enum face)(2 * guided.axis)), face_name((enum face)(2 * guided.axis + 1)), little,
            guided_since(scene, &guided, little), error);
 }
