@@ -3,6 +3,7 @@
  * (compare/diff_pair.c). */
 #include "exact/recorded.h"
 
+#include "base/lines.h"
 #include "base/memory.h"
 #include "compare/diff.h"
 
@@ -43,6 +44,22 @@ static selas_status read_one(struct recorded *recorded, size_t i, struct message
     const selas_status status = history_file_read(inside, &recorded->receiver[i], messages);
     array_free(inside);
     return status;
+}
+
+/* Of a history that selas wrote. */
+static void look_at_place(const struct recorded *recorded, size_t i, struct messages *messages)
+{
+    const struct receiver *here = &recorded->exact.scene->receiver[i];
+    const char *place = recorded->receiver[i].head[HISTORY_PLACE];
+    double there[3], size = 0, apart = 0;
+    if (line_numbers(place, 3, there) != 3) return;
+    for (int axis = 0; axis < 3; axis++) {
+        size = fmax(size, fmax(fabs(there[axis]), fabs(here->position[axis])));
+        apart = fmax(apart, fabs(there[axis] - here->position[axis]));
+    }
+    if (apart > 1e-9 * size)
+        warn(messages, "receiver '%s' stands at %.6g %.6g %.6g, what reference 'file' recorded at %s",
+             here->name, here->position[0], here->position[1], here->position[2], place);
 }
 
 /* What is recorded at receiver i covers the times wanted. */
@@ -87,6 +104,8 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
         status = read_one(recorded, i, messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
         status = covers(recorded, i, 0, last_row(scene), messages);
+    for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
+        look_at_place(recorded, i, messages);
     if (status == SELAS_FILE_ERROR) status = SELAS_BAD_SCENE; /* the results can be written all the same */
     if (status == SELAS_OK)
         *exact = &recorded->exact;
