@@ -10,21 +10,22 @@
 /* Part of a difference from which on interpolation is told of. */
 static const double good_part = 0.1;
 
-static bool same_place(const char *a, const char *b)
+bool history_elsewhere(const struct history_file *h, const double place[3])
 {
-    double x[3], y[3], size = 0, apart = 0;
-    if (line_numbers(a, 3, x) != 3 || line_numbers(b, 3, y) != 3) return true; /* not known */
+    double own[3], size = 0, apart = 0;
+    if (line_numbers(h->head[HISTORY_PLACE], 3, own) != 3) return false;
     for (int axis = 0; axis < 3; axis++) {
-        size = fmax(size, fmax(fabs(x[axis]), fabs(y[axis])));
-        apart = fmax(apart, fabs(x[axis] - y[axis]));
+        size = fmax(size, fmax(fabs(own[axis]), fabs(place[axis])));
+        apart = fmax(apart, fabs(own[axis] - place[axis]));
     }
-    return apart <= 1e-9 * size;
+    return apart > 1e-9 * size;
 }
 
 void tell_heads(const char *receiver, const char *const label[2], const struct history_file *a,
                 const struct history_file *b, bool *told, struct messages *messages)
 {
-    if (!same_place(a->head[HISTORY_PLACE], b->head[HISTORY_PLACE]))
+    double place[3];
+    if (line_numbers(b->head[HISTORY_PLACE], 3, place) == 3 && history_elsewhere(a, place))
         warn(messages, "%s: the receiver stands elsewhere: at %s in %s, at %s in %s", receiver,
              a->head[HISTORY_PLACE], label[0], b->head[HISTORY_PLACE], label[1]);
     const char *units[2] = {a->head[HISTORY_UNITS], b->head[HISTORY_UNITS]};
@@ -83,8 +84,7 @@ selas_status tell_interpolation(const char *receiver, const char *const label[2]
     if (alone[worst].l2 > 0)
         warn(messages,
              "%s: interpolation between rows alone errs by %.2g of %s (L2): they are %.3g apart in %s, %.3g "
-             "in "
-             "%s; output%%history_step gives both the same",
+             "in %s; output%%history_step gives both the same",
              receiver, alone[worst].l2, diff_channel[worst], row_step(a), label[0], row_step(b), label[1]);
     history_file_free(&thin);
     return status;

@@ -3,7 +3,6 @@
  * (compare/diff_pair.c). */
 #include "exact/recorded.h"
 
-#include "base/lines.h"
 #include "base/memory.h"
 #include "compare/diff.h"
 
@@ -46,20 +45,13 @@ static selas_status read_one(struct recorded *recorded, size_t i, struct message
     return status;
 }
 
-/* Of a history that selas wrote. */
 static void look_at_place(const struct recorded *recorded, size_t i, struct messages *messages)
 {
     const struct receiver *here = &recorded->exact.scene->receiver[i];
-    const char *place = recorded->receiver[i].head[HISTORY_PLACE];
-    double there[3], size = 0, apart = 0;
-    if (line_numbers(place, 3, there) != 3) return;
-    for (int axis = 0; axis < 3; axis++) {
-        size = fmax(size, fmax(fabs(there[axis]), fabs(here->position[axis])));
-        apart = fmax(apart, fabs(there[axis] - here->position[axis]));
-    }
-    if (apart > 1e-9 * size)
+    if (history_elsewhere(&recorded->receiver[i], here->position))
         warn(messages, "receiver '%s' stands at %.6g %.6g %.6g, what reference 'file' recorded at %s",
-             here->name, here->position[0], here->position[1], here->position[2], place);
+             here->name, here->position[0], here->position[1], here->position[2],
+             recorded->receiver[i].head[HISTORY_PLACE]);
 }
 
 /* What is recorded at receiver i covers the times wanted. */
