@@ -121,13 +121,15 @@ cat small.nml - >compared.nml <<'END'
 END
 check "a run is compared with another one's histories" "$selas" compared.nml output%directory=compared
 check "... and is the same" awk '/^error largest:/ { found = 1; far = $3 > 1e-12 } END { exit far || !found }' compared/report.txt
-stands() { # stands COUNT [OVERRIDE]...: so often is told that a receiver stands elsewhere
-    count=$1
-    shift
-    "$selas" check compared.nml "$@" 2>&1 | grep -c "what reference 'file' recorded at" | grep -qx "$count"
+tells() { # tells COUNT WORDS [OVERRIDE]...: so many warnings of reference 'file' with the words
+    count=$1 words=$2
+    shift 2
+    "$selas" check compared.nml "$@" 2>&1 | grep "in reference 'file'" | grep -c "$words" | grep -qx "$count"
 }
-check "... a receiver that stands elsewhere is told of" stands 1 'receiver(1)%position=0.01,0,0'
-check "... and none that stands there" stands 0
+check "... a receiver that stands elsewhere is told of" tells 1 'stands elsewhere' 'receiver(1)%position=0.01,0,0'
+check "... another low-pass once, of all receivers" tells 1 'low-pass is another' output%low_pass=5
+check "... other units, too" tells 1 'units have other names' output%length_unit=km
+check "... and nothing where all are the same" tells 0 .
 check "with histories that end too early it is told, exit 2" sh -c \
     '"$0" compared.nml scene%end_time=4 output%directory=longer 2>said_longer; test $? -eq 2 && grep -q "goes from t = 0 to 3, the run from 0 to 4" said_longer' "$selas"
 sed 's/kind = .file.*/kind = "bar" \//' compared.nml >wrong.nml

@@ -83,9 +83,7 @@ void history_at(const struct history_file *h, double time, size_t *row, double v
 void history_at_even_steps(const struct history_file *h, double begin, double step, size_t n, size_t channel,
                            double *series);
 
-/* diff_told.c: does a history say that it was recorded elsewhere? (1e-9 of the larger coordinates) */
-bool history_elsewhere(const struct history_file *h, const double place[3]);
-/* Warns where the comments of two histories tell of other positions, units or low-passes, and where
+/* diff_told.c: warns where the comments of two histories tell of other positions, units or low-passes, and where
  * a good part of the differences is interpolation between rows that are far apart. `label`: what the two are
  * called. Units and low-passes are those of a whole run: *told is set, and nothing is said of them where it is. */
 void tell_heads(const char *receiver, const char *const label[2], const struct history_file *a,

@@ -10,13 +10,14 @@
 /* Part of a difference from which on interpolation is told of. */
 static const double good_part = 0.1;
 
-bool history_elsewhere(const struct history_file *h, const double place[3])
+/* (By 1e-9 of the larger coordinates.) */
+static bool recorded_elsewhere(const char *place, const char *other_place)
 {
-    double own[3], size = 0, apart = 0;
-    if (line_numbers(h->head[HISTORY_PLACE], 3, own) != 3) return false;
+    double a[3], b[3], size = 0, apart = 0;
+    if (line_numbers(place, 3, a) != 3 || line_numbers(other_place, 3, b) != 3) return false;
     for (int axis = 0; axis < 3; axis++) {
-        size = fmax(size, fmax(fabs(own[axis]), fabs(place[axis])));
-        apart = fmax(apart, fabs(own[axis] - place[axis]));
+        size = fmax(size, fmax(fabs(a[axis]), fabs(b[axis])));
+        apart = fmax(apart, fabs(a[axis] - b[axis]));
     }
     return apart > 1e-9 * size;
 }
@@ -24,8 +25,7 @@ bool history_elsewhere(const struct history_file *h, const double place[3])
 void tell_heads(const char *receiver, const char *const label[2], const struct history_file *a,
                 const struct history_file *b, bool *told, struct messages *messages)
 {
-    double place[3];
-    if (line_numbers(b->head[HISTORY_PLACE], 3, place) == 3 && history_elsewhere(a, place))
+    if (recorded_elsewhere(a->head[HISTORY_PLACE], b->head[HISTORY_PLACE]))
         warn(messages, "%s: the receiver stands elsewhere: at %s in %s, at %s in %s", receiver,
              a->head[HISTORY_PLACE], label[0], b->head[HISTORY_PLACE], label[1]);
     const char *units[2] = {a->head[HISTORY_UNITS], b->head[HISTORY_UNITS]};

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "compare/diff.h"
+#include "scene/units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -45,13 +46,19 @@ static selas_status read_one(struct recorded *recorded, size_t i, struct message
     return status;
 }
 
-static void look_at_place(const struct recorded *recorded, size_t i, struct messages *messages)
+/* Does the recorded history say that it is of another place, in other units or low-passed otherwise than the run? */
+static void look_at_head(const struct recorded *recorded, size_t i, bool *told, struct messages *messages)
 {
-    const struct receiver *here = &recorded->exact.scene->receiver[i];
-    if (history_elsewhere(&recorded->receiver[i], here->position))
-        warn(messages, "receiver '%s' stands at %.6g %.6g %.6g, what reference 'file' recorded at %s",
-             here->name, here->position[0], here->position[1], here->position[2],
-             recorded->receiver[i].head[HISTORY_PLACE]);
+    static const char *const label[2] = {"reference 'file'", "the run"};
+    const struct scene *scene = recorded->exact.scene;
+    const struct receiver *receiver = &scene->receiver[i];
+    const double *place = receiver->position;
+    struct history_file here = {0};
+    char text[UNIT_TEXT];
+    snprintf(here.head[HISTORY_PLACE], HEAD_SIZE, "%.17g %.17g %.17g", place[0], place[1], place[2]);
+    snprintf(here.head[HISTORY_UNITS], HEAD_SIZE, "%s", units_told(&scene->output, text));
+    snprintf(here.head[HISTORY_LOW_PASS], HEAD_SIZE, "%s", low_pass_told(&scene->output, text));
+    tell_heads(receiver->name, label, &recorded->receiver[i], &here, told, messages);
 }
 
 /* What is recorded at receiver i covers the times wanted. */
@@ -91,13 +98,14 @@ static selas_status create(const struct scene *scene, struct exact **exact, stru
     recorded->exact = (struct exact){.class = &exact_recorded, .scene = scene};
     recorded->receiver = array_new(scene->receivers, sizeof *recorded->receiver);
     selas_status status = SELAS_OK;
+    bool told = false;
     if (recorded->receiver == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for histories");
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
         status = read_one(recorded, i, messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
         status = covers(recorded, i, 0, last_row(scene), messages);
     for (size_t i = 0; i < scene->receivers && status == SELAS_OK; i++)
-        look_at_place(recorded, i, messages);
+        look_at_head(recorded, i, &told, messages);
     if (status == SELAS_FILE_ERROR) status = SELAS_BAD_SCENE; /* the results can be written all the same */
     if (status == SELAS_OK)
         *exact = &recorded->exact;

@@ -45,8 +45,7 @@ static selas_status write_history(const struct scene *scene, const struct record
     fprintf(out, "# deck %s, selas %s; units: %s\n", scene->deck != NULL ? deck_name(scene->deck) : "(none)",
             selas_version(), units_told(&scene->output, units));
     if (kind == COMPUTED && scene->output.low_pass > 0.0)
-        fprintf(out, "# low-passed: spectrum times exp(-(omega/%.17g)^4), zero phase\n",
-                scene->output.low_pass);
+        fprintf(out, "# low-passed: %s\n", low_pass_told(&scene->output, units));
     if (recorder != NULL) histories_note(out, recorder);
     fprintf(out, "# t %s\n", kind == EXACT_STRESS ? "sxx syy szz sxy syz szx" : "ux uy uz vx vy vz");
     for (size_t i = 0; i < history->rows; i++) {

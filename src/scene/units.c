@@ -29,3 +29,11 @@ const char *units_told(const struct output_choice *output, char text[UNIT_TEXT])
              output->time_unit);
     return text;
 }
+
+const char *low_pass_told(const struct output_choice *output, char text[UNIT_TEXT])
+{
+    text[0] = '\0';
+    if (output->low_pass > 0.0)
+        snprintf(text, UNIT_TEXT, "spectrum times exp(-(omega/%.17g)^4), zero phase", output->low_pass);
+    return text;
+}
