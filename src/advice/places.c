@@ -53,10 +53,11 @@ static bool along_an_axis(const struct scene *scene, const double from[3], const
 
 /* Spacings from a force and a moment tensor within which velocities were .01 to .09 and .02 to .3 wrong; where both
  * lie near a free surface of the general operator .01 to .24 (doc/theory/sources.md, table 1). */
-static double near(const struct scene *scene, const struct load *load, const double receiver[3])
+static double near(const struct scene *scene, bool exact_mass, const struct load *load,
+                   const double receiver[3])
 {
     if (load->kind != LOAD_MOMENT_TENSOR && load->shape != LOAD_POINT) return 0.0;
-    if (by_exact_mass(scene) && along_an_axis(scene, load->centre, receiver)) return 10.0;
+    if (exact_mass && along_an_axis(scene, load->centre, receiver)) return 10.0;
     if (load->kind != LOAD_MOMENT_TENSOR) return 2.0;
     return by_general_operator(scene) && shallow(scene, load->centre) && shallow(scene, receiver) ? 10.0
                                                                                                   : 6.0;
@@ -74,12 +75,14 @@ void look_at_nearness(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     double least = INFINITY, wanted = 0.0, spacings = 0.0;
     size_t load = 0, receiver = 0;
-    if (strcmp(scene->method.variant, "consistent") != 0) return;
+    if (strcmp(scene->method.variant, "consistent") != 0 || scene->receivers == 0) return;
+    const bool exact_mass = by_exact_mass(scene);
     for (size_t k = 0; k < scene->loads; k++)
         for (size_t r = 0; r < scene->receivers; r++) {
             const double *from = scene->load[k].centre, *to = scene->receiver[r].position;
             const double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]),
-                         width = near(scene, &scene->load[k], to), enough = width * spacing_at(scene, from);
+                         width = near(scene, exact_mass, &scene->load[k], to),
+                         enough = width * spacing_at(scene, from);
             if (way >= 0.999 * enough || way / enough >= least) continue;
             least = way / enough;
             wanted = enough;

@@ -178,7 +178,7 @@ static void add_stress(struct beneath *b, int halves, double share)
 }
 
 /* Products of these lines with those along the face. */
-static void add_lines(const struct beneath *b, double *const work[3], double *field)
+static void add_lines(const struct beneath *b, double *const work[3], struct dense *field)
 {
     const struct consistent *c = b->c;
     for (int component = 0; component < c->dimension; component++)
@@ -194,7 +194,7 @@ static void add_lines(const struct beneath *b, double *const work[3], double *fi
 }
 
 bool consistent_beneath(const struct consistent *c, const double centre[3], double moment[3][3],
-                        double *field)
+                        struct dense *field)
 {
     enum { ALL = 9 + 4 };
     struct beneath b = {.c = c, .centre = {centre[0], centre[1], centre[2]}};

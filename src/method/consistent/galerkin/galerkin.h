@@ -45,6 +45,17 @@ struct axis_matrix {
     struct band *band;
 };
 
+/* Control values from[] up to to[], not included, by slot; to[0] = 0: none. */
+struct footprint {
+    size_t from[3], to[3];
+};
+
+/* A field of which little is known to be not 0. */
+struct dense {
+    double *value;                 /* [dimension * volume] */
+    struct footprint footprint[3]; /* by component: 0 out of it */
+};
+
 /* A vector with few entries. Plane p of component c is number c * n[2] + p; index is that within the plane. */
 struct sparse {
     size_t planes, *plane, *start; /* that have any, ascending; their entries are start[p] to start[p + 1] */
@@ -163,10 +174,10 @@ void mass_solve(struct consistent *c, const struct mass_factors *factors, double
 
 /* loads.c: loads, prescribed faces. */
 selas_status forces_create(struct consistent *c, struct messages *messages);
-/* Adds to `field` [dimension * volume] forces of a moment tensor, by slot, at `centre` of the lattice; `moment` then
+/* Adds to `field` forces of a moment tensor, by slot, at `centre` of the lattice; `moment` then
  * holds what is left to act on the splines' strain. False: no memory. */
 typedef bool moment_beside(const struct consistent *c, const struct load *load, const double centre[3],
-                           double moment[3][3], double *field);
+                           double moment[3][3], struct dense *field);
 /* Together: makes the moment tensors again. */
 selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages);
 void forces_free(struct consistent *c);
@@ -181,7 +192,7 @@ void consistent_source_line(const struct consistent *c, int axis, bool odd, bool
 /* beneath.c: adds the forces of what a moment tensor, by slot, pulls at across a free face that is near; `moment` keeps
  * the rest. False: no memory. */
 bool consistent_beneath(const struct consistent *c, const double centre[3], double moment[3][3],
-                        double *field);
+                        struct dense *field);
 /* The free face that a source is right below: spacings, its normal there by slot, the hats between it and the next
  * interface. False: below none. */
 struct consistent_face {
@@ -198,9 +209,12 @@ double consistent_shallow(const struct consistent *c);
 struct rock consistent_rock_at(const struct consistent *c, const double place[3]);
 /* field += factor * product of the lines, by axis. */
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
-                            double *field);
-/* sparse.c: keeps the entries of a dense field that are not zero. False: no memory. */
-bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse);
+                            struct dense *field);
+/* sparse.c: takes the entries of a dense field that are not zero, which leaves it 0. False: no memory. */
+bool sparse_take(const struct consistent *c, struct dense *field, struct sparse *sparse);
+/* A component may be not 0 there, too; all may be, everywhere. */
+void dense_widen(struct dense *field, int component, const struct footprint *there);
+void dense_whole(const struct consistent *c, struct dense *field);
 void sparse_free(struct sparse *sparse);
 size_t sparse_bytes(const struct sparse *sparse);
 /* `count` vectors, all 0; then, once they are made, which planes they have entries in. False: no memory. */

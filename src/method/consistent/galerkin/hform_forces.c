@@ -5,15 +5,10 @@
 
 #include <string.h>
 
-/* Control values from[] up to to[], not included, by slot. */
-struct extent {
-    size_t from[3], to[3];
-};
-
 /* Where a component of a sparse vector is not 0; empty: all 0. */
-static struct extent extent_of(const struct consistent *c, const struct sparse *sparse, int component)
+static struct footprint footprint_of(const struct consistent *c, const struct sparse *sparse, int component)
 {
-    struct extent extent = {.from = {c->n[0], c->n[1], c->n[2]}};
+    struct footprint extent = {.from = {c->n[0], c->n[1], c->n[2]}};
     for (size_t p = 0; p < sparse->planes; p++) {
         const size_t k = sparse->plane[p] % c->n[DEPTH];
         if (sparse->plane[p] / c->n[DEPTH] != (size_t)component) continue;
@@ -30,8 +25,8 @@ static struct extent extent_of(const struct consistent *c, const struct sparse *
 
 /* N along one axis of a component, over the density where that is the same everywhere and the axis the first;
  * the field is 0 out of the extent, which grows. False: no memory. */
-static bool divide_along(struct consistent *c, int component, int axis, struct extent *extent, double *field,
-                         double *line)
+static bool divide_along(struct consistent *c, int component, int axis, struct footprint *extent,
+                         double *field, double *line)
 {
     const struct band *inverse = part_matrix(c, c->slot[axis], c->hform->inverse[component][axis]);
     if (inverse == NULL) return false;
@@ -53,19 +48,19 @@ static bool divide_along(struct consistent *c, int component, int axis, struct e
 }
 
 /* wide := M^-1 sparse (N along each axis). */
-static bool widen(struct consistent *c, const struct sparse *sparse, double *field, double *line,
+static bool widen(struct consistent *c, const struct sparse *sparse, struct dense *field, double *line,
                   struct sparse *wide)
 {
-    memset(field, 0, c->model.unknowns * sizeof *field);
     for (int component = 0; component < c->dimension; component++) {
-        struct extent extent = extent_of(c, sparse, component);
-        if (extent.to[0] == 0) continue;
-        for (size_t k = 0; k < c->n[DEPTH]; k++)
-            sparse_add(c, sparse, component, k, 1, field + (size_t)component * c->volume + k * c->plane);
-        for (int axis = 0; axis < c->dimension; axis++)
-            if (!divide_along(c, component, axis, &extent, field, line)) return false;
+        struct footprint *extent = &field->footprint[component];
+        *extent = footprint_of(c, sparse, component);
+        for (size_t k = extent->from[DEPTH]; k < extent->to[DEPTH]; k++)
+            sparse_add(c, sparse, component, k, 1,
+                       field->value + (size_t)component * c->volume + k * c->plane);
+        for (int axis = 0; axis < c->dimension && extent->to[0] > 0; axis++)
+            if (!divide_along(c, component, axis, extent, field->value, line)) return false;
     }
-    return sparse_from(c, field, wide);
+    return sparse_take(c, field, wide);
 }
 
 bool hform_forces(struct consistent *c)
@@ -73,12 +68,14 @@ bool hform_forces(struct consistent *c)
     struct hform *h = c->hform;
     const size_t loads = c->model.scene->loads;
     double *line = array_new(c->n[0] + c->n[1] + c->n[2], sizeof *line);
+    struct dense field = {.value = h->work};
+    memset(h->work, 0, c->model.unknowns * sizeof *h->work);
     bool good = line != NULL && sparse_list_new(&h->load, loads);
     for (size_t l = 0; good && l < loads; l++)
-        good = widen(c, &c->load.of[l], h->work, line, &h->load.of[l]);
+        good = widen(c, &c->load.of[l], &field, line, &h->load.of[l]);
     if (good) good = sparse_list_sort(c, &h->load);
     for (int face = 0; good && face < 2 * c->dimension; face++)
-        if (c->moving[face]) good = widen(c, &c->inertia[face], h->work, line, &h->pulled[face]);
+        if (c->moving[face]) good = widen(c, &c->inertia[face], &field, line, &h->pulled[face]);
     array_free(line);
     return good;
 }

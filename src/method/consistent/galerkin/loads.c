@@ -14,9 +14,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Work space of set-up: a dense field, and the 1-D weights of the three axes. */
+/* Work space of set-up: a field, and the 1-D weights of the three axes. */
 struct workspace {
-    double *field;         /* [dimension * volume] */
+    struct dense field;    /* 0 between loads */
     double *line[3];       /* [count] by axis; the first holds all that follows */
     double *work;          /* [largest count] */
     double *face;          /* [counts of a face's two axes]: disc */
@@ -28,9 +28,9 @@ static bool workspace_new(const struct consistent *c, struct workspace *w)
     size_t largest = 1;
     for (int axis = 0; axis < c->dimension; axis++)
         largest = c->spline[axis]->count > largest ? c->spline[axis]->count : largest;
-    *w = (struct workspace){.field = array_new((size_t)c->dimension * c->volume, sizeof *w->field),
+    *w = (struct workspace){.field.value = array_new((size_t)c->dimension * c->volume, sizeof(double)),
                             .line[0] = array_new((4 + largest) * largest, sizeof(double))};
-    if (w->field == NULL || w->line[0] == NULL) return false;
+    if (w->field.value == NULL || w->line[0] == NULL) return false;
     w->line[1] = w->line[0] + largest;
     w->line[2] = w->line[1] + largest;
     w->work = w->line[2] + largest;
@@ -40,29 +40,39 @@ static bool workspace_new(const struct consistent *c, struct workspace *w)
 
 static void workspace_free(struct workspace *w)
 {
-    array_free(w->field);
+    array_free(w->field.value);
     array_free(w->line[0]);
 }
 
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
-                            double *field)
+                            struct dense *field)
 {
     static const double one[1] = {1};
     const double *by_slot[3] = {one, one, one};
+    struct footprint within;
     for (int axis = 0; axis < c->dimension; axis++)
         by_slot[c->slot[axis]] = line[axis] + c->part.along[c->slot[axis]].first;
-    double *out = field + (size_t)component * c->volume;
-    for (size_t k = 0; k < c->n[2]; k++) {
-        if (by_slot[2][k] == 0) continue;
-        for (size_t j = 0; j < c->n[1]; j++)
-            for (size_t i = 0; i < c->n[0]; i++)
-                out[k * c->plane + j * c->n[0] + i] += factor * by_slot[0][i] * by_slot[1][j] * by_slot[2][k];
+    for (int slot = 0; slot < 3; slot++) {
+        size_t from = 0, to = c->n[slot];
+        while (from < to && by_slot[slot][from] == 0)
+            from++;
+        while (to > from && by_slot[slot][to - 1] == 0)
+            to--;
+        if (from == to) return;
+        within.from[slot] = from;
+        within.to[slot] = to;
     }
+    double *out = field->value + (size_t)component * c->volume;
+    for (size_t k = within.from[2]; k < within.to[2]; k++)
+        for (size_t j = within.from[1]; j < within.to[1]; j++)
+            for (size_t i = within.from[0]; i < within.to[0]; i++)
+                out[k * c->plane + j * c->n[0] + i] += factor * by_slot[0][i] * by_slot[1][j] * by_slot[2][k];
+    dense_widen(field, component, &within);
 }
 
-static void add_product(const struct consistent *c, const struct workspace *w, int component, double factor)
+static void add_product(const struct consistent *c, struct workspace *w, int component, double factor)
 {
-    consistent_add_product(c, w->line, component, factor, w->field);
+    consistent_add_product(c, w->line, component, factor, &w->field);
 }
 
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
@@ -192,8 +202,8 @@ static bool moment_tensor(struct consistent *c, const struct load *load, const d
     for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++)
             by_slot[c->slot[i]][c->slot[j]] = moment[i][j];
-    if (w->beside != NULL && !w->beside(c, load, centre, by_slot, w->field)) return false;
-    if (!consistent_beneath(c, centre, by_slot, w->field)) return false;
+    if (w->beside != NULL && !w->beside(c, load, centre, by_slot, &w->field)) return false;
+    if (!consistent_beneath(c, centre, by_slot, &w->field)) return false;
     for (int i = 0; i < c->dimension; i++)
         for (int j = 0; j < c->dimension; j++) {
             const double pull = c->slot[j] == DEPTH ? metric_pull(&metric, by_slot[c->slot[i]])
@@ -226,14 +236,13 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
     lattice_from_deck(body, load->centre, centre);
     memcpy(direction, load->direction, sizeof direction);
     if (body->rotated) body_direction_from_deck(body, load->direction, direction);
-    memset(w->field, 0, (size_t)c->dimension * c->volume * sizeof *w->field);
     if (load->kind == LOAD_TRACTION && face_axis(load->face) >= c->dimension)
         return fail(messages, SELAS_BAD_SCENE, "a load acts on face %s, which this body has not",
                     face_name(load->face));
     const bool at_place = load->kind == LOAD_MOMENT_TENSOR || load->shape == LOAD_POINT;
     if (load_moves(load) || (at_place && is_image(c, centre))) /* moving_load.c; nothing here */
-        return sparse_from(c, w->field, sparse) ? SELAS_OK
-                                                : fail(messages, SELAS_NO_MEMORY, "no memory for a load");
+        return sparse_take(c, &w->field, sparse) ? SELAS_OK
+                                                 : fail(messages, SELAS_NO_MEMORY, "no memory for a load");
     bool good = true;
     if (load->kind == LOAD_TRACTION)
         good = traction(c, load, centre, direction, w);
@@ -244,7 +253,7 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
     else
         return fail(messages, SELAS_UNSUPPORTED,
                     "a body force acts at a point or over the whole body (shape = 'face')");
-    if (good && sparse_from(c, w->field, sparse)) return SELAS_OK;
+    if (good && sparse_take(c, &w->field, sparse)) return SELAS_OK;
     return fail(messages, SELAS_NO_MEMORY, "no memory for a load");
 }
 
@@ -277,20 +286,20 @@ static void face_pattern(const struct consistent *c, int face, double *field)
 
 static bool motion_create(struct consistent *c, int face, struct workspace *w)
 {
-    const size_t all = (size_t)c->dimension * c->volume;
-    memset(w->field, 0, all * sizeof *w->field);
-    face_pattern(c, face, w->field);
-    if (!sparse_from(c, w->field, &c->pattern[face])) return false;
-    double *inertia = array_new(all, sizeof *inertia);
-    if (inertia == NULL) return false;
+    struct dense inertia = {.value = array_new((size_t)c->dimension * c->volume, sizeof(double))};
+    if (inertia.value == NULL) return false;
+    face_pattern(c, face, w->field.value);
     for (size_t k = 0; k < c->n[DEPTH]; k++) {
         double *out[3] = {NULL, NULL, NULL};
         for (int component = 0; component < c->dimension; component++)
-            out[component] = inertia + (size_t)component * c->volume + k * c->plane;
-        tensor_plane(c->mass, 0, k, 1, w->field, out);
+            out[component] = inertia.value + (size_t)component * c->volume + k * c->plane;
+        tensor_plane(c->mass, 0, k, 1, w->field.value, out);
     }
-    const bool good = sparse_from(c, inertia, &c->inertia[face]);
-    array_free(inertia);
+    dense_whole(c, &w->field);
+    dense_whole(c, &inertia);
+    const bool good =
+        sparse_take(c, &w->field, &c->pattern[face]) && sparse_take(c, &inertia, &c->inertia[face]);
+    array_free(inertia.value);
     return good;
 }
 

@@ -3,23 +3,51 @@
 
 #include "base/memory.h"
 
-static size_t count_of(size_t n, const double *field)
+void dense_widen(struct dense *field, int component, const struct footprint *there)
 {
-    size_t count = 0;
-#pragma omp simd reduction(+ : count)
-    for (size_t i = 0; i < n; i++)
-        count += field[i] != 0;
-    return count;
+    struct footprint *all = &field->footprint[component];
+    if (all->to[0] == 0) *all = *there;
+    for (int slot = 0; slot < 3; slot++) {
+        if (there->from[slot] < all->from[slot]) all->from[slot] = there->from[slot];
+        if (there->to[slot] > all->to[slot]) all->to[slot] = there->to[slot];
+    }
 }
 
-bool sparse_from(const struct consistent *c, const double *field, struct sparse *sparse)
+void dense_whole(const struct consistent *c, struct dense *field)
 {
-    const size_t all = (size_t)c->dimension * c->n[DEPTH];
+    for (int component = 0; component < c->dimension; component++)
+        field->footprint[component] = (struct footprint){.to = {c->n[0], c->n[1], c->n[2]}};
+}
+
+/* What is not 0 of the rows of plane k that lie within; `sparse` NULL: only counted. Else `field` is 0 there. */
+static size_t take_plane(const struct consistent *c, const struct footprint *within, size_t entries,
+                         struct sparse *sparse, double *plane)
+{
+    for (size_t j = within->from[1]; j < within->to[1]; j++)
+        for (size_t i = within->from[0]; i < within->to[0]; i++) {
+            const size_t at = j * c->n[0] + i;
+            if (plane[at] == 0) continue;
+            if (sparse != NULL) {
+                sparse->index[entries] = at;
+                sparse->value[entries] = plane[at];
+                plane[at] = 0;
+            }
+            entries++;
+        }
+    return entries;
+}
+
+bool sparse_take(const struct consistent *c, struct dense *field, struct sparse *sparse)
+{
     size_t planes = 0, entries = 0;
-    for (size_t plane = 0; plane < all; plane++) {
-        const size_t count = count_of(c->plane, field + plane * c->plane);
-        planes += count > 0;
-        entries += count;
+    for (int component = 0; component < c->dimension; component++) {
+        const struct footprint *within = &field->footprint[component];
+        double *first = field->value + (size_t)component * c->volume;
+        for (size_t k = within->from[DEPTH]; k < within->to[DEPTH]; k++) {
+            const size_t after = take_plane(c, within, entries, NULL, first + k * c->plane);
+            planes += after > entries;
+            entries = after;
+        }
     }
     *sparse = (struct sparse){.plane = array_new(planes, sizeof *sparse->plane),
                               .start = array_new(planes + 1, sizeof *sparse->start),
@@ -28,17 +56,16 @@ bool sparse_from(const struct consistent *c, const double *field, struct sparse 
     if (sparse->plane == NULL || sparse->start == NULL || sparse->index == NULL || sparse->value == NULL)
         return false;
     entries = 0;
-    for (size_t plane = 0; plane < all; plane++) {
-        const double *from = field + plane * c->plane;
-        const size_t after = entries + count_of(c->plane, from);
-        if (after == entries) continue;
-        sparse->plane[sparse->planes++] = plane;
-        for (size_t i = 0; entries < after; i++) {
-            if (from[i] == 0) continue;
-            sparse->index[entries] = i;
-            sparse->value[entries++] = from[i];
+    for (int component = 0; component < c->dimension; component++) {
+        struct footprint *within = &field->footprint[component];
+        double *first = field->value + (size_t)component * c->volume;
+        for (size_t k = within->from[DEPTH]; k < within->to[DEPTH]; k++) {
+            const size_t after = take_plane(c, within, entries, sparse, first + k * c->plane);
+            if (after == entries) continue;
+            sparse->plane[sparse->planes++] = (size_t)component * c->n[DEPTH] + k;
+            sparse->start[sparse->planes] = entries = after;
         }
-        sparse->start[sparse->planes] = after;
+        *within = (struct footprint){{0}, {0}};
     }
     return true;
 }

@@ -207,7 +207,7 @@ static void curvature_line(struct glut *g, int axis, bool odd, double *line)
 }
 
 /* Products of a set's lines across with those along the interface. */
-static void add_lines(struct glut *g, int set, double *const work[3], double *field)
+static void add_lines(struct glut *g, int set, double *const work[3], struct dense *field)
 {
     const struct consistent *c = g->c;
     for (int component = 0; component < c->dimension; component++)
@@ -228,7 +228,7 @@ static void add_lines(struct glut *g, int set, double *const work[3], double *fi
 }
 
 bool general_add_glut(const struct consistent *c, const struct load *load, const double centre[3],
-                      double moment[3][3], double *field)
+                      double moment[3][3], struct dense *field)
 {
     enum { SETS = 4 * 3 * 3, ALL = SETS + 6 + STRESSES * STRESSES };
     struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};

@@ -39,7 +39,8 @@ static inline double glut_spacing(const struct spline *spline)
 bool general_find_normal(struct glut *glut);
 /* settle.c: adds what makes the forces of the moment (by slot) right in ground that varies along the normal alone
  * (G28). False: no memory. */
-bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3], double *field);
+bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3],
+                    struct dense *field);
 /* lag.c: sets lag and stay. */
 void general_find_lag(struct glut *glut);
 

@@ -125,7 +125,7 @@ static ptrdiff_t number_in_whole(const struct glut_window *w, int axis, ptrdiff_
 }
 
 /* The change, to the control values that the whole's part has; of a source on a symmetry plane half. */
-static void add_change(const struct glut_window *w, double *field)
+static void add_change(const struct glut_window *w, struct dense *field)
 {
     const struct consistent *c = w->c, *whole = w->glut->c;
     double all = 1;
@@ -148,14 +148,16 @@ static void add_change(const struct glut_window *w, double *field)
             has = number >= 0 && (size_t)number < whole->n[slot];
             at[slot] = (size_t)number;
         }
-        if (has)
-            field[component * whole->volume + at[2] * whole->plane + at[1] * whole->n[0] + at[0]] +=
-                factor * w->change[i];
+        if (!has) continue;
+        field->value[component * whole->volume + at[2] * whole->plane + at[1] * whole->n[0] + at[0]] +=
+            factor * w->change[i];
+        dense_widen(field, (int)component,
+                    &(struct footprint){{at[0], at[1], at[2]}, {at[0] + 1, at[1] + 1, at[2] + 1}});
     }
 }
 
 static bool settle(struct glut_window *w, const struct load *load, const ptrdiff_t end[3],
-                   double moment[3][3], double *field)
+                   double moment[3][3], struct dense *field)
 {
     if (!glut_window_lay(w, load, end)) return false;
     gsl_matrix *products = gsl_matrix_alloc(w->states, w->states);
@@ -168,7 +170,8 @@ static bool settle(struct glut_window *w, const struct load *load, const ptrdiff
     return good;
 }
 
-bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3], double *field)
+bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3],
+                    struct dense *field)
 {
     const struct consistent *c = glut->c;
     struct glut_window w = {.glut = glut};
