@@ -217,12 +217,51 @@ static void test_sides_hold(void **state)
     }
 }
 
+/* Past end_time loads and faces go on as the deck has them (their warped histories grow), from a checkpoint too. */
+static void test_past_the_end(void **state)
+{
+    (void)state;
+    static const char *const driven =
+        "&load face = 'y-', shape = 'square', centre = .3, 0, size = 1, direction = 0.3, 1\n"
+        "  history = 'sine-burst', frequency = .3, cycles = 8 /\n"
+        "&boundary face = 'y+', kind = 'velocity', direction = 0, 1, history = 'sine-burst', frequency = "
+        ".2,\n"
+        "  cycles = 3 /\n";
+    char path[] = "/tmp/selas-past-XXXXXX";
+    const double late = 20, planned = 2;
+    selas_simulation *all[3];
+    double value[3][6];
+    assert_true(mkstemp(path) >= 0);
+    for (int k = 0; k < 3; k++) {
+        all[k] = open_with(plate, driven);
+        assert_int_equal(selas_set_real(all[k], "scene%end_time", 1, k == 0 ? &late : &planned), SELAS_OK);
+    }
+    for (int t = 5; t <= 20; t += 5) {
+        for (int k = 0; k < 3; k++) {
+            if (k == 2 && t == 10) assert_int_equal(selas_restore(all[2], path), SELAS_OK);
+            if (k < 2 || t >= 10) assert_int_equal(selas_advance(all[k], t), SELAS_OK);
+            assert_int_equal(selas_receiver(all[k], "r", SELAS_VELOCITY, value[k]), SELAS_OK);
+        }
+        if (t == 5) assert_int_equal(selas_save(all[1], path), SELAS_OK);
+        if (t > 5) assert_memory_equal(value[1], value[2], 2 * sizeof **value);
+        for (int c = 0; c < 2; c++)
+            assert_true(fabs(value[1][c] - value[0][c]) < 1e-4 * hypot(value[0][0], value[0][1]));
+    }
+    for (int k = 0; k < 3; k++)
+        selas_close(&all[k]);
+    remove(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_looks),      cmocka_unit_test(test_advice),
-        cmocka_unit_test(test_driven),     cmocka_unit_test(test_advice_on_driven),
-        cmocka_unit_test(test_sides_hold), cmocka_unit_test(test_means_beyond_mirrors),
+        cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_past_the_end),
+        cmocka_unit_test(test_advice),
+        cmocka_unit_test(test_driven),
+        cmocka_unit_test(test_advice_on_driven),
+        cmocka_unit_test(test_sides_hold),
+        cmocka_unit_test(test_means_beyond_mirrors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

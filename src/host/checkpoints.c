@@ -79,6 +79,8 @@ selas_status selas_restore(selas_simulation *simulation, const char *path)
     simulation_failed(simulation, checkpoint_read(simulation->recorder, &simulation->state,
                                                   &simulation->figures, path, &simulation->messages));
     struct stepper *stepper = simulation->stepper;
+    if (simulation->failed == SELAS_OK)
+        simulation_failed(simulation, simulation_reach(simulation, simulation->state.step));
     if (simulation->failed != SELAS_OK) return simulation->failed;
     driver_changed(&stepper->driver, 0);
     simulation->dirty = false;

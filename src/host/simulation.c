@@ -279,6 +279,14 @@ selas_status simulation_begin(selas_simulation *simulation)
     return status == SELAS_OK ? host_refresh(simulation) : status;
 }
 
+selas_status simulation_reach(selas_simulation *simulation, unsigned long step)
+{
+    struct driver *driver = &simulation->stepper->driver;
+    if (driver_reaches(driver, step)) return SELAS_OK;
+    return ranks_agree(simulation->ranks, driver_reach(driver, step, &simulation->messages),
+                       &simulation->messages);
+}
+
 static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
 {
     selas_status status = simulation_begin(simulation);
@@ -292,6 +300,8 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     const double waited = ranks_waited(simulation->ranks);
     for (unsigned long i = 0; i < steps && status == SELAS_OK; i++) {
         const double sent = ranks_sent(simulation->ranks);
+        status = simulation_reach(simulation, simulation->state.step + 1);
+        if (status != SELAS_OK) break;
         simulation->stepper->scheme->step(simulation->stepper, &simulation->state);
         simulation->figures.halo_bytes = ranks_sent(simulation->ranks) - sent;
         status = host_answer(simulation);
@@ -375,22 +385,6 @@ selas_status selas_finish(selas_simulation *simulation)
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
     return simulation_finish(simulation);
-}
-
-const char *selas_message(const selas_simulation *simulation)
-{
-    if (simulation == NULL) return "no simulation (the handle is NULL)";
-    return simulation->messages.text != NULL ? simulation->messages.text : "";
-}
-
-const char *selas_last_message(selas_simulation *simulation)
-{
-    if (simulation == NULL) return selas_message(NULL);
-    const size_t from = simulation->consequence ? simulation->failure[0] : simulation->call;
-    const size_t to = simulation->consequence ? simulation->failure[1] : simulation->messages.length;
-    free(simulation->last);
-    simulation->last = to > from ? strndup(simulation->messages.text + from, to - from) : NULL;
-    return simulation->last != NULL ? simulation->last : "";
 }
 
 const char *selas_output_directory(selas_simulation *simulation)

@@ -98,6 +98,8 @@ selas_status simulation_prepare(selas_simulation *simulation);
 selas_status simulation_state(selas_simulation *simulation);
 /* The same as simulation_prepare, with the state at t = 0 or later and the loads as they are now. */
 selas_status simulation_begin(selas_simulation *simulation);
+/* Together: what drives a step, beyond end_time too. */
+selas_status simulation_reach(selas_simulation *simulation, unsigned long step);
 /* Runs on as far as the finished histories need, and finishes them. */
 selas_status simulation_finish(selas_simulation *simulation);
 /* SELAS_OK as long as the scene may still be changed: before the first step. */

@@ -43,27 +43,53 @@ void driver_free(struct driver *driver)
     *driver = (struct driver){0};
 }
 
+/* The rows that there are stay as they are: a run that goes on from a checkpoint sees the same ones. */
+static void take_warped(struct driver *driver, unsigned long rows, double *warped)
+{
+    if (driver->warped != NULL)
+        memcpy(warped, driver->warped, driver->warped_rows * row_width(driver) * sizeof *warped);
+    array_free(driver->warped);
+    driver->warped = warped;
+    driver->warped_rows = rows;
+}
+
 selas_status driver_warp(struct driver *driver, unsigned long rows, struct messages *messages)
 {
     const struct scene *scene = driver->scene;
     const size_t loads = scene->loads, width = row_width(driver);
     selas_status status = SELAS_OK;
-    driver->warped_rows = rows;
-    driver->warped = array_new(rows * width, sizeof *driver->warped);
-    if (driver->warped == NULL)
+    double *warped = array_new(rows * width, sizeof *warped);
+    if (warped == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for warped histories of %lu steps", rows);
     for (size_t k = 0; k < loads && status == SELAS_OK; k++) {
-        status = time_dispersion_warp(&scene->load[k].history, 0, driver->dt, rows, width, driver->warped + k,
-                                      messages);
-        driver->warped[k] = after_start(driver->warped[k], true);
+        status =
+            time_dispersion_warp(&scene->load[k].history, 0, driver->dt, rows, width, warped + k, messages);
+        warped[k] = after_start(warped[k], true);
     }
     for (size_t face = 0; face < FACES && status == SELAS_OK; face++) {
         const struct boundary *boundary = &scene->boundary[face];
         if (!boundary_moves(boundary)) continue;
         status = time_dispersion_warp(&boundary->history, boundary_meaning(boundary)->motion, driver->dt,
-                                      rows, width, driver->warped + loads + face, messages);
-        driver->warped[loads + face] = 0.0;
+                                      rows, width, warped + loads + face, messages);
+        warped[loads + face] = 0.0;
     }
+    if (status == SELAS_OK)
+        take_warped(driver, rows, warped);
+    else
+        array_free(warped);
+    return status;
+}
+
+bool driver_reaches(const struct driver *driver, unsigned long step)
+{
+    return driver->warped == NULL || step + 1 < driver->warped_rows;
+}
+
+selas_status driver_reach(struct driver *driver, unsigned long step, struct messages *messages)
+{
+    selas_status status = SELAS_OK;
+    while (!driver_reaches(driver, step) && status == SELAS_OK)
+        status = driver_warp(driver, 2 * driver->warped_rows, messages);
     return status;
 }
 
@@ -83,7 +109,7 @@ static void fill(const struct driver *driver, double time, bool ask, double *row
 static const double *row_at(struct driver *driver, unsigned long n)
 {
     const size_t width = row_width(driver);
-    if (driver->warped != NULL)
+    if (driver->warped != NULL) /* the last one to steps that are only timed, beyond those reached */
         return driver->warped + (n < driver->warped_rows ? n : driver->warped_rows - 1) * width;
     double *row = driver->row + n % DRIVER_ROWS * width;
     if (driver->step[n % DRIVER_ROWS] == n) return row;

@@ -36,6 +36,9 @@ selas_status driver_create(struct driver *driver, const struct scene *scene, dou
 void driver_free(struct driver *driver);
 /* Takes warped histories for the first `rows` steps; from then on driver_at() is not to be asked. */
 selas_status driver_warp(struct driver *driver, unsigned long rows, struct messages *messages);
+/* Are there the rows of this step and the one after it? As many more as that takes: a host goes on past end_time. */
+bool driver_reaches(const struct driver *driver, unsigned long step);
+selas_status driver_reach(struct driver *driver, unsigned long step, struct messages *messages);
 
 /* The drive at any time: derivatives of motions are exact, with a host differences over half a step. A drive
  * holds until the next one is asked for. */
