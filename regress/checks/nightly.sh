@@ -79,6 +79,26 @@ check 'an error 6 % above the recorded one is red' sh -c "
     cp kept regress/cases/pulse-fixed/errors
     exit \$status"
 
+# a case of one's own: without receivers; one that lacks a line
+mkdir regress/cases/own
+cat >regress/cases/own/deck.nml <<'END'
+&scene dimension = 2, end_time = 1.0 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'box', low = 0, 0, high = 2, 2, spacing = 0.25 /
+&load face = 'y-', shape = 'face', direction = 0, 1, history = 'gaussian', width = 0.3, delay = 1.2 /
+&snapshot every = 0.5, fields = 'velocity' /
+END
+printf 'what: own\ndeck: regress/cases/own/deck.nml\natol: 1e-7\nhalf: quick\n' >regress/cases/own/case
+check 'accepting a case without rtol is refused' sh -c "
+    ! regress/nightly/accept --yes -b \"\$build\" own 2>left && grep -q \"own/case needs one line 'rtol: ...'\" left && [ ! -d regress/cases/own/accepted ]"
+echo 'rtol: 1e-7' >>regress/cases/own/case
+own() { regress/nightly/accept --yes -b "$build" own && regress/nightly/run -q -b "$build" own; }
+check 'a case of snapshots alone is accepted and passes' own
+echo "&profile name = 'line', from = 0, 1, to = 2, 1, points = 5, times = 0.6, fields = 'velocity' /" >>regress/cases/own/deck.nml
+check 'and is no more what was accepted with a profile' sh -c "! regress/nightly/run -q -b \"\$build\" own >night.log 2>&1"
+check 'with a profile it passes too' own
+rm -rf regress/cases/own
+
 # a night that takes long is killed: one that hears the signal, one that does not
 mkdir regress/cases/slow
 printf 'what: slow\ndeck: input/plane-wave.nml\noverride: body%%spacing=0.0005\noverride: scene%%end_time=60\natol: 1\nrtol: 1\nhalf: quick\n' >regress/cases/slow/case

@@ -102,6 +102,15 @@ record_differs() { # record_differs CASE NOW: prints what differs from the accep
 
 is_history() { grep -q '^# t ux uy uz vx vy vz' "$1"; }
 
+has_histories() { # has_histories FOLDER...: is there a receiver's history in any of them?
+    for has_folder; do
+        for has_file in "$has_folder"/*.dat; do
+            [ -f "$has_file" ] && is_history "$has_file" && return 0
+        done
+    done
+    return 1
+}
+
 tell_figures() { # tell_figures NAME PASSED FAILED 'ERROR CPU INSTRUCTIONS' OUT: for the page, in the log, and as small plots
     echo "$2 $3 $4" >"$5/cases/$1/figures"
     echo "$(date -u +%Y-%m-%dT%H:%M) ${REGRESS_COMMIT:--} $1 $([ "$3" -eq 0 ] && echo pass || echo FAIL) $4" >>"$5/log.txt"
