@@ -81,6 +81,15 @@ usr1() { # a checkpoint on demand in a run without any
 }
 check "SIGUSR1: a checkpoint, and the run goes on to its end" usr1
 check "SIGUSR1: same bits" same whole_flying usr1
+mkfifo late.nml
+early() { # while the deck is read
+    "$selas" -q late.nml output%directory=early output%checkpoint_minutes=0 &
+    process=$!
+    exec 3>late.nml && kill -USR1 $process && cat flying.nml >&3
+    exec 3>&-
+    wait $process && [ ! -e early/unfinished ]
+}
+check "SIGUSR1 during the set-up: the run goes on to its end" early
 check "nothing is left of a finished run" sh -c "! ls -A usr1 | grep -E 'unfinished|running|part'"
 
 # --- Checkpoints that must not be used

@@ -236,7 +236,7 @@ int main(int count, char **words)
     }
     selas_simulation *simulation = NULL;
     size_t told = 0;
-    signals_no_size_limit();
+    signals_end_nothing();
     H5dont_atexit(); /* HDF5 would write to a full disk once more at exit, and crash; all files are closed
                         here */
     selas_status status = open_named(&arguments, ranks, &simulation);

@@ -25,11 +25,11 @@ void signals_catch(void)
 {
     on(SIGINT, note, SA_RESTART | (int)SA_RESETHAND);
     on(SIGTERM, note, SA_RESTART | (int)SA_RESETHAND);
-    on(SIGUSR1, note, SA_RESTART);
 }
 
-void signals_no_size_limit(void)
+void signals_end_nothing(void)
 {
+    on(SIGUSR1, note, SA_RESTART);
     on(SIGXFSZ, SIG_IGN, 0);
 }
 

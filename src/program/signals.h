@@ -4,10 +4,10 @@
 
 #include <stdbool.h>
 
-/* From now on signals are remembered; a second SIGINT or SIGTERM ends the program at once. */
+/* From now on SIGINT and SIGTERM are remembered; a second one ends the program at once. */
 void signals_catch(void);
-/* From now on a file that becomes too long is an error, not a signal that ends the program. */
-void signals_no_size_limit(void);
+/* From now on SIGUSR1 is remembered, and a file that becomes too long is an error: neither ends the program. */
+void signals_end_nothing(void);
 /* Name of the signal that asked to stop, NULL if none did. */
 const char *signals_stop(void);
 /* True once for each SIGUSR1. */
