@@ -112,7 +112,7 @@ SELAS_API selas_status selas_write(selas_simulation *simulation);
 SELAS_API selas_status selas_write_exact(selas_simulation *simulation);
 
 /* The plan: tells one line after the other as key and value (points, memory, time step, resolution, ...);
- * runs nothing. */
+ * runs nothing. `tell` must not call functions of the same simulation (they return SELAS_BAD_ARGUMENT). */
 SELAS_API selas_status selas_plan(selas_simulation *simulation,
                                   void (*tell)(void *context, const char *key, const char *value),
                                   void *context);

@@ -205,12 +205,36 @@ static void test_nothing_to_compare(void **state)
     assert_int_equal(system(command), 0);
 }
 
+/* Of the simulation whose plan is told. */
+static void call_back(void *context, const char *key, const char *value)
+{
+    selas_simulation **s = context, *const own = *s;
+    (void)key;
+    (void)value;
+    const double end = 1;
+    assert_int_equal(selas_step(own, 1), SELAS_BAD_ARGUMENT);
+    assert_int_equal(selas_set_real(own, "scene%end_time", 1, &end), SELAS_BAD_ARGUMENT);
+    selas_close(s);
+    assert_ptr_equal(*s, own);
+}
+
+static void test_plans_are_not_interrupted(void **state)
+{
+    (void)state;
+    selas_simulation *s = open_scene();
+    assert_int_equal(selas_plan(s, call_back, &s), SELAS_OK);
+    assert_int_equal(selas_steps(s), 0);
+    assert_int_equal(selas_step(s, 1), SELAS_OK);
+    selas_close(&s);
+    assert_null(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused_calls_change_nothing), cmocka_unit_test(test_one_failure_is_told_once),
         cmocka_unit_test(test_loads_behind_sources),         cmocka_unit_test(test_sources_grow),
-        cmocka_unit_test(test_nothing_to_compare),
+        cmocka_unit_test(test_nothing_to_compare),           cmocka_unit_test(test_plans_are_not_interrupted),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -122,8 +122,10 @@ selas_status selas_plan(selas_simulation *simulation,
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
     selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK) return status;
+    simulation->busy = true;
     recorder_plan(simulation->recorder, simulation->state.y == NULL ? simulation->stepper : NULL, tell,
                   context);
+    simulation->busy = false;
     if (!ranks_first(simulation->ranks)) return SELAS_OK;
     return make_exact(simulation, false); /* what the run would refuse when it is over */
 }
