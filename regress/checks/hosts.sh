@@ -83,6 +83,9 @@ check "Fortran 77: a scene by calls, energy, saved and taken up again" ./legacy_
 check "and with -fdefault-integer-8 throughout" with selas gfortran -std=legacy -fdefault-integer-8 "$rpath" -o legacy_8 \
     "$place"/include/selas/selas.f90 "$place"/include/selas/selas77.f90 "$root/regress/hosts/legacy_scene.f"
 check "which runs" ./legacy_8
+check "and with 8-byte default reals" with selas-fortran gfortran -std=legacy -fdefault-real-8 -fdefault-double-8 "$rpath" -o legacy_r8 \
+    "$root/regress/hosts/legacy_scene.f"
+check "which runs too" ./legacy_r8
 ./twins "$root/input/halfspace-lysmer.nml" || echo "not ok - the Fortran twins ended early"
 
 # The interfaces of selas.f90 are the declarations of selas.h, types and all; a difference is seen on either side.
