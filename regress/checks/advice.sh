@@ -132,6 +132,8 @@ untold "one that drives over a free face" $patch load%centre=0,0 load%velocity=.
 unset deck
 # lambda = mu: (cR/cs)^2 = 2 - 2/sqrt 3
 told "a load faster than the Rayleigh wave" "load 1 moves at 0.95, faster than the Rayleigh wave (0.9194)" load%velocity=-.95,0 "boundary(2)%kind=free"
+soft="material(2)%name=soft material(2)%density=1 material(2)%lambda=.6 material(2)%mu=.6 block%material=soft block%centre=2,0 block%size=20,2"
+told "one above a block that is soft" "load 1 moves at 0.8, faster than the Rayleigh wave (0.7122)" load%velocity=-.8,0 "boundary(2)%kind=free" $soft
 # beside what variant 'paper' is told of whatever acts on its faces
 "$selas" check good.nml method%variant=paper method%row_sums=zero scene%end_time=.8 load%delay=4.2 load%size=1.1 "boundary(2)%kind=free" >said 2>&1
 if [ "$(grep -c '^warning' said)" -eq 2 ] && grep -q "^warning: variant 'paper' carries what acts on faces" said &&

@@ -4,6 +4,7 @@
 #include "scene/absorbing_layers.h"
 
 #include "exact/half_space.h"
+#include "scene/ground.h"
 #include "scene/resolution.h"
 
 #include <math.h>
@@ -173,16 +174,14 @@ static bool outruns_rayleigh(struct adviser *adviser, size_t k)
 {
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
-    const int down = scene->dimension - 1;
-    double centre[3], speed = 0.0;
+    double centre[3] = {0}, speed = 0.0;
     for (int axis = 0; axis < 3; axis++)
         speed = hypot(speed, load->velocity[axis]);
     if (load->kind != LOAD_TRACTION || speed <= 0.0) return false;
-    body_from_deck(&scene->body, load->centre, centre);
-    const double depth = fmax(0.0, centre[down] - scene->body.low[down]);
-    const struct material *material = scene_material_at(scene, depth);
+    ground_from_deck(&scene->body, load->centre, centre);
+    const struct rock rock = ground_at(scene, centre);
     struct half_space ground;
-    half_space_set(&ground, material->density, material->plane_lambda, material->mu);
+    half_space_set(&ground, rock.density, rock.lambda, rock.mu);
     if (!(speed > ground.rayleigh_speed)) return false;
     advise(
         adviser,

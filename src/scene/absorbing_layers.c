@@ -6,6 +6,7 @@
 
 #include "scene/echo.h"
 #include "scene/grading.h"
+#include "scene/ground.h"
 
 #include <float.h>
 #include <math.h>
@@ -183,6 +184,13 @@ bool layer_anywhere(const struct scene *scene)
     return false;
 }
 
+bool block_goes_on(const struct scene *scene, const struct ground_block *block, int face)
+{
+    const int axis = face / 2, sign = face_sign((enum face)face);
+    const double plane = sign * face_plane(&scene->body, (enum face)face) - GROUND_FILM * scene->body.spacing;
+    return sign * block->centre[axis] + block->half[axis] > plane;
+}
+
 /* Does the rock change within the layer behind a face, as far out as it may go? (A surface is level there.) */
 static bool ground_changes_behind(const struct scene *scene, int face)
 {
@@ -197,9 +205,7 @@ static bool ground_changes_behind(const struct scene *scene, int face)
             (sign > 0 && body->layer[i].top > body->high[axis] - body->low[axis]))
             return true;
     for (size_t i = 0; i < body->blocks; i++)
-        if (sign * body->block[i].centre[axis] + body->block[i].half[axis] >
-            sign * face_plane(body, (enum face)face))
-            return true;
+        if (block_goes_on(scene, &body->block[i], face)) return true;
     return false;
 }
 

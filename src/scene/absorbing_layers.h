@@ -47,6 +47,8 @@ double ground_contrast(const struct scene *scene);
 /* Waves guided along a layer, whose phase and group velocities may be opposite, would grow in it: velocities there
  * are damped besides, at this share of the layer's own damping d times (d / largest d)^4 (Eq 11a); 0: none are. */
 double layer_drag(const struct scene *scene, int face);
+/* Is a block's rock that of the layer behind a face? Those that end on the face are; they go on beyond it. */
+bool block_goes_on(const struct scene *scene, const struct ground_block *block, int face);
 /* Is an absorbing layer that the scene asks for left out, since no wave that the face sends back is seen by
  * receivers and profiles within end_time? */
 bool layer_left_out(const struct scene *scene, int face);

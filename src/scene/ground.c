@@ -35,10 +35,6 @@ double layer_top_at(const struct layer *layer, const double place[3])
     return layer->top + layer->slope[0] * place[0] + layer->slope[1] * place[1] - rise;
 }
 
-/* Beyond a face, and within this many spacings of it, the ground is what lies there below it: averages and absorbing
- * layers reach beyond, and blocks often end on the face. */
-static const double film = .02;
-
 static bool inside(const struct scene *scene, const struct ground_block *block, const double place[3],
                    double surface)
 {
@@ -46,8 +42,8 @@ static bool inside(const struct scene *scene, const struct ground_block *block, 
     double square = 0;
     for (int axis = 0; axis < scene->dimension; axis++) {
         const double top = axis == scene->dimension - 1 ? surface : 0;
-        const double low = body->low[axis] + top + film * body->spacing;
-        const double high = body->high[axis] - film * body->spacing;
+        const double low = body->low[axis] + top + GROUND_FILM * body->spacing;
+        const double high = body->high[axis] - GROUND_FILM * body->spacing;
         const double below = place[axis] < high ? place[axis] : high, held = below > low ? below : low;
         const double part = fabs(held - block->centre[axis]) / block->half[axis];
         if (part >= 1) return false;
@@ -77,10 +73,15 @@ static struct rock between(const struct material *one, const struct material *ot
     return (struct rock){density, density * (p * p - 2 * s * s), density * s * s};
 }
 
+bool layer_leans(const struct layer *layer)
+{
+    return layer->map != NULL || layer->slope[0] != 0 || layer->slope[1] != 0;
+}
+
 /* From the surface on, wherever that is. */
 bool layer_covers(const struct layer *layer)
 {
-    return layer->top == 0 && layer->map == NULL && layer->slope[0] == 0 && layer->slope[1] == 0;
+    return layer->top == 0 && !layer_leans(layer);
 }
 
 /* Index of the layer at a place, or the number of layers: the body's own material. */

@@ -4,6 +4,10 @@
 
 #include "scene/scene.h"
 
+/* Beyond a face, and within this many spacings of it, the ground is what lies there below it: averages and absorbing
+ * layers reach beyond, and blocks often end on the face. */
+#define GROUND_FILM .02
+
 struct rock {
     double density, lambda, mu; /* lambda: that of the scene's dimension and plane */
 };
@@ -47,6 +51,8 @@ double ground_low(const struct body *body, int axis);
 bool ground_grades(const struct scene *scene);
 /* Length over which the rock changes along an axis of the surface; 0: it may jump. */
 double ground_detail(const struct scene *scene, int axis);
+/* Is its upper face not level? */
+bool layer_leans(const struct layer *layer);
 /* Does the layer begin at the surface, wherever that is? */
 bool layer_covers(const struct layer *layer);
 /* Depth of a layer's upper face above or below a place. */

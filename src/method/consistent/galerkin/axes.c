@@ -197,12 +197,19 @@ double consistent_fastest(const struct consistent *c, int face)
 {
     const struct scene *scene = c->model.scene;
     const struct body *body = &scene->body;
-    double fastest = scene->material[body->material].p_speed;
-    if (body->layers == 0) return fastest;
     const double depth = body->high[c->dimension - 1] - body->low[c->dimension - 1];
-    if (c->slot[face / 2] == DEPTH) return scene_material_at(scene, face % 2 == 0 ? 0 : depth)->p_speed;
-    for (size_t i = 0; i < body->layers; i++)
-        fastest = fmax(fastest, scene->material[body->layer[i].material].p_speed);
+    const bool across = c->slot[face / 2] == DEPTH;
+    double fastest = across ? scene_material_at(scene, face % 2 == 0 ? 0 : depth)->p_speed
+                            : scene->material[body->material].p_speed;
+    for (size_t i = 0; i < body->layers; i++) {
+        const struct layer *layer = &body->layer[i];
+        if (across && !layer->graded && !layer_leans(layer)) continue; /* only the deepest one is there */
+        fastest = fmax(fastest, scene->material[layer->material].p_speed);
+        if (layer->graded) fastest = fmax(fastest, scene->material[layer->bottom].p_speed);
+    }
+    for (size_t i = 0; i < body->blocks; i++)
+        if (block_goes_on(scene, &body->block[i], face))
+            fastest = fmax(fastest, scene->material[body->block[i].material].p_speed);
     return fastest;
 }
 
