@@ -319,6 +319,22 @@ untold "one beside a level interface" body%grading=1 load%centre=2,2,1.4 receive
 told "one beside a level interface of strong contrast" "1.[67] spacings .* a twentieth .* 'layered'" body%grading=1 load%centre=2,2,1.4 receiver%position=2,2,3.5
 untold "a moment tensor farther off" $tilted load%centre=2,2,1.9
 untold "a force beside an interface" $tilted load%centre=2,2,1.4 load%kind=body-force load%shape=point load%direction=0,0,1 load%moment=
+awk 'BEGIN { for (x = -5; x <= 5; x += .25) { print x, .3 * x >"tilted.txt"; print x, .4 * exp(-x * x) >"basin.txt" } }'
+cat >file.nml <<'END'
+&scene dimension = 2, end_time = 12 /
+&material name = 'soil', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
+&material name = 'rock', density = 1.3, p_speed = 3.0, s_speed = 1.8 /
+&body low = -4, 0, high = 4, 4, spacing = 0.2 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting' /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 1.5, file = 'tilted.txt' /
+&load kind = 'body-force', shape = 'point', centre = 0, 0.8, direction = .3, 1, history = 'gaussian', width = 0.6, delay = 3 /
+&receiver name = 'a', position = -1.5, 0 /
+&output plots = .false. /
+END
+deck=file.nml
+told "layers of a file that are tilted where the box ends" "tilted layers send waves back from beyond the box"
+untold "those of a basin within it" 'layer(2)%file=basin.txt'
 deck=graded.nml
 sed -i '/^&method/d' graded.nml
 told "a grading of level layers" "body%grading brings the general operator" receiver%position=2,2,2.5

@@ -185,15 +185,37 @@ void look_at_interfaces(struct adviser *adviser)
         ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 
+/* Slope of a layer's upper face at the sides of the box, along x and y; one from a file over two spacings. */
+static double slope_at_sides(const struct scene *scene, const struct layer *layer)
+{
+    enum { LOOKS = 8 };
+    const struct body *body = &scene->body;
+    const double step = 2 * body->spacing;
+    double slope = hypot(layer->slope[0], layer->slope[1]);
+    for (int face = 0; layer->map != NULL && face < 2 * scene->dimension - 2; face++)
+        for (int look = 0; look <= LOOKS; look++) {
+            const int axis = face / 2, other = 1 - axis;
+            double edge[3] = {0}, within[3] = {0};
+            edge[other] = within[other] =
+                body->low[other] + (body->high[other] - body->low[other]) * look / LOOKS;
+            edge[axis] = face_plane(body, (enum face)face);
+            within[axis] = edge[axis] - face_sign((enum face)face) * step;
+            const double rise = layer_top_at(layer, edge) - layer_top_at(layer, within);
+            slope = fmax(slope, fabs(rise) / step);
+        }
+    return slope;
+}
+
 /* Rays up a dip come back down it, also from the sides (a soil of half the speed, 1.5 thick, box of 3.6 x 2.4:
  * regress/checks/fitted.sh): what is beyond the box is not there. */
 void look_at_tilted(struct adviser *adviser)
 {
+    static const double level = .01; /* of a file's splines */
     const struct body *body = &adviser->scene->body;
     double slope = 0.0;
     for (size_t i = 0; i < body->layers; i++)
-        slope = fmax(slope, hypot(body->layer[i].slope[0], body->layer[i].slope[1]));
-    if (slope == 0.0 || (body->chosen ? !body->absorbing : !layer_anywhere(adviser->scene))) return;
+        slope = fmax(slope, slope_at_sides(adviser->scene, &body->layer[i]));
+    if (slope <= level || (body->chosen ? !body->absorbing : !layer_anywhere(adviser->scene))) return;
     advise(
         adviser,
         "tilted layers send waves back from beyond the box, which are lost in its absorbing layers: "

@@ -201,7 +201,7 @@ static bool ground_changes_behind(const struct scene *scene, int face)
         scene->deck != NULL && deck_count(scene->deck, "model") > 0; /* known before the box is */
     if (model || (body_is_layered(body) && !across_depth)) return true;
     for (size_t i = 0; i < body->layers; i++)
-        if (body->layer[i].slope[0] != 0 || body->layer[i].slope[1] != 0 ||
+        if (layer_leans(&body->layer[i]) ||
             (sign > 0 && body->layer[i].top > body->high[axis] - body->low[axis]))
             return true;
     for (size_t i = 0; i < body->blocks; i++)
