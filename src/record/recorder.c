@@ -30,6 +30,8 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
         return status;
     }
     watch_start(recorder);
+    recorder->before =
+        recorder->watch; /* a checkpoint has the numbers of both, but not what this makes anew */
     status = hindsight_create(recorder, messages);
     if (status != SELAS_OK) {
         recorder_free(&recorder);
