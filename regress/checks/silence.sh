@@ -318,6 +318,22 @@ untold "a pulse in a bar between rollers" check pushed.nml
 told "the same between free sides" "waves on the points of variant 'total-lagrangian' err by up to 0.21" check pushed.nml boundary%kind=free
 told "pushed askew" "err by up to 0.21" check pushed.nml load%direction=1,1
 told "a pulse that runs ten times as far" "err by up to 0.[78]" check pushed.nml scene%end_time=80
+# --- Kernels and jitter (velocities .14, .52, .51 wrong; regress/studies/bodies/pulse) ---
+cat >kernels.nml <<'END'
+&scene dimension = 2, end_time = 5.2 /
+&method name = 'sph', law = 'linear' /
+&material name = 'rock', density = 1, p_speed = 1, s_speed = .5 /
+&body material = 'rock', spacing = .02083333333333333, low = 0, 0, high = 2, .5 /
+&boundary face = 'all', kind = 'roller' /
+&initial kind = 'plane-wave', direction = 1, 0, width = .2, centre = 1, 0, amplitude = .0001 /
+END
+untold "waves on a lattice's points" check kernels.nml scene%end_time=4.5
+told "wider kernels" "'total-lagrangian' err by up to 0.1[3-5] when they have travelled to end_time; finer" check kernels.nml method%kernel=quintic
+told "jitter, whatever the spacing" "err by up to 0.5[0-9] .*whatever the spacing; variant = 'cloud' would be right" check kernels.nml body%jitter=.2
+told "held by less" "err by up to 0.6[0-9] .*whatever the spacing; variant = 'cloud' would be right" check kernels.nml body%jitter=.1 method%hourglass=.02
+told "on the cloud's points they err as on a lattice" "'cloud' err by up to 0.1 " check kernels.nml body%jitter=.2 method%name=smoothed-point method%law=
+told "updated-Lagrangian ones" "err by up to 0.[67][0-9] .*whatever the spacing" check kernels.nml body%jitter=.3 method%law= method%variant=updated-lagrangian \
+    method%viscosity_alpha=0 method%viscosity_beta=0 method%artificial_stress=0 stepping%scheme=rk4
 
 # --- Turned waves leave through absorbing faces, too (.21 wrong) ---
 cat >leaves.nml <<'END'

@@ -178,11 +178,15 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     const double error = fmax(start, error_of_waves(scene, &sent, omega / slowest,
                                                     slowest * (scene->end_time - sending_begins(scene)))) +
                          (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
-    const bool remains = sent.floor > .005;
+    const bool remains = sent.floor > .005, cloud = strcmp(model->method->variant, "cloud") == 0;
+    const bool scattered = scene->body.jitter > 0 || scene->body.shape == BODY_POINTS;
+    const char *better = scene->body.shape == BODY_PLATE_WITH_HOLE ? ""
+                         : scattered && !cloud                     ? "variant = 'cloud'"
+                                                                   : "variant = 'consistent'";
     if (error > seen)
         advise(adviser,
                "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
-               "end_time%s; %svariant = 'consistent' would be right",
+               "end_time%s; %s%s%s would be right",
                model->method->variant, fmin(1, error), remains ? ", much of it whatever the spacing" : "",
-               remains ? "" : "finer points or ");
+               remains && *better ? "" : "finer points", remains || !*better ? "" : " or ", better);
 }

@@ -158,3 +158,21 @@ double kernel_plane_factor(const struct kernel *kernel, int dimension, double h)
 {
     return h / kernel->plane[dimension - 1];
 }
+
+double kernel_dispersion(const struct kernel *kernel, int dimension, double h, double power)
+{
+    const int most = (int)ceil(kernel->support * h);
+    const int m[3] = {most, dimension > 1 ? most : 0, dimension > 2 ? most : 0};
+    double second = 0, fourth = 0;
+    for (int x = 1; x <= m[0]; x++)
+        for (int y = -m[1]; y <= m[1]; y++)
+            for (int z = -m[2]; z <= m[2]; z++) {
+                const double r = sqrt(x * x + y * y + z * z), square = x * x;
+                if (r >= kernel->support * h * (1 - 1e-9)) continue; /* (as neighbours are counted) */
+                const double weight = power > 0 ? pow(kernel_value(kernel, dimension, r, h), power)
+                                                : -kernel_derivative_over_r(kernel, dimension, r, h);
+                second += weight * square;
+                fourth += weight * square * square;
+            }
+    return second > 0 ? fourth / second : 1;
+}

@@ -30,4 +30,8 @@ double kernel_derivative_over_r(const struct kernel *kernel, int dimension, doub
  * 10 h / 7 for the cubic spline in 3D, 7 pi h / 15 in 2D, 3 h / 2 in 1D (where the plane is a point). */
 double kernel_plane_factor(const struct kernel *kernel, int dimension, double h);
 
+/* What least-squares gradients by W^power (power 0: by -W'(r) / r) lose of long waves along an axis of a lattice of
+ * unit spacing: the sum of weight x^4 over that of weight x^2, times k^2 / 6. 1 for differences of nearest points. */
+double kernel_dispersion(const struct kernel *kernel, int dimension, double h, double power);
+
 #endif

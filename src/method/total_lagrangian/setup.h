@@ -33,6 +33,7 @@ struct tl_making {
 selas_status tl_fill_gradient(struct tl_making *making, struct messages *messages);
 selas_status tl_transpose(struct tl_making *making, struct messages *messages);
 double tl_reach_of_rows(const struct tl_model *tl);
+struct wave_law tl_waves(const struct tl_model *tl);
 double tl_largest_spacing(const struct tl_model *tl);
 static inline double tl_pair_radius(double largest_spacing)
 {

@@ -6,6 +6,7 @@
  * spectrum is imaginary whatever the points and weights. Vignjevic, Reveles & Campbell 2006 for the
  * reference-configuration form, doc/theory/sph-total-lagrangian.md for the derivation. */
 #include "method/total_lagrangian/run_loops.h"
+#include "method/total_lagrangian/setup.h"
 
 #include "base/memory.h"
 #include "scene/initial.h"
@@ -241,13 +242,6 @@ selas_status tl_fill_points(struct tl_model *tl, struct messages *messages)
                             messages);
 }
 
-/* By gradients (the cloud's are linear, and err as quadratic ones). */
-static struct wave_law waves_of(const struct tl_options *options)
-{
-    if (options->central) return (struct wave_law){.constant = 1000, .order = 4};
-    return (struct wave_law){.constant = options->form == NULL && options->degree == 1 ? 95 : 48, .order = 2};
-}
-
 static void fill_model(struct tl_model *tl)
 {
     struct model *model = &tl->model;
@@ -258,7 +252,7 @@ static void fill_model(struct tl_model *tl)
     model->spatial = tl->options.law == LAW_LINEAR && !viscous ? &linear_operator : &nonlinear_operator;
     const bool soft = tl->options.degree > 1 || tl->cloud->dimension > 2; /* (section 10) */
     model->patch = tl->options.form == NULL && !tl->options.central && soft ? PATCH_RINGS : PATCH_WHOLE;
-    model->waves = waves_of(&tl->options);
+    model->waves = tl_waves(tl);
     model->points = tl->cloud->whole;
     if (tl->part.shared)
         model->place = cloud_place;

@@ -240,13 +240,18 @@ static selas_status build(struct updated *updated, struct messages *messages)
     return status;
 }
 
-/* Viscosity damps to order 1 what is wrong to order 2 (110 / p^2 without any, 86 at .1, 80 at .25). */
-static struct wave_law waves_of(const struct updated_options *options)
+/* Viscosity damps to order 1 what is wrong to order 2 (110 / p^2 without any, 86 at .1, 80 at .25; by
+ * the kernel). Jitter slows waves, as of total-Lagrangian points. */
+static struct wave_law waves_of(const struct scene *scene, const struct updated_options *options)
 {
-    const bool viscous = options->alpha >= .5;
-    return (struct wave_law){.constant = viscous ? 1 + 1.2 * options->alpha : 110,
-                             .order = viscous ? 1 : 2,
-                             .floor = .5 * options->artificial_stress};
+    const double lost =
+        kernel_dispersion(options->kernel, scene->dimension, options->smoothing_length, 0); /* (2.1) */
+    if (options->alpha >= .5)
+        return (struct wave_law){
+            .constant = 1 + 1.2 * options->alpha, .order = 1, .floor = .5 * options->artificial_stress};
+    return (struct wave_law){.constant = 53 * lost,
+                             .order = 2,
+                             .floor = .5 * options->artificial_stress + 1.1 * pow(scene->body.jitter, 2)};
 }
 
 static const struct model_core core = {
@@ -274,7 +279,7 @@ selas_status updated_lagrangian_new(const struct scene *scene, const struct upda
     updated->model.method = &method_updated_lagrangian;
     updated->model.core = &core;
     updated->model.patch = PATCH_BY_CELLS;
-    updated->model.waves = waves_of(options);
+    updated->model.waves = waves_of(scene, options);
     updated->model.spatial = &spatial;
     updated->model.scene = scene;
     updated->options = *options;
