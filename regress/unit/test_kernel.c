@@ -70,7 +70,7 @@ static void test_published_values(void **state)
     assert_near(kernel_value(cubic, 1, .5, 1), 23.0 / 48, 1e-15); /* He & Seaid Eq 2, alpha = 1/h */
     assert_true(kernel_value(cubic, 3, 2, 1) == 0 && kernel_value(cubic, 3, 2.5, 1) == 0);
     assert_null(kernel_find("gaussian"));
-    assert_near(kernel_dispersion(cubic, 2, 1, 2), 1, 1e-15); /* nearest points alone */
+    assert_near(kernel_dispersion(cubic, 2, 1, 2), 1, 1e-15);     /* nearest points alone */
     assert_near(kernel_dispersion(cubic, 1, 1.5, 0), 2.2, 1e-14); /* -W'(r)/r at 1 and 2: 6 to 1 */
 }
 
