@@ -116,20 +116,24 @@ static void look_at_pressed_faces(struct adviser *adviser)
 }
 
 /* What the paper's waves err by where they meet faces, carried to order 0, by end_time: each time .15 at free faces and
- * dampers (which send little back: twice at most), .05 at held ones (paper-method.md). In a bar free ends are right. */
-static double error_at_faces(const struct scene *scene, double way)
+ * dampers (which send little back: twice at most), .05 at held ones (paper-method.md). In a bar free ends are
+ * right, but on springs as printed. */
+static double error_at_faces(const struct scene *scene, double ends, double way)
 {
     static const double loose = .15, held = .05;
     double most = 0;
     for (int axis = 0; axis < 3 && axis < scene->dimension; axis++) {
         const double edge = scene->body.high[axis] - scene->body.low[axis];
         double each = 0, times = way / edge;
-        if (!(way > edge)) continue;
+        if (!(way > edge) && !(ends > 0)) continue;
         for (int face = 2 * axis; face < 2 * axis + 2; face++) {
             const bool absorbs = boundary_absorbs(&scene->boundary[face]);
             const bool free = boundary_is_free(&scene->boundary[face]);
             if (absorbs) times = fmin(times, 2);
-            each += absorbs ? loose : scene->dimension == 1 ? 0 : free ? loose : held;
+            each += absorbs                 ? fmax(loose, ends)
+                    : scene->dimension == 1 ? (free ? ends : 0)
+                    : free                  ? loose
+                                            : held;
         }
         most = fmax(most, each / 2 * times);
     }
@@ -173,12 +177,15 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     struct wave_law first = model->waves, sent = model->waves;
     if (scene->initial.shear) first.floor += first.shear;
     if (slowest < scene_fastest(scene)) sent.floor += sent.shear;
+    const double faces =
+        papers ? error_at_faces(scene, sent.ends, plane_wave_speed(scene) * scene->end_time) : 0;
     const double start =
         error_of_waves(scene, &first, typical_number(scene), plane_wave_speed(scene) * scene->end_time);
     const double error = fmax(start, error_of_waves(scene, &sent, omega / slowest,
                                                     slowest * (scene->end_time - sending_begins(scene)))) +
-                         (papers ? error_at_faces(scene, plane_wave_speed(scene) * scene->end_time) : 0);
-    const bool remains = sent.floor > .005, cloud = strcmp(model->method->variant, "cloud") == 0;
+                         faces;
+    const bool remains = sent.floor > .005 || faces > seen,
+               cloud = strcmp(model->method->variant, "cloud") == 0;
     const bool scattered = scene->body.jitter > 0 || scene->body.shape == BODY_POINTS;
     const char *better = scene->body.shape == BODY_PLATE_WITH_HOLE ? ""
                          : scattered && !cloud                     ? "variant = 'cloud'"

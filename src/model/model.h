@@ -217,9 +217,10 @@ enum patch_sight {
 /* What a plane wave errs by for each of its wavelengths that it travels, if it has p points: floor + constant /
  * p^order (doc/howto/spacing.md), S waves shear more; all 0: not told. Of the consistent method alone: shares of it
  * that a Gaussian state errs by, as it is and as slower waves (initial-states.md), and what waves of loads err by, p at
- * half their largest amplitude: sent / p^sent_order. */
+ * half their largest amplitude: sent / p^sent_order. Of the paper's: what they err by at each end of a bar that is not
+ * held. */
 struct wave_law {
-    double constant, order, floor, spread, turned, shear, sent, sent_order;
+    double constant, order, floor, spread, turned, shear, sent, sent_order, ends;
 };
 
 struct model {

@@ -292,7 +292,7 @@ static void second_moments(const struct paper_options *options, int dimension, d
         moment[i] = sum[i] / all;
 }
 
-/* As printed, points hang on springs to the ground but in a bar. Without these the smoothed acceleration and the
+/* As printed, points hang on springs to the ground, in a bar those of its ends. Without these the smoothed acceleration and the
  * filter slow waves down, and forces of waves along an axis are 1 + e times too large, e of the stencil's moments:
  * phases are pi e off after each wavelength. */
 static struct wave_law waves_of(const struct paper *paper)
@@ -304,7 +304,11 @@ static struct wave_law waves_of(const struct paper *paper)
     second_moments(&paper->options, paper->dimension, m);
     const double p = M_PI * fabs(m[0] / 2 + others * m[1] / 2 / ratio - 1);
     const double s = M_PI * fabs(m[0] / 2 + (others - 1 + ratio) * m[1] / 2 - 1);
-    return (struct wave_law){.constant = .9, .order = 1, .floor = p, .shear = others > 0 ? s - p : 0};
+    return (struct wave_law){.constant = .9,
+                             .order = 1,
+                             .floor = p,
+                             .shear = others > 0 ? s - p : 0,
+                             .ends = paper->options.zero_row_sums ? 0 : 1};
 }
 
 selas_status paper_create(const struct scene *scene, const struct paper_options *options,
