@@ -293,8 +293,8 @@ static void second_moments(const struct paper_options *options, int dimension, d
 }
 
 /* As printed, points hang on springs to the ground, in a bar those of its ends. Without these the smoothed
- * acceleration and the filter slow waves down, and forces of waves along an axis are 1 + e times too large, e of the stencil's moments:
- * phases are pi e off after each wavelength. */
+ * acceleration and the filter slow waves down, and forces of waves along an axis are 1 + e times too large, e of the
+ * stencil's moments: phases are pi e off after each wavelength. */
 static struct wave_law waves_of(const struct paper *paper)
 {
     const double others = paper->dimension - 1, mu = paper->material->mu;
