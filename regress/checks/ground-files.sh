@@ -79,6 +79,18 @@ D
 "$build/selas" diff "$out/row/r.dat" "$out/rows/r.dat" --rtol=1e-2 >"$out/log" 2>&1
 ok "a thin row of a model: the histories of thin layers" awk '$1 == "r" { n++; if (!($3 < 3e-3)) exit bad = 1 } END { exit bad || n != 6 }' "$out/log"
 
+# a dike of heavy rock between values a sixteenth of the spacing apart counts wherever it lies
+for row in 202 203; do
+    awk -v row=$row 'BEGIN {
+        print "0 0 -1000 2000 2000 0"; print "2000 6.25 1000"; print "2 321 2"; print "100 9000 100 9000 100 99000"
+        for (k = 0; k < 2; k++) for (j = 0; j < 321; j++) for (i = 0; i < 2; i++)
+            print 2000 * i, 6.25 * j, 1000 * k - 1000, 3000, 1700, j == row ? 12500 : 2500
+    }' >"$out/dike.xyz"
+    "$build/selas" -q "$out/d.nml" model%file=dike.xyz output%directory="$out/dike$row" output%plots=F
+done >"$out/log" 2>&1
+"$build/selas" diff "$out/dike202/r.dat" "$out/dike203/r.dat" --rtol=1 >"$out/log" 2>&1
+ok "a dike of a model: the same ones wherever it lies between columns" awk '$1 == "r" { n++; if (!($3 < 1e-2)) exit bad = 1 } END { exit bad || n != 6 }' "$out/log"
+
 # a thin layer over which the speeds rise tenfold counts as thin even ones
 {
     cat "$out/even.nml"

@@ -270,6 +270,22 @@ static inline void turn_places(const char *path)
     H5Fclose(file);
 }
 
+/* The same with a top of ridges 4 times as far apart as its values, along x. */
+static inline void put_ridges(const char *path, double height, double step)
+{
+    enum { VALUES = 801 };
+    static double value[2 * VALUES];
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    for (int i = 0; i < 2 * VALUES; i++)
+        value[i] = height * (i % VALUES % 4 == 0 ? 1 : i % VALUES % 4 == 2 ? -1 : 0);
+    H5Ldelete(file, "surfaces/top_surface", H5P_DEFAULT);
+    const hid_t set = put_set(file, "surfaces/top_surface", 3, (const hsize_t[]){2, VALUES, 1}, value);
+    put_one(set, "x_resolution", 1000);
+    put_one(set, "y_resolution", step);
+    H5Dclose(set);
+    H5Fclose(file);
+}
+
 /* --- tomography_model.xyz --- */
 
 /* 3 x 4 x 5 values, 500 x 300 x 200 apart from (1000, 2000, -700) on, or downward from 100; line `wrong` (of the

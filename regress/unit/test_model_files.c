@@ -248,6 +248,12 @@ static void test_own_surface(void **state)
         assert_non_null(strstr(scene->body.topography->text[2], "from the model's heights"));
         from_deck_free(&made);
     }
+    write_blocks(stored, 0, "m/s", 0);
+    put_ridges(stored, 3, 2.5); /* a spacing from one to the next */
+    struct from_deck made = right_scene(DECK("600, 300, 900", "" OWN));
+    for (int i = 1; i < 6; i++)
+        assert_near(topography_drop(made.scene->body.topography, (double[]){i * 100, 150, 0}), 0, .1);
+    from_deck_free(&made);
     write_text(stored, 0, 0, "", 60);
     assert_refused(DECK("600, 300, 900", OWN),
                    "t.nml:", (const char *[]){"expected a &model with a surface of its own", NULL});

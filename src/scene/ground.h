@@ -39,6 +39,8 @@ struct material ground_model_material(const struct ground_model *model, const st
 /* How far the ground of a model lies above the plane of face z-; of one with a surface of its own, read with depth =
  * 'sea'. */
 double ground_model_height(const struct ground_model *model, const double place[2]);
+/* Least distance of the heights of that surface in the file. */
+double ground_model_step(const struct ground_model *model);
 void ground_model_free(struct ground_model *model); /* takes NULL */
 /* Places from < x < to along a line through `place` at which the rock may jump, in no order; at most
  * ground_jumps_at_most(). */

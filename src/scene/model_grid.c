@@ -121,11 +121,27 @@ size_t ground_model_kinks(const struct ground_model *model, const double place[3
     return count;
 }
 
+/* Which of the model's surfaces its ground is. */
+static size_t ground_of(const struct ground_model *model)
+{
+    return model->depth == MODEL_STRETCHED ? model->surfaces - 1 : 0;
+}
+
 double ground_model_height(const struct ground_model *model, const double place[2])
 {
     double there[3] = {0};
     place_in(model, place, there);
-    return model->shift - surface_at(model, model->depth == MODEL_STRETCHED ? model->surfaces - 1 : 0, there);
+    return model->shift - surface_at(model, ground_of(model), there);
+}
+
+double ground_model_step(const struct ground_model *model)
+{
+    const struct model_grid *ground = &model->surface[ground_of(model)];
+    double step = INFINITY;
+    for (int axis = 0; axis < 2; axis++)
+        for (size_t i = 0; i + 1 < ground->n[axis]; i++)
+            step = fmin(step, ground->at[axis][i + 1] - ground->at[axis][i]);
+    return step;
 }
 
 /* The first `sets` values at a place of the body. */

@@ -37,8 +37,9 @@ static void read_model_ground(struct builder *builder, const struct deck_group *
                  "expected a &model with a surface of its own: rfile, sfile or GeoModelGrids");
     else if (builder->body_known)
         take_map(builder, group, "shape", topography,
-                 height_map_sample(ground_model_height, body->model, body->low, body->high, body->spacing,
-                                   piece * body->spacing, &said),
+                 height_map_sample(ground_model_height, body->model, body->low, body->high,
+                                   fmin(body->spacing, ground_model_step(body->model)), piece * body->spacing,
+                                   &said),
                  &said);
     messages_free(&said);
 }

@@ -24,6 +24,7 @@ static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
 
 struct columns {
     size_t count, points, a_cell;
+    size_t lines; /* of a column: more than one where a model's values lie closer than columns */
     double from, step, spacing; /* place of column n: from + n step */
     bool varies;
     double weight[2][MOST_COLUMNS * PIECES / 2]; /* [at] of the columns about a point */
@@ -114,6 +115,33 @@ static void average_piece(const struct medium *medium, double place[3], double d
     }
 }
 
+/* Place of a column's line from its middle. */
+static double line_place(const struct columns *columns, size_t line)
+{
+    return (((double)line + .5) / (double)columns->lines - .5) * columns->step;
+}
+
+/* Mean of a column over its lines. */
+static void average_column(const struct medium *medium, const double place[3], double drop, ptrdiff_t number,
+                           double *jump, struct piece *sum)
+{
+    const struct columns *x = &medium->along[0], *y = &medium->along[1];
+    const size_t lines = x->lines * y->lines;
+    for (size_t j = 0, n = 0; j < y->lines; j++)
+        for (size_t i = 0; i < x->lines; i++, n++) {
+            double there[3] = {place[0] + line_place(x, i), place[1] + line_place(y, j), 0};
+            struct piece one;
+            average_piece(medium, there, drop, number, jump, lines > 1 ? &one : sum);
+            if (lines == 1) return;
+            if (n == 0) {
+                *sum = (struct piece){.level = 0};
+                memcpy(sum->least, one.least, sizeof sum->least);
+                memcpy(sum->least_by_bulk, one.least_by_bulk, sizeof sum->least_by_bulk);
+            }
+            piece_add(&one, 1. / (double)lines, 1. / (double)lines, medium->part, sum);
+        }
+}
+
 /* Averages along a slot of the surface about point i from columns `stride` apart. */
 static void average_along(const struct medium *medium, int slot, enum at at, size_t i,
                           const struct piece *column, size_t stride, struct piece *sum)
@@ -193,7 +221,7 @@ static void lay_columns(struct medium *medium, int slot)
     const struct spline *spline = c->layout[slot];
     columns->points = spline == NULL ? 1 : spline->cells + 1;
     columns->varies = spline != NULL && (ground_varies(c->model.scene, slot) || bent(c->model.scene));
-    columns->count = 1;
+    columns->count = columns->lines = 1;
     if (spline == NULL) return;
     columns->spacing = (spline->high - spline->low) / (double)spline->cells;
     columns->from = spline->low;
@@ -204,6 +232,9 @@ static void lay_columns(struct medium *medium, int slot)
         columns->a_cell = 2 * (size_t)ceil(columns->spacing / detail);
     columns->count = (spline->cells + 2 * BEYOND) * columns->a_cell;
     columns->step = columns->spacing / (double)columns->a_cell;
+    const struct body *body = &c->model.scene->body;
+    if (body->model != NULL && body->line == NULL)
+        columns->lines = (size_t)fmax(1, ceil(columns->step / body->model->detail[slot] - 1e-6));
     columns->from += columns->step / 2 - BEYOND * columns->spacing;
     for (size_t n = 0; n < columns->a_cell * PIECES / 2; n++)
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
@@ -305,7 +336,7 @@ static void advance(struct medium *medium)
             place[0] = column_place(medium, 0, i);
             if (c->dimension == 3) place[1] = column_place(medium, 1, j);
             const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
-            average_piece(medium, place, drop, number, medium->jump + thread * medium->room, &column[i]);
+            average_column(medium, place, drop, number, medium->jump + thread * medium->room, &column[i]);
             piece_follow(i > 0 ? &column[i - 1] : NULL, &column[i]);
         }
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
