@@ -253,6 +253,7 @@ static void test_own_surface(void **state)
     struct from_deck made = right_scene(DECK("600, 300, 900", "" OWN));
     for (int i = 1; i < 6; i++)
         assert_near(topography_drop(made.scene->body.topography, (double[]){i * 100, 150, 0}), 0, .1);
+    assert_near(made.scene->body.model->detail[0], 2.5, 1e-9);
     from_deck_free(&made);
     write_text(stored, 0, 0, "", 60);
     assert_refused(DECK("600, 300, 900", OWN),

@@ -222,17 +222,25 @@ static bool read_other(struct model_source *source)
 }
 
 /* Least distance of values along the axes of the body. */
+static double detail_of(const struct ground_model *model, const struct model_grid *grid, size_t grids,
+                        int own)
+{
+    double detail = INFINITY;
+    for (size_t i = 0; i < grids; i++)
+        for (int axis = 0; axis < 2; axis++)
+            for (size_t k = 0; k + 1 < grid[i].n[axis] && model->turn[axis][own] != 0; k++)
+                detail = fmin(detail,
+                              (grid[i].at[axis][k + 1] - grid[i].at[axis][k]) / fabs(model->turn[axis][own]));
+    return detail;
+}
+
+/* Of the grids, and of the surfaces where depths of the body count from one. */
 static void find_detail(struct ground_model *model)
 {
-    for (int own = 0; own < 2; own++) {
-        model->detail[own] = INFINITY;
-        for (size_t i = 0; i < model->grids; i++)
-            for (int axis = 0; axis < 2; axis++)
-                for (size_t k = 0; k + 1 < model->grid[i].n[axis] && model->turn[axis][own] != 0; k++)
-                    model->detail[own] = fmin(model->detail[own],
-                                              (model->grid[i].at[axis][k + 1] - model->grid[i].at[axis][k]) /
-                                                  fabs(model->turn[axis][own]));
-    }
+    const size_t surfaces = model->sea && model->depth == MODEL_BELOW ? 0 : model->surfaces;
+    for (int own = 0; own < 2; own++)
+        model->detail[own] = fmin(detail_of(model, model->grid, model->grids, own),
+                                  detail_of(model, model->surface, surfaces, own));
 }
 
 static void tell_filled(struct model_source *source)
