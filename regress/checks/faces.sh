@@ -78,6 +78,24 @@ for side in "" "boundary%face=x-,x+ boundary%kind=transmitting boundary%layer=ly
     run plateau plateau.nml $side && run level level.nml $side
     differ "ground below a plateau as level ground (${side:-free sides})" 0 .015 plateau level
 done
+# --- Rock thinner than the spacing at the surface or the bottom counts as what there is of it ---
+cat >thin.nml <<'END'
+&scene dimension = 2, end_time = 5 /
+&material name = 'rock', density = 1, p_speed = 2, s_speed = 1 /
+&material name = 'heavy', density = 5, p_speed = 2, s_speed = 1 /
+&body material = 'rock', low = 0, 0, high = 4, 1, spacing = .1 /
+&layer material = 'heavy', top = 0 /
+&layer material = 'rock', top = .01 /
+&load kind = 'body-force', shape = 'point', centre = 1, .4, direction = 1, .6, history = 'gaussian', width = .3, delay = 1.3 /
+&receiver name = 'a', position = 2, 0 /
+&receiver name = 'b', position = 3, .5 /
+&output history_step = .1, plots = F /
+END
+sed "s/'heavy', top = 0/'rock', top = 0/; s/'rock', top = .01/'heavy', top = .99/" thin.nml >thick.nml
+for scene in thin thick; do
+    run layers $scene.nml method%operator=layered && run general $scene.nml method%operator=general
+    differ "a thin layer at a face as the layered operator has it ($scene)" 0 .08 general layers
+done
 # --- The rim of a hole ---
 cat >hole.nml <<'END'
 &scene dimension = 2, end_time = 8 /

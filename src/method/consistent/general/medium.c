@@ -16,11 +16,8 @@
 enum {
     MOST_COLUMNS = 8, /* a cell; even, so that cells' middles lie between two */
     BEYOND = 3,       /* cells of columns on either side of the body */
-    PIECES = 10,      /* of half a cell, that the widest kernel reaches over */
-    RING = PIECES + 2 /* pieces over depth that are kept: planes of knots and of middles of a cell */
 };
 static const double least_part = .3;
-static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
 
 struct columns {
     size_t count, points, a_cell;
@@ -115,23 +112,34 @@ static void average_piece(const struct medium *medium, double place[3], double d
     }
 }
 
+static ptrdiff_t pieces_of(const struct medium *medium)
+{
+    return 2 * (ptrdiff_t)medium->c->layout[DEPTH]->cells;
+}
+
 /* Place of a column's line from its middle. */
 static double line_place(const struct columns *columns, size_t line)
 {
     return (((double)line + .5) / (double)columns->lines - .5) * columns->step;
 }
 
-/* Mean of a column over its lines. */
+/* Mean of a column over its lines; above and below the lattice the mirror image, so that averages add up to what there
+ * is of the rock. */
 static void average_column(const struct medium *medium, const double place[3], double drop, ptrdiff_t number,
                            double *jump, struct piece *sum)
 {
     const struct columns *x = &medium->along[0], *y = &medium->along[1];
     const size_t lines = x->lines * y->lines;
+    const ptrdiff_t pieces = pieces_of(medium), within = number < 0         ? -1 - number
+                                                         : number >= pieces ? 2 * pieces - 1 - number
+                                                                            : number;
     for (size_t j = 0, n = 0; j < y->lines; j++)
         for (size_t i = 0; i < x->lines; i++, n++) {
             double there[3] = {place[0] + line_place(x, i), place[1] + line_place(y, j), 0};
             struct piece one;
-            average_piece(medium, there, drop, number, jump, lines > 1 ? &one : sum);
+            struct piece *found = lines > 1 ? &one : sum;
+            average_piece(medium, there, drop, within, jump, found);
+            if (within != number) piece_turn(found);
             if (lines == 1) return;
             if (n == 0) {
                 *sum = (struct piece){.level = 0};
@@ -165,46 +173,6 @@ static void average_along(const struct medium *medium, int slot, enum at at, siz
         const double even = 1. / (double)width;
         piece_add(one, columns->weight[at][n], even, medium->part, sum);
         sum->rise[slot] += (n < width / 2 ? -2 : 2) * even * one->level;
-    }
-}
-
-/* (G11b): from pieces on either side of a point of a family's plane, the first of which has this number. */
-static void average_depth(const struct piece *ring, size_t plane, enum at at, ptrdiff_t first,
-                          struct averaged *sum)
-{
-    const struct piece *piece[PIECES];
-    for (int n = 0; n < PIECES; n++)
-        piece[n] = ring + plane * (size_t)((first + n + RING) % RING);
-    *sum = (struct averaged){.level = 0};
-    memcpy(sum->least, piece[0]->least, sizeof sum->least);
-    memcpy(sum->least_by_bulk, piece[0]->least_by_bulk, sizeof sum->least_by_bulk);
-    memcpy(sum->mean, piece[0]->mean[0], sizeof sum->mean);
-    memcpy(sum->by_bulk, piece[0]->by_bulk[0], sizeof sum->by_bulk);
-    sum->level = piece[0]->level;
-    sum->even = piece[PIECES - 1]->alike + 1 >= PIECES;
-    if (sum->even) return;
-    memset(sum->mean, 0, sizeof sum->mean);
-    memset(sum->by_bulk, 0, sizeof sum->by_bulk);
-    sum->level = 0;
-    for (int n = 0; n < PIECES; n++) {
-        const double t = (n + .5) / 2 - reach_of_kernel, from = piece_kernel(at, t - .25),
-                     to = piece_kernel(at, t + .25);
-        const double weight[2] = {(from + to) / 4,
-                                  to - from}; /* the piece is half a cell, and its slope 2 (to - from) */
-        for (int moment = 0; moment < 2; moment++)
-            for (int q = 0; q < AVERAGES; q++) {
-                sum->mean[q] += weight[moment] * piece[n]->mean[moment][q];
-                sum->by_bulk[q] += weight[moment] * piece[n]->by_bulk[moment][q];
-            }
-        for (int q = 0; q < POSITIVE; q++)
-            if (piece[n]->least[q] < sum->least[q]) {
-                sum->least[q] = piece[n]->least[q];
-                sum->least_by_bulk[q] = piece[n]->least_by_bulk[q];
-            }
-        sum->level += piece[n]->level / PIECES;
-        for (int s = 0; s < 2; s++)
-            sum->rise[s] += piece[n]->rise[s] / PIECES;
-        sum->rise[DEPTH] += (t > 0 ? 2. : -2.) / PIECES * piece[n]->level;
     }
 }
 
@@ -377,7 +345,8 @@ void medium_plane(struct medium *medium, int f, size_t k)
 #pragma omp parallel for num_threads(c->threads) schedule(dynamic)
     for (size_t j = 0; j < family->n[1]; j++)
         for (size_t i = 0; i < family->n[0]; i++)
-            average_depth(medium->ring[f] + j * points + i, plane, at, first, &medium->point[j * points + i]);
+            piece_average(medium->ring[f] + j * points + i, plane, at, first, pieces_of(medium),
+                          &medium->point[j * points + i]);
 }
 
 void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,

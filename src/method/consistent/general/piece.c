@@ -91,3 +91,52 @@ void piece_add(const struct piece *one, double weight, double even, bool derivat
     for (int s = 0; s < 2; s++)
         sum->rise[s] += even * one->rise[s];
 }
+
+void piece_turn(struct piece *piece)
+{
+    for (int q = 0; q < AVERAGES; q++) {
+        piece->mean[1][q] = -piece->mean[1][q];
+        piece->by_bulk[1][q] = -piece->by_bulk[1][q];
+    }
+}
+
+void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t first, ptrdiff_t pieces,
+                   struct averaged *sum)
+{
+    const struct piece *piece[PIECES];
+    const ptrdiff_t low = first < 0 ? -first : 0, high = pieces - 1 - first;
+    for (int n = 0; n < PIECES; n++)
+        piece[n] = ring + plane * (size_t)((first + n + RING) % RING);
+    *sum = (struct averaged){.level = 0};
+    memcpy(sum->least, piece[0]->least, sizeof sum->least);
+    memcpy(sum->least_by_bulk, piece[0]->least_by_bulk, sizeof sum->least_by_bulk);
+    memcpy(sum->mean, piece[0]->mean[0], sizeof sum->mean);
+    memcpy(sum->by_bulk, piece[0]->by_bulk[0], sizeof sum->by_bulk);
+    sum->level = piece[0]->level;
+    sum->even = piece[PIECES - 1]->alike + 1 >= PIECES;
+    if (sum->even) return;
+    memset(sum->mean, 0, sizeof sum->mean);
+    memset(sum->by_bulk, 0, sizeof sum->by_bulk);
+    sum->level = 0;
+    for (int n = 0; n < PIECES; n++) {
+        const double t = (n + .5) / 2 - reach_of_kernel, from = piece_kernel(at, t - .25),
+                     to = piece_kernel(at, t + .25);
+        const double weight[2] = {(from + to) / 4,
+                                  to - from}; /* the piece is half a cell, and its slope 2 (to - from) */
+        for (int moment = 0; moment < 2; moment++)
+            for (int q = 0; q < AVERAGES; q++) {
+                sum->mean[q] += weight[moment] * piece[n]->mean[moment][q];
+                sum->by_bulk[q] += weight[moment] * piece[n]->by_bulk[moment][q];
+            }
+        for (int q = 0; q < POSITIVE; q++)
+            if (piece[n]->least[q] < sum->least[q]) {
+                sum->least[q] = piece[n]->least[q];
+                sum->least_by_bulk[q] = piece[n]->least_by_bulk[q];
+            }
+        const struct piece *within = piece[n < low ? low : n > high ? high : n];
+        sum->level += within->level / PIECES;
+        for (int s = 0; s < 2; s++)
+            sum->rise[s] += within->rise[s] / PIECES;
+        sum->rise[DEPTH] += (t > 0 ? 2. : -2.) / PIECES * within->level;
+    }
+}

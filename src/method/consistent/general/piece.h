@@ -4,6 +4,12 @@
 
 #include "method/consistent/general/medium.h"
 
+enum {
+    PIECES = 10,      /* of half a cell, that the widest kernel reaches over */
+    RING = PIECES + 2 /* pieces over depth that are kept: planes of knots and of middles of a cell */
+};
+static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
+
 /* Half a cell over depth: means of a quantity and of it times the height over the middle, in cells. The kernels are
  * linear there, so that a plane's averages are sums over its pieces (G11b). */
 struct piece {
@@ -21,5 +27,11 @@ void piece_sample(const struct rock *rock, double height, double part, bool deri
 void piece_follow(const struct piece *before, struct piece *piece);
 /* sum += weight * one; `even`: the weight of its level. */
 void piece_add(const struct piece *one, double weight, double even, bool derivatives, struct piece *sum);
+/* Upside down. */
+void piece_turn(struct piece *piece);
+/* (G11b): from pieces on either side of a point of a family's plane, the first of which has this number, of `pieces` in
+ * the lattice; ring[plane * ...]: number modulo RING. */
+void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t first, ptrdiff_t pieces,
+                   struct averaged *sum);
 
 #endif
