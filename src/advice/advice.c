@@ -229,6 +229,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_shallow(&adviser, stepper->model);
     look_at_beyond(&adviser);
     look_at_rests(&adviser);
+    look_at_late(&adviser);
     look_at_weights(&adviser);
     look_at_walls(&adviser);
     look_at_stacks(&adviser);

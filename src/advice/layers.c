@@ -11,6 +11,7 @@
 #include "scene/extent.h"
 #include "scene/ground.h"
 #include "scene/guided.h"
+#include "scene/late.h"
 #include "scene/resolution.h"
 #include "scene/rests.h"
 
@@ -34,6 +35,7 @@ static void look_at_echoes(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     const bool linear = layer_degree(scene) == 1;
     double most = linear ? much_of_linear : much;
+    const double allowed = most;
     int worst = -1;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const size_t points =
@@ -44,12 +46,14 @@ static void look_at_echoes(struct adviser *adviser)
         worst = face;
     }
     if (worst < 0) return;
+    const bool helps = echo_of_layer(scene, worst, MOST_POINTS) <= fmax(allowed, most / 2);
     advise(adviser,
            "the absorbing layer of face '%s' may send back up to %.2g of the velocity at the worst place "
            "looked at%s would be right",
            face_name((enum face)worst), fmin(most, 1),
-           linear ? " and up to three times that of the displacement: method%degree = 2"
-                  : ": more points, or a thickness that is left to the program,");
+           linear   ? " and up to three times that of the displacement: method%degree = 2"
+           : !helps ? ", with any number of points: sides farther from what acts and is looked at"
+                    : ": more points, or a thickness that is left to the program,");
 }
 
 /* Of layers whose size the deck gives: what the program chooses is proved by echoes (scene/absorbing_layers.c). */
@@ -213,4 +217,19 @@ void look_at_rests(struct adviser *adviser)
         "by %.1g of what is left at receiver '%s'; %s would be right",
         scene->load[rest.load].group + 1, grows ? " and, as these go on growing, velocities" : "", rest.error,
         scene->receiver[rest.receiver].name, right);
+}
+
+void look_at_late(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    char right[48] = "body%low and body%high farther off";
+    const double error = scene->reference.kind[0] != '\0' ? 0 : late_error(scene);
+    if (error < REST_SEEN) return;
+    const long points = late_points(scene);
+    if (points > 0) snprintf(right, sizeof right, "boundary%%layer_points = %ld", points);
+    advise(
+        adviser,
+        "absorbing layers give way to what a pulse leaves: by the end displacements may err by %.1g of the "
+        "largest; %s would be right",
+        error, right);
 }

@@ -75,6 +75,7 @@ void look_at_contrast(struct adviser *adviser);
 void look_at_ligament(struct adviser *adviser);
 /* Loads that stay on between layers that give way. */
 void look_at_rests(struct adviser *adviser);
+void look_at_late(struct adviser *adviser);
 /* What acts as far as faces behind which the ground goes on, or beyond them (beyond.c). */
 void look_at_beyond(struct adviser *adviser);
 /* Moment tensors too near to layers. */

@@ -23,7 +23,7 @@
 /* Spacing against the deck's, at most; points that a wave keeps, and the width of an initial state; points of
  * the larger box's layers. */
 static const double coarsest = 2, fewest = 4, initial_points = 2;
-enum { SURE_POINTS = 20, COMPONENTS = 3, CHANNELS = 2 * COMPONENTS };
+enum { SURE_POINTS = 20, MORE_POINTS = 8, COMPONENTS = 3, CHANNELS = 2 * COMPONENTS };
 static const selas_field recorded[] = {SELAS_DISPLACEMENT, SELAS_VELOCITY};
 
 /* Layers as they are with the deck's points, whatever the spacing. */
@@ -58,7 +58,9 @@ static void enlarge(struct scene *scene)
                 body->low[axis] -= further;
             else
                 body->high[axis] += further;
-            if (boundary_has_layer(boundary)) boundary->layer_points = SURE_POINTS;
+            if (!boundary_has_layer(boundary)) continue;
+            const long more = boundary->layer_points + MORE_POINTS;
+            boundary->layer_points = more > SURE_POINTS ? more : SURE_POINTS;
         }
     }
     topography_draw_out(scene);

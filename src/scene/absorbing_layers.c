@@ -251,6 +251,13 @@ double layer_drag(const struct scene *scene, int face)
     return guiding(scene, face).share;
 }
 
+double layer_stretch(const struct scene *scene, int face, size_t points)
+{
+    static const double dragged = .6;
+    const double whole = log(1 / layer_profile_reflection(scene, face, points));
+    return layer_drag(scene, face) > 0 ? dragged * whole : whole;
+}
+
 bool layer_left_out(const struct scene *scene, int face)
 {
     return layer_asked(scene, face) && layer_unneeded(scene, face);

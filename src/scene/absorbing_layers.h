@@ -9,6 +9,8 @@
 const char *layers_refusal(const struct scene *scene);
 
 enum { LAYER_POINTS = 8, LEAST_POINTS = 4, MOST_POINTS = 40 };
+/* alpha of (9), times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
+#define LAYER_RELAXATION .1
 
 /* What a point costs besides in each layer that it lies in (edges: two), against one of the body
  * (doc/developers/performance.md, section 5). */
@@ -40,7 +42,9 @@ bool layer_anywhere(const struct scene *scene);
  * the one to be expected by measurement. */
 double layer_profile_reflection(const struct scene *scene, int face, size_t points);
 double layer_expected_reflection(size_t points);
-/* The least of the former where waves are guided, for what grows in layers goes by its logarithm; 0: none are. */
+/* ln(1/R) as fields that hardly change feel it: where velocities are damped (11) the outer part does not move. */
+double layer_stretch(const struct scene *scene, int face, size_t points);
+/* The least R of (9) where waves are guided, for what grows in layers goes by its logarithm; 0: none are. */
 double layer_least_reflection(const struct scene *scene, int face);
 /* Speed of S waves in the fastest material over that in the slowest. */
 double ground_contrast(const struct scene *scene);

@@ -5,6 +5,7 @@
 #include "scene/echo.h"
 
 #include "scene/absorbing_layers.h"
+#include "scene/late.h"
 
 #include <math.h>
 
@@ -196,11 +197,13 @@ static double share_of_drag(const struct scene *scene)
 size_t echo_points(const struct scene *scene, int face)
 {
     const struct echo echo = worst_echo(scene, face);
+    const struct lates lates = late_worst(scene, face);
     const double h = layer_spacing(scene, face), finer = coarse * h / fmax(echo.wavelength, h);
     const double wanted = most_wanted * fmin(1, finer), dragged = most_dragged * share_of_drag(scene);
     size_t points = 0;
     while (points < MOST &&
-           (of_points(scene, &echo, points) > wanted || of_drag(scene, face, &echo, points) > dragged))
+           (of_points(scene, &echo, points) > wanted || of_drag(scene, face, &echo, points) > dragged ||
+            late_of_points(scene, face, &lates, points) > wanted))
         points++;
     return points;
 }

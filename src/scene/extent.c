@@ -112,6 +112,8 @@ static void state_load(const struct scene *scene, size_t index, struct extent *e
     if (first == past) return;
     extent->role = EXTENT_ACTS;
     extent->wavelength = wavelength_of(scene, &load->history);
+    extent->lasts = load->history.lasts;
+    extent->middle = load->history.middle;
     switch (load->shape) {
     case LOAD_FACE:
         extent->plane = load->kind == LOAD_TRACTION && is_surface(scene, load->face) &&

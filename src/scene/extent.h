@@ -15,9 +15,10 @@ struct extent {
     double low[3], high[3]; /* body frame; -INFINITY and INFINITY: as far as the body goes */
     double from, until;     /* ACTS: no motion before `from`; SEEN: not looked at after `until` */
     double wavelength; /* ACTS: P waves at the root mean square frequency of the velocity; INFINITY: static */
-    bool skew[3];      /* ACTS: not its own mirror image across this axis of the body */
-    bool dipole;       /* ACTS: a moment tensor */
-    bool plane;        /* ACTS: alike all over the surface, along its normal */
+    double lasts, middle; /* ACTS: of a load's pulse (history.h) */
+    bool skew[3];         /* ACTS: not its own mirror image across this axis of the body */
+    bool dipole;          /* ACTS: a moment tensor */
+    bool plane;           /* ACTS: alike all over the surface, along its normal */
 };
 
 /* Number `index` (from 0) of all extents of a scene, IDLE ones included; false past the last. Places need

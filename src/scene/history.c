@@ -348,18 +348,24 @@ void history_set_rate(struct history *history, double end_time)
     const double end = history_end(history);
     const bool lasting = !(end < end_time) || history_value(history, end * (1 + 1e-9), 0) != 0;
     const double step = (lasting ? end_time : end) / PARTS;
-    double square[3] = {0}, largest = 0;
+    double square[3] = {0}, largest = 0, whole = 0, size = 0, moment = 0;
     for (int i = 0; i < PARTS; i++)
         for (int derivative = 0; derivative < 3; derivative++) {
             const double value = history_value(history, (i + .5) * step, derivative);
             square[derivative] += value * value;
-            if (derivative == 0) largest = fmax(largest, fabs(value));
+            if (derivative > 0) continue;
+            largest = fmax(largest, fabs(value));
+            whole += value;
+            size += fabs(value);
+            moment += fabs(value) * (i + .5) * step;
         }
-    history->rate = 0;
+    history->rate = history->lasts = history->middle = 0;
     if (lasting && fabs(history_value(history, end_time, 0)) > stays * largest) {
         if (square[1] > 0) history->rate = sqrt(square[2] / square[1]);
     } else if (square[0] > 0) {
         history->rate = slope_of_bell * sqrt(square[1] / square[0]);
+        history->lasts = fabs(whole) / largest * step;
+        history->middle = moment / size;
     }
 }
 

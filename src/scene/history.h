@@ -21,6 +21,7 @@ struct history {
     double *table_time, *table_value;
     double
         rate; /* root mean square angular frequency of f' while it acts, 0 without one: history_set_rate() */
+    double lasts, middle; /* of a pulse: its integral over its largest value, and when: history_set_rate() */
     double peak; /* largest amplitude of the spectrum (history_cutoff); 0: not known, history_set_peak() */
 };
 
@@ -49,7 +50,7 @@ bool history_alike(const struct history *a, const struct history *b);
 double history_end(const struct history *history);
 
 /* Sets `rate`, for runs to this time: of a pulse from f' and f, as of a bell (kinks then count as what they are for
- * a lattice); of what lasts from f'' and f'. */
+ * a lattice), and `lasts` and `middle`; of what lasts from f'' and f'. */
 void history_set_rate(struct history *history, double end_time);
 
 /* L2 norm of f' over all time, impulses left out. */

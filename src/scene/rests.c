@@ -11,19 +11,15 @@
  * factors by measurement (regress/studies/rests). Near a layer of few points the stretched field of a moment tensor is
  * not resolved besides, m cells from it, n its points:
  *   .02 (4 / m)^2.7 (8 / n)^1.85 (1 - exp(-(c t / 200 h)^1.5)).                                           (19)
- * Splines of degree 1 do not resolve it either: 8 / n^2 in the plane, 1.2 / n^2 in space.
- * Where velocities in layers are damped against guided waves (11) the outer part does not move: .6 of the second part
- * of X. */
+ * Splines of degree 1 do not resolve it either: 8 / n^2 in the plane, 1.2 / n^2 in space. */
 #include "scene/rests.h"
 
 #include "scene/absorbing_layers.h"
 
 #include <math.h>
 
-static const double in_space = 2.5, in_plane = 1, near_part = .02, near_cells = 4, dragged = .6;
+static const double in_space = 2.5, in_plane = 1, near_part = .02, near_cells = 4;
 static const double linear_in_plane = 8, linear_in_space = 1.2;
-/* (9) */
-static const double relaxing = .1;
 
 /* A load as rests see it. */
 struct stay {
@@ -43,7 +39,7 @@ static double to_face(const struct scene *scene, const struct stay *stay, int fa
 
 /* The layers of a scene's faces. */
 struct layers {
-    double points[FACES], stretch[FACES]; /* ln(1/R), .6 of it where velocities are damped */
+    double points[FACES], stretch[FACES];
 };
 
 /* As they are, or with so many points each where that is more. */
@@ -54,8 +50,7 @@ static struct layers layers_of(const struct scene *scene, size_t points)
         const size_t own = layer_points(scene, face), n = points > own ? points : own;
         if (own == 0) continue;
         layers.points[face] = (double)n;
-        layers.stretch[face] =
-            log(1 / layer_profile_reflection(scene, face, n)) * (layer_drag(scene, face) > 0 ? dragged : 1);
+        layers.stretch[face] = layer_stretch(scene, face, n);
     }
     return layers;
 }
@@ -66,7 +61,7 @@ static double of_face(const struct scene *scene, const struct stay *stay, int fa
 {
     const double thick = layers->points[face] * layer_spacing(scene, face), away = to_face(scene, stay, face);
     const double speed = scene_fastest(scene), t = stay->since, gone = speed * t;
-    const double stretch = layers->stretch[face] * gone / (1 + relaxing * gone / thick);
+    const double stretch = layers->stretch[face] * gone / (1 + LAYER_RELAXATION * gone / thick);
     const double image = 2 * (away + thick) + stretch, x = image / gone, fades = exp(-x);
     const double plane = sqrt(M_PI / (2 * x)) * fades; /* K_0(x), and K_1(x) but for 1 + 3 / (8 x) */
     if (scene->dimension == 3)

@@ -4,11 +4,22 @@
 #include "scene/echo.h"
 #include "scene/ground.h"
 #include "scene/guided.h"
+#include "scene/late.h"
 #include "scene/resolution.h"
 #include "scene/rests.h"
 
 #include <math.h>
 #include <stdio.h>
+
+static void tell_late(const struct scene *scene,
+                      void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    const double late = late_error(scene);
+    char text[80];
+    if (late < LATE_TOLD) return;
+    snprintf(text, sizeof text, "displacements may err by %.2g of the largest by the end", late);
+    tell(context, "what pulses leave", text);
+}
 
 void layers_describe(const struct consistent *c,
                      void (*tell)(void *context, const char *key, const char *value), void *context)
@@ -48,6 +59,7 @@ void layers_describe(const struct consistent *c,
                  rest.error, scene->load[rest.load].group + 1, scene->receiver[rest.receiver].name);
         tell(context, "what stays", text);
     }
+    tell_late(scene, tell, context);
     if (c->pml == NULL || c->part.ranks != NULL) return;
     size_t variables = 0;
     for (size_t s = 0; s < c->pml->slabs; s++) {

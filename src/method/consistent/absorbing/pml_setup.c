@@ -11,8 +11,6 @@
 #include <string.h>
 /* Damping of velocities (Eq 11): this power of d / d_max. */
 static const double drag_power = 4;
-/* alpha = this times c_p / L: with alpha = 0 motions of frequency 0 in the layer would drift for ever. */
-static const double layer_relaxation = .1;
 
 static bool lay_drag(const struct consistent *c, struct slab *slab, size_t count, double most)
 {
@@ -50,7 +48,7 @@ static bool lay_damping(struct consistent *c, struct slab *slab)
     const double most = (LAYER_POWER + 1) * fastest * log(1 / reflection) / (2 * thickness * stretch);
     slab->most = most;
     slab->edge = edge;
-    slab->relaxation = layer_relaxation * fastest / (thickness * stretch);
+    slab->relaxation = LAYER_RELAXATION * fastest / (thickness * stretch);
     size_t count = 0, first = 0;
     for (size_t i = 0; i < spline->count; i++) {
         const double beyond = slab->end == 0 ? edge - spline->greville[i] : spline->greville[i] - edge;

@@ -1,0 +1,120 @@
+/* What layers make of displacements long after a pulse (see the header).
+ *
+ * At the frequency s of a Laplace transform a layer of thickness L is one of L + c ln(1/R) / (2 (alpha + s)), (9). Of a
+ * pulse's field comes back what goes by the factor exp(-s T - l s / (alpha + s)), T = (d + 2 L) / c, d the way over the
+ * face, l = ln(1/R); in time, but for the pulse itself, exp(-l - alpha (t - T)) (l alpha / (t - T))^(1/2)
+ * I_1(2 (l a)^(1/2)), a = alpha (t - T), of which
+ *   G = l alpha exp(-(l^(1/2) - a^(1/2))^2) / (1 + 4 pi (l a)^(3/2))^(1/2),     a up to l,                   (18a)
+ * is a bound: the saddle is s = alpha ((l / a)^(1/2) - 1), at least 1 / t. Of a pulse of duration D, its integral over
+ * its largest value, whose field is spread as K_0(z), z = s T + l s / (alpha + s), in the plane, as 1 / X, X = c (T +
+ * l / (alpha + s)), in space, comes back, of the largest displacement at the distance r, the sum over faces of
+ *   3 D G (pi / (2 z))^(1/2) / arcosh(1 + c D / r) in the plane, 1.5 D G r / X in space,                     (18b)
+ * of moment tensors s r / (3 c) times as much, without the arcosh; 3 and 1.5 by measurement (regress/studies/late). */
+#include "scene/late.h"
+
+#include "scene/absorbing_layers.h"
+#include "scene/echo.h"
+#include "scene/guided.h"
+
+#include <math.h>
+
+static const double in_plane = 3, in_space = 1.5, of_moments = 1. / 3;
+
+/* Longest distance between two extents. */
+static double apart(const struct scene *scene, const struct extent *one, const struct extent *other)
+{
+    double way = scene->body.spacing;
+    for (int c = 0; c < scene->dimension; c++)
+        way = hypot(way, fmax(0, fmax(one->high[c] - other->low[c], other->high[c] - one->low[c])));
+    return way;
+}
+
+/* Between faces that guide no field is that of a point. */
+static bool is_open(const struct scene *scene)
+{
+    bool open = scene->dimension > 1 && body_is_box(&scene->body);
+    for (int axis = 0; axis < scene->dimension; axis++)
+        open = open && !faces_guide(scene, axis);
+    return open;
+}
+
+struct lates late_worst(const struct scene *scene, int face)
+{
+    const bool open = is_open(scene);
+    struct extent acts, seen;
+    struct lates lates = {0};
+    for (size_t k = 0; open && scene_extent(scene, k, &acts); k++) {
+        if (acts.role != EXTENT_ACTS || !(acts.lasts > 0) || isinf(acts.low[0])) continue;
+        struct late *worst = acts.dipole ? &lates.of_dipole : &lates.of_force;
+        for (size_t i = 0; scene_extent(scene, i, &seen); i++) {
+            if (seen.role != EXTENT_SEEN || isinf(seen.low[0])) continue;
+            const double way = echo_way(scene, face, &acts, &seen);
+            worst->way = worst->lasts > 0 ? fmin(worst->way, way) : way;
+            worst->lasts = fmax(worst->lasts, acts.lasts);
+            worst->time = fmax(worst->time, fmin(seen.until, scene->end_time) - acts.middle);
+            worst->apart = fmax(worst->apart, apart(scene, &acts, &seen));
+        }
+    }
+    return lates;
+}
+
+/* A layer as what is late sees it: l, alpha and T. */
+struct seen_late {
+    double stretch, alpha, first;
+};
+
+/* (18b) at the time alpha (t - T) = a. */
+static double at_time(const struct scene *scene, const struct late *late, bool dipole,
+                      const struct seen_late *layer, double a)
+{
+    const double c = scene_fastest(scene), l = layer->stretch, alpha = layer->alpha, first = layer->first;
+    const double s = fmax(alpha * (sqrt(l / fmax(a, 1 / l)) - 1), 1 / (first + a / alpha));
+    const double g = l * alpha * exp(-pow(sqrt(l) - sqrt(a), 2)) / sqrt(1 + 4 * M_PI * pow(l * a, 1.5));
+    const double part = (scene->dimension == 3 ? in_space : in_plane) * late->lasts * g *
+                        (dipole ? of_moments * s * late->apart / c : 1);
+    if (scene->dimension == 3) return part * late->apart / (c * (first + l / (alpha + s)));
+    const double z = s * first + l * s / (alpha + s);
+    return part * sqrt(M_PI / (2 * z)) / (dipole ? 1 : acosh(1 + c * late->lasts / late->apart));
+}
+
+/* At the end, since it grows; what comes back early is that of (15). */
+static double of_worst(const struct scene *scene, int face, const struct late *late, bool dipole,
+                       size_t points)
+{
+    const double thick = fmax(1, (double)points) * layer_spacing(scene, face), c = scene_fastest(scene);
+    const struct seen_late layer = {layer_stretch(scene, face, points), LAYER_RELAXATION * c / thick,
+                                    (late->way + 2 * thick) / c};
+    const double last = fmin(layer.stretch, layer.alpha * (late->time - layer.first));
+    return late->lasts > 0 && last > 0 ? at_time(scene, late, dipole, &layer, last) : 0;
+}
+
+double late_of_points(const struct scene *scene, int face, const struct lates *lates, size_t points)
+{
+    const double sum = of_worst(scene, face, &lates->of_force, false, points) +
+                       of_worst(scene, face, &lates->of_dipole, true, points);
+    return boundary_mirrors(&scene->boundary[face ^ 1]) ? 2 * sum : sum; /* that of the mirror image, too */
+}
+
+/* Of layers as they are, or of at least so many points each. */
+static double of_all(const struct scene *scene, size_t least)
+{
+    double sum = 0;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const size_t points = layer_points(scene, face);
+        const struct lates lates = late_worst(scene, face);
+        if (points > 0) sum += late_of_points(scene, face, &lates, points > least ? points : least);
+    }
+    return fmin(1, sum);
+}
+
+double late_error(const struct scene *scene)
+{
+    return of_all(scene, 0);
+}
+
+long late_points(const struct scene *scene)
+{
+    for (size_t points = LEAST_POINTS; points <= MOST_POINTS; points++)
+        if (of_all(scene, points) < LATE_TOLD) return (long)points;
+    return 0;
+}
