@@ -14,6 +14,7 @@
 
 #include "scene/absorbing_layers.h"
 #include "scene/echo.h"
+#include "scene/ground.h"
 #include "scene/guided.h"
 
 #include <math.h>
@@ -29,10 +30,14 @@ static double apart(const struct scene *scene, const struct extent *one, const s
     return way;
 }
 
-/* Between faces that guide no field is that of a point. */
+/* Of one rock, not damped (all that was measured), and not between faces that guide, where no field is that of a point.
+ */
 static bool is_open(const struct scene *scene)
 {
-    bool open = scene->dimension > 1 && body_is_box(&scene->body);
+    const struct body *body = &scene->body;
+    const bool model = scene->deck != NULL && deck_count(scene->deck, "model") > 0;
+    bool open = scene->dimension > 1 && body_is_box(body) && body->layers == 0 && body->blocks == 0 &&
+                !model && body->topography == NULL && !ground_is_damped(scene);
     for (int axis = 0; axis < scene->dimension; axis++)
         open = open && !faces_guide(scene, axis);
     return open;
