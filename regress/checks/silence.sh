@@ -764,6 +764,19 @@ untold "layers whose thickness is left open" check thin.nml boundary%layer_point
 told "layers at degree 1" "may send back up to .* three times that of the displacement: method%degree = 2" check thin.nml boundary%layer_points= method%degree=1
 told "what stays there" "stays on.* err by 0.0" check thin.nml boundary%layer_points=15 method%degree=1 load%history=error-function
 untold "the same at degree 2" check thin.nml boundary%layer_points=15 load%history=error-function
+cat >soft.nml <<'END'
+&scene dimension = 2, end_time = 60 /
+&material name = 'soft', density = 1, p_speed = 2, s_speed = 0.5 /
+&material name = 'rock', density = 1, p_speed = 10, s_speed = 5 /
+&body material = 'rock', shape = 'box', low = -8, 0, high = 16, 8, spacing = 0.125 /
+&layer material = 'soft', top = 0 /
+&layer material = 'rock', top = 1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'pml', layer_points = 32 /
+&load face = 'y-', shape = 'square', centre = 4, 0, size = 1, direction = 0, 1, history = 'gaussian', width = 1, delay = 4 /
+&receiver name = 'a', position = 5, 0 /
+END
+told "layers beside which waves are guided, where no points help" "may send back up to .*any number of points: sides farther" check soft.nml
+told "... and fewer, where they do" "may send back up to .*left to the program" check soft.nml boundary%layer_points=16
 # --- Points and the exact mass ---
 cat >exact.nml <<'END'
 &scene dimension = 3, end_time = 5 /
