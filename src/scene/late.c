@@ -37,7 +37,7 @@ static bool is_open(const struct scene *scene)
     const struct body *body = &scene->body;
     const bool model = scene->deck != NULL && deck_count(scene->deck, "model") > 0;
     bool open = scene->dimension > 1 && body_is_box(body) && body->layers == 0 && body->blocks == 0 &&
-                !model && body->topography == NULL && !ground_is_damped(scene);
+                !model && body->topography == NULL && body->line == NULL && !ground_is_damped(scene);
     for (int axis = 0; axis < scene->dimension; axis++)
         open = open && !faces_guide(scene, axis);
     return open;

@@ -136,7 +136,7 @@ static void average_column(const struct medium *medium, const double place[3], d
     for (size_t j = 0, n = 0; j < y->lines; j++)
         for (size_t i = 0; i < x->lines; i++, n++) {
             double there[3] = {place[0] + line_place(x, i), place[1] + line_place(y, j), 0};
-            struct piece one;
+            struct piece one = {.level = 0};
             struct piece *found = lines > 1 ? &one : sum;
             average_piece(medium, there, drop, within, jump, found);
             if (within != number) piece_turn(found);
