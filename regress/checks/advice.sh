@@ -339,6 +339,7 @@ END
 deck=file.nml
 told "layers of a file that are tilted where the box ends" "tilted layers send waves back from beyond the box"
 untold "those of a basin within it" 'layer(2)%file=basin.txt'
+told "a dip of a third of a degree" "tilted layers send waves back" 'layer(2)%file=' 'layer(2)%dip=.3'
 deck=graded.nml
 sed -i '/^&method/d' graded.nml
 told "a grading of level layers" "body%grading brings the general operator" receiver%position=2,2,2.5

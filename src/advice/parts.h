@@ -73,7 +73,7 @@ void look_at_guided(struct adviser *adviser);
 void look_at_contrast(struct adviser *adviser);
 /* Few points between a hole and an edge. */
 void look_at_ligament(struct adviser *adviser);
-/* Loads that stay on between layers that give way. */
+/* Loads that stay on between layers that give way, and what pulses leave there. */
 void look_at_rests(struct adviser *adviser);
 void look_at_late(struct adviser *adviser);
 /* What acts as far as faces behind which the ground goes on, or beyond them (beyond.c). */

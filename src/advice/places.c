@@ -185,10 +185,12 @@ void look_at_interfaces(struct adviser *adviser)
         ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 
-/* Slope of a layer's upper face at the sides of the box, along x and y; one from a file over two spacings. */
+/* Slope of a layer's upper face at the sides of the box, along x and y; one from a file over two spacings, of which its
+ * splines make the least. */
 static double slope_at_sides(const struct scene *scene, const struct layer *layer)
 {
     enum { LOOKS = 8 };
+    static const double least = .01;
     const struct body *body = &scene->body;
     const double step = 2 * body->spacing;
     double slope = hypot(layer->slope[0], layer->slope[1]);
@@ -201,7 +203,7 @@ static double slope_at_sides(const struct scene *scene, const struct layer *laye
             edge[axis] = face_plane(body, (enum face)face);
             within[axis] = edge[axis] - face_sign((enum face)face) * step;
             const double rise = layer_top_at(layer, edge) - layer_top_at(layer, within);
-            slope = fmax(slope, fabs(rise) / step);
+            if (fabs(rise) > least * step) slope = fmax(slope, fabs(rise) / step);
         }
     return slope;
 }
@@ -210,12 +212,11 @@ static double slope_at_sides(const struct scene *scene, const struct layer *laye
  * regress/checks/fitted.sh): what is beyond the box is not there. */
 void look_at_tilted(struct adviser *adviser)
 {
-    static const double level = .01; /* of a file's splines */
     const struct body *body = &adviser->scene->body;
     double slope = 0.0;
     for (size_t i = 0; i < body->layers; i++)
         slope = fmax(slope, slope_at_sides(adviser->scene, &body->layer[i]));
-    if (slope <= level || (body->chosen ? !body->absorbing : !layer_anywhere(adviser->scene))) return;
+    if (slope == 0.0 || (body->chosen ? !body->absorbing : !layer_anywhere(adviser->scene))) return;
     advise(
         adviser,
         "tilted layers send waves back from beyond the box, which are lost in its absorbing layers: "

@@ -9,7 +9,8 @@
  * its largest value, whose field is spread as K_0(z), z = s T + l s / (alpha + s), in the plane, as 1 / X, X = c (T +
  * l / (alpha + s)), in space, comes back, of the largest displacement at the distance r, the sum over faces of
  *   3 D G (pi / (2 z))^(1/2) / arcosh(1 + c D / r) in the plane, 1.5 D G r / X in space,                     (18b)
- * of moment tensors s r / (3 c) times as much, without the arcosh; 3 and 1.5 by measurement (regress/studies/late). */
+ * of moment tensors s r / (3 c) times as much, without the arcosh; 3 and 1.5 by measurement (regress/studies/late: no
+ * bound below .003 in space). */
 #include "scene/late.h"
 
 #include "scene/absorbing_layers.h"
