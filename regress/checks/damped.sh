@@ -161,6 +161,15 @@ check "motion at t = 0 is moved by the modified equation" grep -q '^scheme: modi
 check "with steps of .039 it errs by $own, fitted by $fitted; leapfrog with steps of .020 by $late" \
     awk "BEGIN { exit !($own > 0 && $own < .006 && $fitted < .003 && $late > .02) }"
 
+# layers of low Q, thinner than the spacing, in general ground: errors are those of the lattice
+for scene in 5 21 23; do
+    regress/studies/q-layers "$build" $scene $scene >"$out/layer" 2>"$out/log" || cat "$out/log"
+    check "a layer of low Q$(sed 's/^[0-9]*:/:/' "$out/layer")" awk -F '[:;]' '
+        function most(text, i, n, list, found) { n = split(text, list, " "); for (i = 1; i <= n; i++) if (list[i] + 0 > found) found = list[i] + 0
+            return found }
+        { damped = most($3); sub(/undamped/, "", $4); plain = most($4) } END { exit !(damped > 0 && plain > 0 && damped < 1.3 * plain) }' "$out/layer"
+done
+
 refused() { # refused TITLE MESSAGE WORDS...
     title=$1 message=$2
     shift 2

@@ -231,6 +231,13 @@ untold "of twice as long waves" check stack.nml load%width=.4 load%delay=2
 untold "of nearly the same rock" check stack.nml 'material(2)%density=1.3' 'material(2)%lambda=1' 'material(2)%mu=1.1'
 untold "carried by the operator for layers" check stack.nml method%operator=layered
 
+# --- A layer of low Q that shares cells with the rock: 1.3 / (points Q^2), by regress/studies/q-layers ---
+sed "s/^&material name = 'heavy'.*/\&material name = 'heavy', density = 1, lambda = 1, mu = 1, q_p = 5, q_s = 3 \//" stack.nml |
+    sed "s/^&material name = 'rock', \(.*\) \/$/\&material name = 'rock', \1, q_p = 200, q_s = 100 \//" >damped.nml
+told "rock of Q 3 in cells with rock of Q 100" "rock of Q = 3 .* err by up to about 0.0[23].* method%operator = 'layered' or body%spacing" check damped.nml
+untold "rock of Q 6" check damped.nml 'material(2)%q_p=10' 'material(2)%q_s=6'
+untold "the same by the operator for layers" check damped.nml method%operator=layered
+
 cat >inner.nml <<'END'
 &scene dimension = 2, end_time = 9 /
 &method variant = 'paper', row_sums = 'zero' /

@@ -94,6 +94,7 @@ void look_at_fields(struct adviser *adviser);
 void look_at_weights(struct adviser *adviser);
 void look_at_walls(struct adviser *adviser);
 void look_at_stacks(struct adviser *adviser);
+void look_at_damped_cells(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);
 /* Dampers where an absorbing layer cannot be, and nobody asked for them. */

@@ -100,3 +100,33 @@ void look_at_stacks(struct adviser *adviser)
         light > soft ? "densities" : "moduli", 1 + (light > soft ? size[1] : size[0]), points, fmin(1, error),
         scene->body.spacing * sqrt(seen / 2 / error));
 }
+
+/* Rock of low Q beside other rock in a cell, whose moduli are right in the first order of 1/Q. Measured in space, layers
+ * of low Q in rock of Q_s 100, 6 and 12 points a wavelength (regress/studies/q-layers): velocities err by so much over
+ * points Q^2 more than without damping. */
+void look_at_damped_cells(struct adviser *adviser)
+{
+    static const double seen = .01, of_loss = 1.3;
+    const struct scene *scene = adviser->scene;
+    const struct body *body = &scene->body;
+    const double points = points_per_wavelength(scene);
+    double low = INFINITY, high = 0;
+    if (!by_general_operator(scene) || body->model != NULL || !(points > 0)) return;
+    for (size_t n = 0; n <= body->layers + body->blocks; n++) {
+        if (n == body->layers + body->blocks && (body->layers > 0 && layer_covers(&body->layer[0]))) break;
+        const size_t index = n < body->layers                  ? body->layer[n].material
+                             : n < body->layers + body->blocks ? body->block[n - body->layers].material
+                                                               : body->material;
+        const double q = scene->material[index].q_s, loss = q > 0 ? 1 / q : 0;
+        low = fmin(low, loss);
+        high = fmax(high, loss);
+    }
+    const double error = of_loss * pow(high - low, 2) / points;
+    if (!(error > seen)) return;
+    advise(
+        adviser,
+        "rock of Q = %.3g and rock of other Q share cells, whose moduli are right in the first order of 1/Q: "
+        "velocities err by up to about %.2g more than undamped ones; %sbody%%spacing = %.3g would be right",
+        1 / high, fmin(1, error), ground_needs_general(scene) ? "" : "method%operator = 'layered' or ",
+        body->spacing * seen / 2 / error);
+}

@@ -5,6 +5,11 @@
 
 #include <string.h>
 
+bool general_is_part(const struct scene *scene)
+{
+    return scene->whole != NULL && scene->whole != scene->material;
+}
+
 /* Weight of a point along an axis: the cell, half of it for a knot at an end. */
 static double weight_of(const struct consistent *c, int slot, enum at at, size_t i)
 {
@@ -27,7 +32,7 @@ double general_weight(const struct consistent *c, const struct family *family, c
 /* Sums over the points about each control value: weight times density, and weight. */
 struct sums {
     double *mass, *even;
-    struct sharing *sharing; /* of a part of damped ground */
+    bool part; /* of damped ground */
 };
 
 static void add_mass(const struct consistent *c, const struct taps *const at[3], double weight,
@@ -122,8 +127,7 @@ static bool lay_row(struct consistent *c, struct family *family, const struct me
         const double weight = (even + general_added(c, family->at, place)) * metric.jacobian;
         medium_point(medium, i, j, &metric, &averaged);
         const bool turned = medium_stiffness(&averaged, stiffness, &lambda, &mu);
-        if (sums->sharing != NULL)
-            general_share(sums->sharing, family, place, &averaged, turned ? stiffness : NULL, &lambda, &mu);
+        if (sums->part) medium_part(&averaged, stiffness, &lambda, &mu);
         if (turned && !add_point(family, found, row, i, stiffness, weight)) return false;
         family->lambda[point] = weight * lambda;
         family->mu[point] = weight * mu;
@@ -177,10 +181,9 @@ static double integral(const struct consistent *c, const struct band *const mass
 bool general_material(struct consistent *c, double *mass)
 {
     const struct band *band[3] = {NULL, NULL, NULL};
-    const bool part = general_is_part(c->model.scene);
-    const struct sums sums = {mass, array_new(c->volume, sizeof *mass), part ? sharing_new(c) : NULL};
+    const struct sums sums = {mass, array_new(c->volume, sizeof *mass), general_is_part(c->model.scene)};
     struct medium *medium = medium_new(c);
-    bool good = sums.even != NULL && medium != NULL && (!part || sums.sharing != NULL);
+    bool good = sums.even != NULL && medium != NULL;
     good = good && lay_families(c, medium, &sums);
     for (int axis = 0; axis < c->dimension; axis++)
         band[c->slot[axis]] = consistent_matrix(c, axis, 0, false, 0, false, WEIGHT_NONE);
@@ -190,7 +193,6 @@ bool general_material(struct consistent *c, double *mass)
         c->general->setup_bytes = c->general->bytes + 2 * c->volume * sizeof *mass +
                                   medium_bytes(medium); /* with `mass` and `even` */
     array_free(sums.even);
-    sharing_free(sums.sharing);
     medium_free(medium);
     return good;
 }

@@ -35,7 +35,7 @@ struct medium {
     struct piece *ring[3];         /* by family: [RING][points of a plane] */
     struct averaged *point;
     ptrdiff_t next; /* the piece that none has been made of; number 0 begins at face z- */
-    bool part;      /* of damped ground: by_bulk is wanted */
+    bool part;      /* of damped ground */
     double *jump;   /* [threads * room] */
     size_t room, bytes;
 };
@@ -79,6 +79,17 @@ static double depth_spacing(const struct medium *medium)
     return (spline->high - spline->low) / (double)spline->cells;
 }
 
+/* One sample of a piece, `height` cells over its middle. */
+static void sample_at(const struct medium *medium, const double place[3], double height, double part,
+                      struct piece *sum)
+{
+    const struct scene *scene = medium->c->model.scene;
+    const struct rock rock = ground_at(scene, place);
+    struct shares shares;
+    if (medium->part) shares = ground_shares_at(scene, place);
+    piece_sample(&rock, medium->part ? &shares : NULL, height, part, sum);
+}
+
 /* One piece of a column whose place is `place`. */
 static void average_piece(const struct medium *medium, double place[3], double drop, ptrdiff_t number,
                           double *jump, struct piece *sum)
@@ -94,8 +105,7 @@ static void average_piece(const struct medium *medium, double place[3], double d
         sum->least[n] = INFINITY;
     if (sum->even) {
         place[axis] = real(medium, drop, middle);
-        const struct rock rock = ground_at(scene, place);
-        piece_sample(&rock, 0, 1, medium->part, sum);
+        sample_at(medium, place, 0, 1, sum);
         return;
     }
     jump[count++] = from;
@@ -106,8 +116,7 @@ static void average_piece(const struct medium *medium, double place[3], double d
         for (int side = -1; side <= 1 && length > 0; side += 2) { /* Gauss, two points */
             const double sample = (jump[part] + jump[part + 1]) / 2 + side * length / (2 * sqrt(3));
             place[axis] = real(medium, drop, sample);
-            const struct rock rock = ground_at(scene, place);
-            piece_sample(&rock, (sample - middle) / h, length / h, medium->part, sum);
+            sample_at(medium, place, (sample - middle) / h, length / h, sum);
         }
     }
 }
@@ -130,6 +139,7 @@ static void average_column(const struct medium *medium, const double place[3], d
 {
     const struct columns *x = &medium->along[0], *y = &medium->along[1];
     const size_t lines = x->lines * y->lines;
+    const double share = 1. / (double)lines;
     const ptrdiff_t pieces = pieces_of(medium), within = number < 0         ? -1 - number
                                                          : number >= pieces ? 2 * pieces - 1 - number
                                                                             : number;
@@ -144,9 +154,8 @@ static void average_column(const struct medium *medium, const double place[3], d
             if (n == 0) {
                 *sum = (struct piece){.level = 0};
                 memcpy(sum->least, one.least, sizeof sum->least);
-                memcpy(sum->least_by_bulk, one.least_by_bulk, sizeof sum->least_by_bulk);
             }
-            piece_add(&one, 1. / (double)lines, 1. / (double)lines, medium->part, sum);
+            piece_add(&one, share, share, share, sum);
         }
 }
 
@@ -167,11 +176,11 @@ static void average_along(const struct medium *medium, int slot, enum at at, siz
     if (from[(width - 1) * stride].alike + 1 >= width) return;
     *sum = (struct piece){.level = 0};
     memcpy(sum->least, from->least, sizeof sum->least);
-    memcpy(sum->least_by_bulk, from->least_by_bulk, sizeof sum->least_by_bulk);
     for (size_t n = 0; n < width; n++) {
         const struct piece *one = from + n * stride;
         const double even = 1. / (double)width;
-        piece_add(one, columns->weight[at][n], even, medium->part, sum);
+        const bool within = 2 * n >= width - columns->a_cell && 2 * n < width + columns->a_cell;
+        piece_add(one, columns->weight[at][n], even, within ? 1. / (double)columns->a_cell : 0, sum);
         sum->rise[slot] += (n < width / 2 ? -2 : 2) * even * one->level;
     }
 }
@@ -356,9 +365,6 @@ void medium_point(const struct medium *medium, size_t i, size_t j, const struct 
     if (medium->c->model.scene->body.grading != NULL) /* from rises a cell */
         averaged->rise[DEPTH] *= medium->along[0].spacing / depth_spacing(medium);
     metric_tilt(metric, averaged->rise);
-    for (int n = 0; n < POSITIVE; n++) {
-        if (averaged->mean[n] < least_part * averaged->least[n])
-            averaged->by_bulk[n] = least_part * averaged->least_by_bulk[n];
+    for (int n = 0; n < POSITIVE; n++)
         averaged->mean[n] = fmax(averaged->mean[n], least_part * averaged->least[n]);
-    }
 }

@@ -17,31 +17,35 @@ enum average {
     POSITIVE = MEAN_RATIO
 };
 
+/* Plain means over the cell, of the whole ground and of a part of it (G11a); 0 but in parts. */
+enum cell {
+    CELL_SOFTNESS,
+    CELL_SPREAD,
+    CELL_SLIP,
+    CELL_SHEAR,
+    PART_SOFTNESS,
+    PART_RATIO,
+    PART_SPREAD,
+    PART_SLIP,
+    PART_SHEAR,
+    CELL
+};
+
 /* At a place: averages, the least of what they are of, and where the logarithm of M rises to, by slot. */
 struct averaged {
-    double mean[AVERAGES], least[POSITIVE], rise[3], level;
-    double by_bulk[AVERAGES],
-        least_by_bulk[POSITIVE]; /* derivatives by e, kappa (1 + e) in the place of kappa
-                                                          everywhere; 0 but in parts of damped ground */
-    bool even;                   /* one rock all around */
+    double mean[AVERAGES], cell[CELL], least[POSITIVE], rise[3], level;
+    bool even; /* one rock all around */
 };
 
 /* C of the effective medium in Voigt's order of the slots (points.h), the upper triangle by rows. False: it is
  * isotropic, with this lambda and mu. */
 bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
                       double *mu);
-/* dC/de where it is not isotropic, about the same normal. */
-void medium_bulk_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES]);
+/* The same for a part of damped ground (G11a), wherever C of the whole is not isotropic. */
+void medium_part(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda, double *mu);
 
-/* part.c: a part of damped ground but the one that is the whole. */
+/* A part of damped ground (method/damped/damped.h) but the one that is the whole. */
 bool general_is_part(const struct scene *scene);
-struct sharing;
-struct sharing *sharing_new(const struct consistent *c); /* NULL: no memory */
-void sharing_free(struct sharing *sharing);              /* takes NULL */
-/* From the numbers of the whole ground at point `at` of a family to those of the part; stiffness NULL: it is
- * isotropic. */
-void general_share(const struct sharing *sharing, const struct family *family, const size_t at[3],
-                   const struct averaged *averaged, double *stiffness, double *lambda, double *mu);
 
 /* Averages over plane k of the points of family f: k must not fall, for any two families by no more than a plane. */
 struct medium;

@@ -32,42 +32,47 @@ static void quantities(const struct rock *rock, double value[AVERAGES])
     value[MEAN_RATIO] = rock->lambda / m;
 }
 
-/* Their derivatives by e: those of lambda and M are kappa. */
-static void by_bulk(const struct rock *rock, double value[AVERAGES])
+/* (G11a) */
+static void cell_quantities(const struct rock *rock, const struct shares *shares, double value[CELL])
 {
-    const double m = rock->lambda + 2 * rock->mu, kappa = rock->lambda + 2. / 3 * rock->mu;
-    memset(value, 0, AVERAGES * sizeof *value);
-    value[MEAN_SOFTNESS] = -kappa / (m * m);
-    value[MEAN_SPREAD] = 4 * kappa * (rock->mu / m) * (rock->mu / m);
-    value[MEAN_RATIO] = 2 * kappa * rock->mu / (m * m);
+    const double m = rock->lambda + 2 * rock->mu, mu = rock->mu, kappa = rock->lambda + 2. / 3 * mu;
+    const double bulk = shares->bulk, shear = shares->shear;
+    value[CELL_SOFTNESS] = 1 / m;
+    value[CELL_SPREAD] = mu * (3 * rock->lambda + 2 * mu) / m;
+    value[CELL_SLIP] = 1 / mu;
+    value[CELL_SHEAR] = mu;
+    value[PART_SOFTNESS] = (bulk * kappa + 4. / 3 * shear * mu) / (m * m);
+    value[PART_RATIO] = 2 * (bulk - shear) * (kappa / m) * (mu / m);
+    value[PART_SPREAD] = (4 * bulk * mu + 3 * shear * kappa) * (kappa / m) * (mu / m);
+    value[PART_SLIP] = shear / mu;
+    value[PART_SHEAR] = shear * mu;
 }
 
-void piece_sample(const struct rock *rock, double height, double part, bool derivatives, struct piece *piece)
+void piece_sample(const struct rock *rock, const struct shares *shares, double height, double part,
+                  struct piece *piece)
 {
-    double value[AVERAGES], derivative[AVERAGES];
+    double value[AVERAGES], cell[CELL];
     quantities(rock, value);
-    if (derivatives) by_bulk(rock, derivative);
-    for (int n = 0; n < POSITIVE; n++) {
-        if (!(value[n] < piece->least[n])) continue;
-        piece->least[n] = value[n];
-        if (derivatives) piece->least_by_bulk[n] = derivative[n];
-    }
+    for (int n = 0; n < POSITIVE; n++)
+        piece->least[n] = fmin(piece->least[n], value[n]);
     for (int n = 0; n < AVERAGES; n++) {
         piece->mean[0][n] += part * value[n];
         piece->mean[1][n] += part * height * value[n];
     }
-    for (int n = 0; n < AVERAGES && derivatives; n++) {
-        piece->by_bulk[0][n] += part * derivative[n];
-        piece->by_bulk[1][n] += part * height * derivative[n];
-    }
     piece->level += part * log(rock->lambda + 2 * rock->mu);
+    if (shares == NULL) return;
+    cell_quantities(rock, shares, cell);
+    for (int n = 0; n < CELL; n++)
+        piece->cell[n] += part * cell[n];
 }
 
 static bool same_rock(const struct piece *one, const struct piece *other)
 {
     return one->even && other->even && one->mean[0][MEAN_DENSITY] == other->mean[0][MEAN_DENSITY] &&
            one->mean[0][MEAN_SHEAR] == other->mean[0][MEAN_SHEAR] &&
-           one->mean[0][MEAN_SOFTNESS] == other->mean[0][MEAN_SOFTNESS];
+           one->mean[0][MEAN_SOFTNESS] == other->mean[0][MEAN_SOFTNESS] &&
+           one->cell[PART_SHEAR] == other->cell[PART_SHEAR] &&
+           one->cell[PART_SOFTNESS] == other->cell[PART_SOFTNESS];
 }
 
 void piece_follow(const struct piece *before, struct piece *piece)
@@ -75,18 +80,15 @@ void piece_follow(const struct piece *before, struct piece *piece)
     piece->alike = before != NULL && same_rock(before, piece) ? before->alike + 1 : 0;
 }
 
-void piece_add(const struct piece *one, double weight, double even, bool derivatives, struct piece *sum)
+void piece_add(const struct piece *one, double weight, double even, double cell, struct piece *sum)
 {
     for (int moment = 0; moment < 2; moment++)
         for (int q = 0; q < AVERAGES; q++)
             sum->mean[moment][q] += weight * one->mean[moment][q];
-    for (int moment = 0; moment < 2 && derivatives; moment++)
-        for (int q = 0; q < AVERAGES; q++)
-            sum->by_bulk[moment][q] += weight * one->by_bulk[moment][q];
-    for (int q = 0; q < POSITIVE && derivatives; q++)
-        if (one->least[q] < sum->least[q]) sum->least_by_bulk[q] = one->least_by_bulk[q];
+    for (int q = 0; q < CELL && cell > 0; q++)
+        sum->cell[q] += cell * one->cell[q];
     for (int q = 0; q < POSITIVE; q++)
-        if (one->least[q] < sum->least[q]) sum->least[q] = one->least[q];
+        sum->least[q] = fmin(sum->least[q], one->least[q]);
     sum->level += even * one->level;
     for (int s = 0; s < 2; s++)
         sum->rise[s] += even * one->rise[s];
@@ -94,10 +96,8 @@ void piece_add(const struct piece *one, double weight, double even, bool derivat
 
 void piece_turn(struct piece *piece)
 {
-    for (int q = 0; q < AVERAGES; q++) {
+    for (int q = 0; q < AVERAGES; q++)
         piece->mean[1][q] = -piece->mean[1][q];
-        piece->by_bulk[1][q] = -piece->by_bulk[1][q];
-    }
 }
 
 void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t first, ptrdiff_t pieces,
@@ -109,14 +109,14 @@ void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t
         piece[n] = ring + plane * (size_t)((first + n + RING) % RING);
     *sum = (struct averaged){.level = 0};
     memcpy(sum->least, piece[0]->least, sizeof sum->least);
-    memcpy(sum->least_by_bulk, piece[0]->least_by_bulk, sizeof sum->least_by_bulk);
     memcpy(sum->mean, piece[0]->mean[0], sizeof sum->mean);
-    memcpy(sum->by_bulk, piece[0]->by_bulk[0], sizeof sum->by_bulk);
+    memcpy(sum->cell, piece[0]->cell, sizeof sum->cell);
     sum->level = piece[0]->level;
     sum->even = piece[PIECES - 1]->alike + 1 >= PIECES;
     if (sum->even) return;
     memset(sum->mean, 0, sizeof sum->mean);
-    memset(sum->by_bulk, 0, sizeof sum->by_bulk);
+    for (int q = 0; q < CELL; q++) /* half a cell on either side */
+        sum->cell[q] = (piece[PIECES / 2 - 1]->cell[q] + piece[PIECES / 2]->cell[q]) / 2;
     sum->level = 0;
     for (int n = 0; n < PIECES; n++) {
         const double t = (n + .5) / 2 - reach_of_kernel, from = piece_kernel(at, t - .25),
@@ -124,15 +124,10 @@ void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t
         const double weight[2] = {(from + to) / 4,
                                   to - from}; /* the piece is half a cell, and its slope 2 (to - from) */
         for (int moment = 0; moment < 2; moment++)
-            for (int q = 0; q < AVERAGES; q++) {
+            for (int q = 0; q < AVERAGES; q++)
                 sum->mean[q] += weight[moment] * piece[n]->mean[moment][q];
-                sum->by_bulk[q] += weight[moment] * piece[n]->by_bulk[moment][q];
-            }
         for (int q = 0; q < POSITIVE; q++)
-            if (piece[n]->least[q] < sum->least[q]) {
-                sum->least[q] = piece[n]->least[q];
-                sum->least_by_bulk[q] = piece[n]->least_by_bulk[q];
-            }
+            sum->least[q] = fmin(sum->least[q], piece[n]->least[q]);
         const struct piece *within = piece[n < low ? low : n > high ? high : n];
         sum->level += within->level / PIECES;
         for (int s = 0; s < 2; s++)

@@ -13,20 +13,21 @@ static const double reach_of_kernel = PIECES / 4.; /* cells, on either side */
 /* Half a cell over depth: means of a quantity and of it times the height over the middle, in cells. The kernels are
  * linear there, so that a plane's averages are sums over its pieces (G11b). */
 struct piece {
-    double mean[2][AVERAGES], least[POSITIVE], level, rise[2];
-    double by_bulk[2][AVERAGES], least_by_bulk[POSITIVE];
+    double mean[2][AVERAGES], cell[CELL], least[POSITIVE], level, rise[2];
     bool even;
     unsigned alike; /* so many before it, one after the other, are the same rock */
 };
 
 /* (G11): t in cells from the point. */
 double piece_kernel(enum at at, double t);
-/* One sample of the rock, `height` cells over the middle of the piece, of which it is `part`. */
-void piece_sample(const struct rock *rock, double height, double part, bool derivatives, struct piece *piece);
+/* One sample of the rock, `height` cells over the middle of the piece, of which it is `part`; shares: of a part of
+ * damped ground, else NULL. */
+void piece_sample(const struct rock *rock, const struct shares *shares, double height, double part,
+                  struct piece *piece);
 /* Counts those that are the same rock, from the one before it; NULL: it is the first. */
 void piece_follow(const struct piece *before, struct piece *piece);
-/* sum += weight * one; `even`: the weight of its level. */
-void piece_add(const struct piece *one, double weight, double even, bool derivatives, struct piece *sum);
+/* sum += weight * one; `even`: the weight of its level, `cell`: of its part of the cell. */
+void piece_add(const struct piece *one, double weight, double even, double cell, struct piece *sum);
 /* Upside down. */
 void piece_turn(struct piece *piece);
 /* (G11b): from pieces on either side of a point of a family's plane, the first of which has this number, of `pieces` in

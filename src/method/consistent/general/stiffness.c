@@ -59,12 +59,21 @@ bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNES
     return true;
 }
 
-void medium_bulk_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES])
+/* In the stress across the interface and the strain along it, in which the averages are sums, the part of the cell's
+ * mean in the metric of the whole's, put in the metric of C. */
+void medium_part(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda, double *mu)
 {
-    const double *mean = averaged->mean, *by = averaged->by_bulk;
+    const double *mean = averaged->mean, *cell = averaged->cell;
     const double c33 = 1 / mean[MEAN_SOFTNESS], c13 = mean[MEAN_RATIO] * c33;
-    const double d33 = -by[MEAN_SOFTNESS] * c33 * c33;
-    const double d13 = by[MEAN_RATIO] * c33 + mean[MEAN_RATIO] * d33;
-    const double d11 = by[MEAN_SPREAD] + by[MEAN_RATIO] * c13 + mean[MEAN_RATIO] * d13;
-    about_normal(averaged->rise, d11, d33, d13, 0, 0, stiffness);
+    const double softness = cell[PART_SOFTNESS] / cell[CELL_SOFTNESS] * mean[MEAN_SOFTNESS];
+    const double spread = cell[PART_SPREAD] / cell[CELL_SPREAD] * mean[MEAN_SPREAD];
+    const double ratio = cell[PART_RATIO] * sqrt(mean[MEAN_SOFTNESS] / cell[CELL_SOFTNESS] *
+                                                 (mean[MEAN_SPREAD] / cell[CELL_SPREAD]));
+    const double p33 = softness * c33 * c33, p13 = softness * c33 * c13 + ratio * c33;
+    const double p55 = cell[PART_SLIP] / cell[CELL_SLIP] / mean[MEAN_SLIP];
+    const double p66 = cell[PART_SHEAR] / cell[CELL_SHEAR] * mean[MEAN_SHEAR];
+    const double p11 = softness * c13 * c13 + 2 * ratio * c13 + spread + p66;
+    *mu = p66;
+    *lambda = p33 - 2 * p66;
+    about_normal(averaged->rise, p11, p33, p13, p55, p66, stiffness);
 }
