@@ -3,6 +3,7 @@
 #include "method/total_lagrangian/setup.h"
 
 #include "base/memory.h"
+#include "points/disorder.h"
 #include "points/least_squares.h"
 
 #include <math.h>
@@ -273,43 +274,24 @@ selas_status tl_transpose(struct tl_making *making, struct messages *messages)
     return tl_rows_end(&tl->transposed) ? SELAS_OK : tl_no_memory(tl, messages);
 }
 
-/* Distance of a point from the faces across an axis, and from the rim of the hole. */
-static double depth_of(const struct body *body, size_t axis, const double *x)
-{
-    const double depth = fmin(x[axis] - body->low[axis], body->high[axis] - x[axis]);
-    if (body->shape != BODY_PLATE_WITH_HOLE) return depth;
-    return fmin(depth, hypot(x[0] - body->hole_centre[0], x[1] - body->hole_centre[1]) - body->hole_radius);
-}
-
-/* Force along an axis on a point in a uniform unit stress. */
-static double unbalanced(const struct tl_model *tl, size_t i, size_t axis)
-{
-    const struct tl_rows *rows = &tl->transposed;
-    double force = 0;
-    for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
-        force += rows->weight[rows->width * k + axis] * tl->cloud->volume[tl_neighbour(rows, i, k)];
-    return force;
-}
-
-/* Mean square of the forces of a uniform unit stress on points off the faces, in volumes over spacings. */
+/* Mean square of the forces of a uniform unit stress. */
 static double disorder(const struct tl_model *tl)
 {
-    static const double normal = 3.56; /* mean over geometric mean of squares of a normal distribution */
-    const struct body *body = &tl->model.scene->body;
+    const struct tl_rows *rows = &tl->transposed;
     const struct tl_range range = tl_summed(tl);
-    const size_t d = (size_t)tl->cloud->dimension;
+    const size_t dimension = (size_t)tl->cloud->dimension;
     double sums[2] = {0};
-    for (size_t i = range.from; i < range.end; i++)
-        for (size_t a = 0; a < d; a++) {
-            const double middle = 0.425 * (body->high[a] - body->low[a]);
-            const double deep = fmax(4 * tl->cloud->spacing, fmin(2 * tl_radius(tl), middle));
-            if (depth_of(body, a, tl->cloud->position + 3 * i) < deep) continue;
-            const double force = unbalanced(tl, i, a) * tl->spacing[i] / tl->cloud->volume[i];
-            sums[0] += log(fmax(1e-30, force * force));
-            sums[1]++;
-        }
+    for (size_t i = range.from; i < range.end; i++) {
+        const double each = tl->spacing[i] / tl->cloud->volume[i];
+        double force[3] = {0};
+        for (size_t k = tl_first(rows, i); k < tl_last(rows, i); k++)
+            for (size_t a = 0; a < dimension; a++)
+                force[a] +=
+                    each * rows->weight[rows->width * k + a] * tl->cloud->volume[tl_neighbour(rows, i, k)];
+        disorder_add(sums, tl->cloud, &tl->model.scene->body, tl_radius(tl), i, force);
+    }
     if (tl->part.shared) ranks_sum(tl->part.ranks, 2, sums);
-    return sums[1] > 0 ? (double)d * normal * exp(sums[0] / sums[1]) : 0;
+    return disorder_mean(sums, tl->cloud->dimension);
 }
 
 /* By gradients (the cloud's err as differences of nearest points, whatever its kernel). On scattered points a uniform

@@ -18,6 +18,7 @@
 #include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "method/updated_lagrangian/updated_lagrangian.h"
+#include "points/disorder.h"
 
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
@@ -216,4 +217,37 @@ selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, st
     array_free(work.y);
     array_free(work.dydt);
     return work.room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory to measure the spectrum");
+}
+
+/* By the rates themselves, under a unit pull on all sides. */
+selas_status updated_disorder(struct updated *updated, double *disorder, struct messages *messages)
+{
+    struct model *model = &updated->model;
+    const struct cloud *cloud = updated->cloud;
+    const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
+    const bool repulsive = updated->repulsive;
+    const unsigned long evaluations = model->evaluations;
+    double *stress = array_new(stresses * cloud->points, sizeof *stress), sums[2] = {0};
+    struct iteration work = {.y = array_new(model->state_size, sizeof(double)),
+                             .dydt = array_new(model->state_size, sizeof(double))};
+    work.room = stress != NULL && work.y != NULL && work.dydt != NULL;
+    for (size_t i = 0; work.room && i < cloud->points; i++)
+        for (size_t a = 0; a < dimension; a++)
+            stress[stresses * i + (size_t)updated_component[dimension][a][a]] = 1;
+    updated->repulsive = false;
+    if (work.room) evaluate(updated, &work, NULL, stress);
+    updated->repulsive = repulsive;
+    model->evaluations = evaluations;
+    for (size_t i = 0; work.room && i < cloud->points; i++) {
+        const double each = updated->material->density * pow(cloud->volume[i], 1.0 / updated->dimension);
+        double force[3] = {0};
+        for (size_t a = 0; a < dimension; a++)
+            force[a] = each * work.dydt[model->unknowns + dimension * i + a];
+        disorder_add(sums, cloud, &model->scene->body, updated->reach, i, force);
+    }
+    *disorder = disorder_mean(sums, updated->dimension);
+    array_free(stress);
+    array_free(work.y);
+    array_free(work.dydt);
+    return work.room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory to measure the particles");
 }

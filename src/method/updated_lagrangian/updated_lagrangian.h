@@ -188,6 +188,8 @@ void updated_describe_part(const struct updated *updated,
                            void (*tell)(void *context, const char *key, const char *value), void *context);
 /* spectrum.c */
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
+/* What a uniform stress does to scattered particles: points/disorder.h. */
+selas_status updated_disorder(struct updated *updated, double *disorder, struct messages *messages);
 
 /* fields.c */
 void updated_unseen(struct model *model, const double *y, struct unseen *found);
