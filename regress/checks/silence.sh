@@ -120,6 +120,9 @@ blob="initial%kind=gaussian initial%centre=4,2 initial%width=.5 initial%directio
 told "a state at t = 0 on springs" "waves on the points of variant 'paper' err by up to 1 " check paper.nml $blob scene%end_time=2
 # shellcheck disable=SC2086
 untold "waves that go a third of their length" check paper.nml method%row_sums=zero body%spacing=.125 scene%end_time=.5 $blob
+"$selas" -q paper.nml method%row_sums=zero boundary%face=x+ "boundary(2)%face=x-" "boundary(2)%kind=fixed" receiver%position=0,2 >said 2>&1 &&
+    awk '!/#/ { for (c = 2; c <= 7; c++) moved = moved || $c != 0 } END { exit moved }' out/r.dat
+verdict "a receiver at a point that a face holds rests (by Eq 38 it moved .6 as far as the points beside)" $?
 
 # --- Moment tensors that pull across the surface right above ---
 cat >slip.nml <<'END'

@@ -67,7 +67,8 @@ selas_status paper_make_boundary(struct paper *paper, struct messages *messages)
     }
     paper->damper = array_new(paper->dampers, sizeof *paper->damper);
     paper->constraint = array_new(paper->constraints, sizeof *paper->constraint);
-    if (paper->damper == NULL || paper->constraint == NULL)
+    paper->told = array_new(points, sizeof *paper->told);
+    if (paper->damper == NULL || paper->constraint == NULL || paper->told == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the boundary points");
     size_t damper = 0, constraint = 0;
     for (size_t i = 0; i < points; i++) {
@@ -78,6 +79,9 @@ selas_status paper_make_boundary(struct paper *paper, struct messages *messages)
             if ((damping >> face & 1) != 0) add_damper(paper, i, face, paper->damper[damper].matrix);
             if ((holding >> face & 1) != 0) add_constraint(paper, face, &paper->constraint[constraint]);
         }
+        paper->told[i] = holding != 0;
+        for (int c = 0; c < paper->dimension && holding != 0; c++)
+            paper->told[i] = paper->told[i] && paper->constraint[constraint].held[c];
         damper += damping != 0;
         constraint += holding != 0;
     }

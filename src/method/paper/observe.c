@@ -5,6 +5,8 @@
  *
  *   u_a = (<u>_a - sum over b /= a of alpha_a W_ab V_b <u>_b) / (alpha_a W(0) V_a)
  *
+ * What faces prescribe is no smoothed value, and stays as it is.
+ *
  * Between points the values are blended from first-order expansions about the points around (modified
  * Shepard interpolation, Franke & Nielson 1980), which passes through the points and is exact for linear
  * fields. The gradient at a point is the least-squares fit with weights W_ab V_b. */
@@ -80,7 +82,7 @@ static void gradient_weight(const struct paper *paper, size_t a, size_t p, doubl
 static double sharpening(const struct paper *paper, size_t a, size_t p)
 {
     const bool self = paper->near.index[p] == a;
-    if (!paper->options.deconvolution) return self ? 1 : 0;
+    if (!paper->options.deconvolution || paper->told[a]) return self ? 1 : 0;
     const double centre = paper->alpha[a] * paper->volume[a] *
                           kernel_value(paper->options.kernel, paper->dimension, 0, paper->h);
     return (self ? 1 : -paper->alpha[a] * paper->kernel_volume[p]) / centre;

@@ -174,6 +174,7 @@ static void destroy(struct model *model)
     array_free(paper->traction);
     array_free(paper->damper);
     array_free(paper->constraint);
+    array_free(paper->told);
     array_free(paper->scratch);
     array_free(paper);
 }
