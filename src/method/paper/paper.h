@@ -85,7 +85,7 @@ struct paper {
     size_t dampers, constraints;
     struct damper *damper;
     struct constraint *constraint;
-    bool *told; /* [points]: faces prescribe all components */
+    bool *told;      /* [points]: faces prescribe all components */
     double *scratch; /* [unknowns] for the filter */
 };
 
