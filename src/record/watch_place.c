@@ -166,7 +166,6 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
     static const double nearly_incompressible = 0.49;
     const struct stepper *stepper = recorder->stepper;
     const struct scene *scene = recorder->scene;
-    const struct deck_group *group = scene->method.group;
     const struct material *stiff = least_compressible(scene);
     if (stepper->limit <= 0.0 || stepper->dt > 0.999 * stepper->limit)
         say_step(stepper, size, text);
@@ -174,11 +173,11 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
         snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
                  stiff->name, stiff->poisson);
     else if (strcmp(recorder->model->method->variant, "updated-lagrangian") == 0)
-        snprintf(text, size,
-                 "displacements that alternate from particle to particle, which gradients do not see; "
-                 "%smethod%%variant = 'total-lagrangian' (smaller steps seldom help)",
-                 group == NULL || deck_values(group, "hourglass") == 0 ? "try method%hourglass = .1, or "
-                                                                       : "try ");
+        snprintf(
+            text, size,
+            "displacements that alternate from particle to particle, which gradients do not see; "
+            "method%%hourglass = .1 held most bodies that grew so, method%%variant = 'total-lagrangian' all, "
+            "also those free to go under tractions");
     else if (stepper->spectrum.viscous > 0.0 || recorder->model->spatial->linearise != NULL)
         snprintf(text, size,
                  "the body moves so fast or so far that the stability limit %.3g, measured at rest, does not "
