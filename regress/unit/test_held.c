@@ -197,9 +197,26 @@ static void test_records(void **state)
     assert_true(profile < 1e-12 && snapshot < 1e-6);
 }
 
+/* A load that makes the state overflow ends the run, whatever is held after it. */
+static void test_overflow(void **state)
+{
+    (void)state;
+    double value[6];
+    selas_simulation *simulation = open_on(&grounds[0], true);
+    assert_int_equal(selas_step(simulation, 3), SELAS_OK);
+    assert_int_equal(selas_set_load(simulation, "left", 1e160), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "r", SELAS_VELOCITY, value), SELAS_UNSTABLE);
+    assert_int_equal(selas_set_load(simulation, "left", 0), SELAS_OK);
+    assert_int_equal(selas_step(simulation, 1), SELAS_UNSTABLE);
+    assert_non_null(strstr(selas_last_message(simulation), "went unstable"));
+    assert_int_equal(selas_finish(simulation), SELAS_UNSTABLE);
+    assert_int_equal(selas_steps(simulation), 3);
+    selas_close(&simulation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_changes), cmocka_unit_test(test_response),
-                                       cmocka_unit_test(test_records)};
+                                       cmocka_unit_test(test_records), cmocka_unit_test(test_overflow)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -275,8 +275,11 @@ static selas_status start(selas_simulation *simulation)
 
 selas_status simulation_begin(selas_simulation *simulation)
 {
-    const selas_status status = start(simulation);
-    return status == SELAS_OK ? host_refresh(simulation) : status;
+    selas_status status = start(simulation);
+    if (status != SELAS_OK || simulation->failed != SELAS_OK) return status;
+    status = host_refresh(simulation);
+    if (status != SELAS_OK) simulation_failed(simulation, status);
+    return status;
 }
 
 selas_status simulation_reach(selas_simulation *simulation, unsigned long step)
