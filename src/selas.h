@@ -231,8 +231,9 @@ SELAS_API selas_status selas_energy(selas_simulation *simulation, double *kineti
 SELAS_API selas_status selas_save(selas_simulation *simulation, const char *path);
 /* Goes on where selas_save left off: on a simulation of the same scene before its first step, with the same
  * loads driven by the host; with result files right after selas_record. What follows is bit for bit what the
- * saved simulation would have given. Errors: SELAS_FILE_ERROR (no checkpoint, another version, byte order or
- * scene, cut short, damaged, snapshots missing: no step can follow), SELAS_BAD_ARGUMENT. */
+ * saved simulation would have given (of another commit of the version: a warning). Errors: SELAS_FILE_ERROR (no
+ * checkpoint, another version, byte order or scene, cut short, damaged, snapshots missing: no step can follow),
+ * SELAS_BAD_ARGUMENT. */
 SELAS_API selas_status selas_restore(selas_simulation *simulation, const char *path);
 
 /* --- Names --- */

@@ -206,6 +206,7 @@ bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t s
     if (!good) snprintf(why, size, "%s", strerror(errno));
     good = good && head_fits(file, head, why, size);
     good = body_fits(file, head, good, ranks, why, size);
+    if (good) line_of(head, "commit", why, size);
     if (file >= 0) close(file);
     return good;
 }

@@ -10,8 +10,9 @@ enum { CHECKPOINT_HEAD = 512 };
 
 /* Together: writes the head of the finished file and brings all of it on the disk. */
 selas_status checkpoint_seal(const char *path, struct ranks *ranks, struct messages *messages);
-/* Together: false, with the reason in why[size], unless the file is a whole checkpoint of this version and byte order.
- * Each rank reads its share of it, and answers true where only others could not. */
+/* Together: false, with the reason in why[size], unless the file is a whole checkpoint of this version and byte order;
+ * of one that is, why[] has the commit that wrote it. Each rank reads its share of it, and answers true where only
+ * others could not. */
 bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t size);
 
 #endif
