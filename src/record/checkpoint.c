@@ -297,8 +297,8 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
     wrong = wrong_anywhere(recorder, wrong);
     if (wrong == NULL && strcmp(why, build_commit()) != 0)
         warn(messages,
-             "the checkpoint '%s' was written by commit %s, this is %s: what follows may differ from what that "
-             "program would have computed; to go on with that one would be right",
+             "the checkpoint '%s' was written by commit %s, this is %s: what follows may differ from what "
+             "that program would have computed; to go on with that one would be right",
              path, why, build_commit());
     if (wrong == NULL) wrong = read_file(recorder, state, path, text, figures, &error, messages);
     free(text);
