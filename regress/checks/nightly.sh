@@ -99,6 +99,16 @@ check 'and is no more what was accepted with a profile' sh -c "! regress/nightly
 check 'with a profile it passes too' own
 rm -rf regress/cases/own
 
+# a program that hangs and hears no signal; a disk so full that no verdict is left
+hangs() {
+    mkdir -p hangs && printf '#!/bin/sh\n[ "$1" = --version ] && exit\ntrap "" TERM\nwhile :; do sleep 1; done\n' >hangs/selas && chmod +x hangs/selas &&
+        ! REGRESS_TIMEOUT=1 timeout -s KILL 60 regress/nightly/run -q -b "$PWD/hangs" bar-rk4 >night.log 2>&1 &&
+        grep -q 'not ok - bar-rk4: runs to the end (exit status 137): not done in 1 s' $summary
+}
+check 'a case that hangs is ended and fails' hangs
+check 'a case of which nothing is judged has not passed' sh -c ". regress/nightly/common.sh && mkdir -p o/cases/x/run && tell_figures x 0 0 '- - -' o &&
+    grep -q '^0 1 ' o/cases/x/figures && grep -q ' x FAIL ' o/log.txt"
+
 # a night that takes long is killed: one that hears the signal, one that does not
 mkdir regress/cases/slow
 printf 'what: slow\ndeck: input/plane-wave.nml\noverride: body%%spacing=0.0005\noverride: scene%%end_time=60\natol: 1\nrtol: 1\nhalf: quick\n' >regress/cases/slow/case

@@ -39,7 +39,7 @@ run_case() { # run_case CASE BUILD FOLDER [no-plots]: leaves the results in FOLD
     unset IFS
     set +f
     # shellcheck disable=SC2086
-    timeout "${REGRESS_TIMEOUT:-1800}" ${RUN_UNDER:-} "$run_program" -q "$run_deck" "$@" output%plots="$run_plots" \
+    timeout -k 10 "${REGRESS_TIMEOUT:-1800}" ${RUN_UNDER:-} "$run_program" -q "$run_deck" "$@" output%plots="$run_plots" \
         output%directory="$run_folder" >"$run_folder.log" 2>&1
 }
 
@@ -112,6 +112,7 @@ has_histories() { # has_histories FOLDER...: is there a receiver's history in an
 }
 
 tell_figures() { # tell_figures NAME PASSED FAILED 'ERROR CPU INSTRUCTIONS' OUT: for the page, in the log, and as small plots
+    [ $(($2 + $3)) -gt 0 ] || set -- "$1" 0 1 "$4" "$5" # nothing judged is nothing passed
     echo "$2 $3 $4" >"$5/cases/$1/figures"
     echo "$(date -u +%Y-%m-%dT%H:%M) ${REGRESS_COMMIT:--} $1 $([ "$3" -eq 0 ] && echo pass || echo FAIL) $4" >>"$5/log.txt"
     regress/nightly/small "$1" "$5/cases/$1/run" "$5/log.txt" >"$5/cases/$1/small.html"
