@@ -129,6 +129,9 @@ static void test_wrong_words(void **state)
     wrong(s, selas_set_text(s, "scene%title", 1, NULL));
     wrong(s, selas_set_real(s, "method%degree", 1, &(double){1.5}));
     wrong(s, selas_set_logical(s, "scene%end_time", true));
+    for (int i = 0; i < 2; i++) /* blanks as in an override; again in place of what it had */
+        assert_int_equal(selas_set_real(s, " scene% end_time", 1, &(double){2}), SELAS_OK);
+    wrong(s, selas_set_real(s, " body% spacing", 1, &(double){-1}));
     wrong(s, selas_add(s, "lode", &number));
     wrong(s, selas_add(s, "body", &number));
     wrong(s, selas_add(s, "scene", &number));

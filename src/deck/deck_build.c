@@ -42,7 +42,8 @@ static struct named find_named(struct deck *deck, const char *text)
     unsigned long number = count == 1 ? 1 : 0;
     if (text[length] == '(') number = strtoul(text + length + 1, NULL, 10);
     struct named named = {&table->group[kind], NULL, 0};
-    named.word = words_find(named.kind, percent + 1, strcspn(percent + 1, "(= "));
+    percent += 1 + strspn(percent + 1, " ");
+    named.word = words_find(named.kind, percent, strcspn(percent, "(= "));
     if (number >= 1 && number <= count) named.group = &deck->list.group[deck->first[kind] + number - 1];
     return named;
 }
@@ -50,6 +51,7 @@ static struct named find_named(struct deck *deck, const char *text)
 selas_status deck_set(struct deck *deck, const char *text, struct messages *messages)
 {
     const size_t errors = messages->errors, groups = deck->list.groups;
+    text += strspn(text, " ");
     struct named named = find_named(deck, text);
     const bool known = named.kind != NULL && named.word < named.kind->words;
     struct item kept = {0};
