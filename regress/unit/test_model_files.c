@@ -144,6 +144,27 @@ static void test_blocks(void **state)
                    "t.nml:4:", (const char *[]){"s_speed 1e+20, is air, water or no data", NULL});
 }
 
+/* A crs in metres is right, in feet refused: by PROJ and by WKT. */
+static void test_blocks_crs(void **state)
+{
+    (void)state;
+    static const char *const crs[] = {"+proj=utm +zone=10 +units=m +no_defs", "EPSG:26910",
+                                      "+proj=lcc +lat_1=37 +units=us-ft +no_defs",
+                                      "PROJCS[\"x\",UNIT[\"US survey foot\",0.3048006096012192]]"};
+    for (int k = 0; k < 4; k++) {
+        write_blocks(stored, 0, "m/s", 0);
+        const hid_t file = H5Fopen(stored, H5F_ACC_RDWR, H5P_DEFAULT);
+        put_words(file, "crs", 1, &crs[k], 1);
+        H5Fclose(file);
+        if (k >= 2)
+            assert_refused(DECK("800, 300, 900", ""),
+                           "t.nml:4:", (const char *[]){"its crs has lengths in other units", crs[k], NULL});
+        struct from_deck made = {0};
+        if (k < 2) made = right_scene(DECK("800, 300, 900", ""));
+        if (k < 2) from_deck_free(&made);
+    }
+}
+
 /* A sea floor without a top, which is then at the sea; one above the top; blocks that end before the bottom. */
 static void test_blocks_alone(void **state)
 {
@@ -394,11 +415,12 @@ static void test_quality(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rfile),      cmocka_unit_test(test_sfile),
-        cmocka_unit_test(test_blocks),     cmocka_unit_test(test_sea),
-        cmocka_unit_test(test_text),       cmocka_unit_test(test_own_surface),
-        cmocka_unit_test(test_wrong_text), cmocka_unit_test(test_cut_short),
-        cmocka_unit_test(test_quality),    cmocka_unit_test(test_blocks_alone),
+        cmocka_unit_test(test_rfile),        cmocka_unit_test(test_sfile),
+        cmocka_unit_test(test_blocks),       cmocka_unit_test(test_sea),
+        cmocka_unit_test(test_text),         cmocka_unit_test(test_own_surface),
+        cmocka_unit_test(test_wrong_text),   cmocka_unit_test(test_cut_short),
+        cmocka_unit_test(test_quality),      cmocka_unit_test(test_blocks_crs),
+        cmocka_unit_test(test_blocks_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,6 +81,17 @@ static bool find_values(struct blocks *blocks, hid_t file)
     return model_fault(blocks->source, "its data_layout is not 'vertex'");
 }
 
+/* Its coordinates are in metres, as far as its crs says: PROJ's +units, or the unit that its text (WKT) names. */
+static bool in_metres(const struct blocks *blocks, hid_t file)
+{
+    char crs[4000] = "";
+    if (!model_word(file, "crs", 0, crs, sizeof crs)) return true;
+    const char *unit = strstr(crs, "+units=");
+    const bool other = unit != NULL && strcspn(unit + 7, " ") != 1;
+    if (!other && strcasestr(crs, "foot") == NULL && strcasestr(crs, "feet") == NULL) return true;
+    return model_fault(blocks->source, "its crs has lengths in other units than metres: '%.200s'", crs);
+}
+
 static int by_top(const void *one, const void *other)
 {
     const double a = ((const struct block *)one)->top, b = ((const struct block *)other)->top;
@@ -269,7 +280,7 @@ static bool read_all(struct blocks *blocks, hid_t file)
 {
     struct model_source *source = blocks->source;
     double from[2], azimuth;
-    if (!find_values(blocks, file) || !find_blocks(blocks)) return false;
+    if (!find_values(blocks, file) || !in_metres(blocks, file) || !find_blocks(blocks)) return false;
     if (!model_numbers(file, "origin_x", 1, &from[0]) || !model_numbers(file, "origin_y", 1, &from[1]) ||
         !model_numbers(file, "y_azimuth", 1, &azimuth) || !model_numbers(file, "dim_z", 1, &blocks->bottom) ||
         !(blocks->bottom > 0))
