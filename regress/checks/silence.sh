@@ -1022,6 +1022,26 @@ sed '/^&receiver/d' drift.nml >unseen.nml
 told "the same without a receiver" "rounding in single precision may be up to" unseen.nml output%directory=out
 untold "stresses in a body that drifts, in single precision" drift.nml initial%velocity=8,0,0 output%directory=out
 
+# --- Numbers that single precision does not hold ---
+cat >faint.nml <<'DECK'
+&scene dimension = 3, end_time = 3 /
+&method degree = 2, precision = 'single', symmetry = F /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', low = 3*0, high = 3*4, spacing = .25 /
+&load face = 'z-', shape = 'square', centre = 2, 2, 0, size = 2, 2, direction = 0, 0, 1, amplitude = 1, history = 'gaussian', width = .4, delay = 1.7 /
+&receiver name = 'r', position = 2.5, 2, 1 /
+&snapshot times = 2, fields = 'velocity' /
+&output plots = F /
+DECK
+for amplitude in 1e-33 1e-40 1e-60; do
+    told "a load of $amplitude in single precision" "numbers of the run lie beyond what single precision holds" faint.nml load%amplitude=$amplitude output%directory=out
+done
+untold "a load of 1e-20 in single precision" faint.nml load%amplitude=1e-20 output%directory=out
+for amplitude in 1e-45 1e45; do
+    told "snapshots of a load of $amplitude" "field 'velocity' lie beyond what single precision holds" faint.nml method%precision=double load%amplitude=$amplitude output%directory=out
+done
+untold "snapshots of a load of 1e-20" faint.nml method%precision=double load%amplitude=1e-20 output%directory=out
+
 # --- A deck in km beside a model in metres ---
 awk 'BEGIN {
     print "0 0 -4000 8000 8000 0\n4000 4000 2000\n3 3 3\n2000 6000 1000 3000 1500 3000"

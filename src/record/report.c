@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/safe_file.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,6 +144,40 @@ static void write_noise(FILE *out, const struct recorder *recorder, double noise
     warn(messages, "%s", text);
 }
 
+static void tell_beyond(FILE *out, const char *what, const char *right, struct messages *messages)
+{
+    char text[200];
+    snprintf(text, sizeof text,
+             "%s lie beyond what single precision holds (1e-38 to 3e38): %s would be right", what, right);
+    tell_line(out, "warning", text);
+    warn(messages, "%s", text);
+}
+
+/* Numbers that run.h5 cannot hold; and a state in single precision whose energy, spread over the whole body, is that of
+ * velocities (or of their way in a step) to which the least number, FLT_MIN, is more than its rounding is. */
+static void write_beyond(FILE *out, const struct recorder *recorder, struct messages *messages)
+{
+    const struct scene *scene = recorder->scene;
+    char what[80];
+    double density = 0.0, amplitude = 0.0;
+    for (int field = 0; field <= SELAS_ENERGY; field++) {
+        const double shown = recorder->shown[field];
+        snprintf(what, sizeof what, "numbers of the snapshots' field '%s'", field_name((selas_field)field));
+        if (shown > (double)FLT_MAX || (shown > 0.0 && shown < (double)FLT_MIN))
+            tell_beyond(out, what, "units in which they are nearer to 1", messages);
+    }
+    for (size_t m = 0; m < scene->materials; m++)
+        density = fmax(density, scene->material[m].density);
+    for (size_t k = 0; k < scene->loads; k++)
+        amplitude = fmax(amplitude, fabs(scene->load[k].amplitude));
+    const double mass =
+                     density * (double)recorder->model->points * pow(scene->body.spacing, scene->dimension),
+                 velocity = sqrt(2.0 * recorder->watch.largest / mass);
+    if (recorder->model->single && amplitude > 0.0 &&
+        velocity * fmin(1.0, recorder->stepper->dt) < (double)FLT_MIN * 0x1p24)
+        tell_beyond(out, "numbers of the run", "precision = 'double' or other units", messages);
+}
+
 /* What rounding of the state adds (doc/developers/performance.md, F3); each operator of damped ground adds as much. */
 static void write_precision(FILE *out, const struct recorder *recorder, struct messages *messages)
 {
@@ -250,6 +285,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     if (histories_missed(recorder, missed)) tell_line(out, "warning", missed);
     write_energy(out, recorder);
     write_precision(out, recorder, messages);
+    write_beyond(out, recorder, messages);
     write_cost(out, recorder, figures);
     write_speed_against_error(out, recorder, figures, false);
     return safe_file_close(&file, SELAS_OK, messages);

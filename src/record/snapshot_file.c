@@ -126,6 +126,8 @@ static void pass_field(struct recorder *recorder, const struct snapshot_record *
         if (holder != me || rows == 0 || walk->failed) continue;
         model->core->field(model, field, state->y, state->a, from, end, record->buffer);
         pick_rows(model, record, components, row, rows, from);
+        for (size_t i = 0; i < components * rows; i++)
+            recorder->shown[field] = fmax(recorder->shown[field], fabs(record->buffer[i]));
         walk_rows(walk, set, row, rows, components, record->buffer);
     }
 }
