@@ -92,6 +92,9 @@ printf 'what: own\ndeck: regress/cases/own/deck.nml\natol: 1e-7\nhalf: quick\n' 
 check 'accepting a case without rtol is refused' sh -c "
     ! regress/nightly/accept --yes -b \"\$build\" own 2>left && grep -q \"own/case needs one line 'rtol: ...'\" left && [ ! -d regress/cases/own/accepted ]"
 echo 'rtol: 1e-7' >>regress/cases/own/case
+check 'accepting a case of neither half, which no quick run would take, is refused' sh -c "
+    cp regress/cases/own/case kept && sed 's/quick/quik/' kept >regress/cases/own/case &&
+    ! regress/nightly/accept --yes -b \"\$build\" own 2>left && grep -q 'half is quick or night' left && cp kept regress/cases/own/case"
 own() { regress/nightly/accept --yes -b "$build" own && regress/nightly/run -q -b "$build" own; }
 check 'a case of snapshots alone is accepted and passes' own
 echo "&profile name = 'line', from = 0, 1, to = 2, 1, points = 5, times = 0.6, fields = 'velocity' /" >>regress/cases/own/deck.nml
