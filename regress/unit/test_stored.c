@@ -239,12 +239,35 @@ static int remove_files(void **state)
     return rmdir(folder);
 }
 
+/* Behind a user block, as MATLAB writes, too. */
+static void test_user_block(void **state)
+{
+    (void)state;
+    for (hsize_t block = 0; block <= 4096; block = block > 0 ? 2 * block : 512) {
+        const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+        H5Pset_userblock(creation, block);
+        H5Fclose(H5Fcreate(path, H5F_ACC_TRUNC, creation, H5P_DEFAULT));
+        H5Pclose(creation);
+        assert_true(stored_is_hdf5(path));
+    }
+    FILE *file = fopen(path, "w");
+    for (int i = 0; i < 300; i++)
+        fputs("1 2 3 4\n", file);
+    fclose(file);
+    assert_false(stored_is_hdf5(path));
+    assert_false(stored_is_hdf5("/tmp"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_lies_in_the_file_is_read), cmocka_unit_test(huge_extents_are_refused),
-        cmocka_unit_test(numbers_elsewhere_are_refused), cmocka_unit_test(decks_elsewhere_are_refused),
-        cmocka_unit_test(arrays_beyond_the_machine),     cmocka_unit_test(checksums_of_pieces_join),
+        cmocka_unit_test(test_user_block),
+        cmocka_unit_test(what_lies_in_the_file_is_read),
+        cmocka_unit_test(huge_extents_are_refused),
+        cmocka_unit_test(numbers_elsewhere_are_refused),
+        cmocka_unit_test(decks_elsewhere_are_refused),
+        cmocka_unit_test(arrays_beyond_the_machine),
+        cmocka_unit_test(checksums_of_pieces_join),
     };
     return cmocka_run_group_tests(tests, make_folder_of_files, remove_files);
 }

@@ -15,7 +15,8 @@ hid_t stored_set(hid_t place, const char *name);
 
 /* True if the file begins with the first `count` of these characters. */
 bool stored_begins(const char *path, const char start[4], size_t count);
-/* True if the file begins as HDF5 files do. */
+/* True if the file begins as HDF5 files do, or has that behind a user block (of 512 bytes doubled any number of times),
+ * as MATLAB's have. */
 bool stored_is_hdf5(const char *path);
 
 #endif
