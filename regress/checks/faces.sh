@@ -96,6 +96,27 @@ for scene in thin thick; do
     run layers $scene.nml method%operator=layered && run general $scene.nml method%operator=general
     differ "a thin layer at a face as the layered operator has it ($scene)" 0 .08 general layers
 done
+# --- Thin walls, within the body and at its side, are the same walls lying flat ---
+cat >wall.nml <<'END'
+&scene dimension = 2, end_time = 5 /
+&material name = 'rock', density = 1, p_speed = 2, s_speed = 1 /
+&material name = 'heavy', density = 5, p_speed = 2, s_speed = 1 /
+&body material = 'rock', low = 0, 0, high = 4, 4, spacing = .1 /
+&block material = 'heavy', centre = 1.53, 2, size = .006, 9 /
+&block material = 'heavy', centre = 4, 2, size = .04, 9 /
+&load kind = 'body-force', shape = 'point', centre = 1, 1.4, direction = 1, .6, history = 'gaussian', width = .3, delay = 1.3 /
+&receiver name = 'a', position = 2, 1 /
+&receiver name = 'b', position = 3.9, 2.5 /
+&output history_step = .1, plots = F /
+END
+sed -E 's/(centre|size|direction|position) = ([^ ,]*), ([^ ,]*)/\1 = \3, \2/g' wall.nml >flat.nml
+run wall wall.nml && run flat flat.nml
+for r in a b; do awk '!/^#/ { v = $5; $5 = $6; $6 = v } { print }' flat/$r.dat >flat/turned && mv flat/turned flat/$r.dat; done
+differ "thin walls as the same walls lying flat" 0 1e-9 wall flat
+for shape in box ellipsoid; do
+    for place in 1.53 1.536; do run $place wall.nml 'block(2)%material=rock' "block(1)%shape=$shape" 'block(1)%size=.006,3' "block(1)%centre=$place,2"; done
+    differ "a thin $shape is there wherever it stands" 0 .01 1.53 1.536
+done
 # --- The rim of a hole ---
 cat >hole.nml <<'END'
 &scene dimension = 2, end_time = 8 /

@@ -2,7 +2,7 @@
  * second moment (doc/theory/general-ground.md, section 4). Along depth between the places where the rock jumps, so
  * exact for layers; along the axes of the surface, where the ground varies along them, over columns of a
  * fraction of the spacing. */
-#include "method/consistent/general/piece.h"
+#include "method/consistent/general/columns.h"
 
 #include "base/memory.h"
 #include "scene/grading.h"
@@ -13,19 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    MOST_COLUMNS = 8, /* a cell; even, so that cells' middles lie between two */
-    BEYOND = 3,       /* cells of columns on either side of the body */
-};
 static const double least_part = .3;
-
-struct columns {
-    size_t count, points, a_cell;
-    size_t lines; /* of a column: more than one where a model's values lie closer than columns */
-    double from, step, spacing; /* place of column n: from + n step */
-    bool varies;
-    double weight[2][MOST_COLUMNS * PIECES / 2]; /* [at] of the columns about a point */
-};
 
 struct medium {
     const struct consistent *c;
@@ -126,18 +114,13 @@ static ptrdiff_t pieces_of(const struct medium *medium)
     return 2 * (ptrdiff_t)medium->c->layout[DEPTH]->cells;
 }
 
-/* Place of a column's line from its middle. */
-static double line_place(const struct columns *columns, size_t line)
-{
-    return (((double)line + .5) / (double)columns->lines - .5) * columns->step;
-}
-
 /* Mean of a column over its lines; above and below the lattice the mirror image, so that averages add up to what there
  * is of the rock. */
-static void average_column(const struct medium *medium, const double place[3], double drop, ptrdiff_t number,
+static void average_column(const struct medium *medium, const size_t at[2], double drop, ptrdiff_t number,
                            double *jump, struct piece *sum)
 {
     const struct columns *x = &medium->along[0], *y = &medium->along[1];
+    const double place[2] = {columns_place(x, at[0]), columns_place(y, at[1])};
     const size_t lines = x->lines * y->lines;
     const double share = 1. / (double)lines;
     const ptrdiff_t pieces = pieces_of(medium), within = number < 0         ? -1 - number
@@ -145,7 +128,7 @@ static void average_column(const struct medium *medium, const double place[3], d
                                                                             : number;
     for (size_t j = 0, n = 0; j < y->lines; j++)
         for (size_t i = 0; i < x->lines; i++, n++) {
-            double there[3] = {place[0] + line_place(x, i), place[1] + line_place(y, j), 0};
+            double there[3] = {place[0] + columns_line(x, at[0], i), place[1] + columns_line(y, at[1], j), 0};
             struct piece one = {.level = 0};
             struct piece *found = lines > 1 ? &one : sum;
             average_piece(medium, there, drop, within, jump, found);
@@ -155,80 +138,9 @@ static void average_column(const struct medium *medium, const double place[3], d
                 *sum = (struct piece){.level = 0};
                 memcpy(sum->least, one.least, sizeof sum->least);
             }
-            piece_add(&one, share, share, share, sum);
+            piece_add(&one, share, share, sum);
+            piece_rise(&one, share, sum);
         }
-}
-
-/* Averages along a slot of the surface about point i from columns `stride` apart. */
-static void average_along(const struct medium *medium, int slot, enum at at, size_t i,
-                          const struct piece *column, size_t stride, struct piece *sum)
-{
-    const struct columns *columns = &medium->along[slot];
-    if (!columns->varies) {
-        *sum = *column;
-        return;
-    }
-    const size_t width = columns->a_cell * PIECES / 2;
-    const size_t first =
-        (i + BEYOND) * columns->a_cell + (at == AT_MIDDLES ? columns->a_cell / 2 : 0) - width / 2;
-    const struct piece *from = column + first * stride;
-    *sum = *from;
-    if (from[(width - 1) * stride].alike + 1 >= width) return;
-    *sum = (struct piece){.level = 0};
-    memcpy(sum->least, from->least, sizeof sum->least);
-    for (size_t n = 0; n < width; n++) {
-        const struct piece *one = from + n * stride;
-        const double even = 1. / (double)width;
-        const bool within = 2 * n >= width - columns->a_cell && 2 * n < width + columns->a_cell;
-        piece_add(one, columns->weight[at][n], even, within ? 1. / (double)columns->a_cell : 0, sum);
-        sum->rise[slot] += (n < width / 2 ? -2 : 2) * even * one->level;
-    }
-}
-
-/* Does ground that varies over depth vary along the lattice too? */
-static bool bent(const struct scene *scene)
-{
-    return scene->body.topography != NULL && ground_varies(scene, scene->dimension - 1);
-}
-
-static void lay_columns(struct medium *medium, int slot)
-{
-    const struct consistent *c = medium->c;
-    struct columns *columns = &medium->along[slot];
-    const struct spline *spline = c->layout[slot];
-    columns->points = spline == NULL ? 1 : spline->cells + 1;
-    columns->varies = spline != NULL && (ground_varies(c->model.scene, slot) || bent(c->model.scene));
-    columns->count = columns->lines = 1;
-    if (spline == NULL) return;
-    columns->spacing = (spline->high - spline->low) / (double)spline->cells;
-    columns->from = spline->low;
-    if (!columns->varies) return;
-    const double detail = bent(c->model.scene) ? 0 : ground_detail(c->model.scene, slot);
-    columns->a_cell = MOST_COLUMNS;
-    if (detail * MOST_COLUMNS / 2 > columns->spacing)
-        columns->a_cell = 2 * (size_t)ceil(columns->spacing / detail);
-    columns->count = (spline->cells + 2 * BEYOND) * columns->a_cell;
-    columns->step = columns->spacing / (double)columns->a_cell;
-    const struct body *body = &c->model.scene->body;
-    if (body->model != NULL && body->line == NULL)
-        columns->lines = (size_t)fmax(1, ceil(columns->step / body->model->detail[slot] - 1e-6));
-    columns->from += columns->step / 2 - BEYOND * columns->spacing;
-    for (size_t n = 0; n < columns->a_cell * PIECES / 2; n++)
-        for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
-            columns->weight[at][n] =
-                piece_kernel((enum at)at, ((double)n + .5) / (double)columns->a_cell - reach_of_kernel) /
-                (double)columns->a_cell;
-}
-
-/* Place of column n; beyond a symmetry plane its mirror image. */
-static double column_place(const struct medium *medium, int slot, size_t n)
-{
-    const struct columns *columns = &medium->along[slot];
-    const struct spline *spline = medium->c->layout[slot];
-    const double place = columns->from + (double)n * columns->step;
-    if (place < spline->low && spline->mirror[0]) return 2 * spline->low - place;
-    if (place > spline->high && spline->mirror[1]) return 2 * spline->high - place;
-    return place;
 }
 
 static void *held(struct medium *medium, size_t count, size_t size)
@@ -244,8 +156,7 @@ static bool lay_drops(struct medium *medium)
     if (c->surface == NULL) return true;
     medium->drop = held(medium, x->count * y->count, sizeof *medium->drop);
     for (size_t n = 0; medium->drop != NULL && n < x->count * y->count; n++) {
-        const double place[3] = {column_place(medium, 0, n % x->count),
-                                 c->dimension == 3 ? column_place(medium, 1, n / x->count) : 0, 0};
+        const double place[3] = {columns_place(x, n % x->count), columns_place(y, n / x->count), 0};
         medium->drop[n] = consistent_drop(c, place, NULL);
     }
     return medium->drop != NULL;
@@ -258,8 +169,7 @@ struct medium *medium_new(const struct consistent *c)
     medium->c = c;
     medium->part = general_is_part(c->model.scene);
     const struct columns *along = medium->along;
-    lay_columns(medium, 0);
-    lay_columns(medium, 1);
+    bool good = columns_lay(&medium->along[0], c, 0) && columns_lay(&medium->along[1], c, 1);
     medium->room = ground_jumps_at_most(c->model.scene) + 2;
     medium->next = 2 * (ptrdiff_t)c->general->first - PIECES / 2;
     medium->column = held(medium, (size_t)c->threads * along[0].count, sizeof *medium->column);
@@ -267,8 +177,8 @@ struct medium *medium_new(const struct consistent *c)
         medium->row[at] = held(medium, along[0].points * along[1].count, sizeof **medium->row);
     medium->point = held(medium, along[0].points * along[1].points, sizeof *medium->point);
     medium->jump = held(medium, (size_t)c->threads * medium->room, sizeof *medium->jump);
-    bool good = medium->column != NULL && medium->row[0] != NULL && medium->row[1] != NULL &&
-                medium->point != NULL && medium->jump != NULL;
+    good = good && medium->column != NULL && medium->row[0] != NULL && medium->row[1] != NULL &&
+           medium->point != NULL && medium->jump != NULL;
     for (int f = 0; f < 3 && good; f++) {
         medium->ring[f] = held(medium, RING * along[0].points * along[1].points, sizeof **medium->ring);
         good = medium->ring[f] != NULL;
@@ -281,6 +191,8 @@ struct medium *medium_new(const struct consistent *c)
 void medium_free(struct medium *medium)
 {
     if (medium == NULL) return;
+    columns_free(&medium->along[0]);
+    columns_free(&medium->along[1]);
     array_free(medium->drop);
     array_free(medium->column);
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
@@ -294,7 +206,7 @@ void medium_free(struct medium *medium)
 
 size_t medium_bytes(const struct medium *medium)
 {
-    return medium->bytes;
+    return medium->bytes + medium->along[0].bytes + medium->along[1].bytes;
 }
 
 /* The next piece of all columns, and its averages along the surface about the points of each family. */
@@ -308,17 +220,15 @@ static void advance(struct medium *medium)
     for (size_t j = 0; j < y->count; j++) {
         const size_t thread = (size_t)omp_get_thread_num();
         struct piece *column = medium->column + thread * x->count;
-        double place[3] = {0};
         for (size_t i = 0; i < x->count; i++) {
-            place[0] = column_place(medium, 0, i);
-            if (c->dimension == 3) place[1] = column_place(medium, 1, j);
             const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
-            average_column(medium, place, drop, number, medium->jump + thread * medium->room, &column[i]);
+            average_column(medium, (size_t[2]){i, j}, drop, number, medium->jump + thread * medium->room,
+                           &column[i]);
             piece_follow(i > 0 ? &column[i - 1] : NULL, &column[i]);
         }
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
             for (size_t i = 0; i < x->points - (at == AT_MIDDLES ? 1 : 0); i++)
-                average_along(medium, 0, (enum at)at, i, column, 1, &medium->row[at][j * x->points + i]);
+                columns_average(x, (enum at)at, i, column, 1, &medium->row[at][j * x->points + i]);
     }
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t i = 0; i < x->points; i++)
@@ -336,7 +246,7 @@ static void advance(struct medium *medium)
         for (size_t j = 0; j < family->n[1]; j++)
             for (size_t i = 0; i < family->n[0]; i++) {
                 const size_t at = j * x->points + i;
-                average_along(medium, 1, family->at[1], j, &row[i], x->points, &point[at]);
+                columns_average(y, family->at[1], j, &row[i], x->points, &point[at]);
                 piece_follow(&before[at], &point[at]);
             }
     }

@@ -80,7 +80,7 @@ void piece_follow(const struct piece *before, struct piece *piece)
     piece->alike = before != NULL && same_rock(before, piece) ? before->alike + 1 : 0;
 }
 
-void piece_add(const struct piece *one, double weight, double even, double cell, struct piece *sum)
+void piece_add(const struct piece *one, double weight, double cell, struct piece *sum)
 {
     for (int moment = 0; moment < 2; moment++)
         for (int q = 0; q < AVERAGES; q++)
@@ -89,9 +89,13 @@ void piece_add(const struct piece *one, double weight, double even, double cell,
         sum->cell[q] += cell * one->cell[q];
     for (int q = 0; q < POSITIVE; q++)
         sum->least[q] = fmin(sum->least[q], one->least[q]);
-    sum->level += even * one->level;
+}
+
+void piece_rise(const struct piece *one, double weight, struct piece *sum)
+{
+    sum->level += weight * one->level;
     for (int s = 0; s < 2; s++)
-        sum->rise[s] += even * one->rise[s];
+        sum->rise[s] += weight * one->rise[s];
 }
 
 void piece_turn(struct piece *piece)

@@ -26,8 +26,9 @@ void piece_sample(const struct rock *rock, const struct shares *shares, double h
                   struct piece *piece);
 /* Counts those that are the same rock, from the one before it; NULL: it is the first. */
 void piece_follow(const struct piece *before, struct piece *piece);
-/* sum += weight * one; `even`: the weight of its level, `cell`: of its part of the cell. */
-void piece_add(const struct piece *one, double weight, double even, double cell, struct piece *sum);
+/* sum += weight * one: averages (`cell`: the weight in the cell's), level and rise. */
+void piece_add(const struct piece *one, double weight, double cell, struct piece *sum);
+void piece_rise(const struct piece *one, double weight, struct piece *sum);
 /* Upside down. */
 void piece_turn(struct piece *piece);
 /* (G11b): from pieces on either side of a point of a family's plane, the first of which has this number, of `pieces` in
