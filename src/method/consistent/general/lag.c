@@ -97,7 +97,10 @@ static void sample(const struct glut *glut, const struct column *column, double 
     double place[3] = {glut->centre[0], glut->centre[1], glut->centre[2]};
     for (size_t n = 0; n < samples(column); n++) {
         const double cells = (double)column->first - BEFORE + ((double)n + .5) / MANY;
-        place[glut->across] = fmin(fmax(spline->low + cells * glut->spacing, spline->low), spline->high);
+        const double there = spline->low + cells * glut->spacing;
+        place[glut->across] = there < spline->low    ? 2 * spline->low - there
+                              : there > spline->high ? 2 * spline->high - there
+                                                     : there;
         const struct rock rock = consistent_rock_at(glut->c, place);
         soft[n] = 1 / rock.mu;
         along[ALONG_SHEAR][n] = 2 * rock.mu;
