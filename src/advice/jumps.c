@@ -282,7 +282,7 @@ static bool wall_between(const struct scene *scene, const struct ground_block *o
 }
 
 /* Walls between soft blocks. Measured in the plane, moduli 10 : 1, at 6 points a wavelength: thinner than .9 spacings
- * .06 to .26, thicker ones .04 to .13 (doc/theory/general-ground.md, section 7). */
+ * .06 to .25, thicker ones .03 to .15 (doc/theory/general-ground.md, section 7). */
 void look_at_walls(struct adviser *adviser)
 {
     static const double thin = .9, softer = 3;
