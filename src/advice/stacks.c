@@ -101,8 +101,8 @@ void look_at_stacks(struct adviser *adviser)
         scene->body.spacing * sqrt(seen / 2 / error));
 }
 
-/* Rock of low Q beside other rock in a cell, whose moduli are right in the first order of 1/Q. Measured in space, layers
- * of low Q in rock of Q_s 100, 6 and 12 points a wavelength (regress/studies/q-layers): velocities err by so much over
+/* Rock of low Q beside other rock in a cell, whose moduli are right in the first order of 1/Q. Measured in space:
+ * layers of low Q in rock of Q_s 100, 6 and 12 points a wavelength (regress/studies/q-layers): velocities err by so much over
  * points Q^2 more than without damping. */
 void look_at_damped_cells(struct adviser *adviser)
 {
