@@ -102,8 +102,8 @@ void look_at_stacks(struct adviser *adviser)
 }
 
 /* Rock of low Q beside other rock in a cell, whose moduli are right in the first order of 1/Q. Measured in space:
- * layers of low Q in rock of Q_s 100, 6 and 12 points a wavelength (regress/studies/q-layers): velocities err by so much
- * over points Q^2 more than without damping. */
+ * layers of low Q in rock of Q_s 100, 6 and 12 points a wavelength (regress/studies/q-layers): velocities err by
+ * so much over points Q^2 more than without damping. */
 void look_at_damped_cells(struct adviser *adviser)
 {
     static const double seen = .01, of_loss = 1.3;
