@@ -8,9 +8,12 @@
  * is a bound: the saddle is s = alpha ((l / a)^(1/2) - 1), at least 1 / t. Of a pulse of duration D, its integral over
  * its largest value, whose field is spread as K_0(z), z = s T + l s / (alpha + s), in the plane, as 1 / X, X = c (T +
  * l / (alpha + s)), in space, comes back, of the largest displacement at the distance r, the sum over faces of
- *   3 D G (pi / (2 z))^(1/2) / arcosh(1 + c D / r) in the plane, 1.5 D G r / X in space,                     (18b)
- * of moment tensors s r / (3 c) times as much, without the arcosh; 3 and 1.5 by measurement (regress/studies/late: no
- * bound below .003 in space). */
+ *   3 D G (pi / (2 z))^(1/2) / arcosh(1 + c D / r) in the plane, D G r / X in space,                         (18b)
+ * of moment tensors s r / (3 c) times as much, without the arcosh; 3 by measurement. In space the lattice of spacing h
+ * sends back more, since where c / s is many cells it knows little of a stretched coordinate: of n points
+ *   D (c / h)^2 tau exp(-alpha tau) / (3 n^5) r / (c T),   tau = t - d / c_s, up to 1 / alpha,                 (18c)
+ * of moment tensors min(r, .3 c D) / (c T) times as much; as 1 / (alpha + s)^2, the rest by measurement
+ * (regress/studies/late). */
 #include "scene/late.h"
 
 #include "scene/absorbing_layers.h"
@@ -20,7 +23,8 @@
 
 #include <math.h>
 
-static const double in_plane = 3, in_space = 1.5, of_moments = 1. / 3;
+static const double in_plane = 3, of_moments = 1. / 3;
+static const double of_lattice = 1. / 3, lattice_power = 5, of_near = .3;
 
 /* Longest distance between two extents. */
 static double apart(const struct scene *scene, const struct extent *one, const struct extent *other)
@@ -76,29 +80,50 @@ static double at_time(const struct scene *scene, const struct late *late, bool d
     const double c = scene_fastest(scene), l = layer->stretch, alpha = layer->alpha, first = layer->first;
     const double s = fmax(alpha * (sqrt(l / fmax(a, 1 / l)) - 1), 1 / (first + a / alpha));
     const double g = l * alpha * exp(-pow(sqrt(l) - sqrt(a), 2)) / sqrt(1 + 4 * M_PI * pow(l * a, 1.5));
-    const double part = (scene->dimension == 3 ? in_space : in_plane) * late->lasts * g *
-                        (dipole ? of_moments * s * late->apart / c : 1);
+    const double part = late->lasts * g * (dipole ? of_moments * s * late->apart / c : 1);
     if (scene->dimension == 3) return part * late->apart / (c * (first + l / (alpha + s)));
     const double z = s * first + l * s / (alpha + s);
-    return part * sqrt(M_PI / (2 * z)) / (dipole ? 1 : acosh(1 + c * late->lasts / late->apart));
+    return in_plane * part * sqrt(M_PI / (2 * z)) / (dipole ? 1 : acosh(1 + c * late->lasts / late->apart));
 }
 
-/* At the end, since it grows; what comes back early is that of (15). */
-static double of_worst(const struct scene *scene, int face, const struct late *late, bool dipole,
-                       size_t points)
+/* (18c) of so many points. */
+static double by_lattice(const struct scene *scene, int face, const struct late *late, bool dipole,
+                         const struct seen_late *layer, double points)
 {
-    const double thick = fmax(1, (double)points) * layer_spacing(scene, face), c = scene_fastest(scene);
+    const double c = scene_fastest(scene), way = c * layer->first, h = layer_spacing(scene, face);
+    const double tau =
+        fmin(1 / layer->alpha, late->time - late->way / scene->material[scene->body.material].s_speed);
+    if (scene->dimension < 3 || tau <= 0) return 0;
+    return of_lattice * late->lasts * pow(c / h, 2) * pow(points, -lattice_power) * tau *
+           exp(-layer->alpha * tau) * late->apart / way *
+           (dipole ? fmin(late->apart, of_near * c * late->lasts) / way : 1);
+}
+
+/* At the end, since it grows; what comes back early is that of (15). Without (18c) where the lattice is not asked for. */
+static double of_worst(const struct scene *scene, int face, const struct late *late, bool dipole,
+                       size_t points, bool lattice)
+{
+    const double n = fmax(1, (double)points), c = scene_fastest(scene),
+                 thick = n * layer_spacing(scene, face);
     const struct seen_late layer = {layer_stretch(scene, face, points), LAYER_RELAXATION * c / thick,
                                     (late->way + 2 * thick) / c};
     const double last = fmin(layer.stretch, layer.alpha * (late->time - layer.first));
-    return late->lasts > 0 && last > 0 ? at_time(scene, late, dipole, &layer, last) : 0;
+    if (!(late->lasts > 0)) return 0;
+    return (last > 0 ? at_time(scene, late, dipole, &layer, last) : 0) +
+           (lattice ? by_lattice(scene, face, late, dipole, &layer, n) : 0);
+}
+
+static double of_face(const struct scene *scene, int face, const struct lates *lates, size_t points,
+                      bool lattice)
+{
+    const double sum = of_worst(scene, face, &lates->of_force, false, points, lattice) +
+                       of_worst(scene, face, &lates->of_dipole, true, points, lattice);
+    return boundary_mirrors(&scene->boundary[face ^ 1]) ? 2 * sum : sum; /* that of the mirror image, too */
 }
 
 double late_of_points(const struct scene *scene, int face, const struct lates *lates, size_t points)
 {
-    const double sum = of_worst(scene, face, &lates->of_force, false, points) +
-                       of_worst(scene, face, &lates->of_dipole, true, points);
-    return boundary_mirrors(&scene->boundary[face ^ 1]) ? 2 * sum : sum; /* that of the mirror image, too */
+    return of_face(scene, face, lates, points, false);
 }
 
 /* Of layers as they are, or of at least so many points each. */
@@ -108,7 +133,7 @@ static double of_all(const struct scene *scene, size_t least)
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const size_t points = layer_points(scene, face);
         const struct lates lates = late_worst(scene, face);
-        if (points > 0) sum += late_of_points(scene, face, &lates, points > least ? points : least);
+        if (points > 0) sum += of_face(scene, face, &lates, points > least ? points : least, true);
     }
     return fmin(1, sum);
 }
