@@ -99,7 +99,7 @@ static double by_lattice(const struct scene *scene, int face, const struct late 
            (dipole ? fmin(late->apart, of_near * c * late->lasts) / way : 1);
 }
 
-/* At the end, since it grows; what comes back early is that of (15). Without (18c) where the lattice is not asked for. */
+/* At the end, since it grows; what comes back early is that of (15). (18c) where the lattice is asked for. */
 static double of_worst(const struct scene *scene, int face, const struct late *late, bool dipole,
                        size_t points, bool lattice)
 {
