@@ -105,14 +105,14 @@ cat >after.nml <<'END'
 &scene dimension = 3, end_time = 12 /
 &material name = 'rock', density = 1, p_speed = 1.7320508, s_speed = 1 /
 &body material = 'rock', shape = 'half-space', low = -2, -2, 0, high = 2, 2, 3, spacing = .25 /
-&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 5 /
+&boundary face = 'x-', 'x+', 'y-', 'y+', 'z+', kind = 'transmitting', layer = 'pml', layer_points = 4 /
 &load face = 'z-', shape = 'square', centre = 0, 0, 0, size = .75, .75, direction = 0, 0, 1, history = 'gaussian', width = .5, delay = 2.5 /
 &receiver name = 'r', position = 1, 1, 0 /
 &output plots = F /
 END
 deck=after.nml
-told "what a pulse leaves in space" "give way to what a pulse leaves: by the end displacements may err by 0.03 of the largest; boundary%layer_points = 9 would" # .012 against layers of 20 points
-untold "what a pulse leaves in space, with as many points as told" boundary%layer_points=9
+told "what a pulse leaves in space" "give way to what a pulse leaves: by the end displacements may err by 0.04 of the largest; boundary%layer_points = 8 would" # .030 against layers of 20 points
+untold "what a pulse leaves in space, with as many points as told" boundary%layer_points=8
 unset deck
 cat >shaken.nml <<'END'
 &scene dimension = 2, end_time = 20 /
@@ -309,16 +309,10 @@ END
 # 8 points leave .0036 there, the spacing .0001 (doc/verification/accuracy.md, section 3)
 untold "absorbing layers whose points the program chooses"
 sed -i "s/layer = 'pml'/layer = 'pml', layer_points = 8/" layers.nml
-"$selas" check layers.nml >said 2>&1 # of what the pulse leaves it warns, too
-if grep -q "layers of 8 points are only 0.0[0-9]* P wavelengths thick .* about 0.00[34], the spacing only 0.000[0-9]*; .* layer_points = 1[2-4] would" said; then
-    echo "ok - layers too thin for the spacing"
-else
-    echo "not ok - layers too thin for the spacing"
-    failures=$((failures + 1))
-fi
-untold "layers as thick as advised" "boundary(2)%layer_points=$(sed -n 's/^warning.*layer_points = \([0-9]*\) would.*/\1/p' said | head -n 1)"
+told "layers too thin for the spacing" "layers of 8 points are only 0.0[0-9]* P wavelengths thick .* about 0.00[34], the spacing only 0.000[0-9]*; .* layer_points = 1[2-4] would"
+untold "layers as thick as advised" "boundary(2)%layer_points=$(sed -n 's/^warning.*layer_points = \([0-9]*\) would.*/\1/p' said)"
 untold "eight points are enough for a coarser spacing" body%spacing=0.125
-told "a kinked pulse, of which the spacing leaves more" "give way to what a pulse leaves: .* err by 0.0[34] of" load%smoothing=0 # (18c): of layers so thin three times what was seen
+untold "a kinked pulse, of which the spacing leaves more" load%smoothing=0
 cat >graded.nml <<'END'
 &scene dimension = 3, end_time = 3.0 /
 &method operator = 'general' /

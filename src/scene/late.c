@@ -8,11 +8,11 @@
  * is a bound: the saddle is s = alpha ((l / a)^(1/2) - 1), at least 1 / t. Of a pulse of duration D, its integral over
  * its largest value, whose field is spread as K_0(z), z = s T + l s / (alpha + s), in the plane, as 1 / X, X = c (T +
  * l / (alpha + s)), in space, comes back, of the largest displacement at the distance r, the sum over faces of
- *   3 D G (pi / (2 z))^(1/2) / arcosh(1 + c D / r) in the plane, D G r / X in space,                         (18b)
+ *   3 D G (pi / (2 z))^(1/2) / arcosh(1 + c D / r) in the plane, D G r / (X^2 + r^2)^(1/2) in space,       (18b)
  * of moment tensors s r / (3 c) times as much, without the arcosh; 3 by measurement. In space the lattice of spacing h
  * sends back more, since where c / s is many cells it knows little of a stretched coordinate: of n points
- *   D (c / h)^2 tau exp(-alpha tau) / (3 n^5) r / (c T),   tau = t - d / c_s, up to 1 / alpha,                 (18c)
- * of moment tensors min(r, .3 c D) / (c T) times as much; as 1 / (alpha + s)^2, the rest by measurement
+ *   D (c / h)^2 n^-4 tau exp(-alpha tau) (h / Y) r / (Y^2 + r^2)^(1/2),   tau = t - d / c_s, up to 1 / alpha, (18c)
+ * Y = c T, of moment tensors min(r, .3 c D) / Y times as much; as 1 / (alpha + s)^2, the rest by measurement
  * (regress/studies/late). */
 #include "scene/late.h"
 
@@ -24,15 +24,26 @@
 #include <math.h>
 
 static const double in_plane = 3, of_moments = 1. / 3;
-static const double of_lattice = 1. / 3, lattice_power = 5, of_near = .3;
+static const double lattice_power = 4, of_near = .3;
 
-/* Longest distance between two extents. */
-static double apart(const struct scene *scene, const struct extent *one, const struct extent *other)
+/* From what acts, in the root mean square, to the farthest of what is looked at. */
+static double apart(const struct scene *scene, const struct extent *acts, const struct extent *seen)
 {
-    double way = scene->body.spacing;
-    for (int c = 0; c < scene->dimension; c++)
-        way = hypot(way, fmax(0, fmax(one->high[c] - other->low[c], other->high[c] - one->low[c])));
-    return way;
+    double square = pow(scene->body.spacing, 2);
+    for (int c = 0; c < scene->dimension; c++) {
+        const double middle = (acts->low[c] + acts->high[c]) / 2, half = (acts->high[c] - acts->low[c]) / 2;
+        square += pow(fmax(seen->high[c] - middle, middle - seen->low[c]), 2) + half * half / 3;
+    }
+    return sqrt(square);
+}
+
+/* How much farther from a face the mirror image of what is looked at lies; 0: no symmetry plane lies opposite. */
+static double beyond(const struct scene *scene, int face, const struct extent *seen)
+{
+    const int axis = face / 2;
+    const double mirror = face % 2 == 0 ? scene->body.high[axis] : scene->body.low[axis];
+    const bool mirrors = boundary_mirrors(&scene->boundary[face ^ 1]);
+    return mirrors ? fabs(seen->low[axis] + seen->high[axis] - 2 * mirror) : 0;
 }
 
 /* Of one rock, not damped (all that was measured), and not between faces that guide, where no field is that of a point.
@@ -58,7 +69,8 @@ struct lates late_worst(const struct scene *scene, int face)
         struct late *worst = acts.dipole ? &lates.of_dipole : &lates.of_force;
         for (size_t i = 0; scene_extent(scene, i, &seen); i++) {
             if (seen.role != EXTENT_SEEN || isinf(seen.low[0])) continue;
-            const double way = echo_way(scene, face, &acts, &seen);
+            const double way = echo_way(scene, face, &acts, &seen), image = way + beyond(scene, face, &seen);
+            worst->image = worst->lasts > 0 ? fmin(worst->image, image) : image;
             worst->way = worst->lasts > 0 ? fmin(worst->way, way) : way;
             worst->lasts = fmax(worst->lasts, acts.lasts);
             worst->time = fmax(worst->time, fmin(seen.until, scene->end_time) - acts.middle);
@@ -73,6 +85,12 @@ struct seen_late {
     double stretch, alpha, first;
 };
 
+/* What an image at this distance is beside what acts, in space. */
+static double of_image(const struct late *late, double distance)
+{
+    return late->apart / hypot(distance, late->apart);
+}
+
 /* (18b) at the time alpha (t - T) = a. */
 static double at_time(const struct scene *scene, const struct late *late, bool dipole,
                       const struct seen_late *layer, double a)
@@ -81,7 +99,7 @@ static double at_time(const struct scene *scene, const struct late *late, bool d
     const double s = fmax(alpha * (sqrt(l / fmax(a, 1 / l)) - 1), 1 / (first + a / alpha));
     const double g = l * alpha * exp(-pow(sqrt(l) - sqrt(a), 2)) / sqrt(1 + 4 * M_PI * pow(l * a, 1.5));
     const double part = late->lasts * g * (dipole ? of_moments * s * late->apart / c : 1);
-    if (scene->dimension == 3) return part * late->apart / (c * (first + l / (alpha + s)));
+    if (scene->dimension == 3) return part * of_image(late, c * (first + l / (alpha + s)));
     const double z = s * first + l * s / (alpha + s);
     return in_plane * part * sqrt(M_PI / (2 * z)) / (dipole ? 1 : acosh(1 + c * late->lasts / late->apart));
 }
@@ -94,8 +112,8 @@ static double by_lattice(const struct scene *scene, int face, const struct late 
     const double tau =
         fmin(1 / layer->alpha, late->time - late->way / scene->material[scene->body.material].s_speed);
     if (scene->dimension < 3 || tau <= 0) return 0;
-    return of_lattice * late->lasts * pow(c / h, 2) * pow(points, -lattice_power) * tau *
-           exp(-layer->alpha * tau) * late->apart / way *
+    return late->lasts * pow(c, 2) / (h * way) * pow(points, -lattice_power) * tau *
+           exp(-layer->alpha * tau) * of_image(late, way) *
            (dipole ? fmin(late->apart, of_near * c * late->lasts) / way : 1);
 }
 
@@ -116,9 +134,16 @@ static double of_worst(const struct scene *scene, int face, const struct late *l
 static double of_face(const struct scene *scene, int face, const struct lates *lates, size_t points,
                       bool lattice)
 {
-    const double sum = of_worst(scene, face, &lates->of_force, false, points, lattice) +
-                       of_worst(scene, face, &lates->of_dipole, true, points, lattice);
-    return boundary_mirrors(&scene->boundary[face ^ 1]) ? 2 * sum : sum; /* that of the mirror image, too */
+    const struct late *force = &lates->of_force, *dipole = &lates->of_dipole;
+    double sum = of_worst(scene, face, force, false, points, lattice) +
+                 of_worst(scene, face, dipole, true, points, lattice);
+    if (boundary_mirrors(&scene->boundary[face ^ 1])) {
+        struct late force_image = *force, dipole_image = *dipole;
+        force_image.way = force->image, dipole_image.way = dipole->image;
+        sum += of_worst(scene, face, &force_image, false, points, lattice) +
+               of_worst(scene, face, &dipole_image, true, points, lattice);
+    }
+    return sum;
 }
 
 double late_of_points(const struct scene *scene, int face, const struct lates *lates, size_t points)

@@ -8,6 +8,7 @@
 struct late {
     double lasts, time; /* of the pulse; from its middle to the end; 0: no load is one */
     double way, apart;  /* over the face, and straight */
+    double image;       /* over the face, by the mirror image across a symmetry plane opposite */
 };
 struct lates {
     struct late of_force, of_dipole;
