@@ -16,9 +16,9 @@ struct lates {
 struct lates late_worst(const struct scene *scene, int face);
 
 /* What layers of so many points behind a face may make displacements err by, of the largest, without what the lattice
- * adds in space: layers that would keep that below a thousandth, too, cost a third more points. */
+ * adds in space (18c). */
 double late_of_points(const struct scene *scene, int face, const struct lates *lates, size_t points);
-/* All of that of all faces as they are. */
+/* With that, of all faces as they are. */
 double late_error(const struct scene *scene);
 /* The least points of each layer with which that is too little to be told; 0: not even the most do. */
 long late_points(const struct scene *scene);
