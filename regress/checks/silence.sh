@@ -177,6 +177,16 @@ for operator in layered general; do
     awk '$1 " " $2 == "error largest:" {good = $3 < .1} END {exit !good}' said
     verdict "a dip-slip source three spacings above an interface, operator $operator" $?
 done
+# Right above one (by a single hat .3), and in a soil above rock (by the rock's mean over half a cell .73)
+for place in "layer(1)%material=rock layer(2)%material=soil layer(2)%top=.352 load%centre=.03,.174" \
+    "layer(2)%top=.304 load%centre=.03,.18"; do
+    words="$place layer(1)%bottom= method%degree=2 method%mass=vc3 load%width=.6 load%delay=3 scene%end_time=6"
+    # shellcheck disable=SC2086
+    "$selas" -q graded.nml $words body%spacing=.05 output%directory=fine >said 2>&1 &&
+        "$selas" -q graded.nml $words reference%kind=file reference%file=fine >>said 2>&1 && grep '^error' out/report.txt >>said
+    awk '$1 " " $2 == "error largest:" {good = $3 < .05} END {exit !good}' said
+    verdict "a dip-slip source near the surface and an interface, $place" $?
+done
 
 # --- A wall of rock between soft blocks, thinner than a spacing ---
 cat >wall.nml <<'END'

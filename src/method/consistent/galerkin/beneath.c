@@ -114,7 +114,10 @@ static int hats_above(const struct consistent *c, const double centre[3], int fa
         double place[3] = {centre[0], centre[1], centre[2]};
         place[face / 2] = face % 2 == 0 ? spline->low + away : spline->high - away;
         const struct rock rock = consistent_rock_at(c, place);
-        if (n > 0 && differs(rock, last)) return n < SAMPLES || 2 * SAMPLES * depth > n ? HATS : n / SAMPLES;
+        if (n > 0 && differs(rock, last)) {
+            const int hats = (n + SAMPLES / 2) / SAMPLES;
+            return n < SAMPLES || (hats < 2 && 2 * SAMPLES * depth > n) ? HATS : hats;
+        }
         last = rock;
     }
     return HATS;
@@ -135,14 +138,14 @@ bool consistent_face_above(const struct consistent *c, const double centre[3], s
     return true;
 }
 
-/* Mean rock over half a cell of the axis across about a place. */
-static struct rock mean_rock(const struct beneath *b, const double place[3], double cell)
+/* Mean rock over some of a cell of the axis across about a place. */
+static struct rock mean_rock(const struct beneath *b, const double place[3], double width)
 {
     enum { SAMPLES = 8 };
     struct rock mean = {0};
     for (int n = 0; n < SAMPLES; n++) {
         double at[3] = {place[0], place[1], place[2]};
-        at[b->across] += cell * ((n + .5) / SAMPLES - .5) / 2;
+        at[b->across] += width * ((n + .5) / SAMPLES - .5);
         const struct rock rock = consistent_rock_at(b->c, at);
         mean.lambda += rock.lambda / SAMPLES;
         mean.mu += rock.mu / SAMPLES;
@@ -150,17 +153,16 @@ static struct rock mean_rock(const struct beneath *b, const double place[3], dou
     return mean;
 }
 
-/* Adds `share` of the stress of the strain, so many halves of a cell from the face. */
-static void add_stress(struct beneath *b, int halves, double share)
+/* Adds `share` of the stress of the strain, so many cells from the face, in the mean rock over some of a cell. */
+static void add_stress(struct beneath *b, double cells, double width, double share)
 {
     const struct consistent *c = b->c;
     const struct spline *spline = c->spline[b->across];
     const double trace = b->strain[0][0] + b->strain[1][1] + b->strain[2][2],
                  cell = (spline->high - spline->low) / (double)spline->cells;
     double place[3] = {b->centre[0], b->centre[1], b->centre[2]}, stress[3][3];
-    place[b->across] =
-        b->face.face % 2 == 0 ? spline->low + halves * cell / 2 : spline->high - halves * cell / 2;
-    const struct rock rock = mean_rock(b, place, cell);
+    place[b->across] = b->face.face % 2 == 0 ? spline->low + cells * cell : spline->high - cells * cell;
+    const struct rock rock = mean_rock(b, place, width * cell);
     const struct metric metric = consistent_metric(c, place);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
@@ -193,6 +195,19 @@ static void add_lines(const struct beneath *b, double *const work[3], struct den
         }
 }
 
+/* The general operator has stresses at knots and middles, the layered one everywhere (by Simpson's rule on pieces). */
+static void add_hats(struct beneath *b, const double share[HATS + 1])
+{
+    const int pieces = b->c->general != NULL ? 1 : 16;
+    for (int n = 0; n < HATS * pieces; n++)
+        for (int part = 0; part < 3; part++) {
+            const int hat = n / pieces;
+            const double cells = (n + part / 2.) / pieces, in = cells - hat;
+            const double here = share[hat] * (1 - in) + share[hat + 1] * in;
+            add_stress(b, cells, .5 / pieces, here * (part == 1 ? 4 : 1) / (6 * pieces));
+        }
+}
+
 bool consistent_beneath(const struct consistent *c, const double centre[3], double moment[3][3],
                         struct dense *field)
 {
@@ -212,10 +227,7 @@ bool consistent_beneath(const struct consistent *c, const double centre[3], doub
     const struct rock rock = consistent_rock_at(c, centre);
     consistent_part_moment(b.face.normal, rock.lambda, rock.mu, moment, b.strain, slip);
     source_hats(b.face.depth, b.face.hats, share);
-    for (int j = 0; j < HATS; j++) {
-        add_stress(&b, 2 * j, share[j] / (j == 0 ? 6 : 3));
-        add_stress(&b, 2 * j + 1, (share[j] + share[j + 1]) / 3);
-    }
+    add_hats(&b, share);
     add_lines(&b, (double *const[3]){b.row + most, b.row + 2 * most, b.row + 3 * most}, field);
     array_free(room);
     return true;
