@@ -1,7 +1,6 @@
 #!/bin/sh
 # method%precision = 'single' against double, displacements and velocities at two receivers: the report's estimate of what
-# it adds to the largest holds, and is no more than 70 times what is added (nine scenes
-# beside the slow sweep: 39 to 61). Argument: the build folder. Prints TAP.
+# it adds to the largest holds, and is no more than some 50 times what is added. Argument: the build folder. Prints TAP.
 build=${1:-build}
 selas=$PWD/$build/selas
 . "$PWD/regress/checks/parts/scenes.sh"
@@ -30,10 +29,10 @@ held() {
                 }
             }
             END { print apart[0] / largest[0]; print apart[1] / largest[1] }'
-    done | awk -v said="$said" -v what="$name to $end $*" '
+    done | awk -v said="$said" -v limit="${limit:-50}" -v what="$name to $end $*" '
         $1 > worst { worst = $1 }
         END {
-            good = worst > 0 && worst < said && said < 70 * worst
+            good = worst > 0 && worst < said && said < limit * worst
             printf "%s - %s: adds %.1e, said %.1e\n", good ? "ok" : "not ok", what, worst, said
             exit !good
         }'
@@ -47,7 +46,10 @@ held single 4 || failures=$((failures + 1))
 # slow: displacements that hardly move while their forces are rounded
 slow='load%history=gaussian load%frequency= load%width=2 load%delay=10'
 # shellcheck disable=SC2086
-for scene in pass sweep single; do held $scene 24 $slow || failures=$((failures + 1)); done
+for scene in pass single; do held $scene 24 $slow || failures=$((failures + 1)); done
+# what rounding adds is chance: load%width 1.9, 2, 2.1 to t = 22, 24, 26 are told 44 to 61 times of it
+# shellcheck disable=SC2086
+limit=70 held sweep 24 $slow || failures=$((failures + 1))
 if grep -q "^single precision" pass_double/report.txt; then
     echo "not ok - a run in double precision says nothing of it"
     failures=$((failures + 1))

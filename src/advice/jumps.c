@@ -244,7 +244,7 @@ static double modulus_jump(const struct scene *scene, const struct ground_block 
  * ground's density, or of r times its moduli, err by so much (r - 1) / p^2 at most, p the points a wavelength. */
 void look_at_weights(struct adviser *adviser)
 {
-    static const double seen = .1, of_densities = .8, of_moduli = .4;
+    static const double seen = .1, of_densities = .8, of_moduli = .45;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene);
     double least = INFINITY, most = 0, moduli = 1;

@@ -101,6 +101,40 @@ void look_at_stacks(struct adviser *adviser)
         scene->body.spacing * sqrt(seen / 2 / error));
 }
 
+/* 1/Q_s of the rocks on both sides of an interface, where they differ most. */
+struct losses {
+    double low, high;
+};
+
+static void look_across(const struct scene *scene, size_t one, size_t other, struct losses *most)
+{
+    const double q[2] = {scene->material[one].q_s, scene->material[other].q_s};
+    const double loss[2] = {q[0] > 0 ? 1 / q[0] : 0, q[1] > 0 ? 1 / q[1] : 0};
+    const struct losses here = {fmin(loss[0], loss[1]), fmax(loss[0], loss[1])};
+    if (here.high - here.low > most->high - most->low) *most = here;
+}
+
+/* Between layers, and between blocks and whatever else there is. */
+static struct losses most_unlike(const struct scene *scene)
+{
+    const struct body *body = &scene->body;
+    const bool covered = body->layers > 0 && layer_covers(&body->layer[0]);
+    struct losses most = {0, 0};
+    if (body->layers > 0 && !covered) look_across(scene, body->material, body->layer[0].material, &most);
+    for (size_t i = 0; i + 1 < body->layers; i++)
+        look_across(scene, body->layer[i].graded ? body->layer[i].bottom : body->layer[i].material,
+                    body->layer[i + 1].material, &most);
+    for (size_t k = 0; k < body->blocks; k++) {
+        const size_t own = body->block[k].material;
+        if (!covered) look_across(scene, own, body->material, &most);
+        for (size_t i = 0; i < body->layers; i++)
+            look_across(scene, own, body->layer[i].material, &most);
+        for (size_t other = 0; other < k; other++)
+            look_across(scene, own, body->block[other].material, &most);
+    }
+    return most;
+}
+
 /* Rock of low Q beside other rock in a cell, whose moduli are right in the first order of 1/Q. Measured in space:
  * layers of low Q in rock of Q_s 100, 6 and 12 points a wavelength (regress/studies/q-layers): velocities err by
  * so much over points Q^2 more than without damping. */
@@ -108,25 +142,15 @@ void look_at_damped_cells(struct adviser *adviser)
 {
     static const double seen = .01, of_loss = 1.3;
     const struct scene *scene = adviser->scene;
-    const struct body *body = &scene->body;
     const double points = points_per_wavelength(scene);
-    double low = INFINITY, high = 0;
-    if (!by_general_operator(scene) || body->model != NULL || !(points > 0)) return;
-    for (size_t n = 0; n <= body->layers + body->blocks; n++) {
-        if (n == body->layers + body->blocks && (body->layers > 0 && layer_covers(&body->layer[0]))) break;
-        const size_t index = n < body->layers                  ? body->layer[n].material
-                             : n < body->layers + body->blocks ? body->block[n - body->layers].material
-                                                               : body->material;
-        const double q = scene->material[index].q_s, loss = q > 0 ? 1 / q : 0;
-        low = fmin(low, loss);
-        high = fmax(high, loss);
-    }
-    const double error = of_loss * pow(high - low, 2) / points;
+    if (!by_general_operator(scene) || scene->body.model != NULL || !(points > 0)) return;
+    const struct losses most = most_unlike(scene);
+    const double error = of_loss * pow(most.high - most.low, 2) / points;
     if (!(error > seen)) return;
     advise(
         adviser,
         "rock of Q = %.3g and rock of other Q share cells, whose moduli are right in the first order of 1/Q: "
         "velocities err by up to about %.2g more than undamped ones; %sbody%%spacing = %.3g would be right",
-        1 / high, fmin(1, error), ground_needs_general(scene) ? "" : "method%operator = 'layered' or ",
-        body->spacing * seen / 2 / error);
+        1 / most.high, fmin(1, error), ground_needs_general(scene) ? "" : "method%operator = 'layered' or ",
+        scene->body.spacing * seen / 2 / error);
 }

@@ -5,15 +5,9 @@
 #include "exact/lamb_fft.h"
 #include "exact/seismogram_work.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-static int ascending(const void *one, const void *other)
-{
-    const double a = *(const double *)one, b = *(const double *)other;
-    return (a > b) - (a < b);
-}
 
 /* Index of a level; depths that differ by rounding are one. */
 static size_t level_of(const struct strata *strata, double depth)
@@ -28,7 +22,7 @@ static size_t level_of(const struct strata *strata, double depth)
 static size_t sort_depths(size_t n, double *depth)
 {
     size_t kept = 1;
-    qsort(depth, n, sizeof *depth, ascending);
+    gsl_sort(depth, 1, n);
     for (size_t i = 1; i < n; i++)
         if (depth[i] - depth[kept - 1] > 1e-12 * depth[n - 1]) depth[kept++] = depth[i];
     return kept;

@@ -7,8 +7,8 @@
 #include "scene/height_rows.h"
 #include "scene/height_splines.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct height_map {
@@ -19,12 +19,6 @@ struct height_map {
     double most, smoothed;
 };
 
-static int ascending(const void *one, const void *other)
-{
-    const double a = *(const double *)one, b = *(const double *)other;
-    return (a > b) - (a < b);
-}
-
 /* Places that occur along an axis, those that rounding parts taken together. */
 static bool find_places(const struct height_rows *rows, int axis, struct axis_map *along)
 {
@@ -32,7 +26,7 @@ static bool find_places(const struct height_rows *rows, int axis, struct axis_ma
     if (along->place == NULL) return false;
     for (size_t i = 0; i < rows->count; i++)
         along->place[i] = rows->row[i][axis];
-    qsort(along->place, rows->count, sizeof *along->place, ascending);
+    gsl_sort(along->place, 1, rows->count);
     const double small = 1e-9 * (along->place[rows->count - 1] - along->place[0]);
     along->values = 0;
     for (size_t i = 0; i < rows->count; i++)

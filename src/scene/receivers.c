@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "scene/build.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,12 +156,6 @@ void build_receivers(struct builder *builder)
     check_receivers(builder);
 }
 
-static int ascending(const void *one, const void *other)
-{
-    const double a = *(const double *)one, b = *(const double *)other;
-    return (a > b) - (a < b);
-}
-
 /* The values of `times`, ascending; NULL after complaining. */
 static double *read_times(struct builder *builder, const struct deck_group *group, size_t *count)
 {
@@ -176,7 +171,7 @@ static double *read_times(struct builder *builder, const struct deck_group *grou
             complain(builder, group, "times", "%g is after scene%%end_time = %g", times[i],
                      builder->scene->end_time);
     }
-    qsort(times, *count, sizeof *times, ascending);
+    gsl_sort(times, 1, *count);
     return times;
 }
 

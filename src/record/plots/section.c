@@ -5,8 +5,8 @@
 #include "scene/ground.h"
 #include "scene/topography.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Takes a place of the deck to the body's own frame; what is zero there but for the rounding of the rotation is 0. */
@@ -291,12 +291,6 @@ static bool write_points(const struct section *section, const double *value, siz
     return true;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* One scale for all frames: curves get the largest value; maps half as much again as the median of the
  * frames' largest, so that late and faint waves still show while the few strongest frames saturate. */
 static void choose_scale(struct film *film)
@@ -309,7 +303,7 @@ static void choose_scale(struct film *film)
         }
         film->scale[s] = film->largest[s];
         if (sorted == NULL) continue;
-        qsort(sorted, film->frames, sizeof *sorted, ascending);
+        gsl_sort(sorted, 1, film->frames);
         const double moderate = 1.5 * sorted[film->frames / 2];
         if (moderate > 0.0) film->scale[s] = fmin(film->largest[s], moderate);
     }

@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "scene/topography.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -18,12 +18,6 @@ enum {
 bool columns_bend(const struct scene *scene)
 {
     return scene->body.topography != NULL && ground_varies(scene, scene->dimension - 1);
-}
-
-static int ascending(const void *one, const void *other)
-{
-    const double a = *(const double *)one, b = *(const double *)other;
-    return (a > b) - (a < b);
 }
 
 /* Where boxes end within the body, and parts of ellipsoids thinner than the spacing. */
@@ -57,7 +51,7 @@ static size_t find_cuts(const struct columns *columns, const struct body *body, 
         at[found + i] = 2 * low - at[i];
         at[2 * found + i] = 2 * high - at[i];
     }
-    qsort(at, IMAGES * found, sizeof *at, ascending);
+    gsl_sort(at, 1, IMAGES * found);
     for (size_t i = 0; i < IMAGES * found; i++)
         if (fabs(at[i] - round(at[i])) > close && at[i] > 0 && (kept == 0 || at[i] - at[kept - 1] > close))
             at[kept++] = at[i];

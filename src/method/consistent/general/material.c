@@ -127,7 +127,7 @@ static bool lay_row(struct consistent *c, struct family *family, const struct me
         const double weight = (even + general_added(c, family->at, place)) * metric.jacobian;
         medium_point(medium, i, j, &metric, &averaged);
         const bool turned = medium_stiffness(&averaged, stiffness, &lambda, &mu);
-        if (sums->part) medium_part(&averaged, stiffness, &lambda, &mu);
+        if (sums->part) medium_part(&averaged, turned ? stiffness : NULL, &lambda, &mu);
         if (turned && !add_point(family, found, row, i, stiffness, weight)) return false;
         family->lambda[point] = weight * lambda;
         family->mu[point] = weight * mu;

@@ -8,9 +8,9 @@
 #include "scene/grading.h"
 #include "scene/topography.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <omp.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double least_part = .3;
@@ -27,12 +27,6 @@ struct medium {
     double *jump;   /* [threads * room] */
     size_t room, bytes;
 };
-
-static int ascending(const void *one, const void *other)
-{
-    const double a = *(const double *)one, b = *(const double *)other;
-    return (a > b) - (a < b);
-}
 
 /* Vertical coordinate of a place of the lattice in a column below a surface so far below the plane, and the other
  * way. */
@@ -98,7 +92,7 @@ static void average_piece(const struct medium *medium, double place[3], double d
     }
     jump[count++] = from;
     jump[count++] = to;
-    qsort(jump, count, sizeof *jump, ascending);
+    gsl_sort(jump, 1, count);
     for (size_t part = 0; part + 1 < count; part++) {
         const double length = jump[part + 1] - jump[part];
         for (int side = -1; side <= 1 && length > 0; side += 2) { /* Gauss, two points */

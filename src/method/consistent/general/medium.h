@@ -41,8 +41,8 @@ struct averaged {
  * isotropic, with this lambda and mu. */
 bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda,
                       double *mu);
-/* The same for a part of damped ground (G11a), wherever C of the whole is not isotropic. */
-void medium_part(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda, double *mu);
+/* The same for a part of damped ground (G11a); stiffness NULL where C of the whole is isotropic. */
+void medium_part(const struct averaged *averaged, double *stiffness, double *lambda, double *mu);
 
 /* A part of damped ground (method/damped/damped.h) but the one that is the whole. */
 bool general_is_part(const struct scene *scene);

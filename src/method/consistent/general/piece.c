@@ -32,15 +32,16 @@ static void quantities(const struct rock *rock, double value[AVERAGES])
     value[MEAN_RATIO] = rock->lambda / m;
 }
 
-/* (G11a) */
-static void cell_quantities(const struct rock *rock, const struct shares *shares, double value[CELL])
+/* (G11a), from those of the rock */
+static void cell_quantities(const struct rock *rock, const struct shares *shares, const double of[AVERAGES],
+                            double value[CELL])
 {
     const double m = rock->lambda + 2 * rock->mu, mu = rock->mu, kappa = rock->lambda + 2. / 3 * mu;
     const double bulk = shares->bulk, shear = shares->shear;
-    value[CELL_SOFTNESS] = 1 / m;
-    value[CELL_SPREAD] = mu * (3 * rock->lambda + 2 * mu) / m;
-    value[CELL_SLIP] = 1 / mu;
-    value[CELL_SHEAR] = mu;
+    value[CELL_SOFTNESS] = of[MEAN_SOFTNESS];
+    value[CELL_SPREAD] = of[MEAN_SPREAD];
+    value[CELL_SLIP] = of[MEAN_SLIP];
+    value[CELL_SHEAR] = of[MEAN_SHEAR];
     value[PART_SOFTNESS] = (bulk * kappa + 4. / 3 * shear * mu) / (m * m);
     value[PART_RATIO] = 2 * (bulk - shear) * (kappa / m) * (mu / m);
     value[PART_SPREAD] = (4 * bulk * mu + 3 * shear * kappa) * (kappa / m) * (mu / m);
@@ -61,7 +62,7 @@ void piece_sample(const struct rock *rock, const struct shares *shares, double h
     }
     piece->level += part * log(rock->lambda + 2 * rock->mu);
     if (shares == NULL) return;
-    cell_quantities(rock, shares, cell);
+    cell_quantities(rock, shares, value, cell);
     for (int n = 0; n < CELL; n++)
         piece->cell[n] += part * cell[n];
 }

@@ -61,7 +61,7 @@ bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNES
 
 /* In the stress across the interface and the strain along it, in which the averages are sums, the part of the cell's
  * mean in the metric of the whole's, put in the metric of C. */
-void medium_part(const struct averaged *averaged, double stiffness[STIFFNESSES], double *lambda, double *mu)
+void medium_part(const struct averaged *averaged, double *stiffness, double *lambda, double *mu)
 {
     const double *mean = averaged->mean, *cell = averaged->cell;
     const double c33 = 1 / mean[MEAN_SOFTNESS], c13 = mean[MEAN_RATIO] * c33;
@@ -75,5 +75,5 @@ void medium_part(const struct averaged *averaged, double stiffness[STIFFNESSES],
     const double p11 = softness * c13 * c13 + 2 * ratio * c13 + spread + p66;
     *mu = p66;
     *lambda = p33 - 2 * p66;
-    about_normal(averaged->rise, p11, p33, p13, p55, p66, stiffness);
+    if (stiffness != NULL) about_normal(averaged->rise, p11, p33, p13, p55, p66, stiffness);
 }
