@@ -1,5 +1,6 @@
 /* Moment tensors beside interfaces aslant (doc/theory/general-ground.md, Eqs G26 to G29): the fields that they are held
- * against, and the work of a load on fields of two rocks that are known in closed form. */
+ * against, and the work of a load on fields of two rocks that are known in closed form; forces and receivers beside
+ * interfaces (G30) on the same fields. */
 #include "consistent_run.h"
 #include "from_deck.h"
 
@@ -19,16 +20,19 @@ static const char aslant[] =
     "&method operator = 'general' /\n"
     "&layer material = 'soil', top = 0 /\n"
     "&layer material = 'rock', top = 1, dip = %g, strike = -90 /\n"
-    "&load kind = 'moment-tensor', centre = %s, amplitude = 1, moment = %s, history = 'gaussian',"
-    " width = .4, delay = 2 /\n";
+    "&load kind = %s, centre = %s, amplitude = 1, history = 'gaussian', width = .4, delay = 2 /\n";
 
-static struct from_deck scene_of(int dimension, double dip, double x, double z, bool graded)
+static struct from_deck scene_of(int dimension, double dip, double x, double z, bool graded, bool force)
 {
+    static const char *const load[2][2] = {{"'moment-tensor', moment = 1, .3, 0, -.6, 0, 0",
+                                            "'moment-tensor', moment = 1, -.5, .3, .7, .4, -.6"},
+                                           {"'body-force', shape = 'point', direction = .6, .8",
+                                            "'body-force', shape = 'point', direction = .6, 0, .8"}};
     char text[2000], place[100];
     snprintf(place, sizeof place, dimension == 2 ? "%g, %g" : "%g, .02, %g", x, z);
     snprintf(text, sizeof text, aslant, dimension, dimension == 2 ? "-1.2, 0" : "-1, -1, 0",
              dimension == 2 ? (graded ? "1.2, 4" : "1.2, 2") : "1, 1, 2", graded ? ", grading = 2" : "", dip,
-             place, dimension == 2 ? "1, .3, 0, -.6, 0, 0" : "1, -.5, .3, .7, .4, -.6");
+             load[force][dimension - 2], place);
     return right_scene(text);
 }
 
@@ -80,7 +84,7 @@ static void test_steady_fields_balance(void **state)
 {
     (void)state;
     for (int dimension = 2; dimension <= 3; dimension++) {
-        struct from_deck deck = scene_of(dimension, 25, .03, .9, false);
+        struct from_deck deck = scene_of(dimension, 25, .03, .9, false, false);
         const double angle = 25 * M_PI / 180,
                      normal[3] = {-sin(angle), dimension == 2 ? cos(angle) : 0, cos(angle)};
         const double origin[3] = {.03, dimension == 2 ? .9 : .02, .9};
@@ -181,11 +185,44 @@ static void relax(struct consistent *c, double *u)
     free(loose);
 }
 
+/* What the load's forces do on control values. */
+static double work_of(const struct consistent *c, const double *u)
+{
+    double done = 0, *plane = calloc(c->plane, sizeof *plane);
+    for (int component = 0; component < c->dimension; component++)
+        for (size_t k = 0; k < c->n[2]; k++) {
+            memset(plane, 0, c->plane * sizeof *plane);
+            sparse_add(c, &c->load.of[0], component, k, 1, plane);
+            done += dot(c->plane, plane, u + (size_t)component * c->volume + k * c->plane);
+        }
+    free(plane);
+    return done;
+}
+
+/* Control values of a field of two rocks, at rest; less an eighth of second differences of a graded lattice. */
+static double *field_at_rest(const struct from_deck *deck, struct consistent *c, int field, double dip)
+{
+    const struct spline *depth = c->spline[c->dimension - 1];
+    const double spacing = (depth->high - depth->low) / (double)depth->cells;
+    double *u = calloc(c->model.unknowns, sizeof *u), shift[2], slope[2][2];
+    for (size_t i = 0; i < c->volume; i++)
+        for (int side = -1; side <= 1; side++) {
+            const double zeta = depth->greville[i / c->plane] + side * spacing;
+            const double place[2] = {c->spline[0]->greville[i % c->n[0]],
+                                     grading_real(deck->scene->body.grading, zeta)};
+            two_rocks(deck->scene, field, dip * M_PI / 180, place, shift, slope);
+            u[i] += (side == 0 ? 1.25 : -.125) * shift[0];
+            u[(size_t)(c->dimension - 1) * c->volume + i] += (side == 0 ? 1.25 : -.125) * shift[1];
+        }
+    relax(c, u);
+    return u;
+}
+
 /* Of a moment tensor in the plane x, z: the largest error of its work, in parts of what a moment as large does at
  * most. */
 static double worst_work(int dimension, double dip, double x, double z, bool graded)
 {
-    struct from_deck deck = scene_of(dimension, dip, x, z, graded);
+    struct from_deck deck = scene_of(dimension, dip, x, z, graded, false);
     if (graded) assert_non_null(deck.scene->body.grading);
     struct messages messages = {0};
     struct model *model = NULL;
@@ -194,21 +231,7 @@ static double worst_work(int dimension, double dip, double x, double z, bool gra
     const int last = dimension - 1;
     double worst = 0;
     for (int field = 0; field < FIELDS; field++) {
-        double *u = calloc(model->unknowns, sizeof *u), slope[2][2], shift[2], done = 0, wanted = 0, most = 0;
-        for (size_t i = 0; i < c->volume; i++) {
-            const struct spline *depth = c->spline[last];
-            const double spacing = (depth->high - depth->low) / (double)depth->cells;
-            for (int side = -1; side <= 1;
-                 side++) { /* less an eighth of the second difference of a graded lattice */
-                const double zeta = depth->greville[i / c->plane] + side * spacing;
-                const double place[2] = {c->spline[0]->greville[i % c->n[0]],
-                                         grading_real(deck.scene->body.grading, zeta)};
-                two_rocks(deck.scene, field, dip * M_PI / 180, place, shift, slope);
-                u[i] += (side == 0 ? 1.25 : -.125) * shift[0];
-                u[(size_t)last * c->volume + i] += (side == 0 ? 1.25 : -.125) * shift[1];
-            }
-        }
-        relax(c, u);
+        double *u = field_at_rest(&deck, c, field, dip), slope[2][2], shift[2], wanted = 0, most = 0;
         two_rocks(deck.scene, field, dip * M_PI / 180, (double[]){x, z}, shift, slope);
         const double *m = deck.scene->load[0].moment,
                      tensor[2][2] = {{m[0], m[dimension == 2 ? 3 : 5]}, {m[dimension == 2 ? 3 : 5], m[last]}};
@@ -217,14 +240,7 @@ static double worst_work(int dimension, double dip, double x, double z, bool gra
                 wanted += tensor[i][j] * slope[i][j];
                 most += fabs(tensor[i][j] * slope[i][j]);
             }
-        for (int component = 0; component < dimension; component++)
-            for (size_t k = 0; k < c->n[2]; k++) {
-                double *plane = calloc(c->plane, sizeof *plane);
-                sparse_add(c, &c->load.of[0], component, k, 1, plane);
-                done += dot(c->plane, plane, u + (size_t)component * c->volume + k * c->plane);
-                free(plane);
-            }
-        worst = fmax(worst, fabs(done - wanted) / most);
+        worst = fmax(worst, fabs(work_of(c, u) - wanted) / most);
         free(u);
     }
     model_free(&model);
@@ -249,11 +265,66 @@ static void test_work_beside_interfaces_aslant(void **state)
     assert_true(worst_work(2, 20, .013, 1.05, true) < .01);
 }
 
+/* Of a force and of a receiver in the same place: the largest errors of its work and of what it sees, in parts of the
+ * slopes of displacement times the spacing. */
+static void worst_shift(int dimension, double dip, double x, double z, bool graded, double worst[2])
+{
+    struct from_deck deck = scene_of(dimension, dip, x, z, graded, true);
+    struct messages messages = {0};
+    struct model *model = NULL;
+    struct probe probe = {0};
+    assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
+    const int last = dimension - 1;
+    const double place[3] = {x, dimension == 2 ? z : .02, z};
+    assert_int_equal(model->core->probe(model, place, &probe, &messages), SELAS_OK);
+    worst[0] = worst[1] = 0;
+    for (int field = 0; field < (dip == 0 ? FIELDS : 2); field++) { /* bands of even strain bend aslant */
+        double *u = field_at_rest(&deck, consistent_of(model), field, dip), slope[2][2], shift[2],
+               seen[6] = {0};
+        double *state = calloc(2 * model->unknowns, sizeof *state);
+        memcpy(state, u, model->unknowns * sizeof *u);
+        two_rocks(deck.scene, field, dip * M_PI / 180, (double[]){x, z}, shift, slope);
+        const double scale = .1 * fmax(hypot(slope[0][0], slope[0][1]), hypot(slope[1][0], slope[1][1]));
+        model_observe(model, &probe, SELAS_DISPLACEMENT, state, NULL, seen);
+        worst[0] =
+            fmax(worst[0], fabs(work_of(consistent_of(model), u) - .6 * shift[0] - .8 * shift[1]) / scale);
+        worst[1] = fmax(worst[1], hypot(seen[0] - shift[0], seen[last] - shift[1]) / scale);
+        free(state);
+        free(u);
+    }
+    probe_free(&probe);
+    model_free(&model);
+    from_deck_free(&deck);
+}
+
+static void test_displacement_beside_interfaces(void **state)
+{
+    (void)state;
+    static const double dip[] = {0, 5, 20, 40}, right[] = {.02, .05, .13, .22}, /* .39 to .45 without (G30) */
+        away[] = {-.1, -.02, .02, .05, .1};
+    double worst[2];
+    for (size_t i = 0; i < sizeof dip / sizeof *dip; i++)
+        for (size_t j = 0; j < sizeof away / sizeof *away; j++) {
+            const double x = .013 + .027 * (double)j, z = 1 + x * tan(dip[i] * M_PI / 180) + away[j];
+            worst_shift(2, dip[i], x, z, false, worst);
+            if (worst[0] > right[i] || worst[1] > right[i])
+                fail_msg("dip %g, %g from the interface: force %g, receiver %g", dip[i], away[j], worst[0],
+                         worst[1]);
+        }
+    worst_shift(3, 20, .013, 1.02, false, worst); /* .45 */
+    assert_true(fmax(worst[0], worst[1]) < .05);
+    worst_shift(2, 20, .013, 1.02, true, worst); /* .45 */
+    assert_true(fmax(worst[0], worst[1]) < .05);
+    worst_shift(2, 0, .013, 1.02, true, worst); /* .39 */
+    assert_true(fmax(worst[0], worst[1]) < .02);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_steady_fields_balance),
         cmocka_unit_test(test_work_beside_interfaces_aslant),
+        cmocka_unit_test(test_displacement_beside_interfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
  * at the Greville points of the control values (manual, section 6). */
 #include "method/consistent/consistent.h"
 #include "method/consistent/galerkin/surface.h"
+#include "method/consistent/general/kink.h"
 
 #include "base/memory.h"
 #include "scene/grading.h"
@@ -63,10 +64,24 @@ static void tilt(const struct consistent *c, const struct metric *metric, double
         gradient[axis] = slope[c->slot[axis]];
 }
 
-/* A field in deck coordinates at one place; metric NULL: below a level surface. */
-static void field_at(const struct consistent *c, const struct place *place, const struct metric *metric,
-                     const struct material *material, selas_field field, const double *y, const double *a,
-                     double *value)
+/* What a probe beside an interface adds to a component of a control field (general/kink.c): its sites are as many for
+ * each component, places in the whole field. */
+static double kink_of(const struct consistent *c, const struct probe *probe, int component,
+                      const double *field)
+{
+    const size_t each = probe != NULL ? probe->sites / (size_t)c->dimension : 0;
+    double sum = 0;
+    for (size_t k = 0; k < each; k++) {
+        const size_t site = probe->count + (size_t)component * each + k;
+        sum += probe->weight[site] * field[probe->index[site]];
+    }
+    return sum;
+}
+
+/* A field in deck coordinates at one place; metric NULL: below a level surface; probe NULL: of a snapshot. */
+static void field_at(const struct consistent *c, const struct place *place, const struct probe *probe,
+                     const struct metric *metric, const struct material *material, selas_field field,
+                     const double *y, const double *a, double *value)
 {
     struct point_values values = {0};
     const double *v = y + c->model.unknowns;
@@ -76,9 +91,12 @@ static void field_at(const struct consistent *c, const struct place *place, cons
             evaluate(c, place, component, v + from, &values.velocity[component], NULL);
         if (field == SELAS_ACCELERATION)
             evaluate(c, place, component, a + from, &values.acceleration[component], NULL);
+        values.velocity[component] += field == SELAS_VELOCITY ? kink_of(c, probe, component, v) : 0;
+        values.acceleration[component] += field == SELAS_ACCELERATION ? kink_of(c, probe, component, a) : 0;
         if (field == SELAS_VELOCITY || field == SELAS_ACCELERATION) continue;
         double *gradient = &values.gradient[3 * component];
         evaluate(c, place, component, y + from, &values.displacement[component], gradient);
+        values.displacement[component] += field == SELAS_DISPLACEMENT ? kink_of(c, probe, component, y) : 0;
         if (metric != NULL) tilt(c, metric, gradient);
     }
     field_from_values(&c->model, material, &values, field, value);
@@ -120,7 +138,7 @@ void consistent_observe(struct model *model, const struct probe *probe, selas_fi
         }
     struct material here;
     const struct metric metric = consistent_metric(c, position);
-    field_at(c, &place, tilted(c) ? &metric : NULL,
+    field_at(c, &place, probe, tilted(c) ? &metric : NULL,
              c->general == NULL ? probe->material : general_material_at(c, position, &here), field, y, a,
              value);
 }
@@ -169,8 +187,15 @@ selas_status consistent_probe(struct model *model, const double position[3], str
     const size_t first[3] = {0, c->part.along[1].first, c->part.along[DEPTH].first};
     const int holder = part_holder(c, lowest(&at[1]), lowest(&at[DEPTH]));
     const size_t all = holder == ranks_me(c->part.ranks) ? count[0] * count[1] * count[2] : 0;
-    const selas_status status = probe_allocate(probe, all, messages);
-    if (status != SELAS_OK) return status;
+    struct kinks kinks = {0};
+    if (c->general != NULL && !general_see_kink(c, place, &kinks))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
+    const selas_status status = probe_allocate(probe, all + (all > 0 ? kinks.sites : 0), messages);
+    probe->count = all;
+    const bool good =
+        status == SELAS_OK && (all == 0 || (watch_place(c, place) && general_keep_kink(c, &kinks, probe)));
+    kinks_free(&kinks);
+    if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
     const struct metric metric = consistent_metric(c, place);
     memcpy(probe->position, position, sizeof probe->position);
     probe->material = material_at(c, place[c->dimension - 1]);
@@ -187,7 +212,6 @@ selas_status consistent_probe(struct model *model, const double position[3], str
             probe->gradient[3 * w + (size_t)axis] = slope[c->slot[axis]];
         if (tilted(c)) tilt(c, &metric, &probe->gradient[3 * w]);
     }
-    if (all > 0 && !watch_place(c, place)) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
     return SELAS_OK;
 }
 
@@ -251,7 +275,7 @@ void consistent_field(struct model *model, selas_field field, const double *y, c
         const struct metric metric = consistent_metric(c, position);
         const struct material *material = c->general != NULL ? general_material_at(c, position, &here)
                                                              : material_at(c, position[c->dimension - 1]);
-        field_at(c, &place, tilted(c) ? &metric : NULL, material, field, y, a,
+        field_at(c, &place, NULL, tilted(c) ? &metric : NULL, material, field, y, a,
                  value + components * (p - from));
     }
 }

@@ -93,8 +93,7 @@ struct rock consistent_rock_at(const struct consistent *c, const double place[3]
     return ground_at(c->model.scene, real);
 }
 
-/* Does the rock change by more than a twentieth? */
-static bool differs(struct rock one, struct rock other)
+bool consistent_rock_differs(struct rock one, struct rock other)
 {
     static const double slight = .05;
     return fabs(log(one.density / other.density)) > slight || fabs(log(one.mu / other.mu)) > slight ||
@@ -114,7 +113,7 @@ static int hats_above(const struct consistent *c, const double centre[3], int fa
         double place[3] = {centre[0], centre[1], centre[2]};
         place[face / 2] = face % 2 == 0 ? spline->low + away : spline->high - away;
         const struct rock rock = consistent_rock_at(c, place);
-        if (n > 0 && differs(rock, last)) {
+        if (n > 0 && consistent_rock_differs(rock, last)) {
             const int hats = (n + SAMPLES / 2) / SAMPLES;
             return n < SAMPLES || (hats < 2 && 2 * SAMPLES * depth > n) ? HATS : hats;
         }

@@ -178,8 +178,13 @@ selas_status forces_create(struct consistent *c, struct messages *messages);
  * holds what is left to act on the splines' strain. False: no memory. */
 typedef bool moment_beside(const struct consistent *c, const struct load *load, const double centre[3],
                            double moment[3][3], struct dense *field);
-/* Together: makes the moment tensors again. */
-selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages);
+/* Adds what the splines' displacement at `centre` lacks, times a direction by slot; half: halved on symmetry planes.
+ * False: no memory. */
+typedef bool force_beside(const struct consistent *c, const double centre[3], const double direction[3],
+                          bool half, struct dense *field);
+/* Together: makes moment tensors and body forces again. */
+selas_status forces_in_ground(struct consistent *c, moment_beside *beside, force_beside *at_kink,
+                              struct messages *messages);
 void forces_free(struct consistent *c);
 size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.
@@ -207,6 +212,8 @@ void consistent_part_moment(const double n[3], double lambda, double mu, double 
 double consistent_shallow(const struct consistent *c);
 /* Rock at a place of the lattice, by axis. */
 struct rock consistent_rock_at(const struct consistent *c, const double place[3]);
+/* Does the rock change by more than a twentieth? */
+bool consistent_rock_differs(struct rock one, struct rock other);
 /* field += factor * product of the lines, by axis. */
 void consistent_add_product(const struct consistent *c, double *const line[3], int component, double factor,
                             struct dense *field);

@@ -20,7 +20,8 @@ struct workspace {
     double *line[3];       /* [count] by axis; the first holds all that follows */
     double *work;          /* [largest count] */
     double *face;          /* [counts of a face's two axes]: disc */
-    moment_beside *beside; /* NULL: moment tensors act on the splines' strain */
+    moment_beside *beside; /* NULL: moment tensors act on the splines' strain ... */
+    force_beside *at_kink; /* ... and forces on their displacement */
 };
 
 static bool workspace_new(const struct consistent *c, struct workspace *w)
@@ -158,7 +159,7 @@ static bool traction(struct consistent *c, const struct load *load, const double
     return true;
 }
 
-static void body_force(struct consistent *c, const struct load *load, const double centre[3],
+static bool body_force(struct consistent *c, const struct load *load, const double centre[3],
                        const double direction[3], struct workspace *w)
 {
     const struct body *body = &c->model.scene->body;
@@ -174,6 +175,10 @@ static void body_force(struct consistent *c, const struct load *load, const doub
         }
         add_product(c, w, component, direction[component]);
     }
+    double by_slot[3] = {0};
+    for (int axis = 0; axis < c->dimension; axis++)
+        by_slot[c->slot[axis]] = direction[axis];
+    return load->shape != LOAD_POINT || w->at_kink == NULL || w->at_kink(c, centre, by_slot, true, &w->field);
 }
 
 /* M in the body's frame. */
@@ -249,7 +254,7 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
     else if (load->kind == LOAD_MOMENT_TENSOR)
         good = moment_tensor(c, load, centre, w);
     else if (load->shape == LOAD_POINT || load->shape == LOAD_FACE)
-        body_force(c, load, centre, direction, w);
+        good = body_force(c, load, centre, direction, w);
     else
         return fail(messages, SELAS_UNSUPPORTED,
                     "a body force acts at a point or over the whole body (shape = 'face')");
@@ -322,7 +327,8 @@ selas_status forces_create(struct consistent *c, struct messages *messages)
     return status;
 }
 
-selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struct messages *messages)
+selas_status forces_in_ground(struct consistent *c, moment_beside *beside, force_beside *at_kink,
+                              struct messages *messages)
 {
     const struct scene *scene = c->model.scene;
     struct workspace w;
@@ -330,8 +336,9 @@ selas_status forces_in_ground(struct consistent *c, moment_beside *beside, struc
     if (!workspace_new(c, &w)) status = fail(messages, SELAS_NO_MEMORY, "no memory for the loads");
     status = ranks_agree(c->part.ranks, status, messages);
     w.beside = beside;
+    w.at_kink = at_kink;
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
-        if (scene->load[k].kind != LOAD_MOMENT_TENSOR) continue;
+        if (scene->load[k].kind == LOAD_TRACTION || load_moves(&scene->load[k])) continue;
         sparse_free(&c->load.of[k]);
         status = load_create(c, &scene->load[k], &c->load.of[k], &w, messages);
         status = ranks_agree(c->part.ranks, status, messages);

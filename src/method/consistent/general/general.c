@@ -1,6 +1,7 @@
 /* The general operator: making, acceleration, M v and energies (doc/theory/general-ground.md). */
 #include "method/consistent/general/general.h"
 #include "method/consistent/general/glut.h"
+#include "method/consistent/general/kink.h"
 #include "method/consistent/general/sweep.h"
 
 #include "base/memory.h"
@@ -149,7 +150,7 @@ selas_status general_create(struct consistent *c, struct messages *messages)
         good ? SELAS_OK
              : fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     status = ranks_agree(c->part.ranks, status, messages);
-    if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, messages);
+    if (status == SELAS_OK) status = forces_in_ground(c, general_add_glut, general_add_kink, messages);
     if (status == SELAS_OK && !general_scale(c, mass))
         status = fail(messages, SELAS_NO_MEMORY, "no memory for a model of %zu control values", c->volume);
     array_free(mass);

@@ -109,7 +109,7 @@ static void stress_of(double stiffness[STRESSES][STRESSES], double strain[3][3],
 }
 
 /* Adds `share` of a stress at x of the axis across to a set of lines. */
-static void add_stress(struct glut *g, int set, double x, double share, double stress[3][3])
+void glut_add_stress(struct glut *g, int set, double x, double share, double stress[3][3])
 {
     const struct consistent *c = g->c;
     double place[3] = {g->centre[0], g->centre[1], g->centre[2]};
@@ -174,11 +174,11 @@ static void add_points(struct glut *g, const struct family *family, double (*sti
         double stress[3][3];
         if (fabs(share) < least) continue;
         stress_of(stiffness[k], g->strain, stress);
-        add_stress(g, 0, x, share, stress);
+        glut_add_stress(g, 0, x, share, stress);
         for (int axis = 0; axis < c->dimension; axis++) {
             if (axis == g->across) continue;
             find_slow(g, stiffness[k], c->slot[axis], stress);
-            add_stress(g, 1 + axis, x, share, stress);
+            glut_add_stress(g, 1 + axis, x, share, stress);
         }
     }
 }
@@ -207,7 +207,7 @@ static void curvature_line(struct glut *g, int axis, bool odd, double *line)
 }
 
 /* Products of a set's lines across with those along the interface. */
-static void add_lines(struct glut *g, int set, double *const work[3], struct dense *field)
+void glut_add_lines(struct glut *g, int set, double *const work[3], struct dense *field)
 {
     const struct consistent *c = g->c;
     for (int component = 0; component < c->dimension; component++)
@@ -217,7 +217,10 @@ static void add_lines(struct glut *g, int set, double *const work[3], struct den
             for (int axis = 0; axis < c->dimension; axis++) {
                 const bool odd = axis == component;
                 if (axis == g->across) continue;
-                if (axis == direction && set == 1 + axis)
+                if (g->plain)
+                    consistent_point_line(c, axis, odd, axis == direction, g->half, g->centre[axis],
+                                          line[axis]);
+                else if (axis == direction && set == 1 + axis)
                     curvature_line(g, axis, odd, line[axis]);
                 else
                     consistent_source_line(c, axis, odd, axis == direction || set == 1 + axis,
@@ -227,42 +230,55 @@ static void add_lines(struct glut *g, int set, double *const work[3], struct den
         }
 }
 
+double *glut_room(struct glut *g, double *work[3])
+{
+    enum { SETS = 4 * 3 * 3, ALL = SETS + 6 + STRESSES * STRESSES };
+    size_t most = 0;
+    for (int axis = 0; axis < g->c->dimension; axis++)
+        most = g->c->spline[axis]->count > most ? g->c->spline[axis]->count : most;
+    double *room = array_new(ALL * most, sizeof *room);
+    if (room == NULL) return NULL;
+    for (size_t n = 0; n < SETS; n++)
+        g->line[n / 9][n / 3 % 3][n % 3] = room + n * most;
+    g->share = room + SETS * most;
+    g->row[0] = g->share + most;
+    g->row[1] = g->row[0] + most;
+    for (size_t n = 0; n < 3; n++)
+        work[n] = g->row[1] + (1 + n) * most;
+    return room;
+}
+
+void glut_add_points(struct glut *g, double *work)
+{
+    for (int f = 0; f < 3; f++)
+        add_points(g, &g->c->general->family[f], (double(*)[STRESSES][STRESSES])work);
+}
+
 bool general_add_glut(const struct consistent *c, const struct load *load, const double centre[3],
                       double moment[3][3], struct dense *field)
 {
-    enum { SETS = 4 * 3 * 3, ALL = SETS + 6 + STRESSES * STRESSES };
     struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
-    size_t most = 0;
+    double *work[3];
     if (general_is_part(c->model.scene) || !general_find_normal(&g)) return true;
     const struct rock rock = consistent_rock_at(c, centre);
     g.lambda = rock.lambda;
     g.mu = rock.mu;
-    g.spacing = glut_spacing(c->spline[g.across]);
-    for (int axis = 0; axis < c->dimension; axis++)
-        most = c->spline[axis]->count > most ? c->spline[axis]->count : most;
     const bool below = consistent_face_above(c, centre, &g.face);
     g.beneath = below && g.face.face == 2 * g.across && along_face(&g);
-    double *room = array_new(ALL * most, sizeof *room), failed = room == NULL;
+    double *room = glut_room(&g, work), failed = room == NULL;
     if (below && !g.beneath && !consistent_beneath(c, centre, moment, field)) failed = 1;
     ranks_largest(c->part.ranks, 1, &failed);
-    if (failed != 0) {
+    if (room == NULL || failed != 0) {
         array_free(room);
         return false;
     }
-    for (size_t n = 0; n < SETS; n++)
-        g.line[n / 9][n / 3 % 3][n % 3] = room + n * most;
-    g.share = room + SETS * most;
-    g.row[0] = g.share + most;
-    g.row[1] = g.row[0] + most;
-    double *const work[3] = {g.row[1] + most, g.row[1] + 2 * most, g.row[1] + 3 * most};
     memcpy(g.tangent, moment, sizeof g.tangent);
     consistent_part_moment(g.normal, g.lambda, g.mu, g.tangent, g.strain, g.slip);
     find_share(&g);
     general_find_lag(&g);
-    for (int f = 0; f < 3; f++)
-        add_points(&g, &c->general->family[f], (double(*)[STRESSES][STRESSES])(work[2] + most));
+    glut_add_points(&g, work[2] + (work[1] - work[0]));
     for (int set = 0; set <= c->dimension; set++)
-        if (set != 1 + g.across) add_lines(&g, set, work, field);
+        if (set != 1 + g.across) glut_add_lines(&g, set, work, field);
     array_free(room);
     const bool good = general_settle(&g, load, moment, field);
     memcpy(moment, g.tangent, sizeof g.tangent);

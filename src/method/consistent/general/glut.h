@@ -22,14 +22,23 @@ struct glut {
     double strain[3][3];         /* Gamma_n M (G21) */
     double tangent[3][3];        /* what is left of M for strains along the interface */
     double slip[3];              /* the part of M n along the interface, over mu */
-    double lag, stay[ALONGS];    /* (G23), (G24): lengths, and lengths times stresses */
-    double *share;               /* [knots] of the axis across (G22) */
+    double lag, press, slack;    /* (G23), (G23a): lengths, by modulus; the last a length */
+    double stay[ALONGS];         /* (G24): lengths times stresses */
+    bool plain, half;      /* a displacement is read: by the splines' values; halved on symmetry planes */
+    double *share;         /* [knots] of the axis across (G22) */
     double *line[4][3][3]; /* [count] by component and direction; 1 + axis: to be differentiated along it */
     double *row[2];        /* [largest count] work */
 };
 
 /* Together. What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
 moment_beside general_add_glut;
+/* glut.c: lines, of `most` numbers each, and work of three more and [STRESSES][STRESSES] for each knot across. NULL: no
+ * memory. */
+double *glut_room(struct glut *glut, double *work[3]);
+/* Adds C Gamma of the points by their shares, and products of a set's lines. */
+void glut_add_points(struct glut *glut, double *work);
+void glut_add_lines(struct glut *glut, int set, double *const work[3], struct dense *field);
+void glut_add_stress(struct glut *glut, int set, double x, double share, double stress[3][3]);
 
 static inline double glut_spacing(const struct spline *spline)
 {
@@ -41,7 +50,7 @@ bool general_find_normal(struct glut *glut);
  * (G28). False: no memory. */
 bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3],
                     struct dense *field);
-/* lag.c: sets lag and stay. */
+/* lag.c: sets lag and stay; of a displacement lag, press and slack. */
 void general_find_lag(struct glut *glut);
 
 #endif

@@ -50,15 +50,20 @@ static double integral(const double *fine, double x)
     return (sum + (end - (int)end) * fine[(int)end]) / MANY;
 }
 
-/* Displacement of the lattice under a stress of 1, at the control values from that of cell first - 1 on. */
-static void stretch(const struct column *column, const double *at, double *control)
+/* Displacement of the lattice under a stress of `pull`, at the control values from that of cell first - 1 on, with
+ * moduli `at` and, if not NULL, strains `given` without stress. */
+static void stretch(const struct column *column, const double *at, double pull, const double *given,
+                    double *control)
 {
     double d[MOST_KNOTS], upper[MOST_KNOTS];
     const size_t last = column->knots - 1;
     for (size_t k = 0; k <= last; k++) {
         const bool end = (k == 0 && column->end[0]) || (k == last && column->end[1]);
-        const double left = at[k > 0 ? 2 * k - 1 : 1], right = at[k < last ? 2 * k + 1 : 2 * k - 1];
-        double diagonal = (at[2 * k] / 3 + (left + right) / 6) / (end ? 2 : 1), value = end ? .5 : 1;
+        const size_t low = k > 0 ? 2 * k - 1 : 1, high = k < last ? 2 * k + 1 : 2 * k - 1;
+        const double left = at[low], right = at[high];
+        double diagonal = (at[2 * k] / 3 + (left + right) / 6) / (end ? 2 : 1), value = end ? pull / 2 : pull;
+        if (given != NULL)
+            value += (at[2 * k] * given[2 * k] + left * given[low] + right * given[high]) / (end ? 6 : 3);
         if (!end && k == 0) diagonal += left / 6; /* as far as it goes on */
         if (!end && k == last) diagonal += right / 6;
         if (k > 0) {
@@ -89,8 +94,8 @@ static void balance(const struct column *column, const double *at, double *stres
     }
 }
 
-/* 1 / mu and the stresses along the interface, MANY times a cell. */
-static void sample(const struct glut *glut, const struct column *column, double soft[MOST_FINE],
+/* 1 / mu, 1 / M and the stresses along the interface, MANY times a cell. */
+static void sample(const struct glut *glut, const struct column *column, double soft[2][MOST_FINE],
                    double along[ALONGS][MOST_FINE])
 {
     const struct spline *spline = glut->c->spline[glut->across];
@@ -102,25 +107,35 @@ static void sample(const struct glut *glut, const struct column *column, double 
                               : there > spline->high ? 2 * spline->high - there
                                                      : there;
         const struct rock rock = consistent_rock_at(glut->c, place);
-        soft[n] = 1 / rock.mu;
+        soft[0][n] = 1 / rock.mu;
+        soft[1][n] = 1 / (rock.lambda + 2 * rock.mu);
         along[ALONG_SHEAR][n] = 2 * rock.mu;
         along[ALONG_RATIO][n] = rock.lambda / (rock.lambda + 2 * rock.mu);
         along[ALONG_SPREAD][n] = 2 * rock.mu * along[ALONG_RATIO][n];
     }
 }
 
-/* (G23). Far from interfaces the lattice's displacement runs even with the exact one: at most knots. */
-static double find_lag(const struct glut *glut, const struct column *column, const double *soft)
+/* (G23), (G23a): under a stress of 1, or with strains `given` without stress. Far from interfaces the lattice's
+ * displacement runs even with the exact one: at most knots. */
+static double find_lag(const struct glut *glut, const struct column *column, const double *soft,
+                       const double *given)
 {
     const struct spline *spline = glut->c->spline[glut->across];
-    double at[2 * MOST_KNOTS] = {0}, control[MOST_KNOTS + 1] = {0}, ahead[MOST_KNOTS], got = 0, parts = 0;
+    const double *exact = given != NULL ? given : soft;
+    double at[2 * MOST_KNOTS] = {0}, strain[2 * MOST_KNOTS] = {0}, control[MOST_KNOTS + 1] = {0},
+                  ahead[MOST_KNOTS], got = 0, parts = 0;
     average(column, soft, at);
+    average(column, exact, strain);
     for (size_t q = 0; q + 1 < 2 * column->knots; q++)
         at[q] = 1 / at[q];
-    stretch(column, at, control);
+    stretch(column, at, given == NULL, given != NULL ? strain : NULL, control);
     for (size_t k = 0; k < column->knots; k++)
-        ahead[k] = integral(soft, (double)k) - (control[k] + control[k + 1]) / 2;
-    consistent_source_line(glut->c, glut->across, false, false, glut->centre[glut->across], glut->row[0]);
+        ahead[k] = integral(exact, (double)k) - (control[k] + control[k + 1]) / 2;
+    if (glut->plain)
+        consistent_point_line(glut->c, glut->across, false, false, false, glut->centre[glut->across],
+                              glut->row[0]);
+    else
+        consistent_source_line(glut->c, glut->across, false, false, glut->centre[glut->across], glut->row[0]);
     for (size_t b = column->first; b <= column->first + column->knots && b < spline->count; b++) {
         const size_t i = b - column->first;
         const double value = b == 0                   ? (control[0] + control[1]) / 2
@@ -129,7 +144,7 @@ static double find_lag(const struct glut *glut, const struct column *column, con
         got += glut->row[0][b] * value;
         parts += glut->row[0][b];
     }
-    return (integral(soft, column->here) - gsl_stats_median(ahead, 1, column->knots) - got / parts) *
+    return (integral(exact, column->here) - gsl_stats_median(ahead, 1, column->knots) - got / parts) *
            glut->spacing;
 }
 
@@ -165,9 +180,14 @@ void general_find_lag(struct glut *glut)
     const int slot = glut->c->slot[glut->across];
     const double cell = slot == DEPTH ? 1 / consistent_metric(glut->c, glut->centre).inverse : 1;
     const double along_normal = cell * glut->normal[slot]; /* of true lengths */
-    double soft[MOST_FINE] = {0}, along[ALONGS][MOST_FINE] = {{0}};
+    double soft[2][MOST_FINE] = {{0}}, along[ALONGS][MOST_FINE] = {{0}};
     sample(glut, &column, soft, along);
-    glut->lag = find_lag(glut, &column, soft) * along_normal;
+    glut->lag = find_lag(glut, &column, soft[0], NULL) * along_normal;
+    if (glut->plain) {
+        glut->press = find_lag(glut, &column, soft[1], NULL) * along_normal;
+        glut->slack = find_lag(glut, &column, soft[1], along[ALONG_RATIO]) * along_normal;
+        return;
+    }
     for (int p = 0; p < ALONGS; p++)
         glut->stay[p] = find_stay(glut, &column, along[p]) * along_normal;
 }

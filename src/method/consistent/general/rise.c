@@ -85,11 +85,10 @@ static bool passes(const struct column *column, double level, double sign, doubl
 }
 
 /* The normal of the surface on which log M has the value of its steepest rise beside the source, from where columns
- * two spacings to either side pass it: what slopes along the lattice make of it is a mean over some spacings. False:
+ * some spacings to either side pass it: what slopes along the lattice make of it is a mean over some spacings. False:
  * some of them do not. */
-static bool refine(struct glut *g)
+static bool refine(struct glut *g, double aside)
 {
-    static const double aside = 2;
     const struct consistent *c = g->c;
     const double stretch = c->slot[g->across] == DEPTH ? consistent_metric(c, g->centre).jacobian : 1;
     struct column column = {
@@ -130,6 +129,6 @@ bool general_find_normal(struct glut *g)
 {
     if (!find_rise(g)) return false;
     g->spacing = glut_spacing(g->c->spline[g->across]);
-    g->surface = refine(g);
+    g->surface = refine(g, 2) || (g->plain && refine(g, .5));
     return true;
 }
